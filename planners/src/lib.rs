@@ -3,5 +3,8 @@
 
 pub mod facts;
 pub mod geometry;
+pub mod layers;
+pub mod names;
 pub mod planner;
+pub mod read;
 pub mod world;
