@@ -9,6 +9,7 @@ mod clearance;
 mod cut;
 mod free_space;
 mod gap;
+mod headroom;
 mod lattice;
 mod maximal;
 mod narrowest;
@@ -25,8 +26,9 @@ use crate::geometry::Rect;
 use crate::world::World;
 
 pub(crate) use free_space::Solid;
+pub use headroom::{Headroom, headroom};
 pub use lattice::{Lattice, MAX_CELLS};
-pub use narrowest::{Headroom, Narrowest, headroom, narrowest};
+pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 
 /// A state in which a robot can move.

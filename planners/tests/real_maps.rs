@@ -1,6 +1,12 @@
 //! Maps that robots drive on: each is read, cut into layers for five states, and shown with its figures
 //! (`cargo test -p adit-planners --test real_maps -- --nocapture`).
 
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "a test stops at the first surprise and shows figures"
+)]
+
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 

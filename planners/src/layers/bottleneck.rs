@@ -44,3 +44,13 @@ fn way_back(came_from: &[usize], goal: usize) -> Vec<usize> {
     way.reverse();
     way
 }
+
+/// The up to four neighbours over a side of a node, nodes being numbered row by row.
+pub(super) fn neighbours(node: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
+    let (column, row) = (node % columns, node / columns);
+    let left = (column > 0).then(|| node - 1);
+    let right = (column + 1 < columns).then(|| node + 1);
+    let below = (row > 0).then(|| node - columns);
+    let above = (row + 1 < rows).then(|| node + columns);
+    [left, right, below, above].into_iter().flatten()
+}

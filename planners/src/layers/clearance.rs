@@ -4,7 +4,7 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use super::gap::point_to_segment;
 use crate::geometry::{Point, Rect};
-use crate::world::{Shape, World};
+use crate::world::{Occupancy, Shape, World};
 
 /// Everything solid in a world, bridges aside, ready to be asked for distances from points.
 pub(super) struct Clearance {
@@ -41,7 +41,7 @@ impl PointDistance for Wall {
 impl Clearance {
     pub(super) fn new(world: &World) -> Self {
         let drawn = world.obstacles.iter().map(|obstacle| obstacle.shape.clone());
-        let pictured = world.occupancy.iter().flat_map(|cells| cells.rectangles()).map(Shape::Rect);
+        let pictured = world.occupancy.iter().flat_map(Occupancy::rectangles).map(Shape::Rect);
         Self { bounds: world.bounds, walls: RTree::bulk_load(drawn.chain(pictured).map(Wall).collect()) }
     }
 

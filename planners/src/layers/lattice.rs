@@ -113,8 +113,8 @@ mod tests {
 
     #[test]
     fn steps_are_one_two_five() {
-        let steps = [0.35 / 7.0, 0.049, 0.0999, 1.0, 3.0 / 7.0, 70.0].map(round_step);
-        assert_eq!(steps, [0.05, 0.02, 0.05, 1.0, 0.2, 50.0]);
+        let steps = [0.35 / 7.0, 0.049, 0.0999, 1.0, 3.0 / 7.0, 70.0].map(|l| round_step(l).to_string());
+        assert_eq!(steps, ["0.05", "0.02", "0.05", "1", "0.2", "50"]);
     }
 
     #[test]

@@ -1,9 +1,7 @@
-//! Why there is no way: how wide and how high the best way is, and where it is narrowest or lowest.
+//! Why there is no way: how wide the widest is, and where it is narrowest.
 
-use super::bottleneck::best_way;
+use super::bottleneck::{best_way, neighbours};
 use super::clearance::Clearance;
-use super::free_space::Solid;
-use super::lattice::Lattice;
 use crate::geometry::{Point, Rect};
 use crate::world::World;
 
@@ -14,22 +12,6 @@ pub struct Narrowest {
     pub width: f64,
     /// Where it touches.
     pub at: Point,
-}
-
-/// How high a robot may be on the highest way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Headroom {
-    /// No way is wide enough, whatever the height.
-    NoWay,
-    /// There is a way without a bridge.
-    Unlimited,
-    /// Every way leads under a bridge; the highest of them is passed by what is lower than this.
-    Limited {
-        /// Metres.
-        height: f64,
-        /// Where the way is under that bridge.
-        at: Point,
-    },
 }
 
 /// Steps along the way on both sides of a narrow point that are searched anew, on a finer lattice.
@@ -49,7 +31,7 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
     let mut way = search(&walls, world.bounds, (from, to), step)?;
     let mut refined = vec![false; way.len()];
     loop {
-        let least = (0..way.len()).min_by(|&a, &b| way[a].1.total_cmp(&way[b].1))?;
+        let least = middle_of_least(&way)?;
         let (at, clearance) = way[least];
         let (first, last) = (least.saturating_sub(MARGIN), (least + MARGIN).min(way.len() - 1));
         if refined[least] || first == last {
@@ -70,6 +52,16 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
             }
         }
     }
+}
+
+/// The middle of the first stretch of the way that has the least clearance: where a long gap is narrow, rather than
+/// where the way first comes as near to a wall.
+fn middle_of_least(way: &[(Point, f64)]) -> Option<usize> {
+    let least = way.iter().map(|(_, clearance)| *clearance).min_by(f64::total_cmp)?;
+    let is_least = |(_, clearance): &(Point, f64)| *clearance <= least + 1e-9;
+    let first = way.iter().position(is_least)?;
+    let length = way[first..].iter().take_while(|point| is_least(point)).count();
+    Some(first + length / 2)
 }
 
 /// Searches `window` on a lattice of its own. The way has each point's clearance, the ends included.
@@ -106,15 +98,8 @@ fn search(
     };
     // Where the discs of two points overlap there is no wall between the points.
     let joined =
-        |a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + 1e-9);
-    let neighbours = |node: usize| {
-        let (column, row) = (node % columns, node / columns);
-        let left = (column > 0).then(|| node - 1);
-        let right = (column + 1 < columns).then(|| node + 1);
-        let below = (row > 0).then(|| node - columns);
-        let above = (row + 1 < rows).then(|| node + columns);
-        [left, right, below, above].into_iter().flatten().filter(move |&next| joined(node, next))
-    };
+        &|a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + 1e-9);
+    let neighbours = |node: usize| neighbours(node, columns, rows).filter(move |&next| joined(node, next));
     let nodes = best_way(columns * rows, (node(from), node(to)), clearance, neighbours)?;
     let inner = nodes.iter().map(|&node| (point(node), clearance(node)));
     let ends = |p: Point| std::iter::once((p, walls.at(p)));
@@ -147,52 +132,5 @@ fn window(points: impl Iterator<Item = Point>, margin: f64) -> Rect {
             r.x1.max(p.x + margin),
             r.y1.max(p.y + margin),
         )
-    })
-}
-
-/// How high a robot of a given width may be on the way, between two points, that allows most.
-///
-/// # Arguments
-/// `width` in metres, to which the world's clearance comes; `step` is the side of the cells in which ways are
-/// searched, metres, such as that of the layers. A point too near to a wall counts as the nearest free cell within
-/// two cells.
-pub fn headroom(world: &World, from: Point, to: Point, width: f64, step: f64) -> Result<Headroom, String> {
-    let lattice = Lattice::new(world.bounds, step)?;
-    let keep = width / 2.0 + world.clearance;
-    let free = Solid::new(world, lattice).free_cells(keep, &[]);
-    let (columns, rows) = (lattice.columns() as usize, lattice.rows() as usize);
-    let centre = |node: usize| lattice.centre((node % columns) as u32, (node / columns) as u32);
-    let is_free = |node: usize| free.contains((node % columns) as u32, (node / columns) as u32);
-    let near = |p: Point| {
-        let reach = 2.5 * step;
-        let rows = lattice.rows_about(p.y - reach, p.y + reach);
-        let nodes = rows.flat_map(|row| {
-            let columns_there = lattice.columns_about(p.x - reach, p.x + reach);
-            columns_there.map(move |column| row as usize * columns + column as usize)
-        });
-        let free = nodes.filter(|&node| is_free(node) && centre(node).distance(p) <= reach * 2f64.sqrt());
-        free.min_by(|&a, &b| centre(a).distance(p).total_cmp(&centre(b).distance(p)))
-    };
-    let (Some(start), Some(goal)) = (near(from), near(to)) else { return Ok(Headroom::NoWay) };
-    let height = |node: usize| {
-        let here = centre(node);
-        let over = world.bridges.iter().filter(|b| b.rect.nearest_to(here).distance(here) < keep);
-        over.map(|bridge| bridge.height).fold(f64::INFINITY, f64::min)
-    };
-    let neighbours = |node: usize| {
-        let (column, row) = (node % columns, node / columns);
-        let left = (column > 0).then(|| node - 1);
-        let right = (column + 1 < columns).then(|| node + 1);
-        let below = (row > 0).then(|| node - columns);
-        let above = (row + 1 < rows).then(|| node + columns);
-        [left, right, below, above].into_iter().flatten().filter(|&next| is_free(next))
-    };
-    let Some(way) = best_way(columns * rows, (start, goal), height, neighbours) else {
-        return Ok(Headroom::NoWay);
-    };
-    let lowest = way.into_iter().min_by(|&a, &b| height(a).total_cmp(&height(b)));
-    Ok(match lowest.map(|node| (height(node), centre(node))) {
-        Some((height, at)) if height.is_finite() => Headroom::Limited { height, at },
-        _ => Headroom::Unlimited,
     })
 }
