@@ -22,7 +22,7 @@ pub(crate) struct Solid<'a> {
 /// Walls of an image on the lattice.
 struct Pictured {
     walls: Cells,
-    squared_gaps: Vec<u64>,
+    squared_gaps: Vec<u32>,
 }
 
 impl<'a> Solid<'a> {
@@ -74,7 +74,7 @@ impl<'a> Solid<'a> {
             for column in 0..columns {
                 let cell = row as usize * columns as usize + column as usize;
                 let near = if keep > TOLERANCE {
-                    (pictured.squared_gaps[cell] as f64) < limit
+                    f64::from(pictured.squared_gaps[cell]) < limit
                 } else {
                     pictured.walls.contains(column, row)
                 };

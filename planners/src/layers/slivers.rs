@@ -32,17 +32,17 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect]) -> Vec<CellRect> {
     for (index, room) in rooms.iter().enumerate().rev() {
         if is_sliver(room) && near.first_missing(*room).is_none() {
             let beside: Vec<usize> = neighbours[index].iter().copied().filter(|&other| kept[other]).collect();
-            let is_crossed = is_crossed(room, beside.iter().map(|&other| &rooms[other]));
-            kept[index] = is_crossed || !are_connected(beside, &neighbours);
+            let around: Vec<CellRect> = beside.iter().map(|&other| rooms[other]).collect();
+            kept[index] = is_crossed(room, &around) || !are_connected(beside, &neighbours);
         }
     }
     rooms.iter().zip(kept).filter(|(_, kept)| *kept).map(|(room, _)| *room).collect()
 }
 
 /// Whether a sliver longer than a cell has rooms on both of its long sides.
-fn is_crossed<'a>(sliver: &CellRect, beside: impl Iterator<Item = &'a CellRect> + Clone) -> bool {
+fn is_crossed(sliver: &CellRect, around: &[CellRect]) -> bool {
     let (wide, tall) = (sliver.x1 - sliver.x0 > 1, sliver.y1 - sliver.y0 > 1);
-    let some = |is_there: fn(&CellRect, &CellRect) -> bool| beside.clone().any(|room| is_there(room, sliver));
+    let some = |is_there: fn(&CellRect, &CellRect) -> bool| around.iter().any(|room| is_there(room, sliver));
     wide && some(|room, sliver| room.y1 <= sliver.y0) && some(|room, sliver| room.y0 >= sliver.y1)
         || tall && some(|room, sliver| room.x1 <= sliver.x0) && some(|room, sliver| room.x0 >= sliver.x1)
 }

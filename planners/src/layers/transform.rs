@@ -4,11 +4,11 @@
 use super::cells::Cells;
 
 /// For every cell, row by row, the squared gap between its closed square and that of the nearest cell of `set`,
-/// in cells: 0 for the cells of the set and for all that touch one. `u64::MAX` where the set is empty.
-pub(super) fn squared_gaps(set: &Cells) -> Vec<u64> {
+/// in cells: 0 for the cells of the set and for all that touch one. `u32::MAX` where the set is empty or further off.
+pub(super) fn squared_gaps(set: &Cells) -> Vec<u32> {
     let (columns, rows) = (set.columns() as usize, set.rows() as usize);
     if set.count() == 0 {
-        return vec![u64::MAX; columns * rows];
+        return vec![u32::MAX; columns * rows];
     }
     // Two squares k cells apart have a gap of k - 1. The distance of centres from a set in which every cell has
     // grown into its eight neighbours is just that.
@@ -22,9 +22,9 @@ pub(super) fn squared_gaps(set: &Cells) -> Vec<u64> {
 }
 
 /// Distances along the column to the nearest cell of the grown set; more than any real one where there is none.
-fn vertical_distances(set: &Cells) -> Vec<i64> {
+fn vertical_distances(set: &Cells) -> Vec<i32> {
     let (columns, rows) = (set.columns() as usize, set.rows() as usize);
-    let far = (columns + rows) as i64;
+    let far = (columns + rows) as i32;
     let near = |column: usize, row: usize| {
         let (x0, x1) = (column.saturating_sub(1), (column + 2).min(columns));
         let (y0, y1) = (row.saturating_sub(1), (row + 2).min(rows));
@@ -48,8 +48,8 @@ fn vertical_distances(set: &Cells) -> Vec<i64> {
 }
 
 /// Squared distances along one row, given those along the columns: the lower envelope of parabolas.
-fn lower_envelope(vertical: &[i64], squared: &mut [u64]) {
-    let value = |x: i64, i: usize| (x - i as i64).pow(2) + vertical[i].pow(2);
+fn lower_envelope(vertical: &[i32], squared: &mut [u32]) {
+    let value = |x: i64, i: usize| (x - i as i64).pow(2) + i64::from(vertical[i]).pow(2);
     let mut vertices: Vec<(usize, i64)> = vec![(0, 0)];
     for u in 1..vertical.len() {
         while vertices.last().is_some_and(|&(i, from)| value(from, i) > value(from, u)) {
@@ -60,7 +60,7 @@ fn lower_envelope(vertical: &[i64], squared: &mut [u64]) {
             continue;
         };
         let (first, second) = (i as i64, u as i64);
-        let apart = second.pow(2) - first.pow(2) + vertical[u].pow(2) - vertical[i].pow(2);
+        let apart = value(second, u) - value(first, i) + second.pow(2) - first.pow(2);
         let from = 1 + apart.div_euclid(2 * (second - first));
         if from < vertical.len() as i64 {
             vertices.push((u, from));
@@ -71,7 +71,7 @@ fn lower_envelope(vertical: &[i64], squared: &mut [u64]) {
             vertices.pop();
         }
         if let Some(&(i, _)) = vertices.last() {
-            squared[x] = value(x as i64, i) as u64;
+            squared[x] = u32::try_from(value(x as i64, i)).unwrap_or(u32::MAX);
         }
     }
 }
@@ -94,7 +94,7 @@ mod tests {
                 set.insert_block(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
             }
             let gaps = squared_gaps(&set);
-            let apart = |a: u32, b: u32| u64::from(a.abs_diff(b).saturating_sub(1)).pow(2);
+            let apart = |a: u32, b: u32| a.abs_diff(b).saturating_sub(1).pow(2);
             for (i, &gap) in gaps.iter().enumerate() {
                 let (x, y) = (i as u32 % columns, i as u32 / columns);
                 let naive = walls.iter().map(|&(a, b)| apart(x, a) + apart(y, b)).min();

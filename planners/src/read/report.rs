@@ -36,6 +36,9 @@ impl MapReport {
         let Some(side) = world.grid.or(native) else { return Ok(()) };
         let lattice = Lattice::new(world.bounds, side)
             .map_err(|what| MapErrors::from(Problem::of_file(Code::GridTooFine, what)))?;
+        if native == Some(side) && world.clearance <= 0.0 {
+            return Ok(());
+        }
         let solid = Solid::new(world, lattice);
         let area = |clearance| solid.free_cells(clearance, &[]).count() as f64 * side * side;
         let on_grid = area(0.0);

@@ -1,0 +1,209 @@
+//! Layers on random maps, against exact distances and against a search of configuration space on a grid four times
+//! finer, which shares no code with them.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+#[path = "layers/oracle.rs"]
+mod oracle;
+
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::layers::{Kind, Layers, State, cut_layers};
+use adit_planners::world::{Bridge, Obstacle, Shape, World};
+use oracle::Oracle;
+use proptest::prelude::*;
+
+const GRID: f64 = 0.1;
+const BOUNDS: Rect = Rect::new(0.0, 0.0, 7.0, 5.0);
+
+fn states() -> Vec<State> {
+    let state = |state: &str, height, width| State { robot: None, state: state.into(), height, width };
+    vec![state("STAND", 1.7, 0.6), state("SIDE-STAND", 1.7, 0.35), state("SQUAT", 1.1, 0.8)]
+}
+
+/// A coordinate, often on the grid so that walls align.
+fn coordinate(limit: f64) -> impl Strategy<Value = f64> {
+    prop_oneof![(0..(limit * 2.0) as i32).prop_map(|v| f64::from(v) / 2.0), 0.0..limit]
+}
+
+fn rect() -> impl Strategy<Value = Rect> {
+    let size = || prop_oneof![Just(0.3), 0.2..2.5];
+    (coordinate(BOUNDS.x1), coordinate(BOUNDS.y1), size(), size())
+        .prop_map(|(x, y, dx, dy)| Rect::new(x, y, x + dx, y + dy))
+}
+
+fn turned(rect: Rect, about: Point, degrees: f64) -> Vec<Point> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let corners = [(rect.x0, rect.y0), (rect.x1, rect.y0), (rect.x1, rect.y1), (rect.x0, rect.y1)];
+    corners.map(|(x, y)| turned_point(Point::new(x, y), about, (sin, cos))).into()
+}
+
+fn turned_point(p: Point, about: Point, (sin, cos): (f64, f64)) -> Point {
+    let (dx, dy) = (p.x - about.x, p.y - about.y);
+    Point::new(about.x + cos * dx - sin * dy, about.y + sin * dx + cos * dy)
+}
+
+fn obstacle() -> impl Strategy<Value = Obstacle> {
+    let askew =
+        (rect(), 5.0..85.0).prop_map(|(rect, degrees)| Shape::Polygon(turned(rect, rect.centre(), degrees)));
+    prop_oneof![2 => rect().prop_map(Shape::Rect), 1 => askew].prop_map(|shape| Obstacle { shape })
+}
+
+fn worlds() -> impl Strategy<Value = World> {
+    let bridge = (rect(), prop_oneof![Just(1.1), Just(1.5), Just(2.0)]);
+    let bridge = bridge.prop_map(|(rect, height)| Bridge { rect, height });
+    let obstacles = prop::collection::vec(obstacle(), 1..9);
+    (obstacles, prop::collection::vec(bridge, 0..3), prop_oneof![Just(0.0), Just(0.07)]).prop_map(
+        |(obstacles, bridges, clearance)| {
+            let grid = Some(GRID);
+            World { obstacles, bridges, clearance, grid, ..World::empty(BOUNDS) }
+        },
+    )
+}
+
+fn points() -> impl Strategy<Value = Vec<Point>> {
+    let point = (0.2..BOUNDS.x1 - 0.2, 0.2..BOUNDS.y1 - 0.2).prop_map(|(x, y)| Point::new(x, y));
+    prop::collection::vec(point, 8)
+}
+
+/// For each room the smallest room that is connected with it, through doors and changes.
+fn components(layers: &Layers) -> Vec<usize> {
+    let mut component: Vec<usize> = (0..layers.rooms.len()).collect();
+    loop {
+        let mut is_settled = true;
+        for crossing in &layers.crossings {
+            let (a, b) = (component[crossing.room1], component[crossing.room2]);
+            if a != b {
+                component[crossing.room1] = a.min(b);
+                component[crossing.room2] = a.min(b);
+                is_settled = false;
+            }
+        }
+        if is_settled {
+            return component;
+        }
+    }
+}
+
+/// Whether rooms not further than `reach` from the two points, in the given states, are connected.
+fn is_way(layers: &Layers, component: &[usize], ends: [(usize, Point); 2], reach: f64) -> bool {
+    let near = |(state, p): (usize, Point)| {
+        let rooms = layers.rooms.iter().zip(component);
+        rooms
+            .filter(move |(room, _)| room.state == state && room.rect.nearest_to(p).distance(p) <= reach)
+            .map(|(_, component)| *component)
+    };
+    near(ends[0]).any(|a| near(ends[1]).any(|b| a == b))
+}
+
+/// Every pair of points in every pair of states: what surely has a way has one, what surely has none has none.
+fn check_ways(
+    truth: &Oracle,
+    layers: &Layers,
+    points: &[Point],
+    place: impl Fn(Point) -> Point,
+) -> Result<(), TestCaseError> {
+    let component = components(layers);
+    let stateful = || (0..states().len()).flat_map(|state| points.iter().map(move |&p| (state, p)));
+    for from in stateful() {
+        for to in stateful() {
+            let ends = [from, to].map(|(state, p)| (state, place(p)));
+            if truth.is_surely_way(from, to) {
+                prop_assert!(
+                    is_way(layers, &component, ends, 3.0 * GRID * 2f64.sqrt()),
+                    "{from:?} to {to:?}"
+                );
+            }
+            if is_way(layers, &component, ends, 0.0) {
+                prop_assert!(truth.is_perhaps_way(from, to), "{from:?} to {to:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    #[test]
+    fn rooms_are_disjoint_and_free_throughout(world in worlds()) {
+        let layers = cut_layers(&world, &states()).unwrap();
+        for (i, room) in layers.rooms.iter().enumerate() {
+            let state = &states()[room.state];
+            let keep = state.width / 2.0 + world.clearance;
+            for other in layers.rooms[..i].iter().filter(|other| other.state == room.state) {
+                prop_assert!(!room.rect.overlaps(&other.rect));
+            }
+            for step in 0..81 {
+                let (u, v) = (f64::from(step % 9) / 8.0, f64::from(step / 9) / 8.0);
+                let p = Point::new(room.rect.x0 + u * room.rect.dx(), room.rect.y0 + v * room.rect.dy());
+                let free = oracle::clearance(&world, state, p);
+                prop_assert!(free >= keep - 1e-6, "{free} of {keep} at {p:?} in {room:?}");
+            }
+            let above = world.bridges.iter().filter(|bridge| bridge.rect.overlaps(&room.rect));
+            prop_assert_eq!(room.height, above.map(|bridge| bridge.height).min_by(f64::total_cmp));
+        }
+    }
+
+    #[test]
+    fn every_two_rooms_with_a_common_boundary_or_overlap_have_their_crossing(world in worlds()) {
+        let layers = cut_layers(&world, &states()).unwrap();
+        let mut expected = Vec::new();
+        for (i, a) in layers.rooms.iter().enumerate() {
+            for (j, b) in layers.rooms.iter().enumerate().filter(|(j, _)| *j != i) {
+                let (a, b) = ((a.state, a.rect), (b.state, b.rect));
+                let dx = a.1.x1.min(b.1.x1) - a.1.x0.max(b.1.x0);
+                let dy = a.1.y1.min(b.1.y1) - a.1.y0.max(b.1.y0);
+                if a.0 != b.0 && dx > 1e-9 && dy > 1e-9 {
+                    expected.push((i, j, Kind::Change));
+                } else if a.0 == b.0 && i < j && dx.max(dy) > 1e-9 && dx.min(dy).abs() < 1e-9 {
+                    expected.push((i, j, Kind::Door));
+                }
+            }
+        }
+        let found: Vec<_> = layers.crossings.iter().map(|c| (c.room1, c.room2, c.kind)).collect();
+        prop_assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn points_are_joined_exactly_as_a_finer_search_says(world in worlds(), points in points()) {
+        let layers = cut_layers(&world, &states()).unwrap();
+        check_ways(&Oracle::new(&world, &states(), GRID), &layers, &points, |p| p)?;
+    }
+}
+
+/// The same walls, the edge's among them, turned about the middle inside of larger bounds.
+fn turn(world: &World, degrees: f64) -> World {
+    let (about, Rect { x0, y0, x1, y1 }) = (world.bounds.centre(), world.bounds);
+    let edge = [
+        Rect::new(x0 - 0.5, y0 - 0.5, x0, y1 + 0.5),
+        Rect::new(x1, y0 - 0.5, x1 + 0.5, y1 + 0.5),
+        Rect::new(x0, y0 - 0.5, x1, y0),
+        Rect::new(x0, y1, x1, y1 + 0.5),
+    ];
+    let angle = degrees.to_radians().sin_cos();
+    let corners = |shape: &Shape| match shape {
+        Shape::Rect(rect) => turned(*rect, about, degrees),
+        Shape::Polygon(corners) => corners.iter().map(|&p| turned_point(p, about, angle)).collect(),
+    };
+    let walls = edge.into_iter().map(Shape::Rect);
+    let walls = walls.chain(world.obstacles.iter().map(|obstacle| obstacle.shape.clone()));
+    let obstacles = walls.map(|shape| Obstacle { shape: Shape::Polygon(corners(&shape)) }).collect();
+    let bounds = Rect::new(x0 - 2.0, y0 - 3.0, x1 + 2.0, y1 + 3.0);
+    World { obstacles, grid: world.grid, clearance: world.clearance, ..World::empty(bounds) }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 10, ..ProptestConfig::default() })]
+
+    #[test]
+    fn turning_the_map_changes_no_answer(world in worlds(), points in points()) {
+        let mut world = world;
+        world.bridges.clear();
+        let truth = Oracle::new(&world, &states(), GRID);
+        for degrees in [10.0, 45.0, 90.0] {
+            let layers = cut_layers(&turn(&world, degrees), &states()).unwrap();
+            let angle = f64::to_radians(degrees).sin_cos();
+            check_ways(&truth, &layers, &points, |p| turned_point(p, BOUNDS.centre(), angle))?;
+        }
+    }
+}
