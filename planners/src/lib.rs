@@ -4,4 +4,5 @@
 pub mod facts;
 pub mod geometry;
 pub mod planner;
+pub mod routes;
 pub mod world;
