@@ -57,12 +57,12 @@ fn turtlebot3_world() {
 
 #[test]
 fn aws_bookstore() {
-    leads_across("data/aws-robomaker/bookstore_map.yaml", [-5.0, 4.0], [4.0, -5.0]);
+    leads_across("data/aws-robomaker/bookstore_map.yaml", [-2.5, 6.2], [3.0, -3.3]);
 }
 
 #[test]
 fn aws_small_warehouse_rotated() {
-    leads_across("data/aws-robomaker/small_warehouse_005_map.yaml", [-3.0, -5.0], [3.0, 5.0]);
+    leads_across("data/aws-robomaker/small_warehouse_005_map.yaml", [-4.0, -2.85], [5.5, -4.35]);
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn aws_small_warehouse_as_scanned() {
         image.display()
     );
     let folder = TestSite::empty().with("warehouse.yaml", &yaml);
-    let site = site(&folder.path().join("warehouse.yaml"), &[("here", [10.0, 10.0]), ("there", [20.0, 10.0])]).built();
+    let site = site(&folder.path().join("warehouse.yaml"), &[("here", [5.0, 2.7]), ("there", [15.0, 7.7])]).built();
     assert_eq!(site.sqlite3("SELECT status FROM route WHERE start = 'here' AND goal = 'there'"), ["ok"]);
 }
 
