@@ -1,6 +1,6 @@
 //! Facts on their way between planners, the rule engine and the database: the same columns, three owners.
 
-use adit_engine::{Class, KnowledgeBase, Value};
+use adit_engine::{Class, KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts, Table};
 
 use crate::error::{Error, Result};
@@ -13,7 +13,7 @@ const KEYS: [(&str, &[&str]); 3] =
     [("ROBOTS", &["robot", "state"]), ("CHANGES", &["robot", "from_state", "to_state"]), ("STRIPS", &["axis", "strip"])];
 
 /// Asserts a class; its key is its first property, where that tells the objects apart.
-pub fn assert(knowledge: &mut KnowledgeBase, name: &str, table: &Table) -> Result<()> {
+pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()> {
     let composite = KEYS.iter().find(|(class, _)| *class == name).map(|(_, key)| key.to_vec());
     let key = composite.unwrap_or_else(|| first_if_unique(table));
     let mut class = Class::new(name, &key);
@@ -51,7 +51,7 @@ pub fn split(name: &str) -> (&str, &str) {
 }
 
 /// What a planner may know: the properties that it needs, as they stand.
-pub fn known(knowledge: &KnowledgeBase, needs: &[String]) -> Facts {
+pub fn known(knowledge: &Inference, needs: &[String]) -> Facts {
     let mut facts = Facts::new();
     for need in needs {
         let (class, property) = split(need);
@@ -64,13 +64,29 @@ pub fn known(knowledge: &KnowledgeBase, needs: &[String]) -> Facts {
 }
 
 /// One property of all objects of a class, told or concluded; `None` where there is no such property.
-pub fn column(knowledge: &KnowledgeBase, class: &str, property: &str) -> Option<Column> {
+pub fn column(knowledge: &Inference, class: &str, property: &str) -> Option<Column> {
     if let Some(values) = knowledge.numbers(class, property) {
         let unlimited = UNLIMITED.contains(&(class, property));
-        return Some(Column::Number(values.map(|v| v.filter(|v| !(unlimited && v.is_infinite()))).collect()));
+        let values = values.into_iter().map(|v| v.filter(|v| !(unlimited && v.is_infinite())));
+        return Some(values.collect());
     }
     if let Some(values) = knowledge.texts(class, property) {
-        return Some(Column::Text(values.map(|text| text.map(ToString::to_string)).collect()));
+        return Some(values.into_iter().map(|text| text.map(|text| text.to_string())).collect());
     }
-    knowledge.truths(class, property).map(|values| Column::Truth(values.collect()))
+    knowledge.truths(class, property).map(Column::Truth)
+}
+
+/// Adds what a planner gives to the classes that rules may name. A property's type stands behind a colon
+/// (`ROOMS.name: text`); without one it holds numbers.
+pub fn declare(schema: &mut Schema, gives: &[String]) {
+    for given in gives {
+        let (name, kind) = given.split_once(':').map_or((given.as_str(), "number"), |(name, kind)| (name, kind.trim()));
+        let kind = match kind {
+            "text" => Type::Text,
+            "truth" => Type::Truth,
+            _ => Type::Number,
+        };
+        let (class, property) = split(name.trim());
+        schema.add(class, property, kind);
+    }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use adit_db::{ChangeRow, RobotRow};
+use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Located, Problem};
 
 use crate::error::{Error, Result};
@@ -16,9 +16,9 @@ pub const ONLY_ROBOT: &str = "robot";
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotFile {
     /// States, in the order that breaks ties.
-    pub robots: Vec<RobotRow>,
+    pub robots: Vec<State>,
     /// Costs of changing shape.
-    pub changes: Vec<ChangeRow>,
+    pub changes: Vec<Change>,
 }
 
 impl RobotFile {
@@ -66,8 +66,8 @@ impl RobotFile {
 const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE\"\naction = \"DRIVE\"\n\
                        height = 1.2\nwidth = 0.6\nhardness = 1.0";
 
-fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<RobotRow> {
-    let mut rows: Vec<RobotRow> = Vec::new();
+fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
+    let mut rows: Vec<State> = Vec::new();
     for entry in fields.tables("robots", "[[robots]]", problems) {
         entry.refuse_unknown(&["robot", "state", "action", "height", "width", "hardness"], problems);
         let robot = robot(&entry, problems);
@@ -84,12 +84,12 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<RobotRow>
         }
         let position = rows.iter().filter(|row| row.robot == robot).count() as i64 + 1;
         let (state, action) = (state.value, action.value);
-        rows.push(RobotRow { robot, state, action, height, width, hardness, position });
+        rows.push(State { robot, state, action, height, width, hardness, position });
     }
     rows
 }
 
-fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<ChangeRow> {
+fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> {
     let mut rows = Vec::new();
     for entry in fields.tables("changes", "[[changes]]", problems) {
         entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness"], problems);
@@ -97,7 +97,7 @@ fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<ChangeRo
         let from = name(&entry, "from_state", problems);
         let to = name(&entry, "to_state", problems);
         if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems)) {
-            rows.push(ChangeRow { robot, from_state: from.value, to_state: to.value, hardness });
+            rows.push(Change { robot, from_state: from.value, to_state: to.value, hardness });
         }
     }
     rows

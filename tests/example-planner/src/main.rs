@@ -15,7 +15,7 @@ impl Planner for Crowds {
     }
 
     fn signature(&self) -> Signature {
-        Signature::new(&[], &["CROWDS.kiosk", "CROWDS.x", "CROWDS.y", "CROWDS.radius"])
+        Signature::new(&[], &["CROWDS.kiosk: text", "CROWDS.x", "CROWDS.y", "CROWDS.radius"])
     }
 
     fn facts(&self, world: &World, _known: &Facts) -> Result<Facts, PlannerError> {
