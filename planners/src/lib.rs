@@ -3,6 +3,9 @@
 
 pub mod facts;
 pub mod geometry;
+pub mod layers;
+pub mod names;
 pub mod planner;
+pub mod read;
 pub mod routes;
 pub mod world;

@@ -1,5 +1,11 @@
 //! The world as a planner reads it: one map, whatever file it came from, with what a site lays over it.
 
+mod occupancy;
+
+use geo::{Contains, Coord, LineString, Polygon};
+
+pub use occupancy::Occupancy;
+
 use crate::geometry::{Point, Rect};
 
 /// Everything a geometric planner may look at. Metres, in the map's frame; the edge of `bounds` is a wall.
@@ -21,6 +27,31 @@ pub struct World {
     pub grid: Option<f64>,
     /// Kept free around every state besides its own width, metres.
     pub clearance: f64,
+}
+
+impl World {
+    /// A world with nothing in it but its edge.
+    pub fn empty(bounds: Rect) -> Self {
+        Self {
+            bounds,
+            obstacles: Vec::new(),
+            bridges: Vec::new(),
+            places: Vec::new(),
+            occupancy: None,
+            frame: Pose::default(),
+            grid: None,
+            clearance: 0.0,
+        }
+    }
+
+    /// Everything solid as rectangles inside of the environment: what the paper's modes look at. Polygons by
+    /// their minimum enclosing rectangle, an image's walls cell by cell in as few runs as merge. The
+    /// [`clearance`](Self::clearance) is not added: the paper has none.
+    pub fn solid_rects(&self) -> Vec<Rect> {
+        let drawn = self.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect());
+        let pictured = self.occupancy.iter().flat_map(Occupancy::rectangles);
+        drawn.chain(pictured).filter_map(|rect| self.bounds.intersection(&rect)).collect()
+    }
 }
 
 /// Something solid.
@@ -50,6 +81,28 @@ impl Shape {
             ),
         }
     }
+
+    /// Whether the point lies inside; not on the outline.
+    pub fn contains(&self, p: Point) -> bool {
+        match self {
+            Self::Rect(r) => r.x0 < p.x && p.x < r.x1 && r.y0 < p.y && p.y < r.y1,
+            Self::Polygon(corners) => to_geo(corners).contains(&Coord { x: p.x, y: p.y }),
+        }
+    }
+
+    /// The outline as the `geo` crate has it.
+    pub fn to_geo(&self) -> Polygon<f64> {
+        match self {
+            Self::Rect(r) => {
+                geo::Rect::new(Coord { x: r.x0, y: r.y0 }, Coord { x: r.x1, y: r.y1 }).to_polygon()
+            }
+            Self::Polygon(corners) => to_geo(corners),
+        }
+    }
+}
+
+fn to_geo(corners: &[Point]) -> Polygon<f64> {
+    Polygon::new(LineString::new(corners.iter().map(|p| Coord { x: p.x, y: p.y }).collect()), Vec::new())
 }
 
 /// A bridge: the robot may pass under it where its state is lower than `height`.
@@ -79,37 +132,4 @@ pub struct Pose {
     pub y: f64,
     /// Radians, counterclockwise.
     pub yaw: f64,
-}
-
-/// Walls as square cells, row 0 lowest (smallest y), column 0 leftmost.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Occupancy {
-    /// Lower left corner of cell (0, 0), map frame.
-    pub origin: Point,
-    /// Side of a cell, metres.
-    pub resolution: f64,
-    /// Cells along x.
-    pub columns: usize,
-    /// Cells along y.
-    pub rows: usize,
-    /// `columns * rows` cells, row by row; `true` is a wall.
-    pub blocked: Vec<bool>,
-}
-
-impl Occupancy {
-    /// Whether the cell is a wall.
-    pub fn is_blocked(&self, column: usize, row: usize) -> bool {
-        self.blocked[row * self.columns + column]
-    }
-
-    /// The cell's square.
-    pub fn cell(&self, column: usize, row: usize) -> Rect {
-        let (x, y) = (self.origin.x, self.origin.y);
-        Rect::new(
-            x + column as f64 * self.resolution,
-            y + row as f64 * self.resolution,
-            x + (column + 1) as f64 * self.resolution,
-            y + (row + 1) as f64 * self.resolution,
-        )
-    }
 }

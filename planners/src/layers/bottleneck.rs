@@ -1,0 +1,56 @@
+//! The best way by its worst point.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Of all ways between two nodes one whose least value is greatest, as nodes from `start` to `goal`; `None` where there
+/// is no way. Values are not negative.
+///
+/// # Arguments
+/// `count` is the number of nodes, `value` what a node allows, `neighbours` the nodes that one leads to.
+pub(super) fn best_way<N: IntoIterator<Item = usize>>(
+    count: usize,
+    (start, goal): (usize, usize),
+    mut value: impl FnMut(usize) -> f64,
+    mut neighbours: impl FnMut(usize) -> N,
+) -> Option<Vec<usize>> {
+    // The bits of floats that are not negative are ordered as the floats.
+    let mut queue = BinaryHeap::from([(value(start).to_bits(), Reverse(start), start)]);
+    let mut came_from = vec![usize::MAX; count];
+    while let Some((least, Reverse(node), from)) = queue.pop() {
+        if came_from[node] != usize::MAX {
+            continue;
+        }
+        came_from[node] = from;
+        if node == goal {
+            return Some(way_back(&came_from, goal));
+        }
+        for next in neighbours(node) {
+            if came_from[next] == usize::MAX {
+                queue.push((least.min(value(next).to_bits()), Reverse(next), node));
+            }
+        }
+    }
+    None
+}
+
+fn way_back(came_from: &[usize], goal: usize) -> Vec<usize> {
+    let mut way = vec![goal];
+    let mut node = goal;
+    while came_from[node] != node {
+        node = came_from[node];
+        way.push(node);
+    }
+    way.reverse();
+    way
+}
+
+/// The up to four neighbours over a side of a node, nodes being numbered row by row.
+pub(super) fn neighbours(node: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
+    let (column, row) = (node % columns, node / columns);
+    let left = (column > 0).then(|| node - 1);
+    let right = (column + 1 < columns).then(|| node + 1);
+    let below = (row > 0).then(|| node - columns);
+    let above = (row + 1 < rows).then(|| node + columns);
+    [left, right, below, above].into_iter().flatten()
+}

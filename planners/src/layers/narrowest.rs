@@ -1,0 +1,136 @@
+//! Why there is no way: how wide the widest is, and where it is narrowest.
+
+use super::bottleneck::{best_way, neighbours};
+use super::clearance::Clearance;
+use crate::geometry::{Point, Rect};
+use crate::world::World;
+
+/// The narrowest point of the widest way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Narrowest {
+    /// Width of the widest disc that passes, metres, clearance not taken off.
+    pub width: f64,
+    /// Where it touches.
+    pub at: Point,
+}
+
+/// Steps along the way on both sides of a narrow point that are searched anew, on a finer lattice.
+const MARGIN: usize = 5;
+/// Fine steps in a coarse one.
+const FINER: usize = 8;
+
+/// The widest way between two points, bridges ignored: of all ways the one whose least width is greatest.
+///
+/// # Arguments
+/// `step` is the side of the lattice on which ways are searched, metres, such as that of the layers.
+///
+/// # Returns
+/// The narrowest point of that way, to about an eighth of `step`; `None` where no way is wider than a step.
+pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Narrowest> {
+    let walls = Clearance::new(world);
+    let mut way = search(&walls, world.bounds, (from, to), step)?;
+    let mut refined = vec![false; way.len()];
+    loop {
+        let least = middle_of_least(&way)?;
+        let (at, clearance) = way[least];
+        let (first, last) = (least.saturating_sub(MARGIN), (least + MARGIN).min(way.len() - 1));
+        if refined[least] || first == last {
+            return Some(Narrowest { width: 2.0 * clearance, at });
+        }
+        refined[least] = true;
+        let end = |index: usize| {
+            let is_given = index == 0 || index == way.len() - 1;
+            if is_given { way[index].0 } else { climb(&walls, way[index].0, step) }
+        };
+        let ends = (end(first), end(last));
+        let window = window(way[first..=last].iter().map(|(p, _)| *p).chain([ends.0, ends.1]), 2.0 * step);
+        let finer = search(&walls, window, ends, step / FINER as f64);
+        let best = finer.and_then(|finer| finer.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)));
+        if let Some((at, clearance)) = best {
+            for (point, known) in way[first..=last].iter_mut().filter(|(_, known)| *known < clearance) {
+                (*point, *known) = (at, clearance);
+            }
+        }
+    }
+}
+
+/// The middle of the first stretch of the way that has the least clearance: where a long gap is narrow, rather than
+/// where the way first comes as near to a wall.
+fn middle_of_least(way: &[(Point, f64)]) -> Option<usize> {
+    let least = way.iter().map(|(_, clearance)| *clearance).min_by(f64::total_cmp)?;
+    let is_least = |(_, clearance): &(Point, f64)| *clearance <= least + 1e-9;
+    let first = way.iter().position(is_least)?;
+    let length = way[first..].iter().take_while(|point| is_least(point)).count();
+    Some(first + length / 2)
+}
+
+/// Searches `window` on a lattice of its own. The way has each point's clearance, the ends included.
+fn search(
+    walls: &Clearance,
+    window: Rect,
+    (from, to): (Point, Point),
+    step: f64,
+) -> Option<Vec<(Point, f64)>> {
+    if !window.contains(from) || !window.contains(to) {
+        return None;
+    }
+    let columns = (window.dx() / step).ceil().max(1.0) as usize;
+    let rows = (window.dy() / step).ceil().max(1.0) as usize;
+    let along = |node: usize, count: usize, low: f64, high: f64| {
+        low + (node as f64 + 0.5) * (high - low) / count as f64
+    };
+    let point = |node: usize| {
+        let (column, row) = (node % columns, node / columns);
+        Point::new(along(column, columns, window.x0, window.x1), along(row, rows, window.y0, window.y1))
+    };
+    let node = |p: Point| {
+        let column = ((p.x - window.x0) / window.dx() * columns as f64) as usize;
+        let row = ((p.y - window.y0) / window.dy() * rows as f64) as usize;
+        row.min(rows - 1) * columns + column.min(columns - 1)
+    };
+    let known = std::cell::RefCell::new(vec![f64::NAN; columns * rows]);
+    let clearance = |node: usize| {
+        let mut known = known.borrow_mut();
+        if known[node].is_nan() {
+            known[node] = walls.at(point(node));
+        }
+        known[node]
+    };
+    // Where the discs of two points overlap there is no wall between the points.
+    let joined =
+        &|a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + 1e-9);
+    let neighbours = |node: usize| neighbours(node, columns, rows).filter(move |&next| joined(node, next));
+    let nodes = best_way(columns * rows, (node(from), node(to)), clearance, neighbours)?;
+    let inner = nodes.iter().map(|&node| (point(node), clearance(node)));
+    let ends = |p: Point| std::iter::once((p, walls.at(p)));
+    Some(ends(from).chain(inner).chain(ends(to)).collect())
+}
+
+/// A point not further than about a step where the clearance is greater, by going uphill.
+fn climb(walls: &Clearance, from: Point, step: f64) -> Point {
+    let fine = step / FINER as f64;
+    let mut best = (from, walls.at(from));
+    for _ in 0..FINER {
+        let here = best.0;
+        for (dx, dy) in [(fine, 0.0), (-fine, 0.0), (0.0, fine), (0.0, -fine)] {
+            let p = Point::new(here.x + dx, here.y + dy);
+            let clearance = walls.at(p);
+            if clearance > best.1 {
+                best = (p, clearance);
+            }
+        }
+    }
+    best.0
+}
+
+fn window(points: impl Iterator<Item = Point>, margin: f64) -> Rect {
+    let nothing = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    points.fold(nothing, |r, p| {
+        Rect::new(
+            r.x0.min(p.x - margin),
+            r.y0.min(p.y - margin),
+            r.x1.max(p.x + margin),
+            r.y1.max(p.y + margin),
+        )
+    })
+}

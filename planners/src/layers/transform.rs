@@ -1,0 +1,105 @@
+//! Distance from every cell to the nearest cell of a set, exact and in linear time: Meijster, Roerdink and
+//! Hesselink, "A general algorithm for computing distance transforms in linear time" (2000).
+
+use super::cells::Cells;
+
+/// For every cell, row by row, the squared gap between its closed square and that of the nearest cell of `set`,
+/// in cells: 0 for the cells of the set and for all that touch one. `u64::MAX` where the set is empty.
+pub(super) fn squared_gaps(set: &Cells) -> Vec<u64> {
+    let (columns, rows) = (set.columns() as usize, set.rows() as usize);
+    if set.count() == 0 {
+        return vec![u64::MAX; columns * rows];
+    }
+    // Two squares k cells apart have a gap of k - 1. The distance of centres from a set in which every cell has
+    // grown into its eight neighbours is just that.
+    let vertical = vertical_distances(set);
+    let mut squared = vec![0; columns * rows];
+    for row in 0..rows {
+        let line = row * columns..(row + 1) * columns;
+        lower_envelope(&vertical[line.clone()], &mut squared[line]);
+    }
+    squared
+}
+
+/// Distances along the column to the nearest cell of the grown set; more than any real one where there is none.
+fn vertical_distances(set: &Cells) -> Vec<i64> {
+    let (columns, rows) = (set.columns() as usize, set.rows() as usize);
+    let far = (columns + rows) as i64;
+    let near = |column: usize, row: usize| {
+        let (x0, x1) = (column.saturating_sub(1), (column + 2).min(columns));
+        let (y0, y1) = (row.saturating_sub(1), (row + 2).min(rows));
+        (y0..y1).any(|y| (x0..x1).any(|x| set.contains(x as u32, y as u32)))
+    };
+    let mut distances = vec![far; columns * rows];
+    for row in 0..rows {
+        for column in 0..columns {
+            let below = if row > 0 { distances[(row - 1) * columns + column] + 1 } else { far };
+            distances[row * columns + column] = if near(column, row) { 0 } else { below.min(far) };
+        }
+    }
+    for row in (0..rows.saturating_sub(1)).rev() {
+        for column in 0..columns {
+            let above = distances[(row + 1) * columns + column] + 1;
+            let here = &mut distances[row * columns + column];
+            *here = above.min(*here);
+        }
+    }
+    distances
+}
+
+/// Squared distances along one row, given those along the columns: the lower envelope of parabolas.
+fn lower_envelope(vertical: &[i64], squared: &mut [u64]) {
+    let value = |x: i64, i: usize| (x - i as i64).pow(2) + vertical[i].pow(2);
+    let mut vertices: Vec<(usize, i64)> = vec![(0, 0)];
+    for u in 1..vertical.len() {
+        while vertices.last().is_some_and(|&(i, from)| value(from, i) > value(from, u)) {
+            vertices.pop();
+        }
+        let Some(&(i, _)) = vertices.last() else {
+            vertices.push((u, 0));
+            continue;
+        };
+        let (first, second) = (i as i64, u as i64);
+        let apart = second.pow(2) - first.pow(2) + vertical[u].pow(2) - vertical[i].pow(2);
+        let from = 1 + apart.div_euclid(2 * (second - first));
+        if from < vertical.len() as i64 {
+            vertices.push((u, from));
+        }
+    }
+    for x in (0..vertical.len()).rev() {
+        while vertices.len() > 1 && vertices.last().is_some_and(|&(_, from)| from > x as i64) {
+            vertices.pop();
+        }
+        if let Some(&(i, _)) = vertices.last() {
+            squared[x] = value(x as i64, i) as u64;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::cells::CellRect;
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn gaps_equal_those_to_every_cell(
+            columns in 1u32..40, rows in 1u32..40, walls in prop::collection::vec((0u32..40, 0u32..40), 1..12)
+        ) {
+            let mut set = Cells::none(columns, rows);
+            let walls: Vec<_> = walls.into_iter().map(|(x, y)| (x % columns, y % rows)).collect();
+            for &(x, y) in &walls {
+                set.insert_block(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+            }
+            let gaps = squared_gaps(&set);
+            let apart = |a: u32, b: u32| u64::from(a.abs_diff(b).saturating_sub(1)).pow(2);
+            for (i, &gap) in gaps.iter().enumerate() {
+                let (x, y) = (i as u32 % columns, i as u32 / columns);
+                let naive = walls.iter().map(|&(a, b)| apart(x, a) + apart(y, b)).min();
+                prop_assert_eq!(Some(gap), naive);
+            }
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! What is wrong with a map, said so that it can be mended: a stable code, one sentence, the place in the file
+//! and a help.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
+
+/// Stable names of what can be wrong with a map or with what a site lays over it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Code {
+    /// The file cannot be read at all.
+    Unreadable,
+    /// The file's extension says nothing that a reader knows.
+    UnknownFormat,
+    /// The text is not TOML or not YAML.
+    Syntax,
+    /// A key that means nothing here.
+    UnknownKey,
+    /// A key that must be there.
+    MissingKey,
+    /// A value of the wrong type or with the wrong number of entries.
+    WrongType,
+    /// Not a number, or infinite.
+    NotFinite,
+    /// Zero or negative where only more than zero makes sense.
+    NotPositive,
+    /// A rectangle without an area.
+    Degenerate,
+    /// Wholly outside of the environment.
+    Outside,
+    /// Partly outside of the environment: cut at the edge, a note.
+    Clipped,
+    /// A polygon with fewer than three distinct corners.
+    FewCorners,
+    /// A polygon whose outline crosses or touches itself.
+    SelfCrossing,
+    /// A name without a character.
+    EmptyName,
+    /// Two places of one name.
+    DuplicatePlace,
+    /// A place in something solid.
+    PlaceInWall,
+    /// A place outside of the environment.
+    PlaceOutside,
+    /// Thresholds outside of 0 to 1, or in the wrong order.
+    Thresholds,
+    /// A `mode` that is not trinary, scale or raw.
+    Mode,
+    /// The image file is missing.
+    ImageMissing,
+    /// The image file holds no PGM or PNG image.
+    NotAnImage,
+    /// An image with more than 8 bits a channel.
+    ImageDepth,
+    /// An image file that ends before its last pixel.
+    ImageTruncated,
+    /// A grid so fine that the map has more cells than a planner takes.
+    GridTooFine,
+    /// An image with more pixels than a map may have.
+    ImageTooLarge,
+}
+
+impl Code {
+    /// The name as printed and documented: `map/unknown-key`.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Unreadable => "map/unreadable",
+            Self::UnknownFormat => "map/unknown-format",
+            Self::Syntax => "map/syntax",
+            Self::UnknownKey => "map/unknown-key",
+            Self::MissingKey => "map/missing-key",
+            Self::WrongType => "map/wrong-type",
+            Self::NotFinite => "map/not-finite",
+            Self::NotPositive => "map/not-positive",
+            Self::Degenerate => "map/degenerate",
+            Self::Outside => "map/outside",
+            Self::Clipped => "map/clipped",
+            Self::FewCorners => "map/few-corners",
+            Self::SelfCrossing => "map/self-crossing",
+            Self::EmptyName => "map/empty-name",
+            Self::DuplicatePlace => "map/duplicate-place",
+            Self::PlaceInWall => "map/place-in-wall",
+            Self::PlaceOutside => "map/place-outside",
+            Self::Thresholds => "map/thresholds",
+            Self::Mode => "map/mode",
+            Self::ImageMissing => "map/image-missing",
+            Self::NotAnImage => "map/not-an-image",
+            Self::ImageDepth => "map/image-depth",
+            Self::ImageTruncated => "map/image-truncated",
+            Self::GridTooFine => "map/grid-too-fine",
+            Self::ImageTooLarge => "map/image-too-large",
+        }
+    }
+}
+
+/// One thing that is wrong (or, with [`Severity::Advice`], worth a note), with its place in the text.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct Problem {
+    /// Its stable name.
+    pub code: Code,
+    /// One sentence with the values in it.
+    pub message: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Error or advice.
+    pub severity: Severity,
+    text: Option<Text>,
+    labels: Vec<LabeledSpan>,
+}
+
+impl Problem {
+    /// A problem of a file as a whole, without a place in a text.
+    pub fn of_file(code: Code, message: impl Into<String>) -> Self {
+        let (text, labels) = (None, Vec::new());
+        Self { code, message: message.into(), help: None, severity: Severity::Error, text, labels }
+    }
+
+    /// Adds what to do about it.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Makes it a note.
+    #[must_use]
+    pub fn as_advice(mut self) -> Self {
+        self.severity = Severity::Advice;
+        self
+    }
+
+    /// Marks a second place of the same text.
+    #[must_use]
+    pub fn and_at(mut self, span: &Range<usize>, label: &str) -> Self {
+        self.labels.push(LabeledSpan::new_with_span(Some(label.to_owned()), span.clone()));
+        self
+    }
+}
+
+impl Diagnostic for Problem {
+    fn code<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        Some(Box::new(self.code.as_str()))
+    }
+
+    fn severity(&self) -> Option<Severity> {
+        Some(self.severity)
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as _)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.text.as_ref().map(|text| &*text.0 as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        (!self.labels.is_empty()).then(|| Box::new(self.labels.iter().cloned()) as _)
+    }
+}
+
+/// Everything that is wrong with a map, in the order of the file; never empty.
+#[derive(Clone, Debug, thiserror::Error, Diagnostic)]
+#[error("{}", summary(.problems))]
+pub struct MapErrors {
+    /// What is wrong, one by one.
+    #[related]
+    pub problems: Vec<Problem>,
+}
+
+impl From<Problem> for MapErrors {
+    fn from(problem: Problem) -> Self {
+        Self { problems: vec![problem] }
+    }
+}
+
+fn summary(problems: &[Problem]) -> String {
+    match problems {
+        [only] => only.message.clone(),
+        [first, rest @ ..] => format!("{} (and {} more)", first.message, rest.len()),
+        [] => String::new(),
+    }
+}
+
+/// The text of a file with its name, shared by all that is said about it.
+#[derive(Clone, Debug)]
+pub struct Text(Arc<NamedSource<String>>);
+
+impl Text {
+    /// A text as read from the file `name`.
+    pub fn new(name: &str, text: &str) -> Self {
+        Self(Arc::new(NamedSource::new(name, text.to_owned())))
+    }
+
+    /// The file's name.
+    pub fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    /// Line number, from 1, of a byte of the text.
+    pub fn line(&self, byte: usize) -> usize {
+        self.0.inner().match_indices('\n').take_while(|&(end, _)| end < byte).count() + 1
+    }
+
+    /// A problem at a place of this text.
+    pub fn problem(&self, code: Code, span: &Range<usize>, message: impl Into<String>) -> Problem {
+        let mut problem = Problem::of_file(code, message);
+        problem.text = Some(self.clone());
+        problem.labels.push(LabeledSpan::new_primary_with_span(None, span.clone()));
+        problem
+    }
+}

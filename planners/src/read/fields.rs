@@ -1,0 +1,202 @@
+//! The keys of one TOML table, read strictly: whatever is missing, unknown or of another type is reported with
+//! its place, and reading goes on so that one run shows everything.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::diagnostic::{Code, MapErrors, Problem, Text};
+use super::suggest::nearest;
+use super::syntax_problem;
+
+/// A TOML document that was parsed, to be read field by field.
+pub struct Document<'i> {
+    table: Spanned<DeTable<'i>>,
+    text: Text,
+}
+
+impl<'i> Document<'i> {
+    /// Parses a text.
+    ///
+    /// # Arguments
+    /// `name` is how messages call the file, `text` its content.
+    pub fn parse(name: &str, text: &'i str) -> Result<Self, MapErrors> {
+        let source = Text::new(name, text);
+        let table = DeTable::parse(text).map_err(|error| syntax_problem(&source, &error))?;
+        Ok(Self { table, text: source })
+    }
+
+    /// Its outermost table; `what` is how messages call it. Whatever is missing there is missing at the start.
+    pub fn fields<'a>(&'a self, what: &'a str) -> Fields<'a, 'i> {
+        Fields { what, table: self.table.get_ref(), span: 0..0, text: &self.text }
+    }
+}
+
+/// A value with its place in the text, in bytes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// One table of a document, and where to report what is wrong with it.
+pub struct Fields<'a, 'i> {
+    /// How messages call it: `[[obstacle]]`.
+    pub what: &'a str,
+    /// The table itself.
+    pub table: &'a DeTable<'i>,
+    /// Where it stands in the text, bytes.
+    pub span: Range<usize>,
+    /// The whole text.
+    pub text: &'a Text,
+}
+
+impl Fields<'_, '_> {
+    /// Refuses every key that is not one of `known`.
+    pub fn refuse_unknown(&self, known: &[&str], problems: &mut Vec<Problem>) {
+        for key in self.table.keys().filter(|key| !known.contains(&&**key.get_ref())) {
+            let message = format!("`{}` is not a key of {}", key.get_ref(), self.what);
+            let help = match nearest(key.get_ref(), known) {
+                Some(meant) => format!("did you mean `{meant}`?"),
+                None => format!("known keys: {}", known.join(", ")),
+            };
+            problems.push(self.text.problem(Code::UnknownKey, &key.span(), message).with_help(help));
+        }
+    }
+
+    /// The value of a key, whatever it is.
+    pub fn get(&self, key: &str) -> Option<&Spanned<DeValue<'_>>> {
+        self.table.iter().find(|(name, _)| &**name.get_ref() == key).map(|(_, value)| value)
+    }
+
+    /// The value of a key that must be there.
+    fn require(&self, key: &str, problems: &mut Vec<Problem>) -> Option<&Spanned<DeValue<'_>>> {
+        let value = self.get(key);
+        if value.is_none() {
+            let message = format!("{} needs a `{key}`", self.what);
+            problems.push(self.text.problem(Code::MissingKey, &self.span, message));
+        }
+        value
+    }
+
+    /// A finite number that must be there.
+    pub fn number(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
+        let value = self.require(key, problems)?;
+        self.finite(key, value, problems).map(|number| Located { value: number, span: value.span() })
+    }
+
+    /// A finite number more than zero that must be there.
+    pub fn positive(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
+        let number = self.number(key, problems)?;
+        if number.value > 0.0 {
+            return Some(number);
+        }
+        let message = format!("`{key}` is {} and must be more than 0", number.value);
+        problems.push(self.text.problem(Code::NotPositive, &number.span, message));
+        None
+    }
+
+    /// A text that must be there.
+    pub fn string(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
+        let value = self.require(key, problems)?;
+        match value.get_ref() {
+            DeValue::String(text) => Some(Located { value: text.to_string(), span: value.span() }),
+            other => {
+                problems.push(self.wrong_type(key, "a text in quotes", other, value.span()));
+                None
+            }
+        }
+    }
+
+    /// Exactly `N` finite numbers under a key that must be there.
+    pub fn numbers<const N: usize>(
+        &self,
+        key: &str,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Located<[f64; N]>> {
+        let value = self.require(key, problems)?;
+        self.array(key, value, problems).map(|numbers| Located { value: numbers, span: value.span() })
+    }
+
+    /// Points `[[x, y], ...]` under a key that must be there.
+    pub fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<[f64; 2]>>> {
+        let value = self.require(key, problems)?;
+        let DeValue::Array(entries) = value.get_ref() else {
+            problems.push(self.wrong_type(key, "a list of [x, y]", value.get_ref(), value.span()));
+            return None;
+        };
+        let points: Vec<_> = entries.iter().filter_map(|entry| self.array(key, entry, problems)).collect();
+        (points.len() == entries.len()).then(|| Located { value: points, span: value.span() })
+    }
+
+    /// The tables of `[[key]]`, in the order of the file; none where the key is missing.
+    pub fn tables<'b>(
+        &'b self,
+        key: &str,
+        what: &'b str,
+        problems: &mut Vec<Problem>,
+    ) -> Vec<Fields<'b, 'b>> {
+        let Some(value) = self.get(key) else { return Vec::new() };
+        let DeValue::Array(entries) = value.get_ref() else {
+            problems.push(self.wrong_type(key, what, value.get_ref(), value.span()));
+            return Vec::new();
+        };
+        let mut tables = Vec::with_capacity(entries.len());
+        for entry in entries {
+            match entry.get_ref() {
+                DeValue::Table(table) => {
+                    tables.push(Fields { what, table, span: entry.span(), text: self.text });
+                }
+                other => problems.push(self.wrong_type(key, what, other, entry.span())),
+            }
+        }
+        tables
+    }
+
+    fn array<const N: usize>(
+        &self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+        problems: &mut Vec<Problem>,
+    ) -> Option<[f64; N]> {
+        let wanted = format!("a list of {N} numbers");
+        let DeValue::Array(entries) = value.get_ref() else {
+            problems.push(self.wrong_type(key, &wanted, value.get_ref(), value.span()));
+            return None;
+        };
+        let numbers: Vec<f64> =
+            entries.iter().filter_map(|entry| self.finite(key, entry, problems)).collect();
+        if entries.len() != N {
+            let message = format!("`{key}` has {} entries and needs {N}", entries.len());
+            problems.push(self.text.problem(Code::WrongType, &value.span(), message));
+            return None;
+        }
+        numbers.try_into().ok()
+    }
+
+    fn finite(&self, key: &str, value: &Spanned<DeValue<'_>>, problems: &mut Vec<Problem>) -> Option<f64> {
+        let number = match value.get_ref() {
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .map_or(f64::INFINITY, |integer| integer as f64),
+            DeValue::Float(float) => float.as_str().parse().unwrap_or(f64::NAN),
+            other => {
+                problems.push(self.wrong_type(key, "a number", other, value.span()));
+                return None;
+            }
+        };
+        if number.is_finite() {
+            return Some(number);
+        }
+        let message = format!("`{key}` must be a finite number of metres");
+        problems.push(self.text.problem(Code::NotFinite, &value.span(), message));
+        None
+    }
+
+    fn wrong_type(&self, key: &str, wanted: &str, found: &DeValue<'_>, span: Range<usize>) -> Problem {
+        let message = format!("`{key}` of {} must be {wanted}, not a {}", self.what, found.type_str());
+        self.text.problem(Code::WrongType, &span, message)
+    }
+}

@@ -1,0 +1,121 @@
+//! The image of a map: PGM (plain or raw) or PNG, 8 bits a channel.
+
+use std::fs::File;
+use std::io::{self, BufReader, ErrorKind, Read};
+use std::path::Path;
+
+use image::codecs::png::PngDecoder;
+use image::codecs::pnm::PnmDecoder;
+use image::{ColorType, ImageDecoder, ImageError, Limits};
+
+use super::diagnostic::{Code, MapErrors, Problem, Text};
+use super::ros_map::{MapFile, Pixel};
+
+/// The most pixels that a map's image may have: 500 m by 500 m at 5 cm. Checked on the header, before any memory
+/// is taken.
+pub const MAX_PIXELS: u64 = 100_000_000;
+
+/// A decoded image.
+pub(crate) struct Image {
+    /// Pixels along x.
+    pub(crate) columns: usize,
+    /// Pixels along y.
+    pub(crate) rows: usize,
+    colour: ColorType,
+    bytes: Vec<u8>,
+}
+
+impl Image {
+    /// The pixels row by row, the lowest row first.
+    pub(crate) fn bottom_up(&self) -> impl Iterator<Item = Pixel> + '_ {
+        let channels = usize::from(self.colour.channel_count());
+        let rows = self.bytes.chunks_exact(self.columns * channels).rev();
+        rows.flat_map(move |row| row.chunks_exact(channels)).map(|pixel| match *pixel {
+            [grey] => Pixel { colour: f64::from(grey), alpha: None },
+            [grey, alpha] => Pixel { colour: f64::from(grey), alpha: Some(alpha) },
+            [r, g, b] => Pixel { colour: mean(r, g, b), alpha: None },
+            [r, g, b, alpha, ..] => Pixel { colour: mean(r, g, b), alpha: Some(alpha) },
+            [] => Pixel { colour: 0.0, alpha: None },
+        })
+    }
+}
+
+fn mean(r: u8, g: u8, b: u8) -> f64 {
+    (f64::from(r) + f64::from(g) + f64::from(b)) / 3.0
+}
+
+/// Reads the image that a map file names, relative to `folder`.
+pub(crate) fn read_image(source: &Text, file: &MapFile, folder: &Path) -> Result<Image, MapErrors> {
+    let problem = |code, what: String| source.problem(code, &file.image_span, what);
+    let path = folder.join(&file.image);
+    let opened = File::open(&path).and_then(|opened| magic(&path).map(|magic| (opened, magic)));
+    let (opened, magic) = opened.map_err(|error| match error.kind() {
+        ErrorKind::NotFound => problem(Code::ImageMissing, format!("the image `{}` is missing", file.image))
+            .with_help("its path is taken from the folder of the YAML file"),
+        _ => problem(Code::Unreadable, format!("the image `{}` cannot be read: {error}", file.image)),
+    })?;
+    let reader = BufReader::new(opened);
+    let explain = |error| explain(&problem, &file.image, &error);
+    let image = match &magic {
+        b"P2" | b"P5" => decode(PnmDecoder::new(reader).map_err(explain)?, &problem, &file.image),
+        b"\x89P" => {
+            let limits = Limits::no_limits();
+            decode(PngDecoder::with_limits(reader, limits).map_err(explain)?, &problem, &file.image)
+        }
+        _ => {
+            let message = format!("`{}` is not an image that a map can be read from", file.image);
+            return Err(problem(Code::NotAnImage, message)
+                .with_help("PGM (P2, P5) and PNG are known")
+                .into());
+        }
+    };
+    Ok(image?)
+}
+
+fn magic(path: &Path) -> io::Result<[u8; 2]> {
+    let mut magic = [0; 2];
+    match File::open(path)?.read_exact(&mut magic) {
+        Err(error) if error.kind() != ErrorKind::UnexpectedEof => Err(error),
+        _ => Ok(magic),
+    }
+}
+
+fn decode(
+    decoder: impl ImageDecoder,
+    problem: &impl Fn(Code, String) -> Problem,
+    name: &str,
+) -> Result<Image, Problem> {
+    let (columns, rows) = decoder.dimensions();
+    if columns == 0 || rows == 0 {
+        return Err(problem(Code::NotAnImage, format!("the image `{name}` has no pixel")));
+    }
+    if u64::from(columns) * u64::from(rows) > MAX_PIXELS {
+        let message =
+            format!("the image `{name}` has {columns} x {rows} pixels, more than the {MAX_PIXELS} of a map");
+        return Err(problem(Code::ImageTooLarge, message).with_help("use a coarser image of the floor"));
+    }
+    let colour = decoder.color_type();
+    if colour.bytes_per_pixel() > colour.channel_count() {
+        let message = format!("the image `{name}` has 16 bits a channel; a map has 8");
+        return Err(problem(Code::ImageDepth, message).with_help("save it with 8 bits (a maxval of 255)"));
+    }
+    let mut bytes = vec![0; decoder.total_bytes() as usize];
+    decoder.read_image(&mut bytes).map_err(|error| explain(problem, name, &error))?;
+    Ok(Image { columns: columns as usize, rows: rows as usize, colour, bytes })
+}
+
+fn explain(problem: &impl Fn(Code, String) -> Problem, name: &str, error: &ImageError) -> Problem {
+    if ends_early(error) {
+        let message = format!("the image `{name}` is truncated: it ends before its last pixel");
+        return problem(Code::ImageTruncated, message).with_help("copy the file again");
+    }
+    problem(Code::NotAnImage, format!("the image `{name}` cannot be decoded: {error}"))
+}
+
+fn ends_early(error: &ImageError) -> bool {
+    if let ImageError::IoError(error) = error {
+        return error.kind() == ErrorKind::UnexpectedEof;
+    }
+    let said = error.to_string().to_lowercase();
+    said.contains("unexpected end") || said.contains("unexpected eof") || said.contains("too short")
+}

@@ -1,0 +1,116 @@
+//! Items against the world over which they are laid: inside of the environment, places not in a wall.
+
+use super::super::diagnostic::{Code, Problem, Text};
+use super::super::fields::Located;
+use crate::geometry::Rect;
+use crate::world::{Bridge, Obstacle, Place, Shape, World};
+
+pub(super) fn add_obstacle(
+    world: &mut World,
+    text: &Text,
+    obstacle: &Located<Shape>,
+    found: &mut Vec<Problem>,
+) {
+    let rect = obstacle.value.enclosing_rect();
+    let Some(inside) = inside(world.bounds, text, "obstacle", rect, obstacle, found) else { return };
+    let shape = match &obstacle.value {
+        Shape::Rect(_) => Shape::Rect(inside),
+        polygon @ Shape::Polygon(_) => polygon.clone(),
+    };
+    world.obstacles.push(Obstacle { shape });
+}
+
+pub(super) fn add_bridge(world: &mut World, text: &Text, bridge: &Located<Bridge>, found: &mut Vec<Problem>) {
+    if let Some(rect) = inside(world.bounds, text, "bridge", bridge.value.rect, bridge, found) {
+        world.bridges.push(Bridge { rect, ..bridge.value });
+    }
+}
+
+/// What of `rect` is inside of the environment; says what is not.
+fn inside<T>(
+    bounds: Rect,
+    text: &Text,
+    what: &str,
+    rect: Rect,
+    item: &Located<T>,
+    found: &mut Vec<Problem>,
+) -> Option<Rect> {
+    let Rect { x0, y0, x1, y1 } = bounds;
+    let common = bounds.intersection(&rect);
+    let problem = match common {
+        None => {
+            let message = format!(
+                "this {what} lies outside of the environment, which is x {x0} to {x1}, y {y0} to {y1}"
+            );
+            text.problem(Code::Outside, &item.span, message)
+        }
+        Some(_) if !bounds.encloses(&rect) => {
+            let message = format!("this {what} is cut at the edge of the environment");
+            text.problem(Code::Clipped, &item.span, message).as_advice()
+        }
+        Some(_) => return common,
+    };
+    found.push(problem);
+    common
+}
+
+/// Places that were there before, against the obstacles that are new.
+pub(super) fn known_places(
+    world: &World,
+    text: &Text,
+    obstacles: &[Located<Shape>],
+    before: usize,
+    found: &mut Vec<Problem>,
+) {
+    if world.obstacles.len() == before {
+        return;
+    }
+    for place in &world.places {
+        if let Some(over) = obstacles.iter().find(|obstacle| obstacle.value.contains(place.at)) {
+            let message = format!("this obstacle lies over the map's place `{}`", place.name);
+            found.push(text.problem(Code::PlaceInWall, &over.span, message));
+        }
+    }
+}
+
+pub(super) fn add_place(
+    world: &mut World,
+    text: &Text,
+    place: &Located<Place>,
+    obstacles: &[Located<Shape>],
+    found: &mut Vec<Problem>,
+) {
+    let Place { name, at } = &place.value;
+    let here = format!("the place `{name}` at ({}, {})", at.x, at.y);
+    if world.places.iter().any(|known| known.name == *name) {
+        let message = format!("the map has a place `{name}` already");
+        found.push(text.problem(Code::DuplicatePlace, &place.span, message));
+        return;
+    }
+    if !world.bounds.contains(*at) {
+        let Rect { x0, y0, x1, y1 } = world.bounds;
+        let message =
+            format!("{here} lies outside of the environment, which is x {x0} to {x1}, y {y0} to {y1}");
+        found.push(text.problem(Code::PlaceOutside, &place.span, message));
+        return;
+    }
+    if let Some(over) = obstacles.iter().find(|obstacle| obstacle.value.contains(*at)) {
+        let message = format!("{here} lies inside the obstacle on line {}", text.line(over.span.start));
+        let problem = text.problem(Code::PlaceInWall, &place.span, message);
+        found.push(problem.and_at(&over.span, "this obstacle"));
+        return;
+    }
+    if let Some(over) = world.obstacles.iter().find(|obstacle| obstacle.shape.contains(*at)) {
+        let r = over.shape.enclosing_rect();
+        let (x0, y0, x1, y1) = (r.x0, r.y0, r.x1, r.y1);
+        let message = format!("{here} lies inside an obstacle of the map, x {x0} to {x1}, y {y0} to {y1}");
+        found.push(text.problem(Code::PlaceInWall, &place.span, message));
+        return;
+    }
+    if world.occupancy.as_ref().is_some_and(|cells| cells.is_blocked_at(*at)) {
+        let message = format!("{here} lies in a wall of the map's image, or where the image is unknown");
+        found.push(text.problem(Code::PlaceInWall, &place.span, message));
+        return;
+    }
+    world.places.push(place.value.clone());
+}

@@ -1,0 +1,58 @@
+//! Maps of ROS `map_server`: a YAML file that says how its image is meant. Semantics as in nav2's
+//! `nav2_map_server` (`map_io.cpp`).
+
+mod yaml;
+
+use std::path::Path;
+
+use super::diagnostic::{MapErrors, Text};
+use super::image::read_image;
+use super::occupancy::{self, Cell};
+use super::{MapReport, MapSettings};
+use crate::geometry::Point;
+use crate::world::{Occupancy, Pose, World};
+
+pub(crate) use yaml::{MapFile, Pixel};
+
+/// Reads a map of ROS: the YAML file's text and the image that it names, relative to `folder`.
+///
+/// Coordinates of the site are those of the image, shifted to the file's origin, x to the right and y up; its yaw
+/// is not applied. With a yaw of 0 they are ROS's map frame. [`World::frame`] maps them to ROS's map frame for
+/// any yaw.
+///
+/// # Arguments
+/// `name` is how messages call the file, `text` its content.
+///
+/// # Returns
+/// The world and what each step did to its free space (without that of grid and clearance).
+pub fn read_ros_map(
+    name: &str,
+    text: &str,
+    folder: &Path,
+    settings: &MapSettings,
+) -> Result<(World, MapReport), MapErrors> {
+    let source = Text::new(name, text);
+    let file = yaml::parse(&source, text)?;
+    let image = read_image(&source, &file, folder)?;
+    let cells: Vec<Cell> = image.bottom_up().map(|pixel| file.classify(pixel)).collect();
+    let mut report = occupancy::count(&cells, file.resolution, settings.unknown);
+    let mut walls = Occupancy {
+        origin: Point::new(file.origin.x, file.origin.y),
+        resolution: file.resolution,
+        columns: image.columns,
+        rows: image.rows,
+        blocked: occupancy::walls(&cells, settings.unknown),
+    };
+    report.specks = occupancy::drop_specks(&mut walls, settings.speck_area);
+    let mut world = World::empty(walls.bounds());
+    world.frame = frame(file.origin);
+    world.occupancy = Some(walls);
+    Ok((world, report))
+}
+
+/// The pose that turns site coordinates into ROS's map frame: a turn about the image's lower left corner.
+fn frame(origin: Pose) -> Pose {
+    let (sin, cos) = origin.yaw.sin_cos();
+    let turned = Point::new(cos * origin.x - sin * origin.y, sin * origin.x + cos * origin.y);
+    Pose { x: origin.x - turned.x, y: origin.y - turned.y, yaw: origin.yaw }
+}

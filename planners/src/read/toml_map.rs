@@ -1,0 +1,39 @@
+//! Vector maps: `width`, `depth`, `[[obstacle]]`, `[[bridge]]`, `[[place]]`, in metres from (0, 0).
+
+use toml::de::DeTable;
+
+use super::diagnostic::{MapErrors, Problem, Text};
+use super::fields::Fields;
+use super::overlay::Overlay;
+use super::syntax_problem;
+use crate::geometry::Rect;
+use crate::world::World;
+
+/// Reads a vector map.
+///
+/// # Arguments
+/// `name` is how messages call the file, `text` its content.
+///
+/// # Returns
+/// The world, and notes (what was cut at the edge).
+pub fn read_toml_map(name: &str, text: &str) -> Result<(World, Vec<Problem>), MapErrors> {
+    let source = Text::new(name, text);
+    let document = DeTable::parse(text).map_err(|error| syntax_problem(&source, &error))?;
+    // A missing key is a fact about the whole file: point at its start, not at every line of it.
+    let fields = Fields { what: "a map", table: document.get_ref(), span: 0..0, text: &source };
+    let mut problems = Vec::new();
+    fields.refuse_unknown(&["width", "depth", "obstacle", "bridge", "place"], &mut problems);
+    let width = fields.positive("width", &mut problems);
+    let depth = fields.positive("depth", &mut problems);
+    let overlay = Overlay::from_fields(&fields, &mut problems);
+    let (Some(width), Some(depth)) = (width, depth) else { return Err(MapErrors { problems }) };
+    let mut world = World::empty(Rect::new(0.0, 0.0, width.value, depth.value));
+    match overlay.lay_over(&mut world) {
+        Ok(notes) if problems.is_empty() => Ok((world, notes)),
+        Ok(_) => Err(MapErrors { problems }),
+        Err(more) => {
+            problems.extend(more.problems);
+            Err(MapErrors { problems })
+        }
+    }
+}
