@@ -153,6 +153,11 @@ impl Rule {
         self.clauses.iter().map(|clause| clause.class.as_str())
     }
 
+    /// Its variables with the classes that they stand for objects of, in the order of its clauses.
+    pub fn variables(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.clauses.iter().map(|clause| (clause.variable.as_str(), clause.class.as_str()))
+    }
+
     /// The properties that it reads, sorted.
     pub fn reads(&self) -> impl Iterator<Item = &PropertyName> {
         self.reads.keys()

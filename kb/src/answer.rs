@@ -94,7 +94,8 @@ impl KnowledgeBase {
 
     fn search(&self, graph: &SiteGraph, rules: &Rules, mut answer: Answer) -> Result<Answer> {
         let mut ends = Vec::new();
-        for (name, status) in [(&answer.start, Status::UnknownStart), (&answer.goal, Status::UnknownGoal)] {
+        let names = [answer.start.clone(), answer.goal.clone()];
+        for (name, status) in names.iter().zip([Status::UnknownStart, Status::UnknownGoal]) {
             match graph.end(name) {
                 Some(end) => ends.push(end),
                 None => {

@@ -58,6 +58,12 @@ impl fmt::Debug for Error {
 
 impl std::error::Error for Error {}
 
+impl From<adit_db::Error> for Error {
+    fn from(error: adit_db::Error) -> Self {
+        Self::said("database", error.to_string(), None)
+    }
+}
+
 /// A problem without a place in a text.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]

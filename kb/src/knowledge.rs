@@ -4,16 +4,19 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use adit_db::{Cell, Store, Tx};
+use adit_db::{Store, Tx};
 use adit_db::history::Author;
 use adit_db::robot::{Change, State};
 use adit_engine::{RuleBase, Schema, Type};
-use adit_planners::facts::{Column, Facts, Table};
-use adit_planners::layers::StateRooms;
+use adit_planners::facts::{Column, Facts};
+use adit_planners::bridges::Bridges;
+use adit_planners::layers::RoomsByState;
+use adit_planners::minimum::MinimumRooms;
 use adit_planners::planner::Planner;
 use adit_planners::read::MapReport;
+use adit_planners::prime_areas::PrimeAreas;
+use adit_planners::rooms::PaperRooms;
 use adit_planners::world::World;
-use adit_planners::{Bridges, MinimumRooms, PaperRooms, PrimeAreas};
 
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
@@ -52,7 +55,7 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
         match mode {
-            Rooms::ByState => knowledge.register(Box::new(StateRooms)),
+            Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
@@ -163,6 +166,12 @@ impl KnowledgeBase {
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
         let notes = notes.into_iter().map(|note| note.to_string()).collect();
         Ok(Inputs { rules, world, map_report, notes, stage })
+    }
+
+    /// The states of a robot, as the database has them.
+    pub fn states(&self, robot: &str) -> Result<Vec<State>> {
+        let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states())?;
+        Ok(states.into_iter().filter(|state| state.robot == robot).collect())
     }
 
     /// Fills the robot table the first time, or when asked; says where file and table differ otherwise.

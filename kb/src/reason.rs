@@ -39,7 +39,7 @@ pub fn no_route(
                 .collect();
             let more = doors.len().saturating_sub(DESCRIBED);
             let more = if more > 0 { format!("; and {more} doors more") } else { String::new() };
-            Ok(shut.join("; ") + &more)
+            Ok(format!("{}{more}", shut.join("; ")))
         }
         Blockage::Apart => {
             let (world, _, _) = knowledge.site().world()?;

@@ -190,7 +190,7 @@ fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings
         settings.grid = fields.positive("grid", problems).map(|grid| grid.value);
     }
     for (key, value) in
-        [("speck_area", &mut settings.speck_area_m2), ("clearance", &mut settings.clearance_m)]
+        [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)]
     {
         if fields.get(key).is_some()
             && let Some(number) = fields.number(key, problems)

@@ -69,7 +69,7 @@ impl Reasons<'_> {
             let rule = &self.rules.rules()[number];
             // the object itself is the first witness: the row says that already
             let choices: Vec<(&str, &str, Vec<Option<u32>>)> = rule
-                .clauses()
+                .variables()
                 .skip(1)
                 .filter_map(|(variable, class_of)| {
                     let rows = self.knowledge.witness_rows(rule, class, property, variable)?;
