@@ -1,1 +1,3 @@
 //! kb
+
+pub mod draw;
