@@ -18,6 +18,7 @@ pub(super) fn graph(svg: &mut Svg, sheet: &mut Sheet) {
     nodes(svg, sheet);
     if sheet.view.doors.len() <= MOST_LABELS {
         labels(sheet);
+        keep_free(sheet);
     }
 }
 
@@ -39,7 +40,7 @@ fn edges(svg: &mut Svg, sheet: &mut Sheet) {
             cross(svg, middle, reach);
             sheet.labels.take(Block::about(middle.0, middle.1, 2.0 * reach, 2.0 * reach));
         } else if door.one_way {
-            let at = (f64::midpoint(middle.0, to.0), f64::midpoint(middle.1, to.1));
+            let at = (middle.0 + (to.0 - middle.0) * 0.2, middle.1 + (to.1 - middle.1) * 0.2);
             super::doors::triangle(svg, at, (to.0 - middle.0, to.1 - middle.1), 6.0 * sheet.unit, INK);
         }
     }
@@ -83,6 +84,17 @@ fn labels(sheet: &mut Sheet) {
         let (long, short) = if away(from) >= away(to) { (from, to) } else { (to, from) };
         let spots = along(middle, long).chain(along(middle, short));
         sheet.labels.place(&content, face, &sheet.frame.map, spots);
+    }
+}
+
+/// Keeps later labels off the edges.
+fn keep_free(sheet: &mut Sheet) {
+    let scene = sheet.scene;
+    for door in sheet.view.doors.clone().into_iter().map(|i| &scene.doors[i]) {
+        if let Some((from, middle, to)) = edge(sheet, door) {
+            sheet.labels.take_line(from, middle, 5.0, 8.0);
+            sheet.labels.take_line(middle, to, 5.0, 8.0);
+        }
     }
 }
 

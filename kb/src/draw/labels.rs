@@ -46,6 +46,15 @@ impl Labels {
         self.taken.add(block);
     }
 
+    /// Keeps squares along a line free: of this side, about one a step.
+    pub fn take_line(&mut self, a: At, b: At, side: f64, step: f64) {
+        let count = ((b.0 - a.0).hypot(b.1 - a.1) / step).ceil().clamp(1.0, 10_000.0);
+        for i in 0..=count as usize {
+            let share = i as f64 / count;
+            self.take(Block::about(a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share, side, side));
+        }
+    }
+
     /// Writes the text at the first centre where it lies free and inside `within`, off the walls if there is one; tells
     /// whether there was any.
     pub fn place(

@@ -176,15 +176,8 @@ fn keep_free(sheet: &mut Sheet) {
     let side = 8.0 * sheet.unit;
     let total: f64 = pieces(sheet).map(|(_, _, length)| length).sum();
     let step = side.max(total / MOST_SAMPLES);
-    let mut boxes = Vec::new();
-    for (a, b, length) in pieces(sheet) {
-        let count = (length / step).ceil().max(1.0);
-        for i in 0..=count as usize {
-            let share = i as f64 / count;
-            boxes.push(Block::about(a.0 + (b.0 - a.0) * share, a.1 + (b.1 - a.1) * share, side, side));
-        }
-    }
-    for block in boxes {
-        sheet.labels.take(block);
+    let found: Vec<(At, At, f64)> = pieces(sheet).collect();
+    for (a, b, _) in found {
+        sheet.labels.take_line(a, b, side, step);
     }
 }
