@@ -1,6 +1,17 @@
 //! The command line `adit`: its verbs, and what they print.
 
+mod build;
+mod demo;
+mod doctor;
+mod new;
+mod output;
+mod picture;
+mod route;
+mod sql;
+mod tune;
+
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 
@@ -117,7 +128,7 @@ pub struct TuneArgs {
     /// The site
     #[command(flatten)]
     pub site: SiteArgs,
-    /// The table: robots, changes, places, or one of the site's own
+    /// The table: robots, changes, or one of the site's own
     pub table: String,
     /// Key of the row; parts joined by `/` (`SQUAT`, `robot/SQUAT`, `robot/STAND/SQUAT`)
     pub key: String,
@@ -212,4 +223,35 @@ pub struct DoctorArgs {
     /// Write a copy of the database to this file
     #[arg(long, value_name = "FILE")]
     pub backup: Option<PathBuf>,
+}
+
+/// Runs a verb and prints what came of it.
+///
+/// # Returns
+/// 0 done, 1 no route or a failed check, 2 unusable input.
+pub fn run(cli: &Cli) -> ExitCode {
+    let outcome = match &cli.verb {
+        Verb::Demo(args) => demo::run(args).map(|()| 0),
+        Verb::New(args) => new::run(args).map(|()| 0),
+        Verb::Build(args) => build::run(args).map(|()| 0),
+        Verb::Route(args) => route::run(args).map(|outcome| match outcome {
+            route::Outcome::Found => 0,
+            route::Outcome::NoRoute => 1,
+            route::Outcome::Unknown => 2,
+        }),
+        Verb::Tune(args) => tune::tune(args).map(|()| 0),
+        Verb::Check(args) => doctor::check(args).map(|sound| u8::from(!sound)),
+        Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
+        Verb::Draw(args) => picture::run(args).map(|()| 0),
+        Verb::History(args) => tune::history(args).map(|()| 0),
+        Verb::Undo(args) => tune::undo(args).map(|()| 0),
+        Verb::Doctor(args) => doctor::doctor(args).map(|sound| u8::from(!sound)),
+    };
+    match outcome {
+        Ok(status) => ExitCode::from(status),
+        Err(error) => {
+            output::problems(error.problems());
+            ExitCode::from(2)
+        }
+    }
 }

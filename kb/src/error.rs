@@ -29,6 +29,11 @@ impl Error {
         Self::said("file/unreadable", format!("cannot {doing} {}: {error}", path.display()), None)
     }
 
+    /// The problems, one by one.
+    pub fn into_problems(self) -> Vec<Report> {
+        self.problems
+    }
+
     /// The problems, to be printed one by one.
     pub fn problems(&self) -> &[Report] {
         &self.problems
