@@ -16,6 +16,7 @@ pub mod edit;
 mod error;
 mod guard;
 pub mod history;
+pub mod kept;
 mod migrate;
 pub mod place;
 pub mod query;
