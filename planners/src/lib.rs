@@ -1,7 +1,16 @@
 //! Geometry and search for Adit: pure functions from a world to typed records (rooms, doors), and from
 //! weighted records to routes. No SQL, no rules.
 
+pub mod bridges;
+pub mod doors;
 pub mod facts;
 pub mod geometry;
+mod known;
+pub mod minimum;
+pub mod names;
 pub mod planner;
+pub mod prime_areas;
+pub mod rooms;
+mod skyline;
+pub mod strips;
 pub mod world;
