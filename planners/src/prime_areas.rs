@@ -32,6 +32,26 @@ pub fn maximal_rects(bounds: Rect, blocked: &[Rect]) -> Vec<Rect> {
 fn maximal_blocks(strips: &Strips, blocked: &[Block]) -> Vec<Block> {
     let mut areas = Vec::new();
     MaximalBlocks::new().each(strips.columns(), strips.rows(), blocked, |area| areas.push(area));
-    areas.sort_unstable_by_key(Block::key);
-    areas
+    sorted(strips.columns(), &areas)
+}
+
+/// The blocks by (x0, y0, x1, y1): counted into place by x0, then sorted among equals.
+fn sorted(columns: u32, blocks: &[Block]) -> Vec<Block> {
+    let mut ends = vec![0; columns as usize + 1];
+    for block in blocks {
+        ends[block.x0 as usize + 1] += 1;
+    }
+    for column in 1..ends.len() {
+        ends[column] += ends[column - 1];
+    }
+    let mut sorted = blocks.to_vec();
+    for block in blocks {
+        let place: &mut usize = &mut ends[block.x0 as usize];
+        sorted[*place] = *block;
+        *place += 1;
+    }
+    for equals in sorted.chunk_by_mut(|a, b| a.x0 == b.x0) {
+        equals.sort_unstable();
+    }
+    sorted
 }

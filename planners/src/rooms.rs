@@ -5,6 +5,7 @@ mod greedy;
 mod low_bridges;
 mod order;
 mod paper;
+mod queue;
 mod table;
 mod taken;
 

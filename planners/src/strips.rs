@@ -112,11 +112,6 @@ impl Block {
         }
     }
 
-    /// Orders blocks by (x0, y0, x1, y1).
-    pub(crate) fn key(&self) -> u128 {
-        [self.x0, self.y0, self.x1, self.y1].into_iter().fold(0, |key, line| key << 32 | u128::from(line))
-    }
-
     /// The block with its axes exchanged.
     pub(crate) fn transposed(&self) -> Self {
         Self { x0: self.y0, y0: self.x0, x1: self.y1, y1: self.x1 }

@@ -43,7 +43,9 @@ done | awk '
         split("1000 5000 30000", sizes, " ")
         for (i = 1; i <= 3; i++) row(sizes[i], "primes_ms", "primes")
         for (i = 1; i <= 3; i++) row(sizes[i], "greedy_ms", "greedy")
-        for (i = 1; i <= 3; i++) row(sizes[i], "minimum_ms", "minimum")
+        for (i = 1; i <= 3; i++)
+            printf "%-11s n=%-6d ours %9.3f ms (the peer only counts them: %.3f ms)\n", "minimum_ms", sizes[i],
+                best["ours " sizes[i] " minimum_ms"], best["peer " sizes[i] " minimum_ms"]
         printf "prime areas grow as n^%.2f (peer: n^%.2f) from 1,000 to 30,000 obstacles; rooms of the paper as n^%.2f\n",
             growth("ours", "primes_ms"), growth("peer", "primes_ms"), growth("ours", "greedy_ms")
     }'

@@ -5,14 +5,11 @@
 //! an area need be cut only when it comes to be the largest, by all rooms that it meets by then: its parts are
 //! smaller and wait for their turn. Parts inside other parts do no harm, since the outer one comes first.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use crate::geometry::Rect;
 use crate::strips::{Block, Strips};
 
 use super::cutter::Cutter;
-use super::order::area_key;
+use super::queue::{Candidate, LargestFirst};
 use super::taken::{Seen, Taken};
 
 /// The rooms that the paper's steps 2 to 4 make, in the order in which they are made.
@@ -58,39 +55,11 @@ fn hull(rects: impl Iterator<Item = Rect>) -> Rect {
     })
 }
 
-/// An area in the order of choice. Among equal areas that start at the same corner, the higher comes first: as
-/// areas are equal it is the narrower. So written, the order also puts an area before those inside it
-/// when rounding makes them equal.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Candidate {
-    area_key: u64,
-    x0: Reverse<u32>,
-    y0: Reverse<u32>,
-    y1: u32,
-    x1: u32,
-    /// How far the taken rooms are known not to overlap it.
-    seen: Seen,
-}
-
-impl Candidate {
-    fn new(strips: &Strips, block: Block, seen: Seen) -> Self {
-        let Block { x0, y0, x1, y1 } = block;
-        Self { area_key: area_key(strips.rect(block).area()), x0: Reverse(x0), y0: Reverse(y0), y1, x1, seen }
-    }
-
-    fn block(&self) -> Block {
-        Block { x0: self.x0.0, y0: self.y0.0, x1: self.x1, y1: self.y1 }
-    }
-}
-
 struct Greedy<'a> {
     strips: &'a Strips,
     taken: Taken,
     rooms: Vec<Block>,
-    /// What is left of the list as it was given, the largest last.
-    list: Vec<Candidate>,
-    /// What cutting has left of others.
-    parts: BinaryHeap<Candidate>,
+    waiting: LargestFirst,
     cutter: Cutter,
 }
 
@@ -100,18 +69,17 @@ impl<'a> Greedy<'a> {
             strips,
             taken: Taken::new(strips.columns(), strips.rows(), expected),
             rooms: Vec::new(),
-            list: Vec::new(),
-            parts: BinaryHeap::new(),
+            waiting: LargestFirst::default(),
             cutter: Cutter::new(),
         }
     }
 
     fn use_up(&mut self, list: impl Iterator<Item = Block>) {
-        self.list.extend(list.map(|block| Candidate::new(self.strips, block, Seen::default())));
-        self.list.sort_unstable();
+        let areas = list.map(|block| Candidate::new(self.strips, block, Seen::default())).collect();
+        self.waiting.fill(areas);
         let mut met = Vec::new();
         let mut previous = None;
-        while let Some(candidate) = self.largest() {
+        while let Some(candidate) = self.waiting.pop() {
             let block = candidate.block();
             // Equal areas come one after the other: what could still make this one is larger.
             if previous.replace(block) == Some(block) {
@@ -122,13 +90,9 @@ impl<'a> Greedy<'a> {
                 self.taken.take(block);
                 self.rooms.push(block);
             } else {
-                let (strips, parts, seen) = (self.strips, &mut self.parts, self.taken.seen());
-                self.cutter.cut(block, &met, |part| parts.push(Candidate::new(strips, part, seen)));
+                let (strips, waiting, seen) = (self.strips, &mut self.waiting, self.taken.seen());
+                self.cutter.cut(block, &met, |part| waiting.push(Candidate::new(strips, part, seen)));
             }
         }
-    }
-
-    fn largest(&mut self) -> Option<Candidate> {
-        if self.list.last() > self.parts.peek() { self.list.pop() } else { self.parts.pop() }
     }
 }
