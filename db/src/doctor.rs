@@ -55,7 +55,9 @@ pub async fn examine(connection: &mut SqliteConnection) -> Result<Health> {
 }
 
 async fn rows(connection: &mut SqliteConnection) -> Result<Vec<(String, i64)>> {
-    let own = sqlx::query_scalar("SELECT name FROM sqlite_schema WHERE type = 'table' AND name <> 'writer'");
+    let own = sqlx::query_scalar(
+        "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT IN ('writer', 'step_parts')",
+    );
     let own: Vec<String> = own.fetch_all(&mut *connection).await?;
     let mut tables: Vec<String> =
         own.into_iter().filter(|name| relation::OWN.contains(&name.as_str())).collect();

@@ -1,6 +1,7 @@
 //! Who changed what, when and why: the table `history`.
 
 use serde::Serialize;
+use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
 use crate::cell::Cell;
@@ -68,28 +69,36 @@ pub(crate) async fn record(
     Ok(sqlx::query_scalar("SELECT last_insert_rowid()").fetch_one(connection).await?)
 }
 
+fn edit(row: &SqliteRow) -> Result<Edit> {
+    Ok(Edit {
+        id: row.try_get(0)?,
+        at: row.try_get(1)?,
+        who: row.try_get(2)?,
+        why: row.try_get(3)?,
+        table: row.try_get(4)?,
+        key: row.try_get(5)?,
+        column: row.try_get(6)?,
+        old: Cell::of(row, 7)?,
+        new: Cell::of(row, 8)?,
+        undone: row.try_get(9)?,
+    })
+}
+
 /// Edits, the newest first; at most `most`.
 pub async fn read(connection: &mut SqliteConnection, most: u32) -> Result<Vec<Edit>> {
     let query = sqlx::query(
         "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history
          ORDER BY id DESC LIMIT ?",
     );
-    let mut edits = Vec::new();
-    for row in query.bind(most).fetch_all(connection).await? {
-        edits.push(Edit {
-            id: row.try_get(0)?,
-            at: row.try_get(1)?,
-            who: row.try_get(2)?,
-            why: row.try_get(3)?,
-            table: row.try_get(4)?,
-            key: row.try_get(5)?,
-            column: row.try_get(6)?,
-            old: Cell::of(&row, 7)?,
-            new: Cell::of(&row, 8)?,
-            undone: row.try_get(9)?,
-        });
-    }
-    Ok(edits)
+    query.bind(most).fetch_all(connection).await?.iter().map(edit).collect()
+}
+
+/// One edit.
+pub async fn entry(connection: &mut SqliteConnection, id: i64) -> Result<Option<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history WHERE id = ?",
+    );
+    query.bind(id).fetch_optional(connection).await?.as_ref().map(edit).transpose()
 }
 
 /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.

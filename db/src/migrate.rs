@@ -89,3 +89,55 @@ async fn step(connection: &mut SqliteConnection, from: i64, scripts: &[&'static 
     transaction.commit().await?;
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    const ONE: &[&str] = &["CREATE TABLE door (id INTEGER); INSERT INTO door VALUES (7)"];
+    const TWO: &[&str] = &["ALTER TABLE door ADD COLUMN width REAL"];
+    const BROKEN: &[&str] = &["DROP TABLE door", "SELECT nonsense"];
+
+    async fn open(path: &Path) -> SqliteConnection {
+        let url = format!("sqlite://{}?mode=rwc", path.display());
+        SqliteConnection::connect(&url).await.unwrap()
+    }
+
+    fn in_a_folder(work: impl AsyncFnOnce(PathBuf)) {
+        let folder = tempfile::tempdir().unwrap();
+        let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+        runtime.block_on(work(folder.path().join("site.db")));
+    }
+
+    #[test]
+    fn an_older_database_is_copied_and_brought_up_to_date() {
+        in_a_folder(async |path| {
+            let mut connection = open(&path).await;
+            migrate(&mut connection, &path, &[ONE]).await.unwrap();
+            migrate(&mut connection, &path, &[ONE, TWO]).await.unwrap();
+            assert_eq!(kind(&mut connection).await.unwrap(), Kind::Adit(2));
+            sqlx::query("SELECT id, width FROM door").fetch_one(&mut connection).await.unwrap();
+            let mut copy = open(&path.with_file_name("site.db.bak-v1")).await;
+            assert_eq!(kind(&mut copy).await.unwrap(), Kind::Adit(1));
+        });
+    }
+
+    #[test]
+    fn a_step_that_fails_leaves_the_version_before_it() {
+        in_a_folder(async |path| {
+            let mut connection = open(&path).await;
+            migrate(&mut connection, &path, &[ONE]).await.unwrap();
+            for copies in 1..=2 {
+                migrate(&mut connection, &path, &[ONE, BROKEN]).await.unwrap_err();
+                assert_eq!(kind(&mut connection).await.unwrap(), Kind::Adit(1));
+                let files = std::fs::read_dir(path.parent().unwrap()).unwrap();
+                let backups =
+                    files.filter(|file| file.as_ref().unwrap().file_name().to_string_lossy().contains("bak"));
+                assert_eq!(backups.count(), copies);
+            }
+            sqlx::query("SELECT id FROM door").fetch_one(&mut connection).await.unwrap();
+        });
+    }
+}

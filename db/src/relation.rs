@@ -29,6 +29,7 @@ pub(crate) const OWN: &[&str] = &[
     "site",
     "stale_marks",
     "starts",
+    "step_parts",
     "strips",
     "tree_rows",
     "witnesses",
