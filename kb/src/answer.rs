@@ -113,14 +113,19 @@ impl KnowledgeBase {
             graph.start(&ends[0], Some(&answer.robot)),
             graph.rooms_of(&ends[1], Some(&answer.robot)),
         );
-        let tree = graph.graph().tree_until(&start, &goals);
         let goal = match ends[1] {
             End::Room(_) => None,
             _ => Some(graph.point(&ends[1])),
         };
-        match reach(graph, &tree, &goals, goal) {
-            Some((room, leg)) => {
-                answer.steps = steps(graph, rules, &tree, room, goal.map(|goal| (goal, leg)));
+        let tree = graph.graph().tree_until(&start, &goals, goal);
+        let reached = match goal {
+            Some(goal) => tree.best_at(graph.graph(), &goals, goal),
+            None => goals.iter().find_map(|&room| tree.of_room[room].first()).map(|&arrival| (arrival, 0.0)),
+        };
+        match reached {
+            Some((arrival, leg)) => {
+                let last = goal.map(|goal| (goal, leg));
+                answer.steps = steps(graph, rules, &tree.way(arrival), last);
                 answer.cost = answer.steps.last().map(|step| step.cost);
                 let doors = answer.steps.iter().filter(|step| step.kind != "room").count();
                 answer.status = if doors == 0 { Status::SameRoom } else { Status::Ok };
@@ -172,72 +177,41 @@ fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
     }
 }
 
-/// The best of the goal's rooms, and the hardness of the way inside it to the goal.
-fn reach(graph: &SiteGraph, tree: &[Option<Arrival>], rooms: &[usize], goal: Option<Point>) -> Option<(usize, f64)> {
-    match goal {
-        Some(goal) => graph.graph().arrival_at(tree, rooms, goal).map(|(room, _, leg)| (room, leg)),
-        None => rooms.iter().copied().find(|&room| tree[room].is_some()).map(|room| (room, 0.0)),
-    }
-}
-
-/// The rows of `action_sequence` of a route that is not kept.
-fn steps(
-    graph: &SiteGraph,
-    rules: &Rules,
-    tree: &[Option<Arrival>],
-    last: usize,
-    goal: Option<(Point, f64)>,
-) -> Vec<Step> {
-    let mut way = vec![last];
-    while let Some((before, _)) = way.last().and_then(|&room| tree[room]).and_then(|arrival| arrival.from) {
-        way.push(before);
-    }
-    way.reverse();
+/// The rows of `action_sequence` of a route that is not kept; `last` is a goal point and the hardness of the way to it.
+fn steps(graph: &SiteGraph, rules: &Rules, way: &[&Arrival], last: Option<(Point, f64)>) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::with_capacity(way.len() * 2);
     for pair in way.windows(2) {
-        let (Some(entry), Some(exit)) = (tree[pair[0]], tree[pair[1]]) else { continue };
+        let (entry, exit) = (pair[0], pair[1]);
         let Some(door) = exit.from.and_then(|(_, door)| graph.door(i64::from(door))) else { continue };
-        let at = if graph.graph().rooms()[pair[0]].hardness_per_m.is_some() {
-            exit.at
-        } else {
-            Point::new(door.at[0], door.at[1])
+        let heading = trees::heading(entry.at, exit.at);
+        steps.push(room_step(graph, rules, entry.room, exit.leg, entry.cost + exit.leg, exit.at, heading));
+        let (kind, layer_of) = match door.kind {
+            DoorKind::Door => ("door", entry.room),
+            DoorKind::Change => ("change", exit.room),
         };
-        let heading = trees::heading(entry.at, exit.at).map(hundredths);
-        steps.push(room_step(graph, rules, pair[0], exit.leg, entry.cost + exit.leg, at, heading));
-        let next = &graph.rooms[pair[1]];
-        let kind = match door.kind {
-            DoorKind::Door => "door",
-            DoorKind::Change => "change",
-        };
-        let state_of = if door.kind == DoorKind::Change { next } else { &graph.rooms[pair[0]] };
         steps.push(Step {
             step: 0,
             kind: kind.to_owned(),
             place: door.door.to_string(),
-            state: state_of.layer.as_ref().map(|(_, state)| state.clone()),
+            state: graph.rooms[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
             action: door.action.value.clone(),
             hardness: door.hardness.value,
             cost: exit.cost,
-            x: Some(at.x),
-            y: Some(at.y),
+            x: Some(exit.at.x),
+            y: Some(exit.at.y),
             heading,
             rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
         });
     }
-    if let Some(arrival) = tree[last] {
-        let (at, leg) = goal.unwrap_or((arrival.at, 0.0));
-        let heading = goal.and_then(|(goal, _)| trees::heading(arrival.at, goal)).map(hundredths);
-        steps.push(room_step(graph, rules, last, leg, arrival.cost + leg, at, heading));
+    if let Some(arrival) = way.last() {
+        let (at, leg) = last.unwrap_or((arrival.at, 0.0));
+        let heading = last.and_then(|(goal, _)| trees::heading(arrival.at, goal));
+        steps.push(room_step(graph, rules, arrival.room, leg, arrival.cost + leg, at, heading));
     }
     for (number, step) in (1..).zip(&mut steps) {
         step.step = number;
     }
     steps
-}
-
-/// As the tables keep a heading.
-fn hundredths(degrees: f64) -> f64 {
-    (degrees * 100.0).round() / 100.0
 }
 
 fn room_step(

@@ -2,7 +2,7 @@
 
 use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
 use adit_planners::geometry::Point;
-use adit_planners::routes::{Arrival, Start};
+use adit_planners::routes::{Start, Tree};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
@@ -116,63 +116,109 @@ pub fn rows(graph: &SiteGraph, roots: &[(String, Start)]) -> Vec<Vec<TreeRow>> {
 
 fn tree_rows(graph: &SiteGraph, start: &Start, place_rooms: &[Vec<usize>]) -> Vec<TreeRow> {
     let tree = graph.graph().tree(start);
-    let mut rows = Vec::with_capacity(tree.len() + place_rooms.len());
-    for (index, rooms) in place_rooms.iter().enumerate().rev() {
-        let goal = graph.point(&End::Place(index));
-        if let Some((room, arrival, leg)) = graph.graph().arrival_at(&tree, rooms, goal) {
-            rows.push(TreeRow {
-                node: place_node(index),
-                prev: Some(graph.rooms[room].room),
-                from_room: None,
-                door: None,
-                hops: i64::from(arrival.hops),
-                reach: arrival.cost + leg,
-                leg,
-                at: Some([goal.x, goal.y]),
-                heading: heading(arrival.at, goal),
-            });
+    let goals: Vec<(usize, Point, usize, f64)> = place_rooms
+        .iter()
+        .enumerate()
+        .filter_map(|(index, rooms)| {
+            let goal = graph.point(&End::Place(index));
+            let (arrival, leg) = tree.best_at(graph.graph(), rooms, goal)?;
+            Some((index, goal, arrival, leg))
+        })
+        .collect();
+    let nodes = Nodes::new(graph, &tree, goals.iter().map(|goal| goal.2));
+    let mut rows: Vec<TreeRow> = nodes.kept.iter().map(|&arrival| arrival_row(graph, &tree, &nodes, arrival)).collect();
+    rows.extend(goals.into_iter().map(|(index, goal, arrival, leg)| {
+        let before = &tree.arrivals[arrival];
+        TreeRow {
+            node: place_node(index),
+            prev: Some(nodes.of[arrival]),
+            from_room: nodes.room_of(graph, &tree, arrival),
+            door: None,
+            hops: i64::from(before.hops),
+            reach: before.cost + leg,
+            leg,
+            at: Some([goal.x, goal.y]),
+            heading: heading(before.at, goal),
         }
-    }
-    for (room, arrival) in tree.iter().enumerate() {
-        if let Some(arrival) = arrival {
-            rows.push(room_row(graph, &tree, room, arrival));
-        }
-    }
+    }));
+    rows.sort_by_key(|row| row.node);
     rows
 }
 
-fn room_row(graph: &SiteGraph, tree: &[Option<Arrival>], room: usize, arrival: &Arrival) -> TreeRow {
-    let node = graph.rooms[room].room;
+/// The arrivals that are kept, with their nodes: a room's cheapest arrival has the room's key, others that routes lead
+/// through have negative numbers below those of the places.
+struct Nodes {
+    of: Vec<i64>,
+    kept: Vec<usize>,
+}
+
+impl Nodes {
+    fn new(graph: &SiteGraph, tree: &Tree, goals: impl Iterator<Item = usize>) -> Self {
+        let best = tree.of_room.iter().filter_map(|arrivals| arrivals.first().copied());
+        let mut wanted: Vec<usize> = best.chain(goals).collect();
+        let mut is_kept = vec![false; tree.arrivals.len()];
+        while let Some(arrival) = wanted.pop() {
+            if !std::mem::replace(&mut is_kept[arrival], true) {
+                wanted.extend(tree.arrivals[arrival].from.map(|(before, _)| before));
+            }
+        }
+        let kept: Vec<usize> = (0..is_kept.len()).filter(|&arrival| is_kept[arrival]).collect();
+        let mut of = vec![0; tree.arrivals.len()];
+        let mut next = place_node(graph.places.len());
+        for &arrival in &kept {
+            let room = tree.arrivals[arrival].room;
+            if tree.of_room[room].first() == Some(&arrival) {
+                of[arrival] = graph.rooms[room].room;
+            } else {
+                of[arrival] = next;
+                next -= 1;
+            }
+        }
+        Self { of, kept }
+    }
+
+    /// The key of an arrival's room, where its node is not that key.
+    fn room_of(&self, graph: &SiteGraph, tree: &Tree, arrival: usize) -> Option<i64> {
+        let key = graph.rooms[tree.arrivals[arrival].room].room;
+        (self.of[arrival] != key).then_some(key)
+    }
+}
+
+fn arrival_row(graph: &SiteGraph, tree: &Tree, nodes: &Nodes, index: usize) -> TreeRow {
+    let arrival = &tree.arrivals[index];
+    let (at, node) = ([arrival.at.x, arrival.at.y], nodes.of[index]);
     let Some((before, door)) = arrival.from else {
-        let at = Some([arrival.at.x, arrival.at.y]);
+        let from_room = nodes.room_of(graph, tree, index);
         return TreeRow {
             node,
             prev: None,
-            from_room: None,
+            from_room,
             door: None,
             hops: 0,
             reach: 0.0,
             leg: 0.0,
-            at,
+            at: Some(at),
             heading: None,
         };
     };
-    let walked = graph.graph().rooms()[before].hardness_per_m.is_some();
-    let from = tree[before].map_or(arrival.at, |entry| entry.at);
+    let entry = &tree.arrivals[before];
+    let walked = graph.graph().rooms()[entry.room].hardness_per_m.is_some();
     TreeRow {
         node,
-        prev: Some(graph.rooms[before].room),
-        from_room: None,
+        prev: Some(nodes.of[before]),
+        from_room: nodes.room_of(graph, tree, before),
         door: Some(i64::from(door)),
         hops: i64::from(arrival.hops),
-        reach: tree[before].map_or(0.0, |entry| entry.cost) + arrival.leg,
+        reach: entry.cost + arrival.leg,
         leg: arrival.leg,
-        at: walked.then_some([arrival.at.x, arrival.at.y]),
-        heading: heading(from, arrival.at),
+        at: walked.then_some(at),
+        heading: heading(entry.at, arrival.at),
     }
 }
 
 /// Degrees counterclockwise from x; `None` where nothing moves.
 pub fn heading(from: Point, to: Point) -> Option<f64> {
-    (from.distance(to) > 1e-9).then(|| (to.y - from.y).atan2(to.x - from.x).to_degrees())
+    // to a hundredth, as the tables keep it
+    let degrees = (to.y - from.y).atan2(to.x - from.x).to_degrees();
+    (from.distance(to) > 1e-9).then(|| (degrees * 100.0).round() / 100.0)
 }

@@ -120,7 +120,7 @@ impl Block {
 
 /// What no state passes, as rectangles: obstacles, polygons by their enclosing rectangle.
 pub fn solid(world: &World) -> Vec<Rect> {
-    world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()).collect()
+    world.solid_rects()
 }
 
 /// The distinct edges along one axis, and for each rectangle the lines that its edges are.

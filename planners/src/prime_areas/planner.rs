@@ -15,7 +15,7 @@ use super::prime_areas;
 pub struct PrimeAreas;
 
 const GIVES: &[&str] = &[
-    "STRIPS.axis",
+    "STRIPS.axis: text",
     "STRIPS.strip",
     "STRIPS.low",
     "STRIPS.high",

@@ -11,9 +11,9 @@ use super::Room;
 /// What `room_facts` gives.
 pub(crate) const GIVES: &[&str] = &[
     "ROOMS.room",
-    "ROOMS.name",
-    "ROOMS.robot",
-    "ROOMS.state",
+    "ROOMS.name: text",
+    "ROOMS.robot: text",
+    "ROOMS.state: text",
     "ROOMS.x0",
     "ROOMS.y0",
     "ROOMS.x1",
@@ -21,7 +21,7 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.height",
     "ROOMS.width",
     "DOORS.door",
-    "DOORS.kind",
+    "DOORS.kind: text",
     "DOORS.room1",
     "DOORS.room2",
     "DOORS.x",
@@ -37,7 +37,7 @@ pub(crate) const GIVES: &[&str] = &[
     "DOORS.height2",
     "DOORS.width2",
     "DOORS.distance2",
-    "DOORS.one_way",
+    "DOORS.one_way: truth",
 ];
 
 /// `ROOMS` of these rooms, numbered from 1, and `DOORS` between them (Abou-Ali et al., Table 4). Metres; a `height`
