@@ -209,3 +209,11 @@ fn a_part_behind_a_deciding_condition_does_not_run() {
     assert_eq!(base.truths("T", "r").unwrap(), [Some(true); 4]);
     assert_eq!(base.numbers("T", "s2").unwrap(), [Some(3.0); 4]);
 }
+
+/// Found by the property tests: an "and" within an "or" was taken apart, as if it were within an "and".
+#[test]
+fn an_and_within_an_or_stays_together() {
+    let rule = r#"rule "r" each t in T then { t.r = t.b || (t.b && t.x < 100); }"#;
+    let (base, _) = concluded(rule, [class(&ROWS)]);
+    assert_eq!(base.truths("T", "r"), base.truths("T", "b"));
+}
