@@ -110,7 +110,8 @@ fn rule(bencher: Bencher, count: usize) {
     checked.conclude(&rules);
     // Not a faster wrong answer.
     let concluded = checked.numbers("DOORS", "hardness").expect("the rule sets it");
-    let right = doors.iter().map(|door| weigh(door).0).map(|hardness| Some(hardness).filter(|h| h.is_finite()));
+    let right =
+        doors.iter().map(|door| weigh(door).0).map(|hardness| Some(hardness).filter(|h| h.is_finite()));
     assert!(concluded.into_iter().eq(right), "the rule says what the Rust says");
     bencher.with_inputs(|| knowledge(&doors)).bench_local_values(|mut base| {
         base.conclude(&rules);

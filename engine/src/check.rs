@@ -31,7 +31,9 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
         match plan(rule, &known, &symbols) {
             Ok(plan) => {
                 if let Effect::Conclude { then, otherwise } = &plan.effect {
-                    for target in then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets)) {
+                    for target in
+                        then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets))
+                    {
                         let kind = known.concluded.entry(target.name.clone()).or_default();
                         *kind = kind.or(target.kind);
                     }
@@ -79,7 +81,8 @@ impl Kinds for Declared<'_> {
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        let concluded = self.concluded.keys().filter(|name| name.class == class).map(|name| name.property.clone());
+        let concluded =
+            self.concluded.keys().filter(|name| name.class == class).map(|name| name.property.clone());
         self.schema.properties(class).map(str::to_owned).chain(concluded).collect()
     }
 }

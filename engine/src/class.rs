@@ -218,10 +218,10 @@ impl Table {
     }
 
     fn index(&self, property: &str) -> Result<usize, ClassError> {
-        self.names.iter().position(|name| name == property).ok_or_else(|| ClassError::Missing {
-            class: self.name.clone(),
-            property: property.to_owned(),
-        })
+        self.names
+            .iter()
+            .position(|name| name == property)
+            .ok_or_else(|| ClassError::Missing { class: self.name.clone(), property: property.to_owned() })
     }
 
     fn check_keys(&self, symbols: &Symbols) -> Result<(), ClassError> {

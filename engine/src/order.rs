@@ -35,7 +35,9 @@ pub(crate) fn order(rules: &[Rule]) -> Result<Vec<Step>, Vec<Diagnostic>> {
             inputs.extend(below(&levels, target, level));
         }
         for set in rule.sets.keys() {
-            let step = rule.level().map_or_else(|| Step::Merge(set.clone()), |level| Step::Level(set.clone(), level));
+            let step = rule
+                .level()
+                .map_or_else(|| Step::Merge(set.clone()), |level| Step::Level(set.clone(), level));
             needs.entry(step).or_default().insert(Step::Rule(index));
         }
     }

@@ -67,10 +67,7 @@ pub(crate) fn plan(
         },
         Action::Revise { target, amount, position, .. } => {
             action::check_revised(&mut lowering, target, *position);
-            Effect::Revise {
-                variable: target.0,
-                amount: lowering.wanted(amount, Type::Number),
-            }
+            Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
         }
     };
     let (columns, problems) = lowering.finish();

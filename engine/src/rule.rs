@@ -71,8 +71,7 @@ impl Operator {
             Self::Times => value * amount,
             Self::Plus => value + amount,
             Self::Minus => value - amount,
-            Self::Max if value.is_nan() || amount.is_nan() => f64::NAN,
-            Self::Min if value.is_nan() || amount.is_nan() => f64::NAN,
+            Self::Max | Self::Min if value.is_nan() || amount.is_nan() => f64::NAN,
             Self::Max => value.max(amount),
             Self::Min => value.min(amount),
         }
@@ -84,6 +83,7 @@ impl Operator {
 pub(crate) struct Clause {
     pub(crate) quantifier: Quantifier,
     pub(crate) variable: String,
+    pub(crate) position: Position,
     pub(crate) class: String,
     pub(crate) class_position: Position,
     pub(crate) by: Option<Expr>,
@@ -93,7 +93,7 @@ pub(crate) struct Clause {
 /// What a rule does with what its clauses bind.
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
-    Conclude { then: StmtBlock, otherwise: Option<StmtBlock> },
+    Conclude { then: Box<StmtBlock>, otherwise: Option<Box<StmtBlock>> },
     Revise { target: (usize, String), operator: Operator, amount: Expr, level: i64, position: Position },
 }
 

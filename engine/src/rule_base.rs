@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::OnceLock;
 use std::thread;
 
 use rhai::Position;
@@ -11,7 +10,7 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics};
 use crate::order::{Step, order};
 use crate::rule::{Action, Operator, PropertyName, Rule};
 use crate::schema::Schema;
-use crate::script::interpreter::{STACK_BYTES, reader};
+use crate::script::interpreter::{STACK_BYTES, function_names, reader};
 use crate::script::read::read;
 use crate::script::source::SourceFile;
 
@@ -61,40 +60,22 @@ impl RuleBase {
 /// Runs on a thread with a stack for the deepest rule that is allowed.
 pub(crate) fn on_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     thread::scope(|scope| {
-        let handle = thread::Builder::new().name("rules".into()).stack_size(STACK_BYTES).spawn_scoped(scope, work);
-        match handle.map(thread::ScopedJoinHandle::join) {
-            Ok(Ok(result)) => result,
-            Ok(Err(panic)) => std::panic::resume_unwind(panic),
-            Err(error) => std::panic::panic_any(format!("the system gives no thread: {error}")),
-        }
+        let thread = thread::Builder::new().name("rules".into()).stack_size(STACK_BYTES);
+        let running = thread.spawn_scoped(scope, work).expect("the system has room for one thread more");
+        running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     })
 }
 
 fn read_all(files: &[SourceFile]) -> (Vec<Rule>, Vec<Diagnostic>) {
     let engine = reader();
-    let known = functions();
+    let known = function_names();
     let (mut rules, mut problems) = (vec![], vec![]);
     for file in files {
-        let (read, wrong) = read(file, &engine, known);
+        let (read, wrong) = read(file, engine, known);
         rules.extend(read);
         problems.extend(wrong);
     }
     (rules, problems)
-}
-
-/// The names of all functions that the interpreter has.
-pub(crate) fn functions() -> &'static BTreeSet<String> {
-    static NAMES: OnceLock<BTreeSet<String>> = OnceLock::new();
-    NAMES.get_or_init(|| {
-        let json = reader().gen_fn_metadata_to_json(true).unwrap_or_default();
-        let listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
-        let names = listed["functions"].as_array().into_iter().flatten();
-        let mut names: BTreeSet<String> =
-            names.filter_map(|function| function["name"].as_str()).map(str::to_owned).collect();
-        // Keywords that read as functions.
-        names.extend(["type_of", "is_shared", "Fn", "call", "curry", "is_def_var", "is_def_fn", "print", "debug"].map(str::to_owned));
-        names
-    })
 }
 
 fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
@@ -104,9 +85,13 @@ fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
         if let Some(first) = seen.get(rule.name()) {
             let place = rule.file.source.place(rule.position);
             problems.push(
-                Diagnostic::error(Code::DuplicateName, &place, format!("two rules are called \"{}\"", rule.name))
-                    .label("the second")
-                    .help(format!("the first is in {}, line {}", first.file(), first.line)),
+                Diagnostic::error(
+                    Code::DuplicateName,
+                    &place,
+                    format!("two rules are called \"{}\"", rule.name),
+                )
+                .label("the second")
+                .help(format!("the first is in {}, line {}", first.file(), first.line)),
             );
         } else {
             seen.insert(rule.name(), rule);
@@ -130,10 +115,10 @@ fn operators(rules: &[Rule]) -> Vec<Diagnostic> {
                 first.sign(),
                 other.name
             );
-            problems.push(
-                Diagnostic::error(Code::Operator, &rule.file.source.place(*position), message)
-                    .help("give one of them another level: each level starts from what the level below gave"),
-            );
+            problems
+                .push(Diagnostic::error(Code::Operator, &rule.file.source.place(*position), message).help(
+                    "give one of them another level: each level starts from what the level below gave",
+                ));
         }
     }
     problems

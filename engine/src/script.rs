@@ -3,5 +3,6 @@
 pub(crate) mod interpreter;
 pub(crate) mod names;
 pub(crate) mod read;
+mod resolve;
 pub(crate) mod source;
 pub(crate) mod syntax;

@@ -8,7 +8,7 @@ use rhai::Engine;
 
 use super::KnowledgeBase;
 use super::derived::{Done, Made};
-use crate::conclusions::{Conclusions, LeftOut, Waiting};
+use crate::conclusions::{Conclusions, Conflict, LeftOut, Waiting};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::machine::Machine;
 use crate::machine::output::Output;
@@ -39,7 +39,7 @@ impl KnowledgeBase {
         self.forget(base);
         for step in &base.order {
             match step {
-                Step::Rule(index) => self.rule(&base.rules[*index], &runner, until, &complete, &mut report),
+                Step::Rule(index) => self.rule(&base.rules[*index], runner, until, &complete, &mut report),
                 Step::Merge(name) => {
                     let done = self.merge(base, name);
                     complete.insert(name.clone(), done);
@@ -61,6 +61,12 @@ impl KnowledgeBase {
         self.done.retain(|name, done| versions.get(name.as_str()) == Some(&done.version.as_str()));
         let concluded = base.concluded();
         self.derived.retain(|name, _| concluded.contains(name) && self.held.contains_key(&name.class));
+        for (name, derived) in &mut self.derived {
+            let revised = |level| {
+                base.rules.iter().any(|rule| rule.level() == Some(level) && rule.sets.contains_key(name))
+            };
+            derived.layers.retain(|layer| revised(layer.level));
+        }
     }
 
     fn rule(
@@ -114,7 +120,8 @@ impl KnowledgeBase {
     }
 
     fn inputs(&self, rule: &Rule) -> Made {
-        let classes = rule.classes().map(|class| (class.to_owned(), self.held.get(class).map_or(0, |held| held.stamp)));
+        let classes =
+            rule.classes().map(|class| (class.to_owned(), self.held.get(class).map_or(0, |held| held.stamp)));
         let own = rule.level().and(rule.sets.keys().next());
         let properties = rule.reads.keys().chain(own).map(|name| {
             let stamp = self.view(name, below(rule, name)).map_or(0, |(_, stamp)| stamp);
@@ -170,12 +177,32 @@ impl KnowledgeBase {
         }
         for (name, derived) in &self.derived {
             report.diagnostics.extend(derived.problems.iter().cloned());
-            report.conflicts.extend(self.conflicts(name, derived));
+            let conflicts = self.conflicts(name, derived);
+            report
+                .diagnostics
+                .extend(conflicts.first().and_then(|first| disagreement(base, first, conflicts.len())));
+            report.conflicts.extend(conflicts);
             if complete.get(name) == Some(&true) {
                 report.gaps.extend(self.gap(base, name, derived));
             }
         }
     }
+}
+
+/// One message for all conflicts about a property.
+fn disagreement(base: &RuleBase, first: &Conflict, count: usize) -> Option<Diagnostic> {
+    let said: Vec<String> =
+        first.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
+    let (last, _) = first.values.last()?;
+    let rule = base.rules.iter().find(|rule| rule.name == *last)?;
+    let place = rule.file.source.place(*rule.sets.get(&first.property)?);
+    let (property, key) = (&first.property, &first.key);
+    let message = format!("rules disagree about {property} of {key}: {}", said.join(", "));
+    let others = if count == 1 { String::new() } else { format!(", as {} others", count - 1) };
+    let help = format!(
+        "{key} has no value of it now{others}; give one of the rules a `where` that keeps them apart"
+    );
+    Some(Diagnostic::error(Code::Conflict, &place, message).warning().help(help))
 }
 
 /// A revision reads its own property as the level below left it; everyone reads the last level.

@@ -31,7 +31,8 @@ impl KnowledgeBase {
     /// The objects without a value of a property that rules conclude.
     pub(super) fn gap(&self, base: &RuleBase, name: &PropertyName, derived: &Derived) -> Option<Gap> {
         let (column, _) = derived.view(None);
-        let rows: Vec<u32> = (0..column.len() as u32).filter(|&row| column.is_unknown(row as usize)).collect();
+        let rows: Vec<u32> =
+            (0..column.len() as u32).filter(|&row| column.is_unknown(row as usize)).collect();
         if rows.is_empty() || derived.writers.is_empty() {
             return None;
         }
@@ -72,7 +73,11 @@ fn reason(derived: &Derived, writers: &[(&Rule, BTreeMap<u32, Failure>)], row: u
         if let Some(failure) = failures.get(&row) {
             let variable = rule.clauses[failure.clause as usize].variable.clone();
             let rule = rule.name.clone();
-            return if failure.unknown > 0 { Reason::Undecided { rule, variable } } else { Reason::Unmet { rule, variable } };
+            return if failure.unknown > 0 {
+                Reason::Undecided { rule, variable }
+            } else {
+                Reason::Unmet { rule, variable }
+            };
         }
     }
     Reason::NoRule

@@ -94,7 +94,11 @@ impl KnowledgeBase {
 
     /// What the revisions of a level contribute, in an order that rests on names and keys alone: equal facts give
     /// equal bits, however rows and files are ordered.
-    fn contributions(&self, name: &PropertyName, rules: &[&Rule]) -> Vec<(crate::rule::Operator, usize, f64)> {
+    fn contributions(
+        &self,
+        name: &PropertyName,
+        rules: &[&Rule],
+    ) -> Vec<(crate::rule::Operator, usize, f64)> {
         let mut sorted: Vec<&&Rule> = rules.iter().collect();
         sorted.sort_by(|a, b| a.name.cmp(&b.name));
         let mut out = vec![];

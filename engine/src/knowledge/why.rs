@@ -18,9 +18,15 @@ impl KnowledgeBase {
         let key = key.to_owned();
         let Some(derived) = self.derived.get(&name) else {
             value.as_ref()?;
-            return Some(Justification { property: name, key, value, origin: Origin::Told, revisions: vec![] });
+            return Some(Justification {
+                property: name,
+                key,
+                value,
+                origin: Origin::Told,
+                revisions: vec![],
+            });
         };
-        let (writer, firing) = derived.origin[row];
+        let &(writer, firing) = derived.origin.get(row)?;
         let origin = if writer == NO_RULE {
             (!derived.merged.is_unknown(row)).then_some(Origin::Told)?
         } else {
@@ -40,14 +46,22 @@ impl KnowledgeBase {
             .origin
             .iter()
             .enumerate()
-            .map(|(row, &(writer, _))| (writer != NO_RULE && !derived.merged.is_unknown(row)).then_some(writer))
+            .map(|(row, &(writer, _))| {
+                (writer != NO_RULE && !derived.merged.is_unknown(row)).then_some(writer)
+            })
             .collect();
         Some(Justifications { rules, of_row })
     }
 
     /// For a property that rules conclude: the row that a variable of its rule stands for, for each object.
     /// `None` where another rule, or no rule, gave the value.
-    pub fn witness_rows(&self, rule: &Rule, class: &str, property: &str, variable: &str) -> Option<Vec<Option<u32>>> {
+    pub fn witness_rows(
+        &self,
+        rule: &Rule,
+        class: &str,
+        property: &str,
+        variable: &str,
+    ) -> Option<Vec<Option<u32>>> {
         let derived = self.derived.get(&PropertyName::new(class, property))?;
         let number = rule.clauses.iter().position(|clause| clause.variable == variable)?;
         let rows = self.done.get(rule.name())?.output.witnesses.get(number)?;

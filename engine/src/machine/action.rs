@@ -33,10 +33,8 @@ impl Written {
 
 impl Machine<'_> {
     pub(crate) fn act(&self, plan: &ActionPlan, frame: &Frame) -> Slots {
-        let mut slots = Slots {
-            values: vec![Values::UNKNOWN; plan.slots],
-            written: vec![Written::Nowhere; plan.slots],
-        };
+        let mut slots =
+            Slots { values: vec![Values::UNKNOWN; plan.slots], written: vec![Written::Nowhere; plan.slots] };
         self.steps(&plan.steps, &plan.targets, frame, None, &mut slots);
         slots
     }

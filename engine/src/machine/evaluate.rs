@@ -21,7 +21,7 @@ pub(crate) struct Batch<'b> {
     pub(crate) mask: Mask<'b>,
 }
 
-impl<'a> Machine<'a> {
+impl Machine<'_> {
     pub(crate) fn evaluate<'b>(&'b self, node: &Node, batch: Batch<'b>) -> Values<'b> {
         match node {
             Node::Unknown => Values::UNKNOWN,
@@ -97,7 +97,8 @@ impl<'a> Machine<'a> {
         let known = a.known();
         let len = batch.frame.len;
         let active = |index| batch.mask.is_none_or(|mask| mask[index]);
-        let missing: Vec<bool> = (0..len).map(|index| active(index) && known.at(index) == Truth::False).collect();
+        let missing: Vec<bool> =
+            (0..len).map(|index| active(index) && known.at(index) == Truth::False).collect();
         let b = self.evaluate(b, Batch { mask: Some(&missing), ..batch }).into_static();
         a.into_static().blend(b, len, |index| known.at(index) == Truth::False)
     }
@@ -129,9 +130,9 @@ impl<'a> Machine<'a> {
 
     fn compare_cells(&self, comparison: Comparison, a: Cell, b: Cell) -> Truth {
         match (a, b) {
-            (Cell::Number(a), Cell::Number(b)) => a.partial_cmp(&b).map_or(Truth::Unknown, |order| {
-                holds(comparison, order).into()
-            }),
+            (Cell::Number(a), Cell::Number(b)) => {
+                a.partial_cmp(&b).map_or(Truth::Unknown, |order| holds(comparison, order).into())
+            }
             (Cell::Text(a), Cell::Text(b)) => {
                 let symbols = self.symbols.borrow();
                 holds(comparison, symbols.text(a).cmp(&symbols.text(b))).into()
@@ -171,9 +172,9 @@ fn gather_lane<'b, T: Copy>(values: &'b [T], rows: &Rows, len: usize, unknown: T
         Rows::Unbound => Lane::Same(unknown),
         Rows::Same(row) => Lane::Same(values.get(*row as usize).copied().unwrap_or(unknown)),
         Rows::From(first) => Lane::Each(Cow::Borrowed(&values[*first as usize..*first as usize + len])),
-        Rows::Each(rows) => Lane::Each(
-            rows.iter().map(|&row| values.get(row as usize).copied().unwrap_or(unknown)).collect(),
-        ),
+        Rows::Each(rows) => {
+            Lane::Each(rows.iter().map(|&row| values.get(row as usize).copied().unwrap_or(unknown)).collect())
+        }
     }
 }
 
@@ -203,6 +204,8 @@ fn apply(function: Function, a: &Lane<f64>) -> Lane<'static, f64> {
     }
 }
 
+// Rules mean equality to the bit.
+#[allow(clippy::float_cmp)]
 fn numbers(comparison: Comparison, a: &Lane<f64>, b: &Lane<f64>) -> Lane<'static, Truth> {
     fn with(a: &Lane<f64>, b: &Lane<f64>, test: impl Fn(f64, f64) -> bool) -> Lane<'static, Truth> {
         a.zip(b, |a, b| {

@@ -17,7 +17,7 @@ impl Machine<'_> {
             .map(|index| {
                 let active = batch.mask.is_none_or(|mask| mask[index]);
                 let mut scope = self.scope(fragment, batch, index).filter(|_| active)?;
-                self.run(fragment, &mut scope).map(|result| self.cell(result, fragment))
+                self.run(fragment, &mut scope).map(|result| self.cell(&result, fragment))
             })
             .map(|cell| cell.unwrap_or(Cell::Unknown))
             .collect()
@@ -43,7 +43,7 @@ impl Machine<'_> {
             let object = scope.get(name)?.as_map_ref().ok()?;
             let value = object.get(target.name.property.as_str())?.clone();
             drop(object);
-            Some(self.cell(value, fragment))
+            Some(self.cell(&value, fragment))
         };
         targets.iter().map(set).collect()
     }
@@ -64,10 +64,9 @@ impl Machine<'_> {
 
     fn failed(&self, fragment: &Fragment, error: &EvalAltResult) {
         self.troubles.set(self.troubles.get() + 1);
-        let limit = matches!(
-            error,
-            EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_)
-        );
+        let cause = error.unwrap_inner();
+        let limit =
+            matches!(cause, EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_));
         if limit {
             self.stopped.set(true);
         }
@@ -75,10 +74,10 @@ impl Machine<'_> {
         let position = if position.is_none() { fragment.position } else { position };
         let place = self.rule.file.source.place(position);
         let code = if limit { Code::Deadline } else { Code::Evaluation };
-        let reason = match error {
+        let reason = match cause {
             EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
             EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
-            other => other.to_string(),
+            _ => error.to_string(),
         };
         let message = format!("rule \"{}\": {reason}", self.rule.name);
         self.trouble.borrow_mut().get_or_insert_with(|| Diagnostic::error(code, &place, message));
@@ -127,7 +126,7 @@ impl Machine<'_> {
         })
     }
 
-    fn cell(&self, value: Dynamic, fragment: &Fragment) -> Cell {
+    fn cell(&self, value: &Dynamic, fragment: &Fragment) -> Cell {
         let kind = value.type_name();
         if let Ok(number) = value.as_float() {
             Cell::number(number)
@@ -141,7 +140,8 @@ impl Machine<'_> {
             Cell::Text(self.symbols.borrow_mut().intern(&value.to_string()))
         } else {
             let place = self.rule.file.source.place(fragment.position);
-            let message = format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
+            let message =
+                format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
             self.troubles.set(self.troubles.get() + 1);
             let problem = Diagnostic::error(Code::Evaluation, &place, message);
             self.trouble.borrow_mut().get_or_insert(problem);

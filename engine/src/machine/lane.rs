@@ -31,7 +31,9 @@ impl<T: Copy> Lane<'_, T> {
             (Self::Same(a), Lane::Same(b)) => Lane::Same(f(*a, *b)),
             (Self::Same(a), Lane::Each(b)) => Lane::Each(b.iter().map(|&b| f(*a, b)).collect()),
             (Self::Each(a), Lane::Same(b)) => Lane::Each(a.iter().map(|&a| f(a, *b)).collect()),
-            (Self::Each(a), Lane::Each(b)) => Lane::Each(a.iter().zip(b.iter()).map(|(&a, &b)| f(a, b)).collect()),
+            (Self::Each(a), Lane::Each(b)) => {
+                Lane::Each(a.iter().zip(b.iter()).map(|(&a, &b)| f(a, b)).collect())
+            }
         }
     }
 

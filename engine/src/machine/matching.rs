@@ -54,7 +54,12 @@ impl Found {
 }
 
 impl Search<'_> {
-    pub(crate) fn witnesses(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Found, Stopped> {
+    pub(crate) fn witnesses(
+        &self,
+        number: usize,
+        clause: &ClausePlan,
+        frame: &Frame,
+    ) -> Result<Found, Stopped> {
         let mut found = Found::new(clause, frame.len);
         let candidates = &self.candidates[number];
         if candidates.index.is_some() {

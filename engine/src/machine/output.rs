@@ -48,7 +48,13 @@ pub(crate) struct Output {
 impl Output {
     pub(crate) fn given(&mut self, name: &PropertyName) -> &mut Given {
         let at = self.given.iter().position(|given| given.name == *name).unwrap_or_else(|| {
-            self.given.push(Given { name: name.clone(), kind: None, rows: vec![], firings: vec![], cells: vec![] });
+            self.given.push(Given {
+                name: name.clone(),
+                kind: None,
+                rows: vec![],
+                firings: vec![],
+                cells: vec![],
+            });
             self.given.len() - 1
         });
         &mut self.given[at]

@@ -46,9 +46,16 @@ pub(crate) fn search(machine: &Machine, plan: &Plan, sizes: &[usize]) -> Output 
     output.problems = machine.troubles.get();
     if stopped.is_err() || machine.stopped.get() {
         let place = machine.rule.file.source.place(machine.rule.position);
-        let message = format!("rule \"{}\" was stopped: it did more, or took longer, than a rule may", machine.rule.name);
+        let message = format!(
+            "rule \"{}\" was stopped: it did more, or took longer, than a rule may",
+            machine.rule.name
+        );
         let stopped = Diagnostic::error(Code::Deadline, &place, message);
-        return Output { problem: output.problem.or(Some(stopped)), problems: output.problems.max(1), ..Output::default() };
+        return Output {
+            problem: output.problem.or(Some(stopped)),
+            problems: output.problems.max(1),
+            ..Output::default()
+        };
     }
     output
 }
@@ -76,7 +83,7 @@ impl<'s> Search<'s> {
             let mut rows: Vec<u32> = (0..size as u32).collect();
             let mut unknown = 0;
             if let Some(own) = &clause.own {
-                rows = self.keep(number, rows, |machine, batch, keep| {
+                rows = self.keep(number, &rows, |machine, batch, keep| {
                     let truths = machine.evaluate(own, batch).truths();
                     (0..batch.frame.len).for_each(|index| {
                         let truth = truths.at(index);
@@ -87,7 +94,7 @@ impl<'s> Search<'s> {
             }
             if let (Some(by), true) = (&clause.by, clause.by_own) {
                 let mut values: Vec<f64> = vec![];
-                rows = self.keep(number, rows, |machine, batch, keep| {
+                rows = self.keep(number, &rows, |machine, batch, keep| {
                     let numbers = machine.evaluate(by, batch).numbers();
                     for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
                         keep.push(!number.is_nan());
@@ -108,7 +115,8 @@ impl<'s> Search<'s> {
             }
             let all = rows.iter().zip(0..).all(|(&row, nth)| row == nth);
             let index = (!clause.joins.is_empty()).then(|| {
-                let columns: Vec<_> = clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
+                let columns: Vec<_> =
+                    clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
                 Index::new(&columns, rows.iter().copied())
             });
             self.candidates.push(Candidates { rows, all, index });
@@ -120,7 +128,7 @@ impl<'s> Search<'s> {
     fn keep(
         &self,
         variable: usize,
-        rows: Vec<u32>,
+        rows: &[u32],
         mut test: impl FnMut(&Machine, Batch, &mut Vec<bool>),
     ) -> Result<Vec<u32>, Stopped> {
         let mut kept = vec![];
@@ -149,7 +157,11 @@ impl<'s> Search<'s> {
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
-            self.fail(number, &frame.select(&failing), failing.iter().map(|&index| found.unknown[index as usize]))?;
+            self.fail(
+                number,
+                &frame.select(&failing),
+                failing.iter().map(|&index| found.unknown[index as usize]),
+            )?;
         }
         if passing.is_empty() {
             return Ok(());
@@ -240,16 +252,14 @@ impl<'s> Search<'s> {
         unknown: impl Iterator<Item = u32>,
     ) -> Result<(), Stopped> {
         let plan = self.plan;
-        match &plan.effect {
-            Effect::Conclude { otherwise: Some(action), .. } => self.conclude(action, frame),
-            _ => {
-                for (index, unknown) in unknown.enumerate() {
-                    let row = frame.rows[0].at(index);
-                    self.output.failures.push(Failure { row, clause: number as u32, unknown });
-                }
-                Ok(())
-            }
+        if let Effect::Conclude { otherwise: Some(action), .. } = &plan.effect {
+            return self.conclude(action, frame);
         }
+        for (index, unknown) in unknown.enumerate() {
+            let row = frame.rows[0].at(index);
+            self.output.failures.push(Failure { row, clause: number as u32, unknown });
+        }
+        Ok(())
     }
 
     fn fire(&mut self, frame: &Frame) -> Result<(), Stopped> {

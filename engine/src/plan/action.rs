@@ -189,19 +189,16 @@ fn set(
         (Some(wanted), None) => (Node::Narrow(wanted, Box::new(value)), Some(wanted)),
         (_, kind) => (value, kind),
     };
-    let slot = match earlier {
-        Some(earlier) => {
-            let target = &mut plan.targets[earlier];
-            if target.kind != kind {
-                return Err(Stop::Interpret);
-            }
-            target.slot
+    let slot = if let Some(earlier) = earlier {
+        let target = &plan.targets[earlier];
+        if target.kind != kind {
+            return Err(Stop::Interpret);
         }
-        None => {
-            let slot = slot(lowering);
-            plan.targets.push(Target { variable: index, name, slot, kind });
-            slot
-        }
+        target.slot
+    } else {
+        let slot = slot(lowering);
+        plan.targets.push(Target { variable: index, name, slot, kind });
+        slot
     };
     out.push(Step::Put { slot, value });
     if top {
@@ -240,7 +237,11 @@ fn interpreted(lowering: &mut Lowering, block: &StmtBlock) -> Result<ActionPlan,
 }
 
 /// A revision needs a property that holds numbers.
-pub(crate) fn check_revised(lowering: &mut Lowering, (variable, property): &(usize, String), position: Position) {
+pub(crate) fn check_revised(
+    lowering: &mut Lowering,
+    (variable, property): &(usize, String),
+    position: Position,
+) {
     let name = lowering.rule.clauses[*variable].variable.clone();
     if let Ok((_, Some(kind))) = lowering.property(&name, property, position)
         && kind != Type::Number

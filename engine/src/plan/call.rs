@@ -9,7 +9,12 @@ use crate::value::Type;
 
 impl Lowering<'_> {
     /// A call by name; operators are calls too.
-    pub(crate) fn call(&mut self, name: &str, arguments: &[&Expr], position: Position) -> Result<Typed, Stop> {
+    pub(crate) fn call(
+        &mut self,
+        name: &str,
+        arguments: &[&Expr],
+        position: Position,
+    ) -> Result<Typed, Stop> {
         if self.rule.file.function_names.contains(&(name.to_owned(), arguments.len())) {
             return Err(Stop::Interpret);
         }

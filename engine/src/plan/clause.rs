@@ -75,8 +75,12 @@ fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
 fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
     let free = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
     match (a, b) {
-        (Node::Property { variable, column }, key) if variable == index && free(&key) => Ok(Join { column, key }),
-        (key, Node::Property { variable, column }) if variable == index && free(&key) => Ok(Join { column, key }),
+        (Node::Property { variable, column }, key) if variable == index && free(&key) => {
+            Ok(Join { column, key })
+        }
+        (key, Node::Property { variable, column }) if variable == index && free(&key) => {
+            Ok(Join { column, key })
+        }
         other => Err(other),
     }
 }

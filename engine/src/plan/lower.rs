@@ -77,7 +77,12 @@ impl<'r> Lowering<'r> {
         self.variables.iter().position(|variable| variable == name)
     }
 
-    pub(crate) fn problem(&mut self, code: Code, position: Position, message: impl Into<String>) -> &mut Diagnostic {
+    pub(crate) fn problem(
+        &mut self,
+        code: Code,
+        position: Position,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
         let place = self.rule.file.source.place(position);
         self.problems.push(Diagnostic::error(code, &place, message));
         let last = self.problems.len() - 1;
@@ -118,7 +123,7 @@ impl<'r> Lowering<'r> {
                     _ => return Err(Stop::Interpret),
                 },
             },
-            Expr::And(parts, _) => (Node::And(self.truths(parts)?), Some(Type::Truth)),
+            Expr::And(parts, _) => (Node::And(flat(self.truths(parts)?)), Some(Type::Truth)),
             Expr::Or(parts, _) => (Node::Or(self.truths(parts)?), Some(Type::Truth)),
             Expr::Coalesce(parts, position) => self.coalesce(parts, *position)?,
             Expr::FnCall(call, position) if !call.is_qualified() => {
@@ -135,11 +140,7 @@ impl<'r> Lowering<'r> {
         let mut nodes = vec![];
         for part in parts {
             let typed = self.lower(part)?;
-            // `a && b && c` is one condition of three parts.
-            match self.narrow(typed, Type::Truth, part.start_position())? {
-                Node::And(inner) if matches!(part, Expr::And(..)) => nodes.extend(inner),
-                node => nodes.push(node),
-            }
+            nodes.push(self.narrow(typed, Type::Truth, part.start_position())?);
         }
         Ok(nodes)
     }
@@ -202,19 +203,20 @@ impl<'r> Lowering<'r> {
                 Constant::Cell(_) => (Node::Unknown, None),
             });
         }
-        match self.own {
-            Some(own) => {
-                let variable = self.variables[own].clone();
-                self.property(&variable, name, position)
-            }
-            None => {
-                self.problem(Code::UnknownVariable, position, format!("nothing here is called `{name}`"));
-                Err(Stop::Wrong)
-            }
+        if let Some(own) = self.own {
+            let variable = self.variables[own].clone();
+            return self.property(&variable, name, position);
         }
+        self.problem(Code::UnknownVariable, position, format!("nothing here is called `{name}`"));
+        Err(Stop::Wrong)
     }
 
-    pub(crate) fn property(&mut self, variable: &str, property: &str, position: Position) -> Result<Typed, Stop> {
+    pub(crate) fn property(
+        &mut self,
+        variable: &str,
+        property: &str,
+        position: Position,
+    ) -> Result<Typed, Stop> {
         let Some(index) = self.variable(variable) else { return Err(Stop::Interpret) };
         if let Some(&(slot, kind)) = self.certain.get(&(index, property.to_owned())) {
             return Ok((Node::Local(slot), kind));
@@ -241,11 +243,17 @@ impl<'r> Lowering<'r> {
     }
 
     /// The node where this type is wanted.
-    pub(crate) fn narrow(&mut self, (node, kind): Typed, wanted: Type, position: Position) -> Result<Node, Stop> {
+    pub(crate) fn narrow(
+        &mut self,
+        (node, kind): Typed,
+        wanted: Type,
+        position: Position,
+    ) -> Result<Node, Stop> {
         match kind {
             Some(kind) if kind == wanted => Ok(node),
             Some(kind) => {
-                let message = format!("{} are wanted here, and this gives {}", wanted.plural(), kind.plural());
+                let message =
+                    format!("{} are wanted here, and this gives {}", wanted.plural(), kind.plural());
                 self.problem(Code::Type, position, message);
                 Err(Stop::Wrong)
             }
@@ -350,6 +358,12 @@ impl<'r> Lowering<'r> {
     fn is_given(&self, name: &str) -> bool {
         self.rule.file.constants.contains_key(name) || self.locals.iter().any(|local| local.name == name)
     }
+}
+
+/// `(a && b) && c` is one condition of three parts.
+fn flat(parts: Vec<Node>) -> Vec<Node> {
+    let inner = |part| if let Node::And(inner) = part { inner } else { vec![part] };
+    parts.into_iter().flat_map(inner).collect()
 }
 
 fn dynamic(constant: &Constant) -> Dynamic {

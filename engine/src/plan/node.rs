@@ -47,7 +47,10 @@ pub(crate) enum Node {
     Text(Symbol),
     Truth(Truth),
     /// Variable and column by number.
-    Property { variable: usize, column: usize },
+    Property {
+        variable: usize,
+        column: usize,
+    },
     /// What a `let`, or a property set before, holds.
     Local(usize),
     Arithmetic(Arithmetic, Box<Self>, Box<Self>),
@@ -74,9 +77,10 @@ impl Node {
         match self {
             Self::Unknown | Self::Number(_) | Self::Text(_) | Self::Truth(_) | Self::Local(_) => 0,
             Self::Property { variable, .. } => 1 << variable,
-            Self::Arithmetic(_, a, b) | Self::Compare(_, a, b) | Self::Concat(a, b) | Self::Coalesce(a, b) => {
-                a.variables() | b.variables()
-            }
+            Self::Arithmetic(_, a, b)
+            | Self::Compare(_, a, b)
+            | Self::Concat(a, b)
+            | Self::Coalesce(a, b) => a.variables() | b.variables(),
             Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.variables(),
             Self::And(parts) | Self::Or(parts) => parts.iter().fold(0, |bits, part| bits | part.variables()),
             Self::Choose(a, b, c) => a.variables() | b.variables() | c.variables(),
@@ -88,9 +92,10 @@ impl Node {
     pub(crate) fn interprets(&self) -> bool {
         match self {
             Self::Interpret(_) => true,
-            Self::Arithmetic(_, a, b) | Self::Compare(_, a, b) | Self::Concat(a, b) | Self::Coalesce(a, b) => {
-                a.interprets() || b.interprets()
-            }
+            Self::Arithmetic(_, a, b)
+            | Self::Compare(_, a, b)
+            | Self::Concat(a, b)
+            | Self::Coalesce(a, b) => a.interprets() || b.interprets(),
             Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.interprets(),
             Self::And(parts) | Self::Or(parts) => parts.iter().any(Self::interprets),
             Self::Choose(a, b, c) => a.interprets() || b.interprets() || c.interprets(),

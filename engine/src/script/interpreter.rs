@@ -1,10 +1,13 @@
 //! The one place where a rhai engine is made, with every limit set.
 
 use std::cell::Cell;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 use rhai::packages::{
-    BasicArrayPackage, BasicMapPackage, BasicMathPackage, CorePackage, LogicPackage, MoreStringPackage, Package,
+    BasicArrayPackage, BasicMapPackage, BasicMathPackage, CorePackage, LogicPackage, MoreStringPackage,
+    Package,
 };
 use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, OptimizationLevel};
 
@@ -49,24 +52,45 @@ fn on_step() -> Option<Dynamic> {
     if steps > MAX_STEPS {
         return Some("more steps than a rule may take".into());
     }
-    let late = steps % 64 == 0 && DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline);
+    let late = steps.is_multiple_of(64) && DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline);
     late.then(|| "longer than a rule may take".into())
 }
 
 /// For reading files: knows the rule syntax.
-pub(crate) fn reader() -> Engine {
-    let mut engine = bare();
-    // Each rule leaves a marker among the variables of the file.
-    engine.set_max_variables(100_000);
-    syntax::register(&mut engine);
-    engine
+pub(crate) fn reader() -> &'static Engine {
+    static READER: OnceLock<Engine> = OnceLock::new();
+    READER.get_or_init(|| {
+        let mut engine = bare();
+        // Each rule leaves a marker among the variables of the file.
+        engine.set_max_variables(100_000);
+        syntax::register(&mut engine);
+        engine
+    })
 }
 
 /// For running what cannot be compiled.
-pub(crate) fn runner() -> Engine {
-    let mut engine = bare();
-    engine.set_max_variables(MAX_VARIABLES);
-    engine
+pub(crate) fn runner() -> &'static Engine {
+    static RUNNER: OnceLock<Engine> = OnceLock::new();
+    RUNNER.get_or_init(|| {
+        let mut engine = bare();
+        engine.set_max_variables(MAX_VARIABLES);
+        engine
+    })
+}
+
+/// The names of all functions that rules may call.
+pub(crate) fn function_names() -> &'static BTreeSet<String> {
+    static NAMES: OnceLock<BTreeSet<String>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let json = runner().gen_fn_metadata_to_json(true).unwrap_or_default();
+        let listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
+        let functions = listed["functions"].as_array().into_iter().flatten();
+        let names = functions.filter_map(|function| function["name"].as_str());
+        // Keywords that read as functions.
+        let keywords =
+            ["type_of", "is_shared", "Fn", "call", "curry", "is_def_var", "is_def_fn", "print", "debug"];
+        names.chain(keywords).map(str::to_owned).collect()
+    })
 }
 
 fn bare() -> Engine {
@@ -148,6 +172,23 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { rule: Duration::from_secs(10), inference: Duration::from_secs(60) }
+        Self { rule: Duration::from_secs(10), inference: Duration::from_mins(1) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An update of rhai must not bring a function that nobody has looked at.
+    /// `BLESS=1 cargo test -p adit-engine allowed` writes the list anew.
+    #[test]
+    fn the_functions_are_those_of_the_allowed_list() {
+        let now: String = function_names().iter().flat_map(|name| [name, "\n"]).collect();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/script/allowed_functions.txt");
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(path, &now).unwrap();
+        }
+        assert_eq!(std::fs::read_to_string(path).unwrap_or_default(), now);
     }
 }

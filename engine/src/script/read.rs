@@ -3,18 +3,22 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt, StmtBlock};
+use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt};
 
-use super::names::{Names, Patterns, property_of};
+use super::names::property_of;
+use super::resolve::resolve;
 use super::source::{MAX_FILE_BYTES, SourceFile};
-use super::syntax::{Quantifier, Shape, Slot};
+use super::syntax::{Shape, Slot};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, Clause, Constant, FileScope, Operator, PropertyName, Rule};
-use crate::suggest::nearest;
+use crate::rule::{Action, Clause, Constant, FileScope, Operator, Rule};
 use crate::value::Cell;
 
 /// The rules of a file, and all that is wrong with it. Reading stops at the first error of syntax.
-pub(crate) fn read(source: &SourceFile, reader: &Engine, known: &BTreeSet<String>) -> (Vec<Rule>, Vec<Diagnostic>) {
+pub(crate) fn read(
+    source: &SourceFile,
+    reader: &Engine,
+    known: &BTreeSet<String>,
+) -> (Vec<Rule>, Vec<Diagnostic>) {
     if source.text().len() > MAX_FILE_BYTES {
         let place = source.place(Position::START);
         let message = format!(
@@ -59,6 +63,9 @@ pub(crate) fn read(source: &SourceFile, reader: &Engine, known: &BTreeSet<String
 
 fn syntax_message(error: &ParseErrorType) -> String {
     match error {
+        ParseErrorType::Reserved(word) => {
+            format!("`{word}` is a reserved word of the script language; use another name")
+        }
         ParseErrorType::BadInput(error) => match error {
             rhai::LexError::ImproperSymbol(_, message) if !message.is_empty() => message.clone(),
             other => other.to_string(),
@@ -163,7 +170,9 @@ fn item_texts(source: &SourceFile, items: &[Item]) -> Vec<(usize, usize)> {
         .iter()
         .zip(next)
         .zip(items)
-        .map(|((&start, next), item)| (start, start + without_trailing_comments(&text[start..end(item, next)])))
+        .map(|((&start, next), item)| {
+            (start, start + without_trailing_comments(&text[start..end(item, next)]))
+        })
         .collect()
 }
 
@@ -221,8 +230,9 @@ fn clauses(item: &Item) -> Vec<Clause> {
     let mut clauses: Vec<Clause> = vec![];
     for (slot, input) in &item.inputs {
         match (slot, input) {
-            (Slot::Variable(quantifier), Expr::Variable(variable, ..)) => clauses.push(Clause {
+            (Slot::Variable(quantifier), Expr::Variable(variable, _, position)) => clauses.push(Clause {
                 quantifier: *quantifier,
+                position: *position,
                 variable: variable.1.to_string(),
                 class: String::new(),
                 class_position: Position::NONE,
@@ -235,9 +245,15 @@ fn clauses(item: &Item) -> Vec<Clause> {
                     clause.class_position = *position;
                 }
             }
-            (Slot::By, by) => clauses.iter_mut().last().into_iter().for_each(|clause| clause.by = Some((*by).clone())),
+            (Slot::By, by) => {
+                clauses.iter_mut().last().into_iter().for_each(|clause| clause.by = Some((*by).clone()));
+            }
             (Slot::Where, condition) => {
-                clauses.iter_mut().last().into_iter().for_each(|clause| clause.condition = Some((*condition).clone()));
+                clauses
+                    .iter_mut()
+                    .last()
+                    .into_iter()
+                    .for_each(|clause| clause.condition = Some((*condition).clone()));
             }
             _ => {}
         }
@@ -245,10 +261,15 @@ fn clauses(item: &Item) -> Vec<Clause> {
     clauses
 }
 
-fn action(item: &Item, clauses: &[Clause], file: &FileScope, problems: &mut Vec<Diagnostic>) -> Option<Action> {
+fn action(
+    item: &Item,
+    clauses: &[Clause],
+    file: &FileScope,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<Action> {
     let block = |wanted: Slot| {
         item.inputs.iter().find_map(|(slot, input)| match input {
-            Expr::Stmt(block) if *slot == wanted => Some(StmtBlock::clone(block)),
+            Expr::Stmt(block) if *slot == wanted => Some(block.clone()),
             _ => None,
         })
     };
@@ -279,105 +300,13 @@ fn action(item: &Item, clauses: &[Clause], file: &FileScope, problems: &mut Vec<
         Some(Expr::IntegerConstant(level, _)) => *level,
         _ => 0,
     };
-    Some(Action::Revise { target: (index, property), operator, amount: input(Slot::Amount)?.clone(), level, position })
-}
-
-/// Finds what the rule reads and sets, reports names that mean nothing, and tells whether the rule uses
-/// constants or functions of its file.
-fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut Vec<Diagnostic>) -> bool {
-    let file = Arc::clone(&rule.file);
-    let error = |code, position, message: String| Diagnostic::error(code, &file.source.place(position), message);
-    let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
-    for (index, clause) in rule.clauses.iter().enumerate() {
-        if variables[..index].contains(&clause.variable) {
-            let message = format!("the variable `{}` is bound twice", clause.variable);
-            problems.push(error(Code::UnknownVariable, clause.class_position, message));
-        }
-    }
-    let mut names = Names::default();
-    for (index, clause) in rule.clauses.iter().enumerate() {
-        let mut seen = Names::default();
-        let patterns = Patterns(&variables[..=index]);
-        if let Some(by) = &clause.by {
-            let mut constants = Names::default();
-            constants.expression(by, &patterns, Some(index));
-            constants.reads.retain(|(_, property), _| !file.constants.contains_key(property));
-            merge(&mut seen, constants);
-        }
-        if let Some(condition) = &clause.condition {
-            seen.expression(condition, &patterns, None);
-        }
-        merge(&mut names, seen);
-    }
-    let witnesses: Vec<String> = rule
-        .clauses
-        .iter()
-        .map(|clause| if clause.quantifier == Quantifier::None { String::new() } else { clause.variable.clone() })
-        .collect();
-    let patterns = Patterns(&witnesses);
-    match &rule.action {
-        Action::Conclude { then, otherwise } => {
-            names.block(then, &patterns);
-            otherwise.iter().for_each(|block| names.block(block, &patterns));
-        }
-        Action::Revise { target, amount, position, .. } => {
-            names.expression(amount, &patterns, None);
-            names.sets.insert(target.clone(), *position);
-        }
-    }
-    let place = |(index, property): &(usize, String)| PropertyName::new(&rule.clauses[*index].class, property);
-    rule.reads = names.reads.iter().map(|(used, position)| (place(used), *position)).collect();
-    rule.sets = names.sets.iter().map(|(used, position)| (place(used), *position)).collect();
-    let mut shared = false;
-    for (name, position) in &names.free {
-        if file.constants.contains_key(name) {
-            shared = true;
-            continue;
-        }
-        let candidates = variables.iter().chain(file.constants.keys()).map(String::as_str);
-        let mut problem = error(Code::UnknownVariable, *position, format!("nothing here is called `{name}`"));
-        problem = problem.did_you_mean(nearest(name, candidates));
-        if rule.clauses.iter().any(|clause| clause.quantifier == Quantifier::None && clause.variable == *name) {
-            problem = problem.help(format!("`none {name}` binds nothing: there is no such object"));
-        }
-        problems.push(problem);
-    }
-    for (name, position) in &names.whole {
-        let message = format!("`{name}` is an object; name one of its properties, as in `{name}.width`");
-        problems.push(error(Code::Type, *position, message));
-    }
-    for (name, position) in &names.updates {
-        let message = format!("`{name}` is concluded once, with `=`");
-        problems.push(error(Code::Assignment, *position, message).help("a `revise` changes what others concluded"));
-    }
-    for position in &names.misplaced {
-        let message = "only a property of an object can be set, as in `door.hardness = 1.0`";
-        problems.push(error(Code::Assignment, *position, message.to_owned()));
-    }
-    for position in &names.nested {
-        problems.push(error(Code::Syntax, *position, "a rule cannot stand inside another".to_owned()));
-    }
-    for (name, count, position) in &names.calls {
-        if file.function_names.contains(&(name.clone(), *count)) {
-            shared = true;
-        } else if !known.contains(name) {
-            let own = file.function_names.iter().map(|(name, _)| name.as_str());
-            let meant = nearest(name, own.chain(known.iter().map(String::as_str)));
-            let message = format!("there is no function `{name}`");
-            problems.push(error(Code::UnknownFunction, *position, message).did_you_mean(meant));
-        }
-    }
-    shared
-}
-
-fn merge(into: &mut Names, from: Names) {
-    from.reads.into_iter().for_each(|(used, position)| {
-        into.reads.entry(used).or_insert(position);
-    });
-    into.free.extend(from.free);
-    into.whole.extend(from.whole);
-    into.calls.extend(from.calls);
-    into.nested.extend(from.nested);
+    Some(Action::Revise {
+        target: (index, property),
+        operator,
+        amount: input(Slot::Amount)?.clone(),
+        level,
+        position,
+    })
 }
 
 /// FNV-1a, 64 bits, folded to 32: eight hexadecimal digits.
@@ -387,4 +316,3 @@ fn version(text: &str, shared: &str) -> String {
     });
     format!("{:08x}", (hash >> 32) ^ (hash & 0xffff_ffff))
 }
-

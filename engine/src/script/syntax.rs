@@ -86,6 +86,9 @@ pub(crate) struct Shape {
     clause: Option<Quantifier>,
 }
 
+/// How rhai shows the end of the file.
+const END: &str = "{EOF}";
+
 type Next = Result<Option<ImmutableString>, ParseError>;
 
 /// Teaches an engine the rule syntax.
@@ -112,6 +115,13 @@ pub(crate) fn register(engine: &mut Engine) {
 
 impl Shape {
     fn next(&mut self, ahead: &str) -> Next {
+        // What is no token comes as the reader's complaint about it.
+        if ahead.starts_with("Unexpected ") {
+            return wrong(format!("{ahead}: names have letters a to z, digits and _ only"));
+        }
+        if ahead.contains("not terminated") {
+            return wrong("this text is not closed by a double quote on its line".into());
+        }
         match self.at {
             At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
             At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
@@ -162,7 +172,9 @@ impl Shape {
         let ranked = matches!(self.clause, Some(Quantifier::Least | Quantifier::Most));
         match ahead {
             "by" if ranked && !by => self.word("by", At::By),
-            "where" if ranked && !by => wrong("`by` and what to compare belong before `where`".into()),
+            "where" if ranked && !by => {
+                wrong("what to compare belongs before `where`, as in `by hardness where ...`".into())
+            }
             "where" if !condition => self.word("where", At::Where),
             _ if ranked && !by => {
                 wrong("`least` and `most` need `by` and what to compare, as in `by hardness`".into())
@@ -188,16 +200,18 @@ impl Shape {
         }
         let words = ["each", "least", "most", "some", "none", "where", "by", end];
         let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
-        let found = if ahead.is_empty() { "the end of the file".to_owned() } else { format!("`{ahead}`") };
+        let found = if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") };
         wrong(format!("another clause or `{end}` belongs here, not {found}{meant}"))
     }
 
+    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
     fn input(&mut self, slot: Slot, at: At, marker: &'static str) -> Next {
         self.slots.push(slot);
         self.at = at;
         Ok(Some(marker.into()))
     }
 
+    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
     fn word(&mut self, word: &'static str, at: At) -> Next {
         self.at = at;
         Ok(Some(word.into()))

@@ -1,6 +1,6 @@
 //! Rules that disagree.
 
-use adit_engine::{Class, Reason, Value};
+use adit_engine::{Class, Code, Reason, Severity, Value};
 
 use crate::support::{concluded, number, things};
 
@@ -17,6 +17,12 @@ fn two_values_for_one_property_are_a_conflict_and_no_value() {
     let said: Vec<(&str, Value)> =
         conflict.values.iter().map(|(rule, value)| (rule.as_str(), value.clone())).collect();
     assert_eq!(said, [("short", "short".into()), ("light", "light".into())]);
+    let [problem] = report.diagnostics.as_slice() else { panic!("{:?}", report.diagnostics) };
+    assert_eq!((problem.code, problem.severity, problem.line), (Code::Conflict, Severity::Warning, 3));
+    assert_eq!(
+        problem.message,
+        r#"rules disagree about THINGS.label of 1: "short" says short, "light" says light"#
+    );
     assert_eq!(base.value("THINGS", "1", "label"), None);
     assert_eq!(base.value("THINGS", "2", "label"), Some("short".into()));
     let gap = report.gaps.iter().find(|gap| gap.property.property == "label").unwrap();

@@ -33,7 +33,11 @@ fn a_told_value_says_so_and_a_revised_one_says_by_what() {
     let why = |key: &str, property: &str| base.why(&rules(RULE), "THINGS", key, property).unwrap();
     assert_eq!(why("1", "thing").to_string(), "THINGS 1 thing is 1, as told");
     assert_eq!(why("1", "size").to_string(), "THINGS 1 size is 6, as told");
-    assert!(why("2", "size").to_string().starts_with("THINGS 2 size is 14, as told; revised * 2 by rule \"more\""));
+    assert!(
+        why("2", "size")
+            .to_string()
+            .starts_with("THINGS 2 size is 14, as told; revised * 2 by rule \"more\"")
+    );
 }
 
 #[test]
@@ -49,8 +53,7 @@ fn a_whole_column_of_justifications_is_numbers() {
 
 #[test]
 fn objects_that_got_nothing_are_listed_with_the_reason() {
-    let (_, report) =
-        concluded(RULE, [robots(), things("size", &[Some(-1.0), None, Some(6.0), Some(-2.0)])]);
+    let (_, report) = concluded(RULE, [robots(), things("size", &[Some(-1.0), None, Some(6.0), Some(-2.0)])]);
     let gap = &report.gaps[0];
     assert_eq!((gap.property.to_string().as_str(), gap.rows.as_slice()), ("THINGS.state", &[0, 1, 3][..]));
     let (rule, variable) = ("who fits".to_owned(), "s".to_owned());

@@ -62,7 +62,10 @@ fn truths() -> impl Strategy<Value = String> + Clone {
     })
 }
 
-fn class(rows: &[(Option<f64>, Option<f64>, Option<&str>, Option<bool>)]) -> Class {
+/// Values of x, y, s and b.
+type Row<'a> = (Option<f64>, Option<f64>, Option<&'a str>, Option<bool>);
+
+fn class(rows: &[Row]) -> Class {
     Class::new("T", &[])
         .numbers("x", rows.iter().map(|row| row.0))
         .numbers("y", rows.iter().map(|row| row.1))
@@ -70,7 +73,7 @@ fn class(rows: &[(Option<f64>, Option<f64>, Option<&str>, Option<bool>)]) -> Cla
         .truths("b", rows.iter().map(|row| row.3))
 }
 
-const ROWS: [(Option<f64>, Option<f64>, Option<&str>, Option<bool>); 4] = [
+const ROWS: [Row; 4] = [
     (Some(0.0), Some(1.5), Some("a"), Some(true)),
     (Some(-2.25), Some(3.0), Some(""), Some(false)),
     (Some(7.0), Some(-1.0), Some("bc"), Some(true)),
@@ -155,7 +158,8 @@ fn functions_of_the_file_and_of_the_library_may_be_called_anywhere() {
     "#;
     let (base, _) = concluded(rule, [class(&ROWS)]);
     assert_eq!(base.texts("T", "r").unwrap().iter().flatten().count(), 4);
-    assert_eq!(base.value("T", "3", "r"), Some("C".into()));
+    assert_eq!(base.value("T", "1", "r"), Some("C".into()));
+    assert_eq!(base.value("T", "3", "r"), Some("BC".into()));
     assert_eq!(base.value("T", "3", "wide"), Some("x is 7".into()));
 }
 
@@ -204,4 +208,12 @@ fn a_part_behind_a_deciding_condition_does_not_run() {
     let (base, _) = concluded(text, [class(&ROWS)]);
     assert_eq!(base.truths("T", "r").unwrap(), [Some(true); 4]);
     assert_eq!(base.numbers("T", "s2").unwrap(), [Some(3.0); 4]);
+}
+
+/// Found by the property tests: an "and" within an "or" was taken apart, as if it were within an "and".
+#[test]
+fn an_and_within_an_or_stays_together() {
+    let rule = r#"rule "r" each t in T then { t.r = t.b || (t.b && t.x < 100); }"#;
+    let (base, _) = concluded(rule, [class(&ROWS)]);
+    assert_eq!(base.truths("T", "r"), base.truths("T", "b"));
 }

@@ -18,7 +18,10 @@ fn some_takes_the_first_row_that_passes_and_none_needs_that_there_is_none() {
         rule "out" each t in THINGS none a in AREAS where a.from <= t.size && t.size < a.to then { t.area = "nowhere"; }
     "#;
     let (base, _) = concluded(rule, [areas(), things("size", &[Some(5.5), Some(6.5), Some(30.0)])]);
-    assert_eq!(base.texts("THINGS", "area").unwrap().into_iter().flatten().collect::<Vec<_>>().join(" "), "near far nowhere");
+    assert_eq!(
+        base.texts("THINGS", "area").unwrap().into_iter().flatten().collect::<Vec<_>>().join(" "),
+        "near far nowhere"
+    );
 }
 
 #[test]
@@ -31,7 +34,8 @@ fn most_is_the_greatest() {
 
 #[test]
 fn least_may_compare_what_depends_on_other_objects() {
-    let rule = r#"rule "nearest" each t in THINGS least a in AREAS by abs(a.to - t.size) then { t.area = a.area; }"#;
+    let rule =
+        r#"rule "nearest" each t in THINGS least a in AREAS by abs(a.to - t.size) then { t.area = a.area; }"#;
     let (base, _) = concluded(rule, [areas(), things("size", &[Some(1.0), Some(14.0), Some(13.0)])]);
     let areas: Vec<_> = base.texts("THINGS", "area").unwrap().into_iter().flatten().collect();
     assert_eq!(areas.join(" "), "near far near", "13 is as near to 6 as to 20: the first row");
@@ -70,14 +74,19 @@ fn ways_of_searching_agree() {
     assert_eq!(indexed, find("b.group >= a.group && b.group <= a.group"));
     assert_eq!(indexed.iter().flatten().count(), 60);
     let few = |rule: &str| concluded(rule, [many("A"), many("B")]).0.numbers("A", "found");
-    let by_candidate = few(r#"rule "r" each a in A some b in B where b.n < 50 && b.group <= a.group then { a.found = b.n; }"#);
-    let by_binding = few(r#"rule "r" each a in A some b in B where b.n < 50 + 0 * a.n && b.group <= a.group then { a.found = b.n; }"#);
+    let by_candidate = few(
+        r#"rule "r" each a in A some b in B where b.n < 50 && b.group <= a.group then { a.found = b.n; }"#,
+    );
+    let by_binding = few(
+        r#"rule "r" each a in A some b in B where b.n < 50 + 0 * a.n && b.group <= a.group then { a.found = b.n; }"#,
+    );
     assert_eq!(by_candidate, by_binding);
 }
 
 #[test]
 fn unknown_joins_nothing() {
-    let rule = r#"rule "r" each t in THINGS some u in OTHERS where u.size == t.size then { t.found = true; }"#;
+    let rule =
+        r#"rule "r" each t in THINGS some u in OTHERS where u.size == t.size then { t.found = true; }"#;
     let others = Class::new("OTHERS", &[]).numbers("size", [None, Some(-0.0)]);
     let (base, _) = concluded(rule, [things("size", &[None, Some(0.0)]), others]);
     assert_eq!(base.truths("THINGS", "found").unwrap(), [None, Some(true)]);

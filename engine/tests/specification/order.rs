@@ -75,7 +75,11 @@ fn every_file_is_reported() {
     let found: Vec<_> = wrong.0.iter().map(|problem| (problem.file.as_str(), problem.code)).collect();
     assert_eq!(
         found,
-        [("one.rhai", Code::Syntax), ("two.rhai", Code::UnknownVariable), ("two.rhai", Code::UnknownFunction)]
+        [
+            ("one.rhai", Code::Syntax),
+            ("two.rhai", Code::UnknownVariable),
+            ("two.rhai", Code::UnknownFunction)
+        ]
     );
 }
 

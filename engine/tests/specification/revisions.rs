@@ -18,11 +18,15 @@ const COST: &str = r#"rule "cost" each t in THINGS then { t.cost = t.size; }
 
 #[test]
 fn each_contributes_for_every_binding_and_some_once() {
-    let each = format!("{COST} revise \"r\" each t in THINGS each s in SPOTS where s.at == t.thing set t.cost by + 1");
-    let (base, _) = concluded(&each, [things("size", &[Some(10.0), Some(20.0), Some(30.0)]), spots([0, 1, 2])]);
+    let each = format!(
+        "{COST} revise \"r\" each t in THINGS each s in SPOTS where s.at == t.thing set t.cost by + 1"
+    );
+    let (base, _) =
+        concluded(&each, [things("size", &[Some(10.0), Some(20.0), Some(30.0)]), spots([0, 1, 2])]);
     assert_eq!(base.numbers("THINGS", "cost").unwrap(), [Some(12.0), Some(21.0), Some(30.0)]);
     let some = each.replace("each s", "some s");
-    let (base, _) = concluded(&some, [things("size", &[Some(10.0), Some(20.0), Some(30.0)]), spots([0, 1, 2])]);
+    let (base, _) =
+        concluded(&some, [things("size", &[Some(10.0), Some(20.0), Some(30.0)]), spots([0, 1, 2])]);
     assert_eq!(base.numbers("THINGS", "cost").unwrap(), [Some(11.0), Some(21.0), Some(30.0)]);
 }
 
@@ -69,9 +73,8 @@ fn a_told_value_is_revised_too() {
 #[test]
 fn two_operators_at_one_level_are_refused_plus_and_minus_aside() {
     let compile = |a: &str, b: &str| {
-        let text = format!(
-            "revise \"a\" each t in T set t.x by {a} 2 revise \"b\" each t in T set t.x by {b} 3"
-        );
+        let text =
+            format!("revise \"a\" each t in T set t.x by {a} 2 revise \"b\" each t in T set t.x by {b} 3");
         RuleBase::compile(&[SourceFile::new("test.rhai", text)])
     };
     assert!(compile("+", "-").is_ok());

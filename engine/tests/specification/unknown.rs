@@ -4,9 +4,10 @@ use crate::support::{concluded, things};
 
 /// What a condition gives for an object whose `x` is unknown and whose `t` is true and `f` is false.
 fn truth(condition: &str) -> Option<bool> {
-    let rule = format!("rule \"r\" each t in THINGS then {{ t.is = {condition}; }}");
-    let class = things("x", &[None]).truths("yes", [Some(true)]).truths("no", [Some(false)]).truths("u", [None]);
-    concluded(&rule, [class]).0.truths("THINGS", "is").unwrap()[0]
+    let rule = format!("rule \"r\" each t in THINGS then {{ t.holds = {condition}; }}");
+    let class =
+        things("x", &[None]).truths("yes", [Some(true)]).truths("no", [Some(false)]).truths("u", [None]);
+    concluded(&rule, [class]).0.truths("THINGS", "holds").unwrap()[0]
 }
 
 #[test]
@@ -22,7 +23,8 @@ fn and_or_and_not_are_kleenes() {
 
 #[test]
 fn comparing_and_computing_with_unknown_is_unknown() {
-    for condition in ["t.x < 1", "t.x == t.x", "t.x != 3", "min(t.x, 1) < 2", "t.x * 0 == 0", "t.x ** 0 == 1"] {
+    for condition in ["t.x < 1", "t.x == t.x", "t.x != 3", "min(t.x, 1) < 2", "t.x * 0 == 0", "t.x ** 0 == 1"]
+    {
         assert_eq!(truth(condition), None, "{condition}");
     }
 }

@@ -10,7 +10,10 @@ use adit_engine::{Diagnostic, RuleBase, Schema, SourceFile, Type};
 fn schema() -> Schema {
     use Type::{Number, Text, Truth};
     Schema::default()
-        .class("DOORS", &[("door", Number), ("kind", Text), ("height1", Number), ("width", Number), ("open", Truth)])
+        .class(
+            "DOORS",
+            &[("door", Number), ("kind", Text), ("height1", Number), ("width", Number), ("open", Truth)],
+        )
         .class("ROBOTS", &[("state", Text), ("height", Number), ("hardness", Number)])
         .class("ROOMS", &[("room", Text), ("height", Number)])
 }
