@@ -2,26 +2,20 @@
 
 use crate::geometry::{Point, Rect};
 
-/// A crossing shorter than this share of the way to it has one point.
-const NEGLIGIBLE: f64 = 0.05;
-
-/// Points of a crossing that are worth going to from `from`: the nearest, its corners and the middles of its sides.
-/// A segment has two corners and one middle.
+/// Points of a crossing that are worth going to from `from`, the nearest first: of a segment its ends, too; of an
+/// area the nearest point of each side, so that what is straight ahead is reached straight.
 pub(super) fn points(crossing: &Rect, from: Point) -> impl Iterator<Item = Point> {
+    let Rect { x0, y0, x1, y1 } = *crossing;
     let nearest = crossing.nearest_to(from);
-    let size = crossing.dx().hypot(crossing.dy());
-    let middle = crossing.centre();
-    let (xs, ys) = ([crossing.x0, middle.x, crossing.x1], [crossing.y0, middle.y, crossing.y1]);
-    let is_area = crossing.dx() > 0.0 && crossing.dy() > 0.0;
-    let grid = (0..3).flat_map(move |i| (0..3).map(move |j| (i, j)));
-    let more = grid
-        .filter(move |&(i, j)| match (is_area, crossing.dx() > 0.0) {
-            (true, _) => (i, j) != (1, 1),
-            (false, true) => j == 0,
-            (false, false) => i == 0,
-        })
-        .map(move |(i, j)| Point::new(xs[i], ys[j]))
-        .filter(move |point| *point != nearest);
-    let wanted = size > NEGLIGIBLE * from.distance(nearest);
-    std::iter::once(nearest).chain(more.take(if wanted { 9 } else { 0 }))
+    let more = if x0 < x1 && y0 < y1 {
+        [
+            Point::new(x0, nearest.y),
+            Point::new(x1, nearest.y),
+            Point::new(nearest.x, y0),
+            Point::new(nearest.x, y1),
+        ]
+    } else {
+        [Point::new(x0, y0), Point::new(x1, y1), nearest, nearest]
+    };
+    std::iter::once(nearest).chain(more.into_iter().filter(move |point| *point != nearest))
 }

@@ -17,7 +17,7 @@ impl RouteGraph {
     /// The least cost of every room from the start, with the door that it is entered by.
     ///
     /// Where rooms weigh no metres this is Dijkstra's algorithm, each room settled once. Where they do, a door is
-    /// crossed at the point nearest to where its room was entered, at a corner, or in the middle of a side, and
+    /// crossed at the point nearest to where its room was entered, at an end, or (a change) straight ahead, and
     /// costs are within one per cent of the least over those points.
     ///
     /// Equal costs: the room, then the door, of lower number. O(a d log(a d)) for a arrivals kept and d doors a room.
