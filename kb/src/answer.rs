@@ -99,7 +99,8 @@ impl KnowledgeBase {
             match graph.end(name) {
                 Some(end) => ends.push(end),
                 None => {
-                    let meant = did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
+                    let meant =
+                        did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
                     answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
                     answer.status = status;
                     return Ok(answer);
@@ -109,10 +110,8 @@ impl KnowledgeBase {
         for end in &ends {
             self.check_point(end)?;
         }
-        let (start, goals) = (
-            graph.start(&ends[0], Some(&answer.robot)),
-            graph.rooms_of(&ends[1], Some(&answer.robot)),
-        );
+        let (start, goals) =
+            (graph.start(&ends[0], Some(&answer.robot)), graph.rooms_of(&ends[1], Some(&answer.robot)));
         let goal = match ends[1] {
             End::Room(_) => None,
             _ => Some(graph.point(&ends[1])),
@@ -168,11 +167,16 @@ fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
             Err(Error::said("route/unknown-robot", format!("there is no robot `{name}`"), help))
         }
         None if robots.len() > 1 => {
-            let message = format!("the site has several robots: say which with --robot ({})", robots.join(", "));
+            let message =
+                format!("the site has several robots: say which with --robot ({})", robots.join(", "));
             Err(Error::said("route/which-robot", message, None))
         }
         None => robots.pop().ok_or_else(|| {
-            Error::said("route/unbuilt", "the site has no robot yet", Some("run `adit build` first".to_owned()))
+            Error::said(
+                "route/unbuilt",
+                "the site has no robot yet",
+                Some("run `adit build` first".to_owned()),
+            )
         }),
     }
 }

@@ -9,8 +9,11 @@ use crate::error::{Error, Result};
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
 
 /// Classes whose key is not their first property alone.
-const KEYS: [(&str, &[&str]); 3] =
-    [("ROBOTS", &["robot", "state"]), ("CHANGES", &["robot", "from_state", "to_state"]), ("STRIPS", &["axis", "strip"])];
+const KEYS: [(&str, &[&str]); 3] = [
+    ("ROBOTS", &["robot", "state"]),
+    ("CHANGES", &["robot", "from_state", "to_state"]),
+    ("STRIPS", &["axis", "strip"]),
+];
 
 /// Asserts a class; its key is its first property, where that tells the objects apart.
 pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()> {
@@ -80,7 +83,8 @@ pub fn column(knowledge: &Inference, class: &str, property: &str) -> Option<Colu
 /// (`ROOMS.name: text`); without one it holds numbers.
 pub fn declare(schema: &mut Schema, gives: &[String]) {
     for given in gives {
-        let (name, kind) = given.split_once(':').map_or((given.as_str(), "number"), |(name, kind)| (name, kind.trim()));
+        let (name, kind) =
+            given.split_once(':').map_or((given.as_str(), "number"), |(name, kind)| (name, kind.trim()));
         let kind = match kind {
             "text" => Type::Text,
             "truth" => Type::Truth,

@@ -133,7 +133,7 @@ pub struct TuneArgs {
     /// Key of the row; parts joined by `/` (`SQUAT`, `robot/SQUAT`, `robot/STAND/SQUAT`)
     pub key: String,
     /// The column, then its new value; with --add, `column=value` for each column
-    #[arg(allow_hyphen_values = true)]
+    #[arg(allow_negative_numbers = true)]
     pub cells: Vec<String>,
     /// Show what would change and change nothing
     #[arg(long)]

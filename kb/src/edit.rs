@@ -47,7 +47,8 @@ impl Edit {
             }
             Self::Add(table, key, cells) => {
                 let row = row(tx, table, key, cells)?;
-                let named: Vec<(&str, Cell)> = row.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+                let named: Vec<(&str, Cell)> =
+                    row.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
                 tx.add_row(table, &named, author)?
             }
             Self::Remove(table, key) => {
@@ -78,15 +79,26 @@ fn cell(text: &str) -> Cell {
 
 const TUNABLE: [&str; 2] = ["robots", "changes"];
 const DERIVED: [&str; 12] = [
-    "rooms", "doors", "routes", "route", "action_sequence", "conclusions", "prime_areas", "places", "frames", "strips",
-    "areas", "history",
+    "rooms",
+    "doors",
+    "routes",
+    "route",
+    "action_sequence",
+    "conclusions",
+    "prime_areas",
+    "places",
+    "frames",
+    "strips",
+    "areas",
+    "history",
 ];
 
 /// The columns of a table that may be edited, its key's first.
 fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<(String, bool)>> {
     let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
     if DERIVED.contains(&table) {
-        let message = format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
+        let message =
+            format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
         let help = "tune `robots` or `changes`, edit a rule, or edit the map and build".to_owned();
         return Err(Error::said("edit/derived", message, Some(help)));
     }
@@ -137,12 +149,16 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
 /// The store's error, with the row that was probably meant, or the value that was refused.
 fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: &str, value: &str) -> Error {
     let help = match &error {
-        adit_db::Error::UnknownKey { .. } => keys(tx, table).ok().and_then(|keys| {
-            did_you_mean(key, keys.iter().map(String::as_str))
-        }),
+        adit_db::Error::UnknownKey { .. } => {
+            keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
+        }
         _ => None,
     };
-    let found = if matches!(error, adit_db::Error::Refused { .. }) { format!(" (found {value})") } else { String::new() };
+    let found = if matches!(error, adit_db::Error::Refused { .. }) {
+        format!(" (found {value})")
+    } else {
+        String::new()
+    };
     Error::said("edit/refused", format!("{error}{found}"), help)
 }
 

@@ -64,8 +64,11 @@ impl SiteGraph {
 
     /// The robots that have rooms of their own; none in the paper's modes.
     pub fn robots(&self) -> Vec<String> {
-        let mut robots: Vec<String> =
-            self.rooms.iter().filter_map(|room| room.layer.as_ref().map(|(robot, _)| robot.clone())).collect();
+        let mut robots: Vec<String> = self
+            .rooms
+            .iter()
+            .filter_map(|room| room.layer.as_ref().map(|(robot, _)| robot.clone()))
+            .collect();
         robots.sort_unstable();
         robots.dedup();
         robots
@@ -86,7 +89,10 @@ impl SiteGraph {
 
     /// All names that an end may have, places first.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.places.iter().map(|place| place.place.as_str()).chain(self.rooms.iter().map(|room| room.name.as_str()))
+        self.places
+            .iter()
+            .map(|place| place.place.as_str())
+            .chain(self.rooms.iter().map(|room| room.name.as_str()))
     }
 
     /// Where an end is: a room stands for its centre.

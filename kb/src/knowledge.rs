@@ -4,17 +4,17 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use adit_db::{Store, Tx};
 use adit_db::history::Author;
 use adit_db::robot::{Change, State};
+use adit_db::{Store, Tx};
 use adit_engine::{RuleBase, Schema, Type};
-use adit_planners::facts::{Column, Facts};
 use adit_planners::bridges::Bridges;
+use adit_planners::facts::{Column, Facts};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
 use adit_planners::planner::Planner;
-use adit_planners::read::MapReport;
 use adit_planners::prime_areas::PrimeAreas;
+use adit_planners::read::MapReport;
 use adit_planners::rooms::PaperRooms;
 use adit_planners::world::World;
 
@@ -132,7 +132,13 @@ impl KnowledgeBase {
     }
 
     /// Edits a table and derives what follows, in one transaction; with `rehearse` all of it is taken back.
-    pub fn edit(&self, edit: &Edit, author: &Author, rehearse: bool, progress: &dyn Progress) -> Result<(Done, Report)> {
+    pub fn edit(
+        &self,
+        edit: &Edit,
+        author: &Author,
+        rehearse: bool,
+        progress: &dyn Progress,
+    ) -> Result<(Done, Report)> {
         let inputs = self.inputs(progress)?;
         let mut store = Store::open(&self.database)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
@@ -152,7 +158,10 @@ impl KnowledgeBase {
         let told = if self.database.exists() {
             Store::open_read_only(&self.database)?.snapshot(|tx| self.told(tx, &rules))?
         } else {
-            Facts::from([("ROBOTS".to_owned(), tables::robots(&[])), ("CHANGES".to_owned(), tables::changes(&[]))])
+            Facts::from([
+                ("ROBOTS".to_owned(), tables::robots(&[])),
+                ("CHANGES".to_owned(), tables::changes(&[])),
+            ])
         };
         problems.extend(rules.check(&self.schema(&told)).into_iter().map(miette::Report::new));
         Ok(problems)
@@ -194,7 +203,9 @@ impl KnowledgeBase {
         };
         let mut named: Vec<&str> =
             file.robots.iter().filter(|row| differs(row)).map(|row| row.state.as_str()).collect();
-        let gone = |row: &&State| !file.robots.iter().any(|other| other.robot == row.robot && other.state == row.state);
+        let gone = |row: &&State| {
+            !file.robots.iter().any(|other| other.robot == row.robot && other.state == row.state)
+        };
         named.extend(states.iter().filter(gone).map(|row| row.state.as_str()));
         let mut by_key = file.changes.clone();
         by_key.sort_by(|a, b| {
@@ -292,7 +303,10 @@ impl KnowledgeBase {
         robots.dedup();
         if robots.len() > 1 && self.site.rooms != Rooms::ByState {
             let named = robots.join(", ");
-            let message = format!("rooms = \"{}\" weighs doors for one robot, and this site has {named}", self.site.rooms.name());
+            let message = format!(
+                "rooms = \"{}\" weighs doors for one robot, and this site has {named}",
+                self.site.rooms.name()
+            );
             return Err(Error::said("site/robots", message, Some("use rooms = \"by-state\"".to_owned())));
         }
         Ok(robots)
@@ -310,7 +324,13 @@ impl KnowledgeBase {
     }
 
     /// Keeps the routes. Where the starts are those of before, only trees that differ are written.
-    fn keep_routes(&self, tx: &mut Tx<'_>, graph: &SiteGraph, robots: &[String], before: &Before) -> Result<Routes> {
+    fn keep_routes(
+        &self,
+        tx: &mut Tx<'_>,
+        graph: &SiteGraph,
+        robots: &[String],
+        before: &Before,
+    ) -> Result<Routes> {
         let plan = trees::plan(graph, robots, self.site.starts.as_ref())?;
         let ends = trees::ends(graph)?;
         let comparable = before.starts == plan.starts && before.same_rooms(graph);

@@ -69,7 +69,13 @@ fn shut(door: &Door, rules: &Rules) -> String {
 }
 
 /// Two points that no doors join: how wide and how high the best way is.
-fn apart(world: &World, graph: &SiteGraph, ends: &[End], robot: &str, knowledge: &KnowledgeBase) -> Result<String> {
+fn apart(
+    world: &World,
+    graph: &SiteGraph,
+    ends: &[End],
+    robot: &str,
+    knowledge: &KnowledgeBase,
+) -> Result<String> {
     let (from, to) = (graph.point(&ends[0]), graph.point(&ends[1]));
     let states = knowledge.states(robot)?;
     let widths: Vec<f64> = states.iter().map(|state| state.width).filter(|width| *width > 0.0).collect();
@@ -86,12 +92,20 @@ fn apart(world: &World, graph: &SiteGraph, ends: &[End], robot: &str, knowledge:
             None => "walls part start and goal: there is no way of any width".to_owned(),
         });
     };
-    let high = headroom(world, from, to, slimmest, step).map_err(|what| Error::said("route/reason", what, None))?;
+    let high =
+        headroom(world, from, to, slimmest, step).map_err(|what| Error::said("route/reason", what, None))?;
     Ok(match high {
         Headroom::Limited { height, at } => {
-            let lower: Vec<&str> =
-                states.iter().filter(|state| state.height < height && state.width > 0.0).map(|state| state.state.as_str()).collect();
-            let who = if lower.is_empty() { "no state is".to_owned() } else { format!("only {} is", lower.join(", ")) };
+            let lower: Vec<&str> = states
+                .iter()
+                .filter(|state| state.height < height && state.width > 0.0)
+                .map(|state| state.state.as_str())
+                .collect();
+            let who = if lower.is_empty() {
+                "no state is".to_owned()
+            } else {
+                format!("only {} is", lower.join(", "))
+            };
             format!(
                 "every way leads under a bridge of {height} m at ({:.2}, {:.2}): {who} lower, and the widest way is {:.2} m wide",
                 at.x, at.y, way.width

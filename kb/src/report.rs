@@ -84,7 +84,9 @@ impl Routes {
 
     /// Counts what differs between a tree of before and of now; whether its rows must be written.
     pub fn differs(&mut self, before: &Before, old: &[TreeRow], new: &[TreeRow], graph: &SiteGraph) -> bool {
-        let now = |row: &TreeRow| row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0);
+        let now = |row: &TreeRow| {
+            row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0)
+        };
         let then = |row: &TreeRow| {
             row.reach + row.door.and_then(|key| before.doors.get(&key)?.hardness.value).unwrap_or(0.0)
         };
@@ -94,7 +96,8 @@ impl Routes {
             match (old_rows.get(node), new_rows.get(node)) {
                 (Some(old_row), Some(new_row)) => {
                     let dearer_or_cheaper = then(old_row).total_cmp(&now(new_row)).is_ne();
-                    let other_way = old_row.prev != new_row.prev || way(&old_rows, *node) != way(&new_rows, *node);
+                    let other_way =
+                        old_row.prev != new_row.prev || way(&old_rows, *node) != way(&new_rows, *node);
                     changed += usize::from(dearer_or_cheaper || other_way);
                     rerouted += usize::from(other_way);
                 }
@@ -160,12 +163,14 @@ impl Report {
         let cut_anew = !before.same_rooms(graph);
         let mut changes = Vec::new();
         if !cut_anew {
-            changes.extend(before.rooms.iter().zip(&graph.rooms).filter_map(|(old, new)| room_change(old, new)));
+            changes
+                .extend(before.rooms.iter().zip(&graph.rooms).filter_map(|(old, new)| room_change(old, new)));
         }
         let changed_rooms = if cut_anew { graph.rooms.len() } else { changes.len() };
         let mut changed_doors = graph.doors.len();
         if !cut_anew {
-            let doors: Vec<Change> = graph.doors.iter().filter_map(|new| door_change(before.doors.get(&new.door), new)).collect();
+            let doors: Vec<Change> =
+                graph.doors.iter().filter_map(|new| door_change(before.doors.get(&new.door), new)).collect();
             changed_doors = doors.len();
             changes.extend(doors);
         }
@@ -187,9 +192,7 @@ impl Report {
 
     /// The report as JSON.
     pub fn json(&self) -> serde_json::Value {
-        let stage = |stage: &Stage| {
-            serde_json::json!({"stage": stage.name, "seconds": stage.took.as_secs_f64(), "kept": stage.kept})
-        };
+        let stage = |stage: &Stage| serde_json::json!({"stage": stage.name, "seconds": stage.took.as_secs_f64(), "kept": stage.kept});
         serde_json::json!({
             "generation": self.generation,
             "rooms": self.rooms,
@@ -242,18 +245,29 @@ fn door_change(old: Option<&Door>, new: &Door) -> Option<Change> {
 fn gaps(conclusions: &Conclusions, graph: &SiteGraph) -> Vec<String> {
     let mut notes = Vec::new();
     for waiting in &conclusions.waiting {
-        notes.push(format!("rule \"{}\" waits for {}, which nothing gives", waiting.rule, waiting.needs.join(", ")));
+        notes.push(format!(
+            "rule \"{}\" waits for {}, which nothing gives",
+            waiting.rule,
+            waiting.needs.join(", ")
+        ));
     }
     for conflict in &conclusions.conflicts {
-        let said: Vec<String> = conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
-        notes.push(format!("{} of {} is unknown, since rules disagree: {}", conflict.property, conflict.key, said.join(", ")));
+        let said: Vec<String> =
+            conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
+        notes.push(format!(
+            "{} of {} is unknown, since rules disagree: {}",
+            conflict.property,
+            conflict.key,
+            said.join(", ")
+        ));
     }
     let missing = |what: &str, count: usize| {
-        (count > 0).then(|| format!("{count} doors have no DOORS.{what}: no rule gives them one, so no route passes them"))
+        (count > 0).then(|| {
+            format!("{count} doors have no DOORS.{what}: no rule gives them one, so no route passes them")
+        })
     };
-    let unweighed = graph.doors.iter().filter(|door| {
-        door.hardness.value.is_none() && door.passable.value != Some(false)
-    });
+    let unweighed =
+        graph.doors.iter().filter(|door| door.hardness.value.is_none() && door.passable.value != Some(false));
     let undecided = graph.doors.iter().filter(|door| door.passable.value.is_none());
     notes.extend(missing("hardness", unweighed.count()));
     notes.extend(missing("passable", undecided.count()));

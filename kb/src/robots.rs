@@ -96,7 +96,8 @@ fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> 
         let robot = robot(&entry, problems);
         let from = name(&entry, "from_state", problems);
         let to = name(&entry, "to_state", problems);
-        if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems)) {
+        if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems))
+        {
             rows.push(Change { robot, from_state: from.value, to_state: to.value, hardness });
         }
     }

@@ -16,7 +16,8 @@ impl KnowledgeBase {
     pub fn scene(&self, route: Option<(&str, &str)>, robot: Option<&str>) -> Result<Scene> {
         let (world, _, _) = self.site().world()?;
         let answer = route.map(|(start, goal)| self.route(start, goal, robot)).transpose()?;
-        let mut scene = Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;
+        let mut scene =
+            Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;
         if let Some(answer) = answer {
             if !matches!(answer.status, Status::Ok | Status::SameRoom) {
                 let why = answer.reason.unwrap_or_default();

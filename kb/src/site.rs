@@ -73,7 +73,17 @@ pub struct Site {
 }
 
 const KEYS: [&str; 12] = [
-    "name", "map", "robots", "rules", "rooms", "starts", "unknown", "speck_area", "grid", "clearance", "place",
+    "name",
+    "map",
+    "robots",
+    "rules",
+    "rooms",
+    "starts",
+    "unknown",
+    "speck_area",
+    "grid",
+    "clearance",
+    "place",
     "bridge",
 ];
 
@@ -89,12 +99,12 @@ impl Site {
         let mut keys = KEYS.to_vec();
         keys.push("obstacle");
         fields.refuse_unknown(&keys, &mut problems);
-        let path = |value: Option<String>, default: &str| {
-            folder.join(value.unwrap_or_else(|| default.to_owned()))
-        };
+        let path =
+            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
         let site = Self {
             folder: folder.to_owned(),
-            name: optional_text(&fields, "name", &mut problems).unwrap_or_else(|| folder.display().to_string()),
+            name: optional_text(&fields, "name", &mut problems)
+                .unwrap_or_else(|| folder.display().to_string()),
             map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
             rules: optional_text(&fields, "rules", &mut problems).map(|rules| folder.join(rules)),
@@ -147,12 +157,7 @@ fn rooms(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Rooms {
 }
 
 /// The index of a text among those it may be.
-fn choice(
-    fields: &Fields<'_, '_>,
-    key: &str,
-    names: &[&str],
-    problems: &mut Vec<Problem>,
-) -> Option<usize> {
+fn choice(fields: &Fields<'_, '_>, key: &str, names: &[&str], problems: &mut Vec<Problem>) -> Option<usize> {
     fields.get(key)?;
     let text = fields.string(key, problems)?;
     let found = names.iter().position(|name| *name == text.value);
@@ -189,9 +194,7 @@ fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings
     if fields.get("grid").is_some() {
         settings.grid = fields.positive("grid", problems).map(|grid| grid.value);
     }
-    for (key, value) in
-        [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)]
-    {
+    for (key, value) in [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)] {
         if fields.get(key).is_some()
             && let Some(number) = fields.number(key, problems)
         {

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use adit_db::{Derived as Reasoned, Tx};
 use adit_db::conclusion::{Derivation, Rule, Witness};
 use adit_db::door::Door;
 use adit_db::place::{Frame, Place};
 use adit_db::room::Room;
+use adit_db::{Derived as Reasoned, Tx};
 use adit_engine::{KnowledgeBase as Inference, RuleBase};
 use adit_planners::facts::Facts;
 use adit_planners::planner::Planner;
@@ -31,7 +31,8 @@ impl<'a, 's> LastBuild<'a, 's> {
 impl Memory for LastBuild<'_, '_> {
     fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
         let gives = planner.signature().gives;
-        let makes_rooms = gives.iter().all(|given| given.starts_with("ROOMS.") || given.starts_with("DOORS."));
+        let makes_rooms =
+            gives.iter().all(|given| given.starts_with("ROOMS.") || given.starts_with("DOORS."));
         if !makes_rooms {
             return Ok(None);
         }
@@ -65,7 +66,9 @@ impl Reasons<'_> {
         let Some(found) = self.knowledge.justifications(class, property) else { return Vec::new() };
         let mut reasons: Vec<(Option<i64>, Option<i64>)> = vec![(None, None); found.of_row.len()];
         for (writer, (name, _)) in found.rules.iter().enumerate() {
-            let Some(number) = self.rules.rules().iter().position(|rule| rule.name() == name) else { continue };
+            let Some(number) = self.rules.rules().iter().position(|rule| rule.name() == name) else {
+                continue;
+            };
             let rule = &self.rules.rules()[number];
             // the object itself is the first witness: the row says that already
             let choices: Vec<(&str, &str, Vec<Option<u32>>)> = rule
@@ -110,7 +113,11 @@ fn number_of(known: &mut BTreeMap<String, i64>, witnesses: &mut Vec<Witness>, fa
 }
 
 /// Values of a property with their reasons, one an object.
-fn reasoned<T>(values: Option<Vec<Option<T>>>, reasons: &[(Option<i64>, Option<i64>)], len: usize) -> Vec<Reasoned<T>> {
+fn reasoned<T>(
+    values: Option<Vec<Option<T>>>,
+    reasons: &[(Option<i64>, Option<i64>)],
+    len: usize,
+) -> Vec<Reasoned<T>> {
     let mut values = values.unwrap_or_default().into_iter();
     (0..len)
         .map(|row| {
@@ -151,7 +158,11 @@ impl Tables {
             let owned = |text: Option<std::sync::Arc<str>>| text.map(|text| text.to_string());
             knowledge.texts(class, property).map(|texts| texts.into_iter().map(owned).collect())
         };
-        let open = reasoned(knowledge.truths("PRIME_AREAS", "open"), &reasons.of("PRIME_AREAS", "open"), areas.len());
+        let open = reasoned(
+            knowledge.truths("PRIME_AREAS", "open"),
+            &reasons.of("PRIME_AREAS", "open"),
+            areas.len(),
+        );
         for (area, open) in areas.iter_mut().zip(open) {
             area.open = open;
         }
@@ -164,7 +175,9 @@ impl Tables {
         let action = reasoned(texts("DOORS", "action"), &reasons.of("DOORS", "action"), doors.len());
         let passable =
             reasoned(knowledge.truths("DOORS", "passable"), &reasons.of("DOORS", "passable"), doors.len());
-        for (door, ((hardness, action), passable)) in doors.iter_mut().zip(hardness.into_iter().zip(action).zip(passable)) {
+        for (door, ((hardness, action), passable)) in
+            doors.iter_mut().zip(hardness.into_iter().zip(action).zip(passable))
+        {
             (door.hardness, door.action, door.passable) = (hardness, action, passable);
         }
         let derivations = derivations(knowledge, rules, &mut reasons);
@@ -178,7 +191,8 @@ impl Tables {
         tx.replace_rooms(&self.rooms)?;
         tx.replace_doors(&self.doors)?;
         tx.replace_places(&places(world))?;
-        let frame = Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
+        let frame =
+            Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
         tx.replace_frames(&[frame])?;
         tx.replace_rules(&self.rules, &self.witnesses)?;
         tx.replace_derivations(&self.derivations)?;

@@ -48,9 +48,11 @@ fn values(table: &str, column: &RelationColumn) -> Result<Column> {
         return Ok(Column::Truth(column.values.iter().map(truth).collect()));
     }
     let texts = column.values.iter().filter(|cell| matches!(cell, Cell::Text(_))).count();
-    let numbers = column.values.iter().filter(|cell| matches!(cell, Cell::Integer(_) | Cell::Real(_))).count();
+    let numbers =
+        column.values.iter().filter(|cell| matches!(cell, Cell::Integer(_) | Cell::Real(_))).count();
     if texts > 0 && numbers > 0 {
-        let message = format!("column `{}` of table `{table}` holds {texts} texts and {numbers} numbers", column.name);
+        let message =
+            format!("column `{}` of table `{table}` holds {texts} texts and {numbers} numbers", column.name);
         return Err(Error::said("table/mixed", message, Some("a rule needs one or the other".to_owned())));
     }
     let is_text = texts > 0 || (numbers == 0 && (declared.contains("CHAR") || declared.contains("TEXT")));
@@ -75,7 +77,10 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
     let mark = format!("class.{name}");
     let taken = tx.user_tables()?.iter().any(|known| known.name == name);
     if taken && tx.site_value(&mark)?.is_none() {
-        let message = format!("a planner gives the class {}, and the site has a table `{name}` of its own", name.to_uppercase());
+        let message = format!(
+            "a planner gives the class {}, and the site has a table `{name}` of its own",
+            name.to_uppercase()
+        );
         return Err(Error::said("table/taken", message, Some("rename one of them".to_owned())));
     }
     let columns: Vec<(&str, &str)> = table
@@ -90,7 +95,8 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
             (property.as_str(), declared)
         })
         .collect();
-    let rows = (0..table.len()).map(|row| table.columns.iter().map(|(_, column)| cell(column, row)).collect());
+    let rows =
+        (0..table.len()).map(|row| table.columns.iter().map(|(_, column)| cell(column, row)).collect());
     tx.replace_user_table(name, &columns, rows)?;
     tx.set_site_value(&mark, Some("planner"))?;
     Ok(())

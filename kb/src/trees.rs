@@ -54,7 +54,11 @@ pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Re
                 plan.roots.push(root);
                 plan.roots.len() - 1
             });
-            plan.starts.push(StartRow { name: (*name).to_owned(), robot: robot.clone(), tree: tree as i64 + 1 });
+            plan.starts.push(StartRow {
+                name: (*name).to_owned(),
+                robot: robot.clone(),
+                tree: tree as i64 + 1,
+            });
         }
     }
     Ok(plan)
@@ -64,7 +68,11 @@ fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
     for name in names {
         if !matches!(graph.end(name), Some(End::Place(_) | End::Room(_))) {
             let help = did_you_mean(name, graph.names());
-            return Err(Error::said("site/unknown-start", format!("`starts` names `{name}`, which is no place or room"), help));
+            return Err(Error::said(
+                "site/unknown-start",
+                format!("`starts` names `{name}`, which is no place or room"),
+                help,
+            ));
         }
     }
     Ok(names.iter().map(String::as_str).collect())
@@ -77,7 +85,10 @@ pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
         if graph.rooms.iter().any(|room| room.name == place.place) {
             return Err(Error::said(
                 "site/place-named-like-a-room",
-                format!("place `{}` is named like a room, so `{}` would mean two things", place.place, place.place),
+                format!(
+                    "place `{}` is named like a room, so `{}` would mean two things",
+                    place.place, place.place
+                ),
                 Some("rooms are named a, b, ... z, aa, ...: give the place a longer name".to_owned()),
             ));
         }
@@ -126,7 +137,8 @@ fn tree_rows(graph: &SiteGraph, start: &Start, place_rooms: &[Vec<usize>]) -> Ve
         })
         .collect();
     let nodes = Nodes::new(graph, &tree, goals.iter().map(|goal| goal.2));
-    let mut rows: Vec<TreeRow> = nodes.kept.iter().map(|&arrival| arrival_row(graph, &tree, &nodes, arrival)).collect();
+    let mut rows: Vec<TreeRow> =
+        nodes.kept.iter().map(|&arrival| arrival_row(graph, &tree, &nodes, arrival)).collect();
     rows.extend(goals.into_iter().map(|(index, goal, arrival, leg)| {
         let before = &tree.arrivals[arrival];
         TreeRow {

@@ -130,7 +130,8 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
 #[test]
 fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() {
     // a corridor 20 m long, walked at 1 a metre but for a pipe between 9 and 10 m; on the knees 4 a metre all along
-    let room = |x0, x1, hardness| RouteRoom { rect: Rect::new(x0, 0.0, x1, 2.0), hardness_per_m: Some(hardness) };
+    let room =
+        |x0, x1, hardness| RouteRoom { rect: Rect::new(x0, 0.0, x1, 2.0), hardness_per_m: Some(hardness) };
     let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];
     let change = |number, from, to, x0, x1| RouteDoor {
         crossing: Rect::new(x0, 0.0, x1, 2.0),

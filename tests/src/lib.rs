@@ -120,7 +120,8 @@ impl TestSite {
 
     /// The rows that the plain `sqlite3` shell prints, read-only, columns joined by `|`.
     pub fn sqlite3(&self, query: &str) -> Vec<String> {
-        let ran = Command::new("sqlite3").arg("-readonly").arg(self.path().join("site.db")).arg(query).output();
+        let ran =
+            Command::new("sqlite3").arg("-readonly").arg(self.path().join("site.db")).arg(query).output();
         Ran::new(ran.expect("the sqlite3 shell is installed (tests/run installs it)"))
             .expect_status(0)
             .stdout
@@ -181,14 +182,15 @@ impl Ran {
     /// Fails the test unless standard error has every one of these texts, line breaks of the printer aside.
     #[track_caller]
     pub fn complains(&self, texts: &[&str]) {
-        let said: String = self.stderr.split(|c: char| c.is_whitespace() || c == '│').filter(|w| !w.is_empty()).fold(
-            String::new(),
-            |mut all, word| {
+        let said: String = self
+            .stderr
+            .split(|c: char| c.is_whitespace() || c == '│')
+            .filter(|w| !w.is_empty())
+            .fold(String::new(), |mut all, word| {
                 all.push_str(word);
                 all.push(' ');
                 all
-            },
-        );
+            });
         for text in texts {
             assert!(said.contains(text), "`{text}` is not in:\n{}", self.stderr);
         }

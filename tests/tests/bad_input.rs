@@ -153,11 +153,14 @@ fn a_file_that_is_no_database() {
 fn a_locked_database() {
     let site = TestSite::example("paper").built();
     let mut holder = Command::new("python3")
-        .args(["-c", "import sqlite3, sys, time
+        .args([
+            "-c",
+            "import sqlite3, sys, time
 db = sqlite3.connect(sys.argv[1], isolation_level=None)
 db.execute('BEGIN EXCLUSIVE')
 print('held', flush=True)
-time.sleep(60)"])
+time.sleep(60)",
+        ])
         .arg(site.path().join("site.db"))
         .stdout(std::process::Stdio::piped())
         .spawn()

@@ -39,7 +39,9 @@ fn what_squatting_down_costs_is_in_the_table_of_changes() {
         site.sqlite3("SELECT cost FROM route WHERE start = 'dock' AND goal = 'ward 6'")[0].parse().unwrap()
     };
     let before = cost(&site);
-    site.adit("tune", &["changes", "STAND/SQUAT", "--add", "hardness=2.5"]).expect_status(0);
+    for from in ["STAND", "SIDE-STAND", "LIE"] {
+        site.adit("tune", &["changes", &format!("{from}/SQUAT"), "--add", "hardness=2.5"]).expect_status(0);
+    }
     assert!((cost(&site) - before - 2.5).abs() < 1e-6);
 }
 

@@ -63,8 +63,15 @@ fn table_7_room_costs_and_the_doors_they_are_entered_by() {
     let rows = example().sqlite3(
         "SELECT name, round(cost, 6), from_door FROM routes JOIN rooms USING (room) WHERE start = 'f' ORDER BY name",
     );
-    let table_7 =
-        ["a||", "b|64.007434|3", "c|94.009106|6", "d|27.001901|7", "e|92.007434|4", "f|0.0|", "g|61.003672|8"];
+    let table_7 = [
+        "a||",
+        "b|64.007434|3",
+        "c|94.009106|6",
+        "d|27.001901|7",
+        "e|92.007434|4",
+        "f|0.0|",
+        "g|61.003672|8",
+    ];
     assert_eq!(rows, table_7);
 }
 
@@ -168,8 +175,12 @@ fn the_view_reaches_its_rows_by_key() {
     let plan = example().sqlite3(&format!("EXPLAIN QUERY PLAN {SEQUENCE}"));
     let scans: Vec<_> = plan
         .iter()
-        .filter(|line| line.contains("SCAN") && !line.contains("VIRTUAL TABLE") && !line.contains("CONSTANT ROW"))
-        .filter(|line| !["SCAN w", "SCAN walk", "SCAN step", "SCAN s"].iter().any(|own| line.trim_end().ends_with(own)))
+        .filter(|line| {
+            line.contains("SCAN") && !line.contains("VIRTUAL TABLE") && !line.contains("CONSTANT ROW")
+        })
+        .filter(|line| {
+            !["SCAN w", "SCAN walk", "SCAN step", "SCAN s"].iter().any(|own| line.trim_end().ends_with(own))
+        })
         .collect();
     assert!(scans.is_empty(), "{scans:?}\nin\n{}", plan.join("\n"));
 }

@@ -10,8 +10,8 @@ const ROUTE: &str = "SELECT group_concat(place, ' ') FROM \
 fn site_with_a_kiosk() -> TestSite {
     let site = TestSite::example("paper");
     site.copy_rules("paper");
-    let map = site.read("map.toml");
-    site.write("map.toml", format!("{map}\n[[place]]\nname = \"kiosk\"\nat = [37.1, 17.5]\n"));
+    let text = site.read("site.toml");
+    site.write("site.toml", format!("{text}\n[[place]]\nname = \"kiosk\"\nat = [37.1, 17.5]\n"));
     site.write(
         "rules/crowds.rhai",
         r#"revise "a crowd is slow to pass"

@@ -22,7 +22,8 @@ hardness = 3.0
 
 /// A site on a map of somebody else's; `places` are points on its floor.
 fn site(map: &Path, places: &[(&str, [f64; 2])]) -> TestSite {
-    let mut text = format!("name = \"{}\"\nmap = \"{}\"\nstarts = [\"here\"]\n", map.display(), map.display());
+    let mut text =
+        format!("name = \"{}\"\nmap = \"{}\"\nstarts = [\"here\"]\n", map.display(), map.display());
     for (name, [x, y]) in places {
         text.push_str(&format!("[[place]]\nname = \"{name}\"\nat = [{x}, {y}]\n"));
     }
@@ -73,7 +74,8 @@ fn aws_small_warehouse_as_scanned() {
         image.display()
     );
     let folder = TestSite::empty().with("warehouse.yaml", &yaml);
-    let site = site(&folder.path().join("warehouse.yaml"), &[("here", [5.0, 2.7]), ("there", [15.0, 7.7])]).built();
+    let site =
+        site(&folder.path().join("warehouse.yaml"), &[("here", [5.0, 2.7]), ("there", [15.0, 7.7])]).built();
     assert_eq!(site.sqlite3("SELECT status FROM route WHERE start = 'here' AND goal = 'there'"), ["ok"]);
 }
 

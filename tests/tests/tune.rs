@@ -10,17 +10,15 @@ fn a_hardness_is_tuned_and_what_follows_is_said() {
     assert_eq!(change["rooms"]["changed"], 0);
     let doors = site.sqlite3("SELECT door, round(hardness, 3) FROM doors WHERE door IN (3, 4)");
     assert_eq!(doors, ["3|32.556", "4|23.55"]);
-    assert_eq!(
-        site.sqlite3("SELECT round(cost, 3) FROM route WHERE start = 'f' AND goal = 'e'"),
-        ["83.107"]
-    );
+    assert_eq!(site.sqlite3("SELECT round(cost, 3) FROM route WHERE start = 'f' AND goal = 'e'"), ["83.107"]);
 }
 
 #[test]
 fn a_dry_run_says_the_same_and_changes_nothing() {
     let site = TestSite::example("paper").built();
     let before = site.sqlite3("SELECT * FROM doors");
-    let dry = site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--dry-run", "--json"]).expecting(0).json();
+    let dry =
+        site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--dry-run", "--json"]).expecting(0).json();
     assert_eq!(dry["doors"]["changed"], 2);
     assert_eq!(site.sqlite3("SELECT * FROM doors"), before);
     assert!(site.sqlite3("SELECT * FROM history").is_empty());

@@ -43,7 +43,9 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
     let stages: Vec<String> = report
         .stages
         .iter()
-        .map(|stage| format!("{} {}", stage.name, if stage.kept { "kept".to_owned() } else { time(stage.took) }))
+        .map(|stage| {
+            format!("{} {}", stage.name, if stage.kept { "kept".to_owned() } else { time(stage.took) })
+        })
         .collect();
     line(&format!("  {}", stages.join(", ")));
     notes(report);
@@ -53,7 +55,9 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
 fn free_space(report: &Report) {
     let map = &report.map;
     let mut parts = Vec::new();
-    for (what, area) in [("unknown", map.unknown), ("specks", map.specks), ("grid", map.grid), ("clearance", map.clearance)] {
+    for (what, area) in
+        [("unknown", map.unknown), ("specks", map.specks), ("grid", map.grid), ("clearance", map.clearance)]
+    {
         if area.abs() >= 0.005 {
             let verb = if area > 0.0 { "gave" } else { "cost" };
             parts.push(format!("{what} {verb} {} m²", number(area.abs())));

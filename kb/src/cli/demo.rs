@@ -35,9 +35,13 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     let site = site.display();
     line("What to try next:");
     line(&format!("  adit route {site} dock \"ward 6\"                    another route"));
-    line(&format!("  adit tune {site} robots SQUAT hardness 6 --dry-run   what would follow if squatting were harder"));
+    line(&format!(
+        "  adit tune {site} robots SQUAT hardness 6 --dry-run   what would follow if squatting were harder"
+    ));
     line(&format!("  adit draw {site} -o clinic.svg --route lobby \"ward 9\""));
-    line(&format!("  sqlite3 {site}/site.db \"SELECT step, kind, place, action, cost FROM action_sequence WHERE start = 'dock' AND goal = 'ward 12' ORDER BY step\""));
+    line(&format!(
+        "  sqlite3 {site}/site.db \"SELECT step, kind, place, action, cost FROM action_sequence WHERE start = 'dock' AND goal = 'ward 12' ORDER BY step\""
+    ));
     line("  adit new my-site --map my-map.yaml                a site of your own");
     Ok(())
 }
@@ -90,7 +94,13 @@ fn rooms(knowledge: &KnowledgeBase) -> Result<()> {
     let rows = rooms.into_iter().map(|room| {
         let [x0, y0, x1, y1] = room.rect.map(|edge| maybe(Some(edge)));
         let height = room.height.map_or("unlimited".to_owned(), |height| maybe(Some(height)));
-        vec![room.name, format!("{x0}, {y0}, {x1}, {y1}"), height, maybe(Some(room.width)), room.action.value.unwrap_or_default()]
+        vec![
+            room.name,
+            format!("{x0}, {y0}, {x1}, {y1}"),
+            height,
+            maybe(Some(room.width)),
+            room.action.value.unwrap_or_default(),
+        ]
     });
     line("");
     table(&["room", "x0, y0, x1, y1", "height", "width", "action"], rows);

@@ -11,7 +11,8 @@ use crate::error::Result;
 pub fn check(args: &CheckArgs) -> Result<bool> {
     let (found, sound) = match open(&args.site).and_then(|knowledge| knowledge.check()) {
         Ok(found) => {
-            let sound = found.iter().all(|problem| problem.severity().is_some_and(|s| s != miette::Severity::Error));
+            let sound =
+                found.iter().all(|problem| problem.severity().is_some_and(|s| s != miette::Severity::Error));
             (found, sound)
         }
         Err(error) => (error.into_problems(), false),
@@ -30,7 +31,11 @@ pub fn check(args: &CheckArgs) -> Result<bool> {
         json(&list)?;
     } else {
         problems(&found);
-        line(if sound { "rules, tables and map are in order" } else { "something is wrong: nothing was built" });
+        line(if sound {
+            "rules, tables and map are in order"
+        } else {
+            "something is wrong: nothing was built"
+        });
     }
     Ok(sound)
 }
@@ -47,7 +52,13 @@ pub fn doctor(args: &DoctorArgs) -> Result<bool> {
         json(&health)?;
         return Ok(health.is_sound());
     }
-    line(&format!("adit {}, SQLite {}, schema {}, journal {}", env!("CARGO_PKG_VERSION"), health.sqlite, health.schema, health.journal));
+    line(&format!(
+        "adit {}, SQLite {}, schema {}, journal {}",
+        env!("CARGO_PKG_VERSION"),
+        health.sqlite,
+        health.schema,
+        health.journal
+    ));
     for (table, rows) in &health.rows {
         line(&format!("  {table}: {rows} rows"));
     }
@@ -57,7 +68,11 @@ pub fn doctor(args: &DoctorArgs) -> Result<bool> {
     for damage in health.damages.iter().chain(&health.dangling) {
         line(&format!("  damage: {damage}"));
     }
-    line(if health.is_sound() { "the database is sound" } else { "the database is damaged: go back to a backup" });
+    line(if health.is_sound() {
+        "the database is sound"
+    } else {
+        "the database is damaged: go back to a backup"
+    });
     if let Some(file) = &args.backup {
         line(&format!("a copy is in {}", file.display()));
     }

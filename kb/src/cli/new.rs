@@ -16,13 +16,14 @@ pub fn run(args: &NewArgs) -> Result<()> {
         return Err(Error::said("site/exists", message, None));
     }
     fs::create_dir_all(&args.dir).map_err(|error| Error::io("make", &args.dir, &error))?;
-    let mode = Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
+    let mode =
+        Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
     let map = match &args.map {
         Some(map) => copy_map(map, &args.dir)?,
-        None => starter_map(&args.dir)?,
+        None => starter(&args.dir, "map.toml")?,
     };
     shipped::write::<Rules>(mode.rule_base(), &args.dir.join("rules"))?;
-    write(&args.dir.join("robots.toml"), ROBOTS)?;
+    starter(&args.dir, "robots.toml")?;
     write(&args.dir.join("site.toml"), &site_text(&args.dir, &map, mode))?;
     Site::open(&args.dir)?.world()?;
     if args.json {
@@ -39,12 +40,16 @@ pub fn run(args: &NewArgs) -> Result<()> {
 
 /// A map of the user's, with its image where it has one, under its own name.
 fn copy_map(map: &Path, into: &Path) -> Result<String> {
-    let name = map.file_name().map(PathBuf::from).ok_or_else(|| {
-        Error::said("map/unreadable", format!("{} is no file", map.display()), None)
-    })?;
+    let name = map
+        .file_name()
+        .map(PathBuf::from)
+        .ok_or_else(|| Error::said("map/unreadable", format!("{} is no file", map.display()), None))?;
     let text = fs::read_to_string(map).map_err(|error| Error::io("read", map, &error))?;
     let is_toml = name.extension().is_some_and(|extension| extension == "toml");
-    let image = text.lines().find_map(|line| line.strip_prefix("image:")).map(|image| image.trim().trim_matches(['"', '\'']));
+    let image = text
+        .lines()
+        .find_map(|line| line.strip_prefix("image:"))
+        .map(|image| image.trim().trim_matches(['"', '\'']));
     if let Some(image) = image.filter(|_| !is_toml) {
         let from = map.parent().unwrap_or(Path::new("")).join(image);
         let file = Path::new(image).file_name().map(PathBuf::from).unwrap_or_default();
@@ -58,11 +63,12 @@ fn copy_map(map: &Path, into: &Path) -> Result<String> {
     Ok(name.display().to_string())
 }
 
-fn starter_map(into: &Path) -> Result<String> {
+/// A file of the site that beginners start from.
+fn starter(into: &Path, name: &str) -> Result<String> {
     let files = shipped::files::<Sites>("starter");
-    let map = files.iter().find(|(name, _)| name == "map.toml").map_or("", |(_, text)| text.as_str());
-    write(&into.join("map.toml"), map)?;
-    Ok("map.toml".to_owned())
+    let text = files.iter().find(|(file, _)| file == name).map_or("", |(_, text)| text.as_str());
+    write(&into.join(name), text)?;
+    Ok(name.to_owned())
 }
 
 fn write(path: &Path, text: &str) -> Result<()> {
@@ -102,32 +108,3 @@ rooms  = "{}"        # or "paper", "minimum"
         mode.name()
     )
 }
-
-const ROBOTS: &str = r#"# One entry a state, in the order that breaks ties. Metres; hardness per metre.
-[[robots]]
-state    = "STAND"
-action   = "WALK"
-height   = 1.7
-width    = 0.6
-hardness = 1.0
-
-[[robots]]
-state    = "SIDE-STAND"
-action   = "SIDE-WALK"
-height   = 1.7
-width    = 0.35
-hardness = 2.0
-
-[[robots]]
-state    = "SQUAT"
-action   = "WALK-ON-KNEE"
-height   = 1.1
-width    = 0.8
-hardness = 4.0
-
-# What it costs to change shape; nothing where nothing is said.
-[[changes]]
-from_state = "SQUAT"
-to_state   = "STAND"
-hardness   = 1.0
-"#;

@@ -42,7 +42,10 @@ pub fn show(answer: &Answer) {
         Status::Ok => line(&format!("{start} to {goal}, hardness {}:", maybe(answer.cost))),
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
         Status::NoRoute => {
-            line(&format!("no route from {start} to {goal}: {}", answer.reason.as_deref().unwrap_or_default()));
+            line(&format!(
+                "no route from {start} to {goal}: {}",
+                answer.reason.as_deref().unwrap_or_default()
+            ));
             return;
         }
         Status::UnknownStart | Status::UnknownGoal => {

@@ -20,7 +20,9 @@ pub fn run(args: &SqlArgs) -> Result<bool> {
         return Ok(true);
     }
     if stdin().is_terminal() {
-        remark("SQL, ended by `;`. Tables: robots, rooms, doors, places; views: action_sequence, route, routes, conclusions");
+        remark(
+            "SQL, ended by `;`. Tables: robots, rooms, doors, places; views: action_sequence, route, routes, conclusions",
+        );
     }
     let mut statement = String::new();
     let mut all_well = true;

@@ -29,9 +29,9 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
     }
     if args.add {
         let pair = |cell: &String| {
-            cell.split_once('=').map(|(column, value)| (column.to_owned(), value.to_owned())).ok_or_else(|| {
-                Error::said("edit/usage", format!("`{cell}` is not column=value"), None)
-            })
+            cell.split_once('=')
+                .map(|(column, value)| (column.to_owned(), value.to_owned()))
+                .ok_or_else(|| Error::said("edit/usage", format!("`{cell}` is not column=value"), None))
         };
         return Ok(Edit::Add(table, key, args.cells.iter().map(pair).collect::<Result<_>>()?));
     }
@@ -47,7 +47,8 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
 
 fn apply(site: &SiteArgs, edit: &Edit, why: &str, rehearse: bool) -> Result<()> {
     let knowledge = open(site)?;
-    let who = std::env::var("USER").or_else(|_| std::env::var("LOGNAME")).unwrap_or_else(|_| "cli".to_owned());
+    let who =
+        std::env::var("USER").or_else(|_| std::env::var("LOGNAME")).unwrap_or_else(|_| "cli".to_owned());
     let author = Author { who, why: why.to_owned() };
     let (done, report) = {
         let spinner = Spinner::new();

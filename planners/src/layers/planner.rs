@@ -3,8 +3,8 @@
 use super::{Kind, Layers, Room, State, cut_layers};
 use crate::facts::{Column, Facts, Table};
 use crate::names::room_name;
-use crate::rooms::GIVES;
 use crate::planner::{Planner, PlannerError, Signature};
+use crate::rooms::GIVES;
 use crate::world::World;
 
 const NAME: &str = "rooms by state";

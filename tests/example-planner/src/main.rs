@@ -38,7 +38,8 @@ fn to_nearest_wall(world: &World, at: Point) -> f64 {
 }
 
 fn main() -> anyhow::Result<()> {
-    let folder = std::env::args().nth(1).ok_or_else(|| anyhow::anyhow!("usage: adit-example-planner SITE"))?;
+    let folder =
+        std::env::args().nth(1).ok_or_else(|| anyhow::anyhow!("usage: adit-example-planner SITE"))?;
     let mut knowledge = KnowledgeBase::open(folder.as_ref())?;
     knowledge.register(Box::new(Crowds));
     let report = knowledge.build(&Silent)?;
