@@ -96,16 +96,14 @@ impl KnowledgeBase {
         let mut ends = Vec::new();
         let names = [answer.start.clone(), answer.goal.clone()];
         for (name, status) in names.iter().zip([Status::UnknownStart, Status::UnknownGoal]) {
-            match graph.end(name) {
-                Some(end) => ends.push(end),
-                None => {
-                    let meant =
-                        did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
-                    answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
-                    answer.status = status;
-                    return Ok(answer);
-                }
-            }
+            let Some(end) = graph.end(name) else {
+                let meant =
+                    did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
+                answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
+                answer.status = status;
+                return Ok(answer);
+            };
+            ends.push(end);
         }
         for end in &ends {
             self.check_point(end)?;
@@ -121,19 +119,16 @@ impl KnowledgeBase {
             Some(goal) => tree.best_at(graph.graph(), &goals, goal),
             None => goals.iter().find_map(|&room| tree.of_room[room].first()).map(|&arrival| (arrival, 0.0)),
         };
-        match reached {
-            Some((arrival, leg)) => {
-                let last = goal.map(|goal| (goal, leg));
-                answer.steps = steps(graph, rules, &tree.way(arrival), last);
-                answer.cost = answer.steps.last().map(|step| step.cost);
-                let doors = answer.steps.iter().filter(|step| step.kind != "room").count();
-                answer.status = if doors == 0 { Status::SameRoom } else { Status::Ok };
-            }
-            None => {
-                answer.status = Status::NoRoute;
-                answer.reason = Some(reason::no_route(self, graph, rules, &start, &ends, &answer.robot)?);
-            }
-        }
+        let Some((arrival, leg)) = reached else {
+            answer.status = Status::NoRoute;
+            answer.reason = Some(reason::no_route(self, graph, rules, &start, &ends, &answer.robot)?);
+            return Ok(answer);
+        };
+        let last = goal.map(|goal| (goal, leg));
+        answer.steps = steps(graph, rules, &tree.way(arrival), last);
+        answer.cost = answer.steps.last().map(|step| step.cost);
+        let doors = answer.steps.iter().filter(|step| step.kind != "room").count();
+        answer.status = if doors == 0 { Status::SameRoom } else { Status::Ok };
         Ok(answer)
     }
 

@@ -43,7 +43,7 @@ impl Edit {
                 let columns = columns(tx, table)?;
                 known_column(table, column, &columns)?;
                 let found = tx.set_cell((table, key, column), &cell(value), author);
-                found.map_err(|error| explain(tx, error, table, key, value))?
+                found.map_err(|error| explain(tx, &error, table, key, value))?
             }
             Self::Add(table, key, cells) => {
                 let row = row(tx, table, key, cells)?;
@@ -54,7 +54,7 @@ impl Edit {
             Self::Remove(table, key) => {
                 columns(tx, table)?;
                 let gone = tx.remove_row(table, key, author);
-                gone.map_err(|error| explain(tx, error, table, key, ""))?
+                gone.map_err(|error| explain(tx, &error, table, key, ""))?
             }
             Self::Undo(Some(id)) => tx.undo(*id, author)?,
             Self::Undo(None) => match tx.undoable(1)?.first() {
@@ -147,8 +147,8 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
 }
 
 /// The store's error, with the row that was probably meant, or the value that was refused.
-fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: &str, value: &str) -> Error {
-    let help = match &error {
+fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, value: &str) -> Error {
+    let help = match error {
         adit_db::Error::UnknownKey { .. } => {
             keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
         }

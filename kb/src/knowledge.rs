@@ -79,7 +79,7 @@ impl KnowledgeBase {
     #[must_use]
     pub fn with_database(mut self, file: Option<&Path>) -> Self {
         if let Some(file) = file {
-            self.database = file.to_owned();
+            file.clone_into(&mut self.database);
         }
         self
     }
@@ -235,7 +235,7 @@ impl KnowledgeBase {
         progress.stage("database");
         let began = Instant::now();
         made.write(tx, &inputs.world, &derived)?;
-        self.keep_planned_classes(tx, &derived.facts)?;
+        keep_planned_classes(tx, &derived.facts)?;
         let database = Stage { name: "database".to_owned(), took: began.elapsed(), kept: false };
 
         progress.stage("routes");
@@ -312,17 +312,6 @@ impl KnowledgeBase {
         Ok(robots)
     }
 
-    /// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner
-    /// goes on from them.
-    fn keep_planned_classes(&self, tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
-        for (class, table) in facts {
-            if !["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"].contains(&class.as_str()) {
-                tables::keep(tx, &class.to_lowercase(), table)?;
-            }
-        }
-        Ok(())
-    }
-
     /// Keeps the routes. Where the starts are those of before, only trees that differ are written.
     fn keep_routes(
         &self,
@@ -374,4 +363,15 @@ impl KnowledgeBase {
         tx.mark_fresh()?;
         Ok(generation)
     }
+}
+
+/// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner
+/// goes on from them.
+fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
+    for (class, table) in facts {
+        if !["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"].contains(&class.as_str()) {
+            tables::keep(tx, &class.to_lowercase(), table)?;
+        }
+    }
+    Ok(())
 }

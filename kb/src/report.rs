@@ -33,7 +33,9 @@ impl Before {
 
     /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
     pub fn same_rooms(&self, graph: &SiteGraph) -> bool {
-        let same = |(old, new): (&Room, &Room)| old.rect == new.rect && old.layer == new.layer;
+        let same = |(old, new): (&Room, &Room)| {
+            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits) && old.layer == new.layer
+        };
         self.rooms.len() == graph.rooms.len() && self.rooms.iter().zip(&graph.rooms).all(same)
     }
 }
@@ -93,16 +95,14 @@ impl Routes {
         let (old_rows, new_rows) = (by_node(old), by_node(new));
         let (mut changed, mut rerouted) = (0, 0);
         for node in old_rows.keys().chain(new_rows.keys().filter(|node| !old_rows.contains_key(node))) {
-            match (old_rows.get(node), new_rows.get(node)) {
-                (Some(old_row), Some(new_row)) => {
-                    let dearer_or_cheaper = then(old_row).total_cmp(&now(new_row)).is_ne();
-                    let other_way =
-                        old_row.prev != new_row.prev || way(&old_rows, *node) != way(&new_rows, *node);
-                    changed += usize::from(dearer_or_cheaper || other_way);
-                    rerouted += usize::from(other_way);
-                }
-                _ => (changed, rerouted) = (changed + 1, rerouted + 1),
-            }
+            let (Some(old_row), Some(new_row)) = (old_rows.get(node), new_rows.get(node)) else {
+                (changed, rerouted) = (changed + 1, rerouted + 1);
+                continue;
+            };
+            let dearer_or_cheaper = then(old_row).total_cmp(&now(new_row)).is_ne();
+            let other_way = old_row.prev != new_row.prev || way(&old_rows, *node) != way(&new_rows, *node);
+            changed += usize::from(dearer_or_cheaper || other_way);
+            rerouted += usize::from(other_way);
         }
         self.changed = self.changed.map(|count| count + changed);
         self.rerouted = self.rerouted.map(|count| count + rerouted);

@@ -3,7 +3,7 @@
 use adit_db::door::DoorKind;
 use adit_db::{Store, Tx};
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::world::{Place, Shape, World};
+use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
 use crate::draw::{Door, DoorKind as Kind, PrimeArea, Room, Route, Scene, Step, StepKind};
@@ -63,7 +63,7 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     let rect = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(x0, y0, x1, y1);
     let mut scene = Scene::new(title, world.bounds);
     scene.obstacles = world.obstacles.iter().map(|obstacle| obstacle.shape.clone()).collect();
-    scene.obstacles.extend(world.occupancy.iter().flat_map(|cells| cells.rectangles()).map(Shape::Rect));
+    scene.obstacles.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(Shape::Rect));
     scene.bridges.clone_from(&world.bridges);
     scene.places.clone_from(&world.places);
     let rooms = tx.rooms()?;

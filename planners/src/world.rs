@@ -74,7 +74,9 @@ impl World {
                 Shape::Rect(r) => numbers(&[4.0, r.x0, r.y0, r.x1, r.y1]),
                 Shape::Polygon(corners) => {
                     numbers(&[-(corners.len() as f64)]);
-                    corners.iter().for_each(|p| numbers(&[p.x, p.y]));
+                    for p in corners {
+                        numbers(&[p.x, p.y]);
+                    }
                 }
             }
         }

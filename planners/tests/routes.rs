@@ -1,4 +1,5 @@
 //! Every route has the least cost: our loop beside petgraph's Dijkstra and Bellman-Ford.
+#![allow(clippy::float_cmp)] // sums of small whole numbers are exact
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Blockage, RouteDoor, RouteGraph, RouteRoom, Start, blockage};

@@ -109,10 +109,11 @@ impl TestSite {
     pub fn adit(&self, verb: &str, args: &[&str]) -> Ran {
         let mut command = Command::new(adit());
         command.arg(verb).arg(self.path()).args(args);
-        Ran::new(command.output().expect("adit runs"))
+        Ran::new(&command.output().expect("adit runs"))
     }
 
     /// Builds the site and expects that to work.
+    #[must_use]
     pub fn built(self) -> Self {
         self.adit("build", &[]).expect_status(0);
         self
@@ -122,7 +123,7 @@ impl TestSite {
     pub fn sqlite3(&self, query: &str) -> Vec<String> {
         let ran =
             Command::new("sqlite3").arg("-readonly").arg(self.path().join("site.db")).arg(query).output();
-        Ran::new(ran.expect("the sqlite3 shell is installed (tests/run installs it)"))
+        Ran::new(&ran.expect("the sqlite3 shell is installed (tests/run installs it)"))
             .expect_status(0)
             .stdout
             .lines()
@@ -133,7 +134,7 @@ impl TestSite {
     /// Edits the database with the plain `sqlite3` shell, as any program may.
     pub fn outside_edit(&self, statement: &str) {
         let ran = Command::new("sqlite3").arg(self.path().join("site.db")).arg(statement).output();
-        Ran::new(ran.expect("the sqlite3 shell is installed")).expect_status(0);
+        Ran::new(&ran.expect("the sqlite3 shell is installed")).expect_status(0);
     }
 }
 
@@ -149,7 +150,7 @@ pub struct Ran {
 
 impl Ran {
     /// What a finished process left.
-    pub fn new(output: Output) -> Self {
+    pub fn new(output: &Output) -> Self {
         Self {
             status: output.status.code().unwrap_or(-1),
             stdout: String::from_utf8_lossy(&output.stdout).into_owned(),

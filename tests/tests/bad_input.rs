@@ -1,4 +1,5 @@
 //! Bad input gets a clear error that names the place, and the database of before stays as it was.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::fs;
 use std::process::Command;
@@ -185,7 +186,7 @@ fn a_read_only_folder() {
     } else {
         Command::new(adit_tests::adit())
     };
-    let ran = adit_tests::Ran::new(build.arg("build").arg(site.path()).output().unwrap());
+    let ran = adit_tests::Ran::new(&build.arg("build").arg(site.path()).output().unwrap());
     Command::new("chmod").args(["-R", "u+w"]).arg(site.path()).status().unwrap();
     ran.expecting(2).complains(&["site.db"]);
 }

@@ -1,4 +1,5 @@
 //! Rooms by state: a route that a person believes, on a floor of thin walls.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_tests::TestSite;
 

@@ -1,4 +1,5 @@
 //! Abou-Ali's example, Tables 2, 3 and 7, through the program and through SQL clients that know nothing of ours.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::process::Command;
 
@@ -102,7 +103,7 @@ fn the_action_sequence_from_python() {
     let site = example();
     let mut python = Command::new("python3");
     python.args(["-c", PYTHON]).arg(site.path().join("site.db")).arg(SEQUENCE);
-    let ran = Ran::new(python.output().unwrap()).expecting(0);
+    let ran = Ran::new(&python.output().unwrap()).expecting(0);
     assert_eq!(ran.stdout.lines().collect::<Vec<_>>(), F_TO_E);
 }
 
@@ -128,7 +129,7 @@ fn the_action_sequence_from_a_folder_that_nobody_may_write() {
             adit
         },
     ] {
-        let ran = Ran::new(client.output().unwrap()).expecting(0);
+        let ran = Ran::new(&client.output().unwrap()).expecting(0);
         let rows: Vec<_> = ran.stdout.lines().filter(|line| line.contains('|')).collect();
         assert_eq!(rows.iter().rev().take(7).rev().copied().collect::<Vec<_>>(), F_TO_E);
     }
@@ -154,7 +155,7 @@ fn room_a_is_unreachable_and_the_reason_names_the_door_and_what_would_fit() {
     let answer = ran.json();
     assert_eq!(answer["status"], "no_route");
     let reason = answer["reason"].as_str().unwrap();
-    assert!(reason.contains("door 2") && reason.contains("4"), "{reason}");
+    assert!(reason.contains("door 2") && reason.contains('4'), "{reason}");
 }
 
 #[test]

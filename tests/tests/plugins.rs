@@ -1,4 +1,5 @@
 //! A planner from outside changes a route through a rule, and the stock program keeps the facts that it gave.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::process::Command;
 
@@ -31,7 +32,7 @@ fn build_with_the_example_planner(site: &TestSite) {
         build.arg("--release");
     }
     assert!(build.current_dir(repository()).status().unwrap().success());
-    Ran::new(Command::new(program).arg(site.path()).output().unwrap()).expect_status(0);
+    Ran::new(&Command::new(program).arg(site.path()).output().unwrap()).expect_status(0);
 }
 
 #[test]

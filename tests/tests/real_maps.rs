@@ -1,4 +1,5 @@
 //! Real occupancy maps build end to end, and a route leads across each.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::path::Path;
 
@@ -25,7 +26,7 @@ fn site(map: &Path, places: &[(&str, [f64; 2])]) -> TestSite {
     let mut text =
         format!("name = \"{}\"\nmap = \"{}\"\nstarts = [\"here\"]\n", map.display(), map.display());
     for (name, [x, y]) in places {
-        text.push_str(&format!("[[place]]\nname = \"{name}\"\nat = [{x}, {y}]\n"));
+        text = format!("{text}[[place]]\nname = \"{name}\"\nat = [{x}, {y}]\n");
     }
     TestSite::empty().with("robots.toml", ROBOTS).with("site.toml", &text)
 }

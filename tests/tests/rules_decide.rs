@@ -1,4 +1,5 @@
 //! Rules decide, Rust computes: what a domain expert changes in a text editor changes the answer, with no build.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::process::Command;
 
@@ -52,7 +53,7 @@ fn no_rust_file_knows_a_state_or_its_hardness() {
     for folder in ["engine/src", "planners/src", "db/src", "db/sql", "kb/src"] {
         let ran =
             Command::new("grep").arg("-rnE").arg(words.join("|")).arg(repository().join(folder)).output();
-        let found: Vec<String> = Ran::new(ran.unwrap())
+        let found: Vec<String> = Ran::new(&ran.unwrap())
             .stdout
             .lines()
             .filter(|line| {
@@ -79,7 +80,7 @@ fn a_table_filled_from_python_changes_a_route_through_a_rule() {
     let site = example_with_own_rules().built();
     let mut python = Command::new("python3");
     python.args(["-c", WET_FLOORS]).arg(site.path().join("site.db"));
-    Ran::new(python.output().unwrap()).expect_status(0);
+    Ran::new(&python.output().unwrap()).expect_status(0);
     site.write(
         "rules/wet.rhai",
         r#"rule "where a door stands"

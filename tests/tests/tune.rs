@@ -1,4 +1,5 @@
 //! The domain expert tunes a table: one cell, one transaction, and what changed is said.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_tests::TestSite;
 

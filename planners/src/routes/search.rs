@@ -105,8 +105,11 @@ impl<'g> Search<'g> {
             };
             match graph.rooms()[arrival.room].hardness_per_m {
                 None => pass(door.at, 0.0),
-                Some(per_m) => crossing::points(&door.crossing, arrival.at)
-                    .for_each(|at| pass(at, arrival.at.distance(at) * per_m)),
+                Some(per_m) => {
+                    for at in crossing::points(&door.crossing, arrival.at) {
+                        pass(at, arrival.at.distance(at) * per_m);
+                    }
+                }
             }
         }
     }
