@@ -18,6 +18,7 @@ impl KnowledgeBase {
         let answer = route.map(|(start, goal)| self.route(start, goal, robot)).transpose()?;
         let mut scene =
             Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;
+        crop(&mut scene, &world);
         if let Some(answer) = answer {
             if !matches!(answer.status, Status::Ok | Status::SameRoom) {
                 let why = answer.reason.unwrap_or_default();
@@ -57,6 +58,37 @@ impl KnowledgeBase {
             cost: answer.cost.unwrap_or_default(),
         })
     }
+}
+
+/// An image map is often mostly unknown: what lies far from every room is cut off.
+fn crop(scene: &mut Scene, world: &World) {
+    if world.occupancy.is_none() || scene.rooms.is_empty() {
+        return;
+    }
+    let none = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    let all = scene.rooms.iter().fold(none, |all, room| {
+        let r = room.rect;
+        Rect::new(all.x0.min(r.x0), all.y0.min(r.y0), all.x1.max(r.x1), all.y1.max(r.y1))
+    });
+    let margin = 0.05 * all.dx().max(all.dy());
+    let seen = Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin);
+    scene.bounds = scene.bounds.intersection(&seen).unwrap_or(scene.bounds);
+    let bounds = scene.bounds;
+    scene.obstacles = std::mem::take(&mut scene.obstacles)
+        .into_iter()
+        .filter_map(|shape| match shape {
+            Shape::Rect(rect) => bounds.intersection(&rect).map(Shape::Rect),
+            polygon => polygon.enclosing_rect().overlaps(&bounds).then_some(polygon),
+        })
+        .collect();
+}
+
+/// The state in which most of a route's rooms are crossed: the layer that its picture shows.
+pub fn main_state(route: &Route) -> Option<String> {
+    let rooms = route.steps.iter().filter(|step| step.kind == StepKind::Room);
+    let states: Vec<&String> = rooms.filter_map(|step| step.state.as_ref()).collect();
+    let count = |state: &String| states.iter().filter(|other| **other == state).count();
+    states.iter().rev().max_by_key(|state| count(state)).map(|state| (*state).clone())
 }
 
 fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {

@@ -10,6 +10,7 @@ use crate::draw::{Layers, Style, render_png, render_svg};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::progress::Spinner;
+use crate::scene::main_state;
 use crate::shipped::{self, Sites};
 use adit_db::Store;
 
@@ -68,7 +69,8 @@ fn build(args: &DemoArgs, name: &str, (start, goal): (&str, &str)) -> Result<Sho
     let answer = knowledge.route(start, goal, None)?;
     let picture = args.out.join(format!("{name}.png"));
     let scene = knowledge.scene(Some((start, goal)), None)?;
-    let svg = render_svg(&scene, &Layers::default(), &Style::default());
+    let layers = Layers { state: scene.route.as_ref().and_then(main_state), ..Layers::default() };
+    let svg = render_svg(&scene, &layers, &Style::default());
     let png = render_png(&svg, 1600).map_err(|error| Error::said("draw/png", error.to_string(), None))?;
     std::fs::write(&picture, png).map_err(|error| Error::io("write", &picture, &error))?;
     drop(spinner);

@@ -7,6 +7,7 @@ use super::build::open;
 use super::output::{json, line};
 use crate::draw::{Layers, Style, render_png, render_svg};
 use crate::error::{Error, Result};
+use crate::scene::main_state;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
@@ -15,10 +16,13 @@ pub fn run(args: &DrawArgs) -> Result<()> {
         let message = format!("{} is neither .svg nor .png", args.output.display());
         return Err(Error::said("draw/format", message, None));
     }
-    let layers = layers(args)?;
+    let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
     let scene = knowledge.scene(route, args.robot.as_deref())?;
+    if layers.state.is_none() {
+        layers.state = scene.route.as_ref().and_then(main_state);
+    }
     let svg = render_svg(&scene, &layers, &Style::default());
     let bytes = if extension == "png" {
         render_png(&svg, args.width).map_err(|error| Error::said("draw/png", error.to_string(), None))?
