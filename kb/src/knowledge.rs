@@ -227,8 +227,14 @@ impl KnowledgeBase {
         let told = self.told(tx, &inputs.rules)?;
         self.check_rules(&inputs.rules, &told)?;
         let robots = self.robots(tx)?;
-        let mut derived =
-            derive(&inputs.world, &told, &self.planners, &inputs.rules, &mut LastBuild::new(tx), progress)?;
+        let mut derived = derive(
+            &inputs.world,
+            &told,
+            &self.planners,
+            &inputs.rules,
+            &mut LastBuild::new(tx, &before),
+            progress,
+        )?;
         derived.stages.insert(0, inputs.stage.clone());
         let made = Tables::new(&derived, &inputs.rules)?;
 

@@ -18,8 +18,10 @@ use crate::knowledge::Inputs;
 /// The site as it was.
 #[derive(Default)]
 pub struct Before {
-    rooms: Vec<Room>,
-    doors: BTreeMap<i64, Door>,
+    /// The rooms, by number.
+    pub rooms: Vec<Room>,
+    /// The doors, by number.
+    pub doors: Vec<Door>,
     /// The starts that routes were kept from.
     pub starts: Vec<Start>,
 }
@@ -27,8 +29,11 @@ pub struct Before {
 impl Before {
     /// Reads it.
     pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
-        let doors = tx.doors()?.into_iter().map(|door| (door.door, door)).collect();
-        Ok(Self { rooms: tx.rooms()?, doors, starts: tx.starts()? })
+        Ok(Self { rooms: tx.rooms()?, doors: tx.doors()?, starts: tx.starts()? })
+    }
+
+    fn door(&self, key: i64) -> Option<&Door> {
+        self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
     }
 
     /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
@@ -90,7 +95,7 @@ impl Routes {
             row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0)
         };
         let then = |row: &TreeRow| {
-            row.reach + row.door.and_then(|key| before.doors.get(&key)?.hardness.value).unwrap_or(0.0)
+            row.reach + row.door.and_then(|key| before.door(key)?.hardness.value).unwrap_or(0.0)
         };
         let (old_rows, new_rows) = (by_node(old), by_node(new));
         let (mut changed, mut rerouted) = (0, 0);
@@ -170,7 +175,7 @@ impl Report {
         let mut changed_doors = graph.doors.len();
         if !cut_anew {
             let doors: Vec<Change> =
-                graph.doors.iter().filter_map(|new| door_change(before.doors.get(&new.door), new)).collect();
+                graph.doors.iter().filter_map(|new| door_change(before.door(new.door), new)).collect();
             changed_doors = doors.len();
             changes.extend(doors);
         }

@@ -14,17 +14,19 @@ use adit_planners::world::World;
 
 use crate::derive::{Derived, Memory};
 use crate::error::Result;
+use crate::report::Before;
 use crate::{classes, rows, tables};
 
 /// Rooms and doors of the last build, kept while the inputs of their planner stay the same.
 pub struct LastBuild<'a, 's> {
     tx: &'a mut Tx<'s>,
+    before: &'a Before,
 }
 
 impl<'a, 's> LastBuild<'a, 's> {
-    /// Reads through this transaction.
-    pub fn new(tx: &'a mut Tx<'s>) -> Self {
-        Self { tx }
+    /// What was read of the last build in this transaction.
+    pub fn new(tx: &'a mut Tx<'s>, before: &'a Before) -> Self {
+        Self { tx, before }
     }
 }
 
@@ -40,10 +42,9 @@ impl Memory for LastBuild<'_, '_> {
         if stored.as_deref() != Some(&fingerprint.to_string()) {
             return Ok(None);
         }
-        let (rooms, doors) = (self.tx.rooms()?, self.tx.doors()?);
         Ok(Some(Facts::from([
-            ("ROOMS".to_owned(), rows::rooms_table(&rooms)),
-            ("DOORS".to_owned(), rows::doors_table(&doors)),
+            ("ROOMS".to_owned(), rows::rooms_table(&self.before.rooms)),
+            ("DOORS".to_owned(), rows::doors_table(&self.before.doors)),
         ])))
     }
 }
