@@ -36,20 +36,35 @@ struct Search<'g> {
     graph: &'g RouteGraph,
     tree: Tree,
     queue: BinaryHeap<Candidate>,
+    /// Arrivals that wait in the queue, or have left it.
+    found: Vec<Arrival>,
+    /// For each edge of the graph the arrivals found over it.
+    over: Vec<Vec<u32>>,
 }
 
 impl<'g> Search<'g> {
     fn new(graph: &'g RouteGraph, start: &Start) -> Self {
         let tree = Tree { arrivals: Vec::new(), of_room: vec![Vec::new(); graph.rooms().len()] };
-        let begin = |&room: &usize| {
-            Candidate(Arrival { room, from: None, cost: 0.0, leg: 0.0, at: start.at, hops: 0 })
-        };
-        Self { graph, tree, queue: start.rooms.iter().map(begin).collect() }
+        let over = vec![Vec::new(); graph.petgraph().edge_count()];
+        let mut search = Self { graph, tree, queue: BinaryHeap::new(), found: Vec::new(), over };
+        for &room in &start.rooms {
+            search.wait(Arrival { room, from: None, cost: 0.0, leg: 0.0, at: start.at, hops: 0 });
+        }
+        search
+    }
+
+    fn wait(&mut self, arrival: Arrival) -> u32 {
+        let found = self.found.len() as u32;
+        let door = arrival.from.map_or(0, |(_, door)| door);
+        self.queue.push(Candidate { cost: arrival.cost, room: arrival.room as u32, door, found });
+        self.found.push(arrival);
+        found
     }
 
     fn run(mut self, goals: Option<(&[usize], Option<Point>)>) -> Tree {
         let mut best = f64::INFINITY;
-        while let Some(Candidate(arrival)) = self.queue.pop() {
+        while let Some(Candidate { found, .. }) = self.queue.pop() {
+            let arrival = self.found[found as usize];
             if arrival.cost >= best {
                 break;
             }
@@ -83,6 +98,15 @@ impl<'g> Search<'g> {
         })
     }
 
+    /// Whether an arrival found over the same edge, settled or not, makes this one superfluous.
+    fn is_foreseen(&self, edge: usize, arrival: &Arrival) -> bool {
+        let per_m = self.per_m(arrival.room);
+        self.over[edge].iter().any(|&found| {
+            let known = &self.found[found as usize];
+            known.cost + known.at.distance(arrival.at) * per_m <= arrival.cost
+        })
+    }
+
     /// Every way on from an arrival.
     fn leave(&mut self, index: usize, arrival: Arrival) {
         let graph = self.graph;
@@ -99,8 +123,9 @@ impl<'g> Search<'g> {
                     at,
                     hops: arrival.hops + 1,
                 };
-                if !self.is_superfluous(&next) {
-                    self.queue.push(Candidate(next));
+                if !self.is_superfluous(&next) && !self.is_foreseen(edge.id().index(), &next) {
+                    let found = self.wait(next);
+                    self.over[edge.id().index()].push(found);
                 }
             };
             match graph.rooms()[arrival.room].hardness_per_m {
@@ -115,22 +140,21 @@ impl<'g> Search<'g> {
     }
 }
 
-/// The cheapest first; then the room, then the door, of lower number, then the earlier point.
+/// The cheapest first; then the room, then the door, of lower number, then the one found first.
 #[derive(Clone, Copy, PartialEq)]
-struct Candidate(Arrival);
+struct Candidate {
+    cost: f64,
+    room: u32,
+    door: u32,
+    found: u32,
+}
 
 impl Eq for Candidate {}
 
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
-        let (a, b) = (&self.0, &other.0);
-        let door = |arrival: &Arrival| arrival.from.map(|(_, door)| door);
-        b.cost
-            .total_cmp(&a.cost)
-            .then_with(|| b.room.cmp(&a.room))
-            .then_with(|| door(b).cmp(&door(a)))
-            .then_with(|| b.at.x.total_cmp(&a.at.x))
-            .then_with(|| b.at.y.total_cmp(&a.at.y))
+        let rest = |candidate: &Self| (candidate.room, candidate.door, candidate.found);
+        other.cost.total_cmp(&self.cost).then_with(|| rest(other).cmp(&rest(self)))
     }
 }
 
