@@ -247,7 +247,7 @@ impl KnowledgeBase {
         progress.stage("routes");
         let began = Instant::now();
         let graph = SiteGraph::new(made.rooms, made.doors, tx.places()?);
-        let routes = self.keep_routes(tx, &graph, &robots, &before)?;
+        let routes = self.keep_routes(tx, &graph, &robots, &before, progress)?;
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
         let generation = self.sign(tx, &inputs.rules)?;
@@ -325,6 +325,7 @@ impl KnowledgeBase {
         graph: &SiteGraph,
         robots: &[String],
         before: &Before,
+        progress: &dyn Progress,
     ) -> Result<Routes> {
         let plan = trees::plan(graph, robots, self.site.starts.as_ref())?;
         let ends = trees::ends(graph)?;
@@ -336,6 +337,7 @@ impl KnowledgeBase {
         }
         tx.replace_ends(&ends)?;
         for (batch, roots) in plan.roots.chunks(64).enumerate() {
+            progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
             let made = trees::rows(graph, roots);
             let numbered = (batch as i64 * 64 + 1..).zip(made);
             if comparable {
