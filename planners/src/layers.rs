@@ -95,8 +95,8 @@ pub struct Layers {
 ///
 /// # Returns
 /// Within a layer the rooms are disjoint and free throughout. They cover the free space up to a cell's diagonal from
-/// its limit, but for rooms one cell thin that are dropped within two cells of a thicker one where that separates
-/// nothing: so up to three cells' diagonals. Changes join layers of the same robot only. The error is one sentence.
+/// its limit, but for rooms one cell thin along the limit, dropped within two cells of a thicker one where that
+/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only. The error is one sentence.
 ///
 /// # Complexity
 /// Near-linear in the number of cells, times the number of states of different size.

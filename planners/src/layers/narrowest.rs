@@ -37,7 +37,8 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
         if refined[least] || first == last {
             return Some(Narrowest { width: 2.0 * clearance, at });
         }
-        refined[least] = true;
+        // The ends of the window may lie in a wrong place of a narrow; what is between them is settled.
+        refined[(first + 1).min(least)..last.max(least + 1)].fill(true);
         let end = |index: usize| {
             let is_given = index == 0 || index == way.len() - 1;
             if is_given { way[index].0 } else { climb(&walls, way[index].0, step) }

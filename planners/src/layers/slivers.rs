@@ -8,8 +8,12 @@ use super::neighbours::Owners;
 /// How far from a thicker room a dropped cell may lie, in steps from cell to neighbouring cell.
 const REACH: usize = 2;
 
-/// The rooms without the slivers of which each cell lies within two free cells of a thicker room, and without which
-/// the other rooms are connected as before. The smallest are tried first; the order stays.
+/// The rooms without those slivers
+/// - of which each cell lies within two free cells of a thicker room,
+/// - that have rooms on one of their long sides only, so that nobody crosses them,
+/// - without which the other rooms are connected as before.
+///
+/// The smallest are tried first; the order stays.
 pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect]) -> Vec<CellRect> {
     let is_sliver = |room: &CellRect| (room.x1 - room.x0).min(room.y1 - room.y0) == 1;
     let mut near = Cells::none(free.columns(), free.rows());
@@ -27,15 +31,24 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect]) -> Vec<CellRect> {
     let mut kept = vec![true; rooms.len()];
     for (index, room) in rooms.iter().enumerate().rev() {
         if is_sliver(room) && near.first_missing(*room).is_none() {
-            kept[index] = !are_connected_without(index, &neighbours, &kept);
+            let beside: Vec<usize> = neighbours[index].iter().copied().filter(|&other| kept[other]).collect();
+            let is_crossed = is_crossed(room, beside.iter().map(|&other| &rooms[other]));
+            kept[index] = is_crossed || !are_connected(beside, &neighbours);
         }
     }
     rooms.iter().zip(kept).filter(|(_, kept)| *kept).map(|(room, _)| *room).collect()
 }
 
-/// Whether the kept neighbours of a room reach each other from one to the next, without it.
-fn are_connected_without(room: usize, neighbours: &[Vec<usize>], kept: &[bool]) -> bool {
-    let mut apart: Vec<usize> = neighbours[room].iter().copied().filter(|&other| kept[other]).collect();
+/// Whether a sliver longer than a cell has rooms on both of its long sides.
+fn is_crossed<'a>(sliver: &CellRect, beside: impl Iterator<Item = &'a CellRect> + Clone) -> bool {
+    let (wide, tall) = (sliver.x1 - sliver.x0 > 1, sliver.y1 - sliver.y0 > 1);
+    let some = |is_there: fn(&CellRect, &CellRect) -> bool| beside.clone().any(|room| is_there(room, sliver));
+    wide && some(|room, sliver| room.y1 <= sliver.y0) && some(|room, sliver| room.y0 >= sliver.y1)
+        || tall && some(|room, sliver| room.x1 <= sliver.x0) && some(|room, sliver| room.x0 >= sliver.x1)
+}
+
+/// Whether these rooms reach each other from one to the next, through no others.
+fn are_connected(mut apart: Vec<usize>, neighbours: &[Vec<usize>]) -> bool {
     let mut reached: Vec<usize> = apart.pop().into_iter().collect();
     while let Some(from) = reached.pop() {
         let (beside, others) = apart.into_iter().partition(|other| neighbours[from].contains(other));

@@ -1,7 +1,8 @@
 //! The image of a map: PGM (plain or raw) or PNG, 8 bits a channel.
 
+use std::cell::Cell;
 use std::fs::File;
-use std::io::{self, BufReader, ErrorKind, Read};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use image::codecs::png::PngDecoder;
@@ -54,14 +55,12 @@ pub(crate) fn read_image(source: &Text, file: &MapFile, folder: &Path) -> Result
             .with_help("its path is taken from the folder of the YAML file"),
         _ => problem(Code::Unreadable, format!("the image `{}` cannot be read: {error}", file.image)),
     })?;
-    let reader = BufReader::new(opened);
-    let explain = |error| explain(&problem, &file.image, &error);
-    let image = match &magic {
-        b"P2" | b"P5" => decode(PnmDecoder::new(reader).map_err(explain)?, &problem, &file.image),
-        b"\x89P" => {
-            let limits = Limits::no_limits();
-            decode(PngDecoder::with_limits(reader, limits).map_err(explain)?, &problem, &file.image)
-        }
+    let ended = Cell::new(false);
+    let reader = BufReader::new(Watched { file: opened, ended: &ended });
+    let decoded = match &magic {
+        b"P2" | b"P5" => PnmDecoder::new(reader).map(|decoder| decode(decoder, &problem, &file.image)),
+        b"\x89P" => PngDecoder::with_limits(reader, Limits::default())
+            .map(|decoder| decode(decoder, &problem, &file.image)),
         _ => {
             let message = format!("`{}` is not an image that a map can be read from", file.image);
             return Err(problem(Code::NotAnImage, message)
@@ -69,7 +68,45 @@ pub(crate) fn read_image(source: &Text, file: &MapFile, folder: &Path) -> Result
                 .into());
         }
     };
-    Ok(image?)
+    let image = decoded.map_err(Refused::Image).and_then(std::convert::identity);
+    image.map_err(|refused| match refused {
+        Refused::Map(problem) => problem.into(),
+        Refused::Image(_) if ended.get() => {
+            let message = format!("the image `{}` is truncated: it ends before its last pixel", file.image);
+            problem(Code::ImageTruncated, message).with_help("copy the file again").into()
+        }
+        Refused::Image(error) => {
+            problem(Code::NotAnImage, format!("the image `{}` cannot be decoded: {error}", file.image)).into()
+        }
+    })
+}
+
+/// Why an image is no map.
+enum Refused {
+    /// Its bytes make no image.
+    Image(ImageError),
+    /// It is an image, but not one of a map.
+    Map(Problem),
+}
+
+/// A file that remembers that somebody wanted more than there was.
+struct Watched<'a> {
+    file: File,
+    ended: &'a Cell<bool>,
+}
+
+impl Read for Watched<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.file.read(buffer)?;
+        self.ended.set(self.ended.get() || count == 0 && !buffer.is_empty());
+        Ok(count)
+    }
+}
+
+impl Seek for Watched<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
 }
 
 fn magic(path: &Path) -> io::Result<[u8; 2]> {
@@ -84,38 +121,24 @@ fn decode(
     decoder: impl ImageDecoder,
     problem: &impl Fn(Code, String) -> Problem,
     name: &str,
-) -> Result<Image, Problem> {
+) -> Result<Image, Refused> {
     let (columns, rows) = decoder.dimensions();
     if columns == 0 || rows == 0 {
-        return Err(problem(Code::NotAnImage, format!("the image `{name}` has no pixel")));
+        return Err(Refused::Map(problem(Code::NotAnImage, format!("the image `{name}` has no pixel"))));
     }
     if u64::from(columns) * u64::from(rows) > MAX_PIXELS {
         let message =
             format!("the image `{name}` has {columns} x {rows} pixels, more than the {MAX_PIXELS} of a map");
-        return Err(problem(Code::ImageTooLarge, message).with_help("use a coarser image of the floor"));
+        let problem = problem(Code::ImageTooLarge, message);
+        return Err(Refused::Map(problem.with_help("use a coarser image of the floor")));
     }
     let colour = decoder.color_type();
     if colour.bytes_per_pixel() > colour.channel_count() {
         let message = format!("the image `{name}` has 16 bits a channel; a map has 8");
-        return Err(problem(Code::ImageDepth, message).with_help("save it with 8 bits (a maxval of 255)"));
+        let problem = problem(Code::ImageDepth, message);
+        return Err(Refused::Map(problem.with_help("save it with 8 bits (a maxval of 255)")));
     }
     let mut bytes = vec![0; decoder.total_bytes() as usize];
-    decoder.read_image(&mut bytes).map_err(|error| explain(problem, name, &error))?;
+    decoder.read_image(&mut bytes).map_err(Refused::Image)?;
     Ok(Image { columns: columns as usize, rows: rows as usize, colour, bytes })
-}
-
-fn explain(problem: &impl Fn(Code, String) -> Problem, name: &str, error: &ImageError) -> Problem {
-    if ends_early(error) {
-        let message = format!("the image `{name}` is truncated: it ends before its last pixel");
-        return problem(Code::ImageTruncated, message).with_help("copy the file again");
-    }
-    problem(Code::NotAnImage, format!("the image `{name}` cannot be decoded: {error}"))
-}
-
-fn ends_early(error: &ImageError) -> bool {
-    if let ImageError::IoError(error) = error {
-        return error.kind() == ErrorKind::UnexpectedEof;
-    }
-    let said = error.to_string().to_lowercase();
-    said.contains("unexpected end") || said.contains("unexpected eof") || said.contains("too short")
 }
