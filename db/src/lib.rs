@@ -1,1 +1,39 @@
-//! db
+//! The store of Adit: schema, migrations, transactions, and the SQL views that users query.
+//!
+//! A site's database is one SQLite file that any client reads without anything of ours. [`Store`] is the blocking way
+//! in, [`Tx`] one transaction of it; the module of each table has the same functions in async form, on any
+//! `sqlx::SqliteConnection`.
+
+pub mod area;
+pub mod backup;
+mod bulk;
+pub mod cell;
+pub mod conclusion;
+pub mod doctor;
+pub mod door;
+mod dynamic;
+pub mod edit;
+mod error;
+mod guard;
+pub mod history;
+pub mod kept;
+mod migrate;
+pub mod place;
+pub mod query;
+mod reason;
+pub mod relation;
+pub mod robot;
+pub mod room;
+pub mod route;
+pub mod site;
+pub mod stale;
+mod store;
+mod transaction;
+pub mod tree;
+
+pub use cell::Cell;
+pub use error::{Error, Result};
+pub use migrate::VERSION;
+pub use reason::Derived;
+pub use store::Store;
+pub use transaction::Tx;

@@ -1,1 +1,120 @@
-//! engine
+//! An expert-system shell: classes of objects, rules in scripts, inference and explanation.
+//!
+//! A host asserts classes of objects ([`Class`], [`KnowledgeBase::assert`]), compiles rule files
+//! ([`RuleBase::compile`]), lets the rules conclude ([`KnowledgeBase::conclude`]), reads values back, and asks why
+//! ([`KnowledgeBase::why`]).
+//!
+//! ```
+//! use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile, Value};
+//!
+//! let rules = RuleBase::compile(&[SourceFile::new("garden.rhai", r#"
+//!     rule "who waters"
+//!         each  plant  in PLANTS where plant.days_dry > 2
+//!         least person in PEOPLE by busy where person.can_carry >= plant.litres
+//!         then { plant.waterer = person.name; }
+//! "#)])?;
+//! let mut garden = KnowledgeBase::new();
+//! garden.assert(
+//!     Class::new("PLANTS", &["pot"])
+//!         .texts("pot", [Some("fern")])
+//!         .numbers("days_dry", [Some(3.0)])
+//!         .numbers("litres", [Some(0.5)]),
+//! )?;
+//! garden.assert(
+//!     Class::new("PEOPLE", &["name"])
+//!         .texts("name", [Some("Ann"), Some("Bob")])
+//!         .numbers("busy", [Some(7.0), Some(9.0)])
+//!         .numbers("can_carry", [Some(0.2), Some(5.0)]),
+//! )?;
+//! garden.conclude(&rules);
+//! assert_eq!(garden.value("PLANTS", "fern", "waterer"), Some(Value::from("Bob")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Rules
+//!
+//! ```text
+//! rule "NAME"
+//!     each  x in CLASS [where CONDITION]           for every object that passes
+//!     least y in CLASS by NUMBER [where CONDITION] the one with the least value (most: the greatest)
+//!     some  z in CLASS [where CONDITION]           the first that passes
+//!     none  w in CLASS [where CONDITION]           only if there is no such object
+//!     then { x.property = VALUE; ... }
+//!     [else { ... }]
+//!
+//! revise "NAME"
+//!     clauses as above
+//!     set x.property by OPERATOR NUMBER [level N]  * + - max min; the level is 0 if not given
+//! ```
+//!
+//! The first clause is an `each` (or `some`); the others follow in any order and may speak of the variables before
+//! them. In `by`, a bare name is a property of the variable just bound. Files may also hold functions (`fn`) and
+//! constants (`const`). `rule` and `revise`, and the words that rhai reserves (`is`, `default`, `case`, ...),
+//! cannot name properties or variables.
+//!
+//! - A **rule concludes**. It is pure, and the order of rules and of rows never counts, but for ties. A property
+//!   has one value: two rules, or two bindings of one rule, that say different things make a [`Conflict`], and the
+//!   value is unknown. Within one action a later assignment replaces an earlier one. A told value stands before a
+//!   concluded one.
+//! - **Rules are ordered** by what they read and set. Rules that need each other's conclusions are refused, and the
+//!   cycle is named.
+//! - **`least`** takes the least value and its object; of equal ones the first row. Objects whose value is unknown
+//!   are left out and counted ([`LeftOut`]).
+//! - **`else`** runs once for each binding of the clauses before for which a `least`, `most` or `some` finds no
+//!   object or a `none` finds one. It may use the variables bound before that clause; properties of the others are
+//!   unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
+//! - **`revise`** changes a number, told or concluded. Each level starts from what the level below gave, and within a
+//!   `revise` the property that it sets is read as the level below left it; everyone else reads the last level. A
+//!   level has one operator (`+` and `-` are one). `each` contributes for every binding, `some` once; contributions
+//!   are folded in the order of rule names and keys, so equal facts give equal bits. An unknown amount makes the
+//!   value unknown.
+//! - **Unknown** is a third truth value (Kleene 1952), and goes through arithmetic and comparison. `where` needs
+//!   true. NaN is unknown; infinity is a number. `known(x)`, `unknown(x)` and `x ?? y` look at it. After an `if`
+//!   whose condition is unknown, all that either branch sets is unknown.
+//! - **Numbers** are 64-bit floats: `1 / 2` is a half. `+` joins texts with texts and numbers.
+//!
+//! Arithmetic, comparison, logic, `if`, `let`, `min max abs sqrt floor ceil round hypot`, joining of texts and
+//! `x in [...]` are compiled to loops over columns, and equations between properties use an index. All else (other
+//! functions, `switch`, loops) runs in the interpreter with the same meaning, some microseconds a binding; a function of
+//! something unknown is unknown.
+//!
+//! # Limits
+//!
+//! | | |
+//! |---|---|
+//! | rule file | 1,000,000 bytes, 128 functions, expressions nested 64 deep (32 in functions) |
+//! | rule | 32 clauses, 20 million firings, [`Limits::rule`] of time |
+//! | interpreted part | 1,000,000 steps with its closures, 32 calls deep, 256 variables |
+//! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
+//! | never | `eval`, `import`, `sleep`, printing |
+
+mod check;
+mod class;
+mod column;
+mod conclusions;
+mod diagnostic;
+mod knowledge;
+mod machine;
+mod order;
+mod plan;
+mod rule;
+mod rule_base;
+mod schema;
+mod script;
+mod suggest;
+mod symbols;
+mod value;
+
+pub use class::{Class, ClassError};
+pub use conclusions::{
+    Conclusions, Conflict, Gap, Justification, Justifications, LeftOut, Origin, Reason, Revision, Support,
+    Waiting, Witness,
+};
+pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+pub use knowledge::KnowledgeBase;
+pub use rule::{Operator, PropertyName, Rule};
+pub use rule_base::RuleBase;
+pub use schema::Schema;
+pub use script::interpreter::Limits;
+pub use script::source::{MAX_FILE_BYTES, SourceFile};
+pub use value::{Type, Value};

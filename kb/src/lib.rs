@@ -1,1 +1,48 @@
-//! kb
+//! Adit: a rule engine and knowledge base that tells a mobile robot which way to go and how to move.
+//!
+//! A map becomes rooms and doors, a rule base gives each of them a hardness and an action, and the routes of least
+//! total hardness are kept in a SQLite database, where the best sequence of actions is one query away.
+//!
+//! ```no_run
+//! use adit::{KnowledgeBase, Silent};
+//!
+//! let knowledge = KnowledgeBase::open("my-site".as_ref())?;
+//! let report = knowledge.build(&Silent)?;
+//! println!("{} rooms, {} doors", report.rooms.total, report.doors.total);
+//! let answer = knowledge.route("dock", "ward 6", None)?;
+//! for step in &answer.steps {
+//!     println!("{} {} {:?}", step.kind, step.place, step.action);
+//! }
+//! # Ok::<(), adit::Error>(())
+//! ```
+
+pub mod answer;
+mod classes;
+pub mod cli;
+mod derive;
+pub mod draw;
+pub mod edit;
+mod error;
+mod graph;
+mod knowledge;
+mod progress;
+mod reason;
+mod report;
+mod robots;
+mod rows;
+mod rules;
+mod scene;
+mod shipped;
+mod site;
+mod store;
+mod suggest;
+mod tables;
+mod trees;
+
+pub use answer::{Answer, Status};
+pub use derive::Stage;
+pub use error::{Error, Result};
+pub use knowledge::KnowledgeBase;
+pub use progress::{Progress, Silent, Spinner};
+pub use report::{Change, Counts, Report, Routes};
+pub use site::{Rooms, Site, Starts};

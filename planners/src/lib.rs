@@ -1,10 +1,19 @@
 //! Geometry and search for Adit: pure functions from a world to typed records (rooms, doors), and from
 //! weighted records to routes. No SQL, no rules.
 
+pub mod bridges;
+pub mod doors;
 pub mod facts;
 pub mod geometry;
+mod known;
 pub mod layers;
+pub mod minimum;
 pub mod names;
 pub mod planner;
+pub mod prime_areas;
 pub mod read;
+pub mod rooms;
+pub mod routes;
+mod skyline;
+pub mod strips;
 pub mod world;

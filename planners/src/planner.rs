@@ -9,7 +9,8 @@ use crate::world::World;
 pub struct Signature {
     /// Properties as `CLASS.property` (`PRIME_AREAS.open`): from tables, other planners or rules.
     pub needs: Vec<String>,
-    /// Classes it asserts whole (`DOORS`), with their properties as `CLASS.property`.
+    /// Classes it asserts whole (`DOORS`), with their properties as `CLASS.property`; those that hold no numbers say
+    /// so: `ROOMS.name: text`, `DOORS.one_way: truth`.
     pub gives: Vec<String>,
 }
 

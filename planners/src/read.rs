@@ -12,12 +12,13 @@ pub mod toml_map;
 
 use std::path::Path;
 
-use diagnostic::{Code, MapErrors, Problem, Text};
-
 use crate::world::World;
 
+pub use diagnostic::{Code, MapErrors, Problem, Text};
+pub use fields::{Document, Fields, Located};
 pub use overlay::Overlay;
 pub use report::MapReport;
+pub use suggest::nearest;
 
 /// What the unknown cells of an image count as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Deserialize, serde::Serialize)]
@@ -95,5 +96,9 @@ fn check(settings: &MapSettings) -> Result<(), MapErrors> {
 
 fn syntax_problem(source: &Text, error: &toml::de::Error) -> Problem {
     let span = error.span().unwrap_or(0..0);
-    source.problem(Code::Syntax, &span, error.message().replace('\n', ", "))
+    let problem = source.problem(Code::Syntax, &span, error.message().replace('\n', ", "));
+    if error.message().starts_with("duplicate key") {
+        return problem.with_help("a list stands either as `key = [...]` or as [[key]] entries, not as both");
+    }
+    problem
 }

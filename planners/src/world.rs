@@ -2,6 +2,8 @@
 
 mod occupancy;
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use geo::{Contains, Coord, LineString, Polygon};
 
 pub use occupancy::Occupancy;
@@ -51,6 +53,46 @@ impl World {
         let drawn = self.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect());
         let pictured = self.occupancy.iter().flat_map(Occupancy::rectangles);
         drawn.chain(pictured).filter_map(|rect| self.bounds.intersection(&rect)).collect()
+    }
+}
+
+impl World {
+    /// Whether the point lies inside of something solid.
+    pub fn is_solid(&self, p: Point) -> bool {
+        let drawn = self.obstacles.iter().any(|obstacle| obstacle.shape.contains(p));
+        drawn || self.occupancy.as_ref().is_some_and(|cells| cells.is_blocked_at(p))
+    }
+
+    /// A number that two equal worlds share, and two others hardly ever do.
+    pub fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        let mut numbers = |values: &[f64]| values.iter().for_each(|value| value.to_bits().hash(&mut hasher));
+        numbers(&[self.bounds.x0, self.bounds.y0, self.bounds.x1, self.bounds.y1]);
+        numbers(&[self.clearance, self.grid.unwrap_or(-1.0)]);
+        for obstacle in &self.obstacles {
+            match &obstacle.shape {
+                Shape::Rect(r) => numbers(&[4.0, r.x0, r.y0, r.x1, r.y1]),
+                Shape::Polygon(corners) => {
+                    numbers(&[-(corners.len() as f64)]);
+                    for p in corners {
+                        numbers(&[p.x, p.y]);
+                    }
+                }
+            }
+        }
+        for bridge in &self.bridges {
+            let r = bridge.rect;
+            numbers(&[5.0, r.x0, r.y0, r.x1, r.y1, bridge.height]);
+        }
+        for place in &self.places {
+            numbers(&[place.at.x, place.at.y]);
+        }
+        if let Some(cells) = &self.occupancy {
+            numbers(&[cells.origin.x, cells.origin.y, cells.resolution]);
+            (cells.columns, cells.rows, &cells.blocked).hash(&mut hasher);
+        }
+        self.places.iter().for_each(|place| place.name.hash(&mut hasher));
+        hasher.finish()
     }
 }
 

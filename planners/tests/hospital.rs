@@ -111,9 +111,16 @@ fn the_planner_asserts_rooms_and_doors_by_name() {
     let known = Facts::from([("ROBOTS".to_owned(), robots)]);
     let facts = RoomsByState.facts(&world, &known).unwrap();
     let (rooms, doors) = (&facts["ROOMS"], &facts["DOORS"]);
-    for property in RoomsByState.signature().gives {
-        let (class, property) = property.split_once('.').unwrap();
-        assert_eq!(facts[class].column(property).unwrap().len(), facts[class].len(), "{class}.{property}");
+    for given in RoomsByState.signature().gives {
+        let (name, sort) = given.split_once(": ").unwrap_or((&given, "number"));
+        let (class, property) = name.split_once('.').unwrap();
+        let column = facts[class].column(property).unwrap();
+        let found = match column {
+            Column::Number(_) => "number",
+            Column::Text(_) => "text",
+            Column::Truth(_) => "truth",
+        };
+        assert_eq!((found, column.len()), (sort, facts[class].len()), "{given}");
     }
     assert_eq!(rooms.texts("name").unwrap()[0].as_deref(), Some("a"));
     let states: BTreeSet<_> = rooms.texts("state").unwrap().iter().flatten().cloned().collect();

@@ -1,1 +1,199 @@
-//! tests
+//! What the journeys share: the built program, sites in a temporary folder, and the clients that users have.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+/// The program `adit` of this build; built first where it is missing or old.
+pub fn adit() -> &'static Path {
+    static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+    PROGRAM.get_or_init(|| {
+        let exe = std::env::current_exe().expect("a test knows its own path");
+        let profile = exe.ancestors().nth(2).expect("tests run in target/PROFILE/deps").to_path_buf();
+        let mut build = Command::new(env!("CARGO"));
+        build.args(["build", "--quiet", "--locked", "--package", "adit", "--bin", "adit"]);
+        if profile.ends_with("release") {
+            build.arg("--release");
+        }
+        assert!(build.current_dir(repository()).status().expect("cargo runs").success());
+        profile.join("adit")
+    })
+}
+
+/// The top folder of the repository.
+pub fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the repository").to_path_buf()
+}
+
+/// Other people's maps, beside the repository; says loudly when they are missing.
+pub fn shared(path: &str) -> Option<PathBuf> {
+    let found = std::env::var_os("ADIT_SHARED").map_or_else(|| repository().join("../shared"), PathBuf::from);
+    let found = found.join(path);
+    if found.exists() {
+        return Some(found);
+    }
+    eprintln!("\n!!! SKIPPED: ../shared/{path} is missing, so this test has tested nothing !!!\n");
+    None
+}
+
+/// A site in a folder of its own that goes away with it.
+pub struct TestSite {
+    folder: TempDir,
+}
+
+impl TestSite {
+    /// An empty folder.
+    pub fn empty() -> Self {
+        Self { folder: tempfile::tempdir().expect("a temporary folder") }
+    }
+
+    /// A copy of one of the example sites in `kb/sites`.
+    pub fn example(name: &str) -> Self {
+        let site = Self::empty();
+        for entry in fs::read_dir(repository().join("kb/sites").join(name)).expect("an example site") {
+            let entry = entry.expect("a file");
+            fs::copy(entry.path(), site.path().join(entry.file_name())).expect("copied");
+        }
+        site
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Writes a file of the site.
+    #[must_use]
+    pub fn with(self, name: &str, text: &str) -> Self {
+        self.write(name, text);
+        self
+    }
+
+    /// Writes a file of the site, with its folders.
+    pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        let file = self.path().join(name);
+        fs::create_dir_all(file.parent().expect("a folder")).expect("folder made");
+        fs::write(file, text).expect("written");
+    }
+
+    /// Reads a file of the site.
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path().join(name)).expect("readable")
+    }
+
+    /// Replaces text in a file of the site; the text must be there.
+    pub fn edit(&self, name: &str, from: &str, to: &str) {
+        let text = self.read(name);
+        assert!(text.contains(from), "{name} has no `{from}`");
+        self.write(name, text.replacen(from, to, 1));
+    }
+
+    /// Copies a shipped rule base into the site's folder `rules`.
+    pub fn copy_rules(&self, base: &str) {
+        for entry in fs::read_dir(repository().join("rules/rooms").join(base)).expect("a rule base") {
+            let file = entry.expect("a file").path();
+            if file.extension().is_some_and(|e| e == "rhai") {
+                let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+                self.write(&format!("rules/{name}"), fs::read(&file).expect("readable"));
+            }
+        }
+        let site = self.read("site.toml");
+        self.write("site.toml", format!("rules = \"rules\"\n{site}"));
+    }
+
+    /// Runs `adit VERB SITE ARGS…`.
+    pub fn adit(&self, verb: &str, args: &[&str]) -> Ran {
+        let mut command = Command::new(adit());
+        command.arg(verb).arg(self.path()).args(args);
+        Ran::new(&command.output().expect("adit runs"))
+    }
+
+    /// Builds the site and expects that to work.
+    #[must_use]
+    pub fn built(self) -> Self {
+        self.adit("build", &[]).expect_status(0);
+        self
+    }
+
+    /// The rows that the plain `sqlite3` shell prints, read-only, columns joined by `|`.
+    pub fn sqlite3(&self, query: &str) -> Vec<String> {
+        let ran =
+            Command::new("sqlite3").arg("-readonly").arg(self.path().join("site.db")).arg(query).output();
+        Ran::new(&ran.expect("the sqlite3 shell is installed (tests/run installs it)"))
+            .expect_status(0)
+            .stdout
+            .lines()
+            .map(str::to_owned)
+            .collect()
+    }
+
+    /// Edits the database with the plain `sqlite3` shell, as any program may.
+    pub fn outside_edit(&self, statement: &str) {
+        let ran = Command::new("sqlite3").arg(self.path().join("site.db")).arg(statement).output();
+        Ran::new(&ran.expect("the sqlite3 shell is installed")).expect_status(0);
+    }
+}
+
+/// What a program printed.
+pub struct Ran {
+    /// Exit status.
+    pub status: i32,
+    /// Standard output.
+    pub stdout: String,
+    /// Standard error.
+    pub stderr: String,
+}
+
+impl Ran {
+    /// What a finished process left.
+    pub fn new(output: &Output) -> Self {
+        Self {
+            status: output.status.code().unwrap_or(-1),
+            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
+            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+
+    /// Fails the test, showing all that was printed, unless the status is this.
+    #[must_use]
+    #[track_caller]
+    pub fn expecting(self, status: i32) -> Self {
+        assert_eq!(self.status, status, "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);
+        self
+    }
+
+    /// [`Ran::expecting`], where the rest is looked at or not.
+    #[track_caller]
+    #[allow(clippy::must_use_candidate, clippy::return_self_not_must_use)] // a check by itself is a use
+    pub fn expect_status(self, status: i32) -> Self {
+        self.expecting(status)
+    }
+
+    /// Standard output as JSON.
+    #[track_caller]
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout)
+            .unwrap_or_else(|error| panic!("no JSON ({error}):\n{}\n{}", self.stdout, self.stderr))
+    }
+
+    /// Fails the test unless standard error has every one of these texts, line breaks of the printer aside.
+    #[track_caller]
+    pub fn complains(&self, texts: &[&str]) {
+        let said: String = self
+            .stderr
+            .split(|c: char| c.is_whitespace() || c == '│')
+            .filter(|w| !w.is_empty())
+            .fold(String::new(), |mut all, word| {
+                all.push_str(word);
+                all.push(' ');
+                all
+            });
+        for text in texts {
+            assert!(said.contains(text), "`{text}` is not in:\n{}", self.stderr);
+        }
+    }
+}

@@ -4,6 +4,7 @@ use super::{Kind, Layers, Room, State, cut_layers};
 use crate::facts::{Column, Facts, Table};
 use crate::names::room_name;
 use crate::planner::{Planner, PlannerError, Signature};
+use crate::rooms::GIVES;
 use crate::world::World;
 
 const NAME: &str = "rooms by state";
@@ -24,30 +25,7 @@ impl Planner for RoomsByState {
 
     fn signature(&self) -> Signature {
         let needs = ["robot", "state", "height", "width", "moves"].map(|p| format!("ROBOTS.{p}"));
-        let rooms = ["room", "name", "robot", "state", "x0", "y0", "x1", "y1", "height", "width"];
-        let doors = [
-            "door",
-            "kind",
-            "room1",
-            "room2",
-            "x",
-            "y",
-            "width",
-            "x0",
-            "y0",
-            "x1",
-            "y1",
-            "height1",
-            "width1",
-            "distance1",
-            "height2",
-            "width2",
-            "distance2",
-            "one_way",
-        ];
-        let rooms = rooms.iter().map(|property| format!("ROOMS.{property}"));
-        let doors = doors.iter().map(|property| format!("DOORS.{property}"));
-        Signature { needs: needs.into(), gives: rooms.chain(doors).collect() }
+        Signature { needs: needs.into(), gives: GIVES.iter().map(|given| (*given).to_owned()).collect() }
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {

@@ -6,28 +6,57 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::diagnostic::{Code, Problem, Text};
+use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::suggest::nearest;
+use super::syntax_problem;
+
+/// A TOML document that was parsed, to be read field by field.
+pub struct Document<'i> {
+    table: Spanned<DeTable<'i>>,
+    text: Text,
+}
+
+impl<'i> Document<'i> {
+    /// Parses a text.
+    ///
+    /// # Arguments
+    /// `name` is how messages call the file, `text` its content.
+    pub fn parse(name: &str, text: &'i str) -> Result<Self, MapErrors> {
+        let source = Text::new(name, text);
+        let table = DeTable::parse(text).map_err(|error| syntax_problem(&source, &error))?;
+        Ok(Self { table, text: source })
+    }
+
+    /// Its outermost table; `what` is how messages call it. Whatever is missing there is missing at the start.
+    pub fn fields<'a>(&'a self, what: &'a str) -> Fields<'a, 'i> {
+        Fields { what, table: self.table.get_ref(), span: 0..0, text: &self.text }
+    }
+}
 
 /// A value with its place in the text, in bytes.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Located<T> {
-    pub(crate) value: T,
-    pub(crate) span: Range<usize>,
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Range<usize>,
 }
 
 /// One table of a document, and where to report what is wrong with it.
-pub(crate) struct Fields<'a, 'i> {
+pub struct Fields<'a, 'i> {
     /// How messages call it: `[[obstacle]]`.
-    pub(crate) what: &'a str,
-    pub(crate) table: &'a DeTable<'i>,
-    pub(crate) span: Range<usize>,
-    pub(crate) text: &'a Text,
+    pub what: &'a str,
+    /// The table itself.
+    pub table: &'a DeTable<'i>,
+    /// Where it stands in the text, bytes.
+    pub span: Range<usize>,
+    /// The whole text.
+    pub text: &'a Text,
 }
 
 impl Fields<'_, '_> {
     /// Refuses every key that is not one of `known`.
-    pub(crate) fn refuse_unknown(&self, known: &[&str], problems: &mut Vec<Problem>) {
+    pub fn refuse_unknown(&self, known: &[&str], problems: &mut Vec<Problem>) {
         for key in self.table.keys().filter(|key| !known.contains(&&**key.get_ref())) {
             let message = format!("`{}` is not a key of {}", key.get_ref(), self.what);
             let help = match nearest(key.get_ref(), known) {
@@ -39,7 +68,7 @@ impl Fields<'_, '_> {
     }
 
     /// The value of a key, whatever it is.
-    pub(crate) fn get(&self, key: &str) -> Option<&Spanned<DeValue<'_>>> {
+    pub fn get(&self, key: &str) -> Option<&Spanned<DeValue<'_>>> {
         self.table.iter().find(|(name, _)| &**name.get_ref() == key).map(|(_, value)| value)
     }
 
@@ -54,13 +83,13 @@ impl Fields<'_, '_> {
     }
 
     /// A finite number that must be there.
-    pub(crate) fn number(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
+    pub fn number(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
         let value = self.require(key, problems)?;
         self.finite(key, value, problems).map(|number| Located { value: number, span: value.span() })
     }
 
     /// A finite number more than zero that must be there.
-    pub(crate) fn positive(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
+    pub fn positive(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<f64>> {
         let number = self.number(key, problems)?;
         if number.value > 0.0 {
             return Some(number);
@@ -71,7 +100,7 @@ impl Fields<'_, '_> {
     }
 
     /// A text that must be there.
-    pub(crate) fn string(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
+    pub fn string(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
         let value = self.require(key, problems)?;
         match value.get_ref() {
             DeValue::String(text) => Some(Located { value: text.to_string(), span: value.span() }),
@@ -83,7 +112,7 @@ impl Fields<'_, '_> {
     }
 
     /// Exactly `N` finite numbers under a key that must be there.
-    pub(crate) fn numbers<const N: usize>(
+    pub fn numbers<const N: usize>(
         &self,
         key: &str,
         problems: &mut Vec<Problem>,
@@ -93,7 +122,7 @@ impl Fields<'_, '_> {
     }
 
     /// Points `[[x, y], ...]` under a key that must be there.
-    pub(crate) fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<[f64; 2]>>> {
+    pub fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<[f64; 2]>>> {
         let value = self.require(key, problems)?;
         let DeValue::Array(entries) = value.get_ref() else {
             problems.push(self.wrong_type(key, "a list of [x, y]", value.get_ref(), value.span()));
@@ -104,7 +133,7 @@ impl Fields<'_, '_> {
     }
 
     /// The tables of `[[key]]`, in the order of the file; none where the key is missing.
-    pub(crate) fn tables<'b>(
+    pub fn tables<'b>(
         &'b self,
         key: &str,
         what: &'b str,

@@ -40,7 +40,8 @@ impl Overlay {
         if problems.is_empty() { Ok(overlay) } else { Err(MapErrors { problems }) }
     }
 
-    pub(crate) fn from_fields(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
+    /// Reads the items of a document that is read field by field; what is wrong is added to `problems`.
+    pub fn from_fields(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
         Self {
             obstacles: items::obstacles(fields, problems),
             bridges: items::bridges(fields, problems),

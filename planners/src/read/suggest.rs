@@ -2,7 +2,7 @@
 
 /// The candidate nearest to `word` by edit distance, if it is near enough to be meant: at most a third of the
 /// word's letters differ, and always one may. Of equally near ones the first.
-pub(crate) fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let allowed = (word.chars().count() / 3).max(1);
     let distances = candidates.iter().map(|&candidate| (edit_distance(word, candidate), candidate));
     distances.min_by_key(|&(distance, _)| distance).filter(|&(d, _)| d <= allowed).map(|(_, c)| c)

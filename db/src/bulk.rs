@@ -1,0 +1,114 @@
+//! Writing many rows: statements of several hundred rows each, prepared once.
+
+use std::sync::Arc;
+
+use sqlx::sqlite::SqliteArguments;
+use sqlx::{Arguments, AssertSqlSafe, SqliteConnection};
+
+use crate::cell::Cell;
+use crate::error::{Error, Result};
+
+/// Values bound in one statement. sqlx hands each statement to another thread, which costs about 20 µs;
+/// SQLite takes at most 32,766 values.
+const VALUES: usize = 4_000;
+
+/// A row that a table takes.
+pub(crate) trait Record {
+    const TABLE: &'static str;
+    const COLUMNS: &'static [&'static str];
+
+    /// Binds one value for each column, in their order.
+    fn bind(&self, values: &mut Values);
+}
+
+/// The values of one statement.
+pub(crate) struct Values {
+    arguments: SqliteArguments,
+    bound: usize,
+    nan: Option<usize>,
+    failure: Option<sqlx::error::BoxDynError>,
+}
+
+impl Values {
+    fn with_capacity(values: usize) -> Self {
+        let mut arguments = SqliteArguments::default();
+        arguments.reserve(values, 0);
+        Self { arguments, bound: 0, nan: None, failure: None }
+    }
+
+    fn add<'t, T: sqlx::Encode<'t, sqlx::Sqlite> + sqlx::Type<sqlx::Sqlite> + 't>(&mut self, value: T) {
+        if let Err(failure) = self.arguments.add(value) {
+            self.failure.get_or_insert(failure);
+        }
+        self.bound += 1;
+    }
+
+    pub(crate) fn integer(&mut self, value: impl Into<Option<i64>>) {
+        self.add(value.into());
+    }
+
+    pub(crate) fn truth(&mut self, value: impl Into<Option<bool>>) {
+        self.add(value.into().map(i64::from));
+    }
+
+    /// SQLite would take a NaN for NULL: it is refused instead.
+    pub(crate) fn real(&mut self, value: impl Into<Option<f64>>) {
+        let value = value.into();
+        if value.is_some_and(f64::is_nan) {
+            self.nan.get_or_insert(self.bound);
+        }
+        self.add(value);
+    }
+
+    pub(crate) fn text<'t>(&mut self, value: impl Into<Option<&'t str>>) {
+        self.add(value.into());
+    }
+
+    pub(crate) fn cell(&mut self, value: &Cell) {
+        match value {
+            Cell::Null => self.add(None::<i64>),
+            Cell::Integer(value) => self.integer(*value),
+            Cell::Real(value) => self.real(*value),
+            Cell::Text(value) => self.text(value.as_str()),
+            Cell::Blob(value) => self.add(value.as_slice()),
+        }
+    }
+}
+
+/// Inserts all rows; how many there were.
+pub(crate) async fn insert<R: Record>(
+    connection: &mut SqliteConnection,
+    rows: impl IntoIterator<Item = R>,
+) -> Result<u64> {
+    let most = VALUES / R::COLUMNS.len();
+    let full = statement::<R>(most);
+    let mut rows = rows.into_iter();
+    let mut written = 0;
+    loop {
+        let mut values = Values::with_capacity(VALUES);
+        let count = rows.by_ref().take(most).map(|row| row.bind(&mut values)).count();
+        if count == 0 {
+            return Ok(written);
+        }
+        let sql = if count == most { Arc::clone(&full) } else { statement::<R>(count) };
+        send::<R>(connection, sql, values).await?;
+        written += count as u64;
+    }
+}
+
+async fn send<R: Record>(connection: &mut SqliteConnection, sql: Arc<str>, values: Values) -> Result<()> {
+    if let Some(at) = values.nan {
+        return Err(Error::NotANumber { table: R::TABLE, column: R::COLUMNS[at % R::COLUMNS.len()] });
+    }
+    if let Some(failure) = values.failure {
+        return Err(sqlx::Error::Encode(failure).into());
+    }
+    let query = sqlx::query_with(AssertSqlSafe(sql), values.arguments);
+    query.execute(connection).await.map_err(|e| Error::from(e).refusing(R::TABLE))?;
+    Ok(())
+}
+
+fn statement<R: Record>(rows: usize) -> Arc<str> {
+    let row = format!("({})", vec!["?"; R::COLUMNS.len()].join(","));
+    format!("INSERT INTO {} ({}) VALUES {}", R::TABLE, R::COLUMNS.join(","), vec![row; rows].join(",")).into()
+}

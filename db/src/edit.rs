@@ -1,0 +1,131 @@
+//! Edits of single cells and rows by hand, each written to the history.
+
+use sqlx::{Row, SqliteConnection};
+
+use crate::cell::Cell;
+use crate::dynamic::{self, identifier};
+use crate::error::{Error, Result};
+use crate::history::{self, Author, Entry};
+use crate::transaction::Tx;
+
+mod table;
+mod undo;
+
+use table::{Table, joined};
+pub use undo::undo;
+
+/// What an edit did.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edited {
+    /// Its number in the history.
+    pub id: i64,
+    /// The row's whole key, its columns joined by `/`.
+    pub key: String,
+    /// The value before, or the row that went, as JSON.
+    pub old: Cell,
+    /// The value after as the table holds it, or the row that came, as JSON.
+    pub new: Cell,
+}
+
+/// Sets one cell. `key` is the row's key, its columns joined by `/`; the robot may be left out where that leaves one
+/// row. The table's types and ranges decide what is taken.
+pub async fn set_cell(
+    connection: &mut SqliteConnection,
+    (table, key, column): (&str, &str, &str),
+    value: &Cell,
+    author: &Author,
+) -> Result<Edited> {
+    let what = format!("{table}.{key}.{column}");
+    if matches!(value, Cell::Real(number) if number.is_nan()) {
+        return Err(Error::Refused { what, reason: "not a number".to_owned() });
+    }
+    let table = Table::editable(connection, table).await?;
+    let quoted = table.column(column)?;
+    let mut found = table.locate(connection, key).await?;
+    let old = table.read(connection, &quoted, &found).await?;
+    let sql = format!("UPDATE {} SET {quoted} = ? WHERE {}", identifier(table.name), table.found());
+    let mut values = vec![value.clone()];
+    values.extend(found.iter().cloned());
+    dynamic::execute(connection, sql, &values).await.map_err(|e| e.refusing(what))?;
+    // the history names the row by the key that it now has
+    if let Some(part) = table.keys().iter().position(|name| *name == quoted) {
+        found[part] = value.clone();
+    }
+    let new = table.read(connection, &quoted, &found).await?;
+    let key = joined(&found);
+    let entry = Entry { table: table.name, key: &key, column: Some(column), old: &old, new: &new };
+    let id = history::record(connection, author, &entry).await?;
+    Ok(Edited { id, key, old, new })
+}
+
+/// Adds a row; columns not named take their defaults.
+pub async fn add_row(
+    connection: &mut SqliteConnection,
+    table: &str,
+    row: &[(&str, Cell)],
+    author: &Author,
+) -> Result<Edited> {
+    let table = Table::editable(connection, table).await?;
+    let mut names = Vec::new();
+    for (column, _) in row {
+        names.push(table.column(column)?);
+    }
+    let values: Vec<Cell> = row.iter().map(|(_, value)| value.clone()).collect();
+    let holes = vec!["?"; names.len()].join(", ");
+    let sql = format!(
+        "INSERT INTO {} ({}) VALUES ({holes}) RETURNING {}, {}",
+        identifier(table.name),
+        names.join(", "),
+        table.json(),
+        table.keys().join(", ")
+    );
+    let rows = dynamic::fetch(connection, sql, &values).await.map_err(|e| e.refusing(table.name))?;
+    let row = rows.first().ok_or(sqlx::Error::RowNotFound)?;
+    let new = Cell::of(row, 0)?;
+    let key: Vec<Cell> = (1..row.len()).map(|index| Cell::of(row, index)).collect::<Result<_>>()?;
+    let key = joined(&key);
+    let entry = Entry { table: table.name, key: &key, column: None, old: &Cell::Null, new: &new };
+    let id = history::record(connection, author, &entry).await?;
+    Ok(Edited { id, key, old: Cell::Null, new })
+}
+
+/// Removes a row.
+pub async fn remove_row(
+    connection: &mut SqliteConnection,
+    table: &str,
+    key: &str,
+    author: &Author,
+) -> Result<Edited> {
+    let table = Table::editable(connection, table).await?;
+    let found = table.locate(connection, key).await?;
+    let old = table.read(connection, &table.json(), &found).await?;
+    let sql = format!("DELETE FROM {} WHERE {}", identifier(table.name), table.found());
+    dynamic::execute(connection, sql, &found).await.map_err(|e| e.refusing(table.name))?;
+    let key = joined(&found);
+    let entry = Entry { table: table.name, key: &key, column: None, old: &old, new: &Cell::Null };
+    let id = history::record(connection, author, &entry).await?;
+    Ok(Edited { id, key, old, new: Cell::Null })
+}
+
+impl Tx<'_> {
+    /// Sets one cell. `key` is the row's key, its columns joined by `/`; the robot may be left out where that leaves
+    /// one row. The table's types and ranges decide what is taken. The routes are stale until the next build.
+    pub fn set_cell(&mut self, cell: (&str, &str, &str), value: &Cell, author: &Author) -> Result<Edited> {
+        self.run(async |connection| set_cell(connection, cell, value, author).await)
+    }
+
+    /// Adds a row; columns not named take their defaults.
+    pub fn add_row(&mut self, table: &str, row: &[(&str, Cell)], author: &Author) -> Result<Edited> {
+        self.run(async |connection| add_row(connection, table, row, author).await)
+    }
+
+    /// Removes a row; `key` as in [`Tx::set_cell`].
+    pub fn remove_row(&mut self, table: &str, key: &str, author: &Author) -> Result<Edited> {
+        self.run(async |connection| remove_row(connection, table, key, author).await)
+    }
+
+    /// Takes one edit of the history back, unless its row has changed since.
+    pub fn undo(&mut self, id: i64, author: &Author) -> Result<Edited> {
+        self.run(async |connection| undo(connection, id, author).await)
+    }
+}

@@ -1,0 +1,123 @@
+//! Who changed what, when and why: the table `history`.
+
+use serde::Serialize;
+use sqlx::sqlite::SqliteRow;
+use sqlx::{Row, SqliteConnection};
+
+use crate::cell::Cell;
+use crate::dynamic;
+use crate::error::Result;
+use crate::transaction::Tx;
+
+/// Who edits, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Author {
+    /// Who.
+    pub who: String,
+    /// Why; may be empty.
+    pub why: String,
+}
+
+/// An edit that was made.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Edit {
+    /// Its number, ascending in time.
+    pub id: i64,
+    /// When, in UTC.
+    pub at: String,
+    /// Who.
+    pub who: String,
+    /// Why.
+    pub why: String,
+    /// The table.
+    pub table: String,
+    /// The row's key, its columns joined by `/`.
+    pub key: String,
+    /// The column; `None` where a whole row came or went.
+    pub column: Option<String>,
+    /// The value before, or the row that went, as JSON.
+    pub old: Cell,
+    /// The value after, or the row that came, as JSON.
+    pub new: Cell,
+    /// The edit that took this one back.
+    pub undone: Option<i64>,
+}
+
+/// What an edit did, before it has a number.
+pub(crate) struct Entry<'e> {
+    pub table: &'e str,
+    pub key: &'e str,
+    pub column: Option<&'e str>,
+    pub old: &'e Cell,
+    pub new: &'e Cell,
+}
+
+/// Writes an entry; its number.
+pub(crate) async fn record(
+    connection: &mut SqliteConnection,
+    author: &Author,
+    entry: &Entry<'_>,
+) -> Result<i64> {
+    let sql = "INSERT INTO history (who, why, table_name, key, column_name, old, new) \
+               VALUES (?, ?, ?, ?, ?, ?, ?)";
+    let column = entry.column.map_or(Cell::Null, Cell::from);
+    let texts = [&author.who, &author.why].map(|text| Cell::from(text.as_str()));
+    let [who, why] = texts;
+    let values =
+        [who, why, entry.table.into(), entry.key.into(), column, entry.old.clone(), entry.new.clone()];
+    dynamic::execute(connection, sql.to_owned(), &values).await?;
+    Ok(sqlx::query_scalar("SELECT last_insert_rowid()").fetch_one(connection).await?)
+}
+
+fn edit(row: &SqliteRow) -> Result<Edit> {
+    Ok(Edit {
+        id: row.try_get(0)?,
+        at: row.try_get(1)?,
+        who: row.try_get(2)?,
+        why: row.try_get(3)?,
+        table: row.try_get(4)?,
+        key: row.try_get(5)?,
+        column: row.try_get(6)?,
+        old: Cell::of(row, 7)?,
+        new: Cell::of(row, 8)?,
+        undone: row.try_get(9)?,
+    })
+}
+
+/// Edits, the newest first; at most `most`.
+pub async fn read(connection: &mut SqliteConnection, most: u32) -> Result<Vec<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history
+         ORDER BY id DESC LIMIT ?",
+    );
+    query.bind(most).fetch_all(connection).await?.iter().map(edit).collect()
+}
+
+/// One edit.
+pub async fn entry(connection: &mut SqliteConnection, id: i64) -> Result<Option<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history WHERE id = ?",
+    );
+    query.bind(id).fetch_optional(connection).await?.as_ref().map(edit).transpose()
+}
+
+/// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.
+pub async fn undoable(connection: &mut SqliteConnection, most: u32) -> Result<Vec<i64>> {
+    let query = sqlx::query_scalar(
+        "SELECT id FROM history WHERE undone IS NULL
+         AND id NOT IN (SELECT undone FROM history WHERE undone IS NOT NULL) ORDER BY id DESC LIMIT ?",
+    );
+    Ok(query.bind(most).fetch_all(connection).await?)
+}
+
+impl Tx<'_> {
+    /// Edits, the newest first; at most `most`.
+    pub fn history(&mut self, most: u32) -> Result<Vec<Edit>> {
+        self.run(async |connection| read(connection, most).await)
+    }
+
+    /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.
+    pub fn undoable(&mut self, most: u32) -> Result<Vec<i64>> {
+        self.run(async |connection| undoable(connection, most).await)
+    }
+}

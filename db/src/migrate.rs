@@ -1,0 +1,143 @@
+//! Schema versions. A database says its version in `user_version`, and that it is ours in `application_id`.
+
+use std::path::Path;
+
+use sqlx::{AssertSqlSafe, Connection, SqliteConnection};
+
+use crate::backup;
+use crate::error::{Error, Result};
+
+/// "Adit" in ASCII.
+pub(crate) const APPLICATION: i64 = 0x4164_6974;
+
+/// What makes version n of version n - 1; the first makes a database of an empty file. Never edited once released.
+pub(crate) const STEPS: &[&[&str]] = &[&[
+    include_str!("../sql/v1/01-site.sql"),
+    include_str!("../sql/v1/02-rules.sql"),
+    include_str!("../sql/v1/03-areas.sql"),
+    include_str!("../sql/v1/04-rooms.sql"),
+    include_str!("../sql/v1/05-doors.sql"),
+    include_str!("../sql/v1/06-conclusions.sql"),
+    include_str!("../sql/v1/07-stale.sql"),
+    include_str!("../sql/v1/08-routes.sql"),
+    include_str!("../sql/v1/09-action-sequence.sql"),
+    include_str!("../sql/v1/10-history.sql"),
+]];
+
+/// The newest schema version.
+pub const VERSION: i64 = STEPS.len() as i64;
+
+/// What a file says it is.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Nothing in it yet.
+    Empty,
+    /// Ours, of this version.
+    Adit(i64),
+    /// Somebody else's.
+    Other,
+}
+
+pub(crate) async fn kind(connection: &mut SqliteConnection) -> Result<Kind> {
+    let application: i64 = sqlx::query_scalar("PRAGMA application_id").fetch_one(&mut *connection).await?;
+    let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *connection).await?;
+    let objects: i64 = sqlx::query_scalar("SELECT count(*) FROM sqlite_schema").fetch_one(connection).await?;
+    Ok(match (application, objects) {
+        (APPLICATION, _) if version > 0 => Kind::Adit(version),
+        (0, 0) if version == 0 => Kind::Empty,
+        _ => Kind::Other,
+    })
+}
+
+/// Brings the database up to the last of `steps`, each in a transaction of its own. One that holds data is copied
+/// beside itself first.
+pub(crate) async fn migrate(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    steps: &[&[&'static str]],
+) -> Result<()> {
+    let known = steps.len() as i64;
+    match kind(connection).await? {
+        Kind::Other => return Err(Error::NotAdit(path.to_owned())),
+        Kind::Adit(found) if found > known => {
+            return Err(Error::Newer { path: path.to_owned(), found, known });
+        }
+        Kind::Adit(found) if found < known => {
+            backup::copy(connection, &backup::before_migration(path, found)).await?;
+        }
+        Kind::Adit(_) => return Ok(()),
+        Kind::Empty => {}
+    }
+    for (index, scripts) in steps.iter().enumerate() {
+        step(connection, index as i64, scripts).await?;
+    }
+    Ok(())
+}
+
+/// Takes the step from version `from`, unless another program took it while we waited for the lock.
+async fn step(connection: &mut SqliteConnection, from: i64, scripts: &[&'static str]) -> Result<()> {
+    let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
+    let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
+    if version != from {
+        return Ok(());
+    }
+    for script in scripts {
+        sqlx::raw_sql(*script).execute(&mut *transaction).await?;
+    }
+    let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {}", from + 1);
+    sqlx::raw_sql(AssertSqlSafe(mark)).execute(&mut *transaction).await?;
+    transaction.commit().await?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::PathBuf;
+
+    use super::*;
+
+    const ONE: &[&str] = &["CREATE TABLE door (id INTEGER); INSERT INTO door VALUES (7)"];
+    const TWO: &[&str] = &["ALTER TABLE door ADD COLUMN width REAL"];
+    const BROKEN: &[&str] = &["DROP TABLE door", "SELECT nonsense"];
+
+    async fn open(path: &Path) -> SqliteConnection {
+        let url = format!("sqlite://{}?mode=rwc", path.display());
+        SqliteConnection::connect(&url).await.unwrap()
+    }
+
+    fn in_a_folder(work: impl AsyncFnOnce(PathBuf)) {
+        let folder = tempfile::tempdir().unwrap();
+        let runtime = tokio::runtime::Builder::new_current_thread().build().unwrap();
+        runtime.block_on(work(folder.path().join("site.db")));
+    }
+
+    #[test]
+    fn an_older_database_is_copied_and_brought_up_to_date() {
+        in_a_folder(async |path| {
+            let mut connection = open(&path).await;
+            migrate(&mut connection, &path, &[ONE]).await.unwrap();
+            migrate(&mut connection, &path, &[ONE, TWO]).await.unwrap();
+            assert_eq!(kind(&mut connection).await.unwrap(), Kind::Adit(2));
+            sqlx::query("SELECT id, width FROM door").fetch_one(&mut connection).await.unwrap();
+            let mut copy = open(&path.with_file_name("site.db.bak-v1")).await;
+            assert_eq!(kind(&mut copy).await.unwrap(), Kind::Adit(1));
+        });
+    }
+
+    #[test]
+    fn a_step_that_fails_leaves_the_version_before_it() {
+        in_a_folder(async |path| {
+            let mut connection = open(&path).await;
+            migrate(&mut connection, &path, &[ONE]).await.unwrap();
+            for copies in 1..=2 {
+                migrate(&mut connection, &path, &[ONE, BROKEN]).await.unwrap_err();
+                assert_eq!(kind(&mut connection).await.unwrap(), Kind::Adit(1));
+                let files = std::fs::read_dir(path.parent().unwrap()).unwrap();
+                let backups =
+                    files.filter(|file| file.as_ref().unwrap().file_name().to_string_lossy().contains("bak"));
+                assert_eq!(backups.count(), copies);
+            }
+            sqlx::query("SELECT id FROM door").fetch_one(&mut connection).await.unwrap();
+        });
+    }
+}

@@ -1,0 +1,153 @@
+//! Any table or view of the database, read whole: so the domain expert's own tables become classes.
+
+use serde::Serialize;
+use sqlx::{Row, SqliteConnection};
+
+use crate::cell::Cell;
+use crate::dynamic::{self, identifier};
+use crate::error::{Error, Result};
+use crate::transaction::Tx;
+
+/// Our own tables and views.
+pub(crate) const OWN: &[&str] = &[
+    "action_sequence",
+    "areas",
+    "changes",
+    "conclusions",
+    "derivations",
+    "doors",
+    "ends",
+    "frames",
+    "history",
+    "places",
+    "prime_areas",
+    "robots",
+    "rooms",
+    "route",
+    "routes",
+    "rules",
+    "site",
+    "stale_marks",
+    "starts",
+    "step_parts",
+    "strips",
+    "tree_rows",
+    "witnesses",
+    "writer",
+];
+
+/// How rows are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Form {
+    /// A table.
+    Table,
+    /// A view.
+    View,
+}
+
+/// A table or view of the user's own.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct UserTable {
+    /// Its name.
+    pub name: String,
+    /// Table or view.
+    pub form: Form,
+}
+
+/// A column of a [`Relation`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RelationColumn {
+    /// Its name.
+    pub name: String,
+    /// The type that it was declared with, upper case; empty where none was.
+    pub declared: String,
+    /// Its place in the primary key, from 1; 0 if it is no part of it.
+    pub key: i64,
+    /// A value for each row.
+    pub values: Vec<Cell>,
+}
+
+/// A table or view, read whole: by its key, or by all its columns where it has none.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Relation {
+    /// Its name.
+    pub name: String,
+    /// Its columns, all of the same length.
+    pub columns: Vec<RelationColumn>,
+}
+
+/// The tables and views that are not ours, by name.
+pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTable>> {
+    let query = sqlx::query(
+        "SELECT name, type FROM sqlite_schema
+         WHERE type IN ('table', 'view') AND substr(name, 1, 7) <> 'sqlite_' ORDER BY name",
+    );
+    let mut tables = Vec::new();
+    for row in query.fetch_all(connection).await? {
+        let name: String = row.try_get(0)?;
+        let form = if row.try_get::<&str, _>(1)? == "view" { Form::View } else { Form::Table };
+        if !OWN.contains(&name.as_str()) {
+            tables.push(UserTable { name, form });
+        }
+    }
+    Ok(tables)
+}
+
+/// The columns of a table or view, without values.
+pub(crate) async fn columns(connection: &mut SqliteConnection, table: &str) -> Result<Vec<RelationColumn>> {
+    // the name is matched as the schema spells it, so that no text of a user is ever taken for an identifier
+    let query = sqlx::query(
+        "SELECT c.name, upper(c.type), c.pk FROM sqlite_schema AS s, pragma_table_info(s.name) AS c
+         WHERE s.name = ? AND s.type IN ('table', 'view') ORDER BY c.cid",
+    );
+    let rows = query.bind(table).fetch_all(connection).await?;
+    if rows.is_empty() {
+        return Err(Error::UnknownTable(table.to_owned()));
+    }
+    let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<RelationColumn> {
+        Ok(RelationColumn {
+            name: row.try_get(0)?,
+            declared: row.try_get(1)?,
+            key: row.try_get(2)?,
+            values: Vec::new(),
+        })
+    };
+    Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
+}
+
+/// The names of the key's columns, in the key's order.
+pub(crate) fn key_names(columns: &[RelationColumn]) -> Vec<&str> {
+    let mut keys: Vec<&RelationColumn> = columns.iter().filter(|column| column.key > 0).collect();
+    keys.sort_by_key(|column| column.key);
+    keys.iter().map(|column| column.name.as_str()).collect()
+}
+
+/// Reads a table or view whole: ours or the user's.
+pub async fn read(connection: &mut SqliteConnection, table: &str) -> Result<Relation> {
+    let mut columns = columns(connection, table).await?;
+    let names: Vec<String> = columns.iter().map(|column| identifier(&column.name)).collect();
+    let order: Vec<String> = match key_names(&columns).as_slice() {
+        [] => names.clone(),
+        keys => keys.iter().map(|name| identifier(name)).collect(),
+    };
+    let sql = format!("SELECT {} FROM {} ORDER BY {}", names.join(", "), identifier(table), order.join(", "));
+    for row in dynamic::fetch(connection, sql, &[]).await? {
+        for (index, column) in columns.iter_mut().enumerate() {
+            column.values.push(Cell::of(&row, index)?);
+        }
+    }
+    Ok(Relation { name: table.to_owned(), columns })
+}
+
+impl Tx<'_> {
+    /// The tables and views that are not ours, by name.
+    pub fn user_tables(&mut self) -> Result<Vec<UserTable>> {
+        self.run(user_tables)
+    }
+
+    /// Reads a table or view whole, ours or the user's: by its key, or by all its columns where it has none.
+    pub fn read_table(&mut self, name: &str) -> Result<Relation> {
+        self.run(async |connection| read(connection, name).await)
+    }
+}

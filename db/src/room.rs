@@ -1,0 +1,165 @@
+//! The table `rooms`.
+
+use serde::Serialize;
+use sqlx::{Row, SqliteConnection};
+
+use crate::bulk::{self, Record, Values};
+use crate::dynamic;
+use crate::error::Result;
+use crate::reason::Derived;
+use crate::stale::in_bulk;
+use crate::transaction::Tx;
+
+/// A room: a rectangle of free space, in one layer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Room {
+    /// Its number, from 1.
+    pub room: i64,
+    /// Its name.
+    pub name: String,
+    /// Robot and state whose layer it is in; `None` in the paper's modes.
+    pub layer: Option<(String, String)>,
+    /// x0, y0, x1, y1 in metres.
+    pub rect: [f64; 4],
+    /// Metres; `None` is unlimited.
+    pub height: Option<f64>,
+    /// The smaller side, metres.
+    pub width: f64,
+    /// Cost per metre.
+    pub hardness: Derived<f64>,
+    /// How to move in it.
+    pub action: Derived<String>,
+}
+
+/// What rules say about a room.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoomWeight {
+    /// The room.
+    pub room: i64,
+    /// Cost per metre.
+    pub hardness: Derived<f64>,
+    /// How to move in it.
+    pub action: Derived<String>,
+}
+
+impl Record for &Room {
+    const TABLE: &'static str = "rooms";
+    const COLUMNS: &'static [&'static str] = &[
+        "room",
+        "name",
+        "robot",
+        "state",
+        "x0",
+        "y0",
+        "x1",
+        "y1",
+        "height",
+        "width",
+        "hardness",
+        "action",
+        "hardness_rule",
+        "hardness_witness",
+        "action_rule",
+        "action_witness",
+    ];
+
+    fn bind(&self, values: &mut Values) {
+        values.integer(self.room);
+        values.text(&*self.name);
+        values.text(self.layer.as_ref().map(|(robot, _)| &**robot));
+        values.text(self.layer.as_ref().map(|(_, state)| &**state));
+        self.rect.iter().for_each(|edge| values.real(*edge));
+        values.real(self.height);
+        values.real(self.width);
+        values.real(self.hardness.value);
+        values.text(self.action.value.as_deref());
+        self.hardness.bind_reason(values);
+        self.action.bind_reason(values);
+    }
+}
+
+/// All rooms, by number.
+pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
+    let sql = format!("SELECT {} FROM rooms ORDER BY room", <&Room>::COLUMNS.join(","));
+    let mut rooms = Vec::new();
+    for row in dynamic::fetch(connection, sql, &[]).await? {
+        let layer: (Option<String>, Option<String>) = (row.try_get(2)?, row.try_get(3)?);
+        rooms.push(Room {
+            room: row.try_get(0)?,
+            name: row.try_get(1)?,
+            layer: layer.0.zip(layer.1),
+            rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
+            height: row.try_get(8)?,
+            width: row.try_get(9)?,
+            hardness: Derived::of(&row, 10, 12)?,
+            action: Derived::of(&row, 11, 14)?,
+        });
+    }
+    Ok(rooms)
+}
+
+/// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
+pub async fn replace(connection: &mut SqliteConnection, rooms: &[Room]) -> Result<()> {
+    in_bulk(connection, "rooms", async |connection| {
+        sqlx::query("DELETE FROM doors").execute(&mut *connection).await?;
+        sqlx::query("DELETE FROM rooms").execute(&mut *connection).await?;
+        bulk::insert(connection, rooms).await
+    })
+    .await?;
+    Ok(())
+}
+
+/// Gives rooms new weights; how many rows differed and were written.
+pub async fn reweigh(connection: &mut SqliteConnection, weights: &[RoomWeight]) -> Result<usize> {
+    let known = read(connection).await?;
+    let differs = |weight: &&RoomWeight| {
+        known
+            .binary_search_by_key(&weight.room, |room| room.room)
+            .is_ok_and(|at| known[at].hardness != weight.hardness || known[at].action != weight.action)
+    };
+    let changed: Vec<&RoomWeight> = weights.iter().filter(differs).collect();
+    in_bulk(connection, "rooms", async |connection| {
+        for weight in &changed {
+            update(connection, weight).await?;
+        }
+        Ok(())
+    })
+    .await?;
+    Ok(changed.len())
+}
+
+async fn update(connection: &mut SqliteConnection, weight: &RoomWeight) -> Result<()> {
+    let query = sqlx::query(
+        "UPDATE rooms SET hardness = ?, hardness_rule = ?, hardness_witness = ?, action = ?, action_rule = ?,
+         action_witness = ? WHERE room = ?",
+    );
+    query
+        .bind(weight.hardness.value)
+        .bind(weight.hardness.rule)
+        .bind(weight.hardness.witness)
+        .bind(weight.action.value.as_deref())
+        .bind(weight.action.rule)
+        .bind(weight.action.witness)
+        .bind(weight.room)
+        .execute(connection)
+        .await
+        .map_err(|e| crate::Error::from(e).refusing(format!("rooms.{}", weight.room)))?;
+    Ok(())
+}
+
+impl Tx<'_> {
+    /// All rooms, by number.
+    pub fn rooms(&mut self) -> Result<Vec<Room>> {
+        self.run(read)
+    }
+
+    /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
+    pub fn replace_rooms(&mut self, by: &[Room]) -> Result<()> {
+        self.run(async |connection| replace(connection, by).await)
+    }
+
+    /// Gives rooms new weights; how many rows differed and were written.
+    pub fn reweigh_rooms(&mut self, weights: &[RoomWeight]) -> Result<usize> {
+        self.run(async |connection| reweigh(connection, weights).await)
+    }
+}

@@ -1,0 +1,300 @@
+//! Classes of objects as a host asserts them.
+
+use std::collections::HashSet;
+
+use thiserror::Error;
+
+use crate::column::Column;
+use crate::symbols::{Symbol, Symbols};
+use crate::value::{Cell, Truth, Type, Value};
+
+/// Why a class cannot be asserted.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum ClassError {
+    /// A property was given twice.
+    #[error("class {class} has the property `{property}` twice")]
+    Twice {
+        /// The class.
+        class: String,
+        /// The property.
+        property: String,
+    },
+    /// Columns differ in length.
+    #[error("class {class} has {expected} objects, but `{property}` has {found} values")]
+    Ragged {
+        /// The class.
+        class: String,
+        /// The property that differs from the first.
+        property: String,
+        /// Objects by the first property.
+        expected: usize,
+        /// Values of this property.
+        found: usize,
+    },
+    /// The key, or what NULL means, names no property.
+    #[error("class {class} has no property `{property}`")]
+    Missing {
+        /// The class.
+        class: String,
+        /// The property.
+        property: String,
+    },
+    /// An object has no key.
+    #[error("class {class}: the key of object {row} is unknown")]
+    UnknownKey {
+        /// The class.
+        class: String,
+        /// Row from 0.
+        row: usize,
+    },
+    /// Two objects have one key.
+    #[error("class {class} has two objects with the key {key}")]
+    SameKey {
+        /// The class.
+        class: String,
+        /// The key, its parts joined with `/`.
+        key: String,
+    },
+    /// What NULL means is of another type than the property.
+    #[error("class {class}: NULL of `{property}` cannot mean {value}: it holds {}", holds.plural())]
+    NullType {
+        /// The class.
+        class: String,
+        /// The property.
+        property: String,
+        /// The value.
+        value: String,
+        /// The property's type.
+        holds: Type,
+    },
+    /// More objects than a row number holds.
+    #[error("class {class} has more than 4 billion objects")]
+    TooLarge {
+        /// The class.
+        class: String,
+    },
+}
+
+#[derive(Clone, Debug)]
+enum Given {
+    Numbers(Vec<Option<f64>>),
+    Texts(Vec<Option<String>>),
+    Truths(Vec<Option<bool>>),
+}
+
+/// A class under construction: its name, key, and a column for each property. `None` is unknown unless
+/// [`Class::null_means`] says otherwise.
+///
+/// ```
+/// use adit_engine::Class;
+/// let plants = Class::new("PLANTS", &["pot"])
+///     .texts("pot", [Some("fern"), Some("cactus")])
+///     .numbers("days_dry", [Some(3.0), None]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Class {
+    name: String,
+    key: Vec<String>,
+    properties: Vec<(String, Given)>,
+    nulls: Vec<(String, Value)>,
+}
+
+impl Class {
+    /// A class whose objects are told apart by the properties of `key`.
+    pub fn new(name: impl Into<String>, key: &[&str]) -> Self {
+        Self {
+            name: name.into(),
+            key: key.iter().map(ToString::to_string).collect(),
+            properties: vec![],
+            nulls: vec![],
+        }
+    }
+
+    /// Adds a property that holds numbers. NaN is unknown.
+    #[must_use]
+    pub fn numbers(
+        mut self,
+        property: impl Into<String>,
+        values: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        self.properties.push((property.into(), Given::Numbers(values.into_iter().collect())));
+        self
+    }
+
+    /// Adds a property that holds texts.
+    #[must_use]
+    pub fn texts<T: Into<String>>(
+        mut self,
+        property: impl Into<String>,
+        values: impl IntoIterator<Item = Option<T>>,
+    ) -> Self {
+        let values = values.into_iter().map(|text| text.map(Into::into)).collect();
+        self.properties.push((property.into(), Given::Texts(values)));
+        self
+    }
+
+    /// Adds a property that holds truth values.
+    #[must_use]
+    pub fn truths(
+        mut self,
+        property: impl Into<String>,
+        values: impl IntoIterator<Item = Option<bool>>,
+    ) -> Self {
+        self.properties.push((property.into(), Given::Truths(values.into_iter().collect())));
+        self
+    }
+
+    /// Declares that `None` of this property is not unknown but this value: a height without limit.
+    #[must_use]
+    pub fn null_means(mut self, property: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.nulls.push((property.into(), value.into()));
+        self
+    }
+}
+
+/// A class as the knowledge base holds it.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) name: String,
+    pub(crate) key: Vec<usize>,
+    pub(crate) names: Vec<String>,
+    pub(crate) columns: Vec<Column>,
+    pub(crate) len: usize,
+}
+
+impl Table {
+    pub(crate) fn new(class: Class, symbols: &mut Symbols) -> Result<Self, ClassError> {
+        let Class { name, key, properties, nulls } = class;
+        let mut table = Self { name, key: vec![], names: vec![], columns: vec![], len: 0 };
+        for (property, given) in properties {
+            let column = intern(given, symbols);
+            table.push(property, column)?;
+        }
+        if table.len > (u32::MAX - 1) as usize {
+            return Err(ClassError::TooLarge { class: table.name });
+        }
+        for (property, value) in nulls {
+            table.fill(&property, &value, symbols)?;
+        }
+        table.key = key.iter().map(|part| table.index(part)).collect::<Result<_, _>>()?;
+        table.check_keys(symbols)?;
+        Ok(table)
+    }
+
+    fn push(&mut self, property: String, column: Column) -> Result<(), ClassError> {
+        let class = self.name.clone();
+        if self.names.contains(&property) {
+            return Err(ClassError::Twice { class, property });
+        }
+        if !self.columns.is_empty() && column.len() != self.len {
+            return Err(ClassError::Ragged { class, property, expected: self.len, found: column.len() });
+        }
+        self.len = column.len();
+        self.names.push(property);
+        self.columns.push(column);
+        Ok(())
+    }
+
+    fn fill(&mut self, property: &str, value: &Value, symbols: &mut Symbols) -> Result<(), ClassError> {
+        let cell = match value {
+            Value::Number(number) => Cell::number(*number),
+            Value::Text(text) => Cell::Text(symbols.intern(text)),
+            Value::Truth(truth) => Cell::Truth(*truth),
+        };
+        let index = self.index(property)?;
+        let column = &mut self.columns[index];
+        let holds = column.kind();
+        if cell.kind().is_some_and(|kind| kind != holds) {
+            let (class, property) = (self.name.clone(), property.to_owned());
+            return Err(ClassError::NullType { class, property, value: value.to_string(), holds });
+        }
+        for row in 0..self.len {
+            if column.is_unknown(row) {
+                column.set(row, cell);
+            }
+        }
+        Ok(())
+    }
+
+    fn index(&self, property: &str) -> Result<usize, ClassError> {
+        self.names
+            .iter()
+            .position(|name| name == property)
+            .ok_or_else(|| ClassError::Missing { class: self.name.clone(), property: property.to_owned() })
+    }
+
+    fn check_keys(&self, symbols: &Symbols) -> Result<(), ClassError> {
+        let mut seen = HashSet::with_capacity(self.len);
+        for row in 0..self.len {
+            let mut parts = Vec::with_capacity(self.key.len());
+            for &column in &self.key {
+                parts.push(match self.columns[column].cell(row) {
+                    Cell::Unknown => return Err(ClassError::UnknownKey { class: self.name.clone(), row }),
+                    Cell::Number(number) => (number + 0.0).to_bits(),
+                    Cell::Text(symbol) => u64::from(symbol.id()),
+                    Cell::Truth(truth) => u64::from(truth),
+                });
+            }
+            if !self.key.is_empty() && !seen.insert(parts) {
+                return Err(ClassError::SameKey {
+                    class: self.name.clone(),
+                    key: self.key_text(row, symbols),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    pub(crate) fn column(&self, property: &str) -> Option<&Column> {
+        self.names.iter().position(|name| name == property).map(|index| &self.columns[index])
+    }
+
+    /// The key of an object as text, its parts joined with `/`; the row from 1 where the class has no key.
+    pub(crate) fn key_text(&self, row: usize, symbols: &Symbols) -> String {
+        if self.key.is_empty() {
+            return (row + 1).to_string();
+        }
+        let parts: Vec<String> = self
+            .key
+            .iter()
+            .map(|&column| match value(self.columns[column].cell(row), symbols) {
+                Some(value) => value.to_string(),
+                None => "?".to_owned(),
+            })
+            .collect();
+        parts.join("/")
+    }
+
+    /// The row of the object with this key, as [`Table::key_text`] writes it.
+    pub(crate) fn row(&self, key: &str, symbols: &Symbols) -> Option<usize> {
+        (0..self.len).find(|&row| self.key_text(row, symbols) == key)
+    }
+}
+
+/// The value that hosts see.
+pub(crate) fn value(cell: Cell, symbols: &Symbols) -> Option<Value> {
+    match cell {
+        Cell::Unknown => None,
+        Cell::Number(number) => Some(Value::Number(number)),
+        Cell::Text(symbol) => symbols.text(symbol).map(|text| Value::Text(text.clone())),
+        Cell::Truth(truth) => Some(Value::Truth(truth)),
+    }
+}
+
+fn intern(given: Given, symbols: &mut Symbols) -> Column {
+    match given {
+        Given::Numbers(values) => {
+            Column::Numbers(values.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
+        }
+        Given::Texts(values) => Column::Texts(
+            values
+                .into_iter()
+                .map(|text| text.map_or(Symbol::UNKNOWN, |text| symbols.intern(&text)))
+                .collect(),
+        ),
+        Given::Truths(values) => {
+            Column::Truths(values.into_iter().map(|truth| truth.map_or(Truth::Unknown, Into::into)).collect())
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! One property of all objects of a class, as typed values side by side.
+
+use crate::symbols::Symbol;
+use crate::value::{Cell, Truth, Type};
+
+/// Unknown is NaN, [`Symbol::UNKNOWN`] or [`Truth::Unknown`].
+#[derive(Clone, Debug)]
+pub(crate) enum Column {
+    Numbers(Vec<f64>),
+    Texts(Vec<Symbol>),
+    Truths(Vec<Truth>),
+}
+
+impl Column {
+    pub(crate) fn unknown(kind: Type, len: usize) -> Self {
+        match kind {
+            Type::Number => Self::Numbers(vec![f64::NAN; len]),
+            Type::Text => Self::Texts(vec![Symbol::UNKNOWN; len]),
+            Type::Truth => Self::Truths(vec![Truth::Unknown; len]),
+        }
+    }
+
+    pub(crate) const fn kind(&self) -> Type {
+        match self {
+            Self::Numbers(_) => Type::Number,
+            Self::Texts(_) => Type::Text,
+            Self::Truths(_) => Type::Truth,
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Texts(values) => values.len(),
+            Self::Truths(values) => values.len(),
+        }
+    }
+
+    /// The value of a row; unknown past the end.
+    pub(crate) fn cell(&self, row: usize) -> Cell {
+        match self {
+            Self::Numbers(values) => values.get(row).map_or(Cell::Unknown, |&number| Cell::number(number)),
+            Self::Texts(values) => match values.get(row) {
+                Some(&symbol) if symbol != Symbol::UNKNOWN => Cell::Text(symbol),
+                _ => Cell::Unknown,
+            },
+            Self::Truths(values) => {
+                values.get(row).and_then(|truth| truth.known()).map_or(Cell::Unknown, Cell::Truth)
+            }
+        }
+    }
+
+    /// Whether the row's value is unknown.
+    pub(crate) fn is_unknown(&self, row: usize) -> bool {
+        self.cell(row) == Cell::Unknown
+    }
+
+    /// Writes a row. `false` if the value is of another type.
+    pub(crate) fn set(&mut self, row: usize, cell: Cell) -> bool {
+        match (self, cell) {
+            (Self::Numbers(values), Cell::Number(number)) => values[row] = number,
+            (Self::Numbers(values), Cell::Unknown) => values[row] = f64::NAN,
+            (Self::Texts(values), Cell::Text(symbol)) => values[row] = symbol,
+            (Self::Texts(values), Cell::Unknown) => values[row] = Symbol::UNKNOWN,
+            (Self::Truths(values), Cell::Truth(truth)) => values[row] = truth.into(),
+            (Self::Truths(values), Cell::Unknown) => values[row] = Truth::Unknown,
+            _ => return false,
+        }
+        true
+    }
+}

@@ -1,0 +1,218 @@
+//! What an inference reports to the host.
+
+use std::fmt;
+
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Operator, PropertyName};
+use crate::value::Value;
+
+/// The outcome of an inference.
+#[derive(Clone, Debug, Default)]
+pub struct Conclusions {
+    /// Rules that were evaluated now, in that order; the conclusions of others still held.
+    pub evaluated: Vec<String>,
+    /// Rules that could not be evaluated.
+    pub waiting: Vec<Waiting>,
+    /// Properties that rules set to different values; such a value is unknown.
+    pub conflicts: Vec<Conflict>,
+    /// Properties that rules conclude, for objects that they left without a value.
+    pub gaps: Vec<Gap>,
+    /// Objects that a rule could not consider, since what it asks of them is unknown.
+    pub left_out: Vec<LeftOut>,
+    /// What failed, and what the rules' author should look at.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// A rule that waits for facts.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Waiting {
+    /// The rule.
+    pub rule: String,
+    /// Classes (`ROOMS`) and properties (`ROOMS.moves`) that nobody has asserted or concluded yet.
+    pub needs: Vec<String>,
+}
+
+/// A property of one object that rules set to different values.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Conflict {
+    /// The property.
+    pub property: PropertyName,
+    /// The object's key.
+    pub key: String,
+    /// The rules and the values that they gave, in the order of the rules.
+    pub values: Vec<(String, Value)>,
+}
+
+/// A concluded property that some objects have no value of.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Gap {
+    /// The property.
+    pub property: PropertyName,
+    /// Rows of the objects, ascending.
+    pub rows: Vec<u32>,
+    /// Why, with how many objects each reason holds for.
+    pub reasons: Vec<(Reason, usize)>,
+}
+
+/// Why an object has no value of a property.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// Rules disagree.
+    Conflict,
+    /// A clause of the rule was met by no candidate.
+    Unmet {
+        /// The rule.
+        rule: String,
+        /// The clause's variable.
+        variable: String,
+    },
+    /// A clause of the rule was not met, and for some candidates that could not be decided.
+    Undecided {
+        /// The rule.
+        rule: String,
+        /// The clause's variable.
+        variable: String,
+    },
+    /// The rule gave a value that is unknown.
+    Unknown {
+        /// The rule.
+        rule: String,
+    },
+    /// No rule applied to the object.
+    NoRule,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Conflict => out.write_str("rules disagree"),
+            Self::Unmet { rule, variable } => write!(out, "rule \"{rule}\" found no `{variable}`"),
+            Self::Undecided { rule, variable } => {
+                write!(out, "rule \"{rule}\" could not decide which is `{variable}`: something is unknown")
+            }
+            Self::Unknown { rule } => write!(out, "rule \"{rule}\" computed with something unknown"),
+            Self::NoRule => out.write_str("no rule applied"),
+        }
+    }
+}
+
+/// Objects of a clause's class that were no candidates, since what is asked of them is unknown.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct LeftOut {
+    /// The rule.
+    pub rule: String,
+    /// The clause's variable.
+    pub variable: String,
+    /// Its class.
+    pub class: String,
+    /// How many.
+    pub objects: usize,
+}
+
+/// An object that a conclusion rests on.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Witness {
+    /// The rule's variable.
+    pub variable: String,
+    /// The class.
+    pub class: String,
+    /// The object's key.
+    pub key: String,
+}
+
+/// The rule and the objects behind a value.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Support {
+    /// The rule.
+    pub rule: String,
+    /// Its version.
+    pub version: String,
+    /// Its file.
+    pub file: String,
+    /// Its line.
+    pub line: usize,
+    /// What its variables stand for.
+    pub witnesses: Vec<Witness>,
+}
+
+/// Where a value comes from.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// It was asserted.
+    Told,
+    /// A rule concluded it.
+    Rule(Support),
+}
+
+/// A revision of a value.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Revision {
+    /// Its level.
+    pub level: i64,
+    /// How it changes the value.
+    pub operator: Operator,
+    /// By how much; `None` is unknown.
+    pub amount: Option<f64>,
+    /// The rule and its objects.
+    pub support: Support,
+}
+
+/// Why a property of an object has its value.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Justification {
+    /// The property.
+    pub property: PropertyName,
+    /// The object's key.
+    pub key: String,
+    /// The value; `None` is unknown.
+    pub value: Option<Value>,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// What changed it after that, in order.
+    pub revisions: Vec<Revision>,
+}
+
+impl fmt::Display for Support {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "rule \"{}\" ({}, line {}, version {})", self.rule, self.file, self.line, self.version)?;
+        for (nth, Witness { variable, class, key }) in self.witnesses.iter().enumerate() {
+            let before = if nth == 0 { " with" } else { "," };
+            write!(out, "{before} {variable} = {class} {key}")?;
+        }
+        Ok(())
+    }
+}
+
+/// One sentence, as in: `PLANTS fern water is 2, by rule "thirsty" (garden.rhai, line 1, version 0f3a9c11) with
+/// plant = PLANTS fern`.
+impl fmt::Display for Justification {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let PropertyName { class, property } = &self.property;
+        match &self.value {
+            Some(value) => write!(out, "{class} {} {property} is {value}, ", self.key)?,
+            None => write!(out, "{class} {} {property} is unknown, ", self.key)?,
+        }
+        match &self.origin {
+            Origin::Told => out.write_str("as told")?,
+            Origin::Rule(support) => write!(out, "by {support}")?,
+        }
+        for Revision { operator, amount, support, .. } in &self.revisions {
+            match amount {
+                Some(amount) => write!(out, "; revised {} {amount} by {support}", operator.sign())?,
+                None => write!(out, "; revised {} something unknown by {support}", operator.sign())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// For each object of a class the rule behind one of its properties, as numbers: cheap for a whole column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Justifications {
+    /// Names and versions of the rules that conclude the property.
+    pub rules: Vec<(String, String)>,
+    /// For each row the number of its rule; `None` where the value was told or is unknown.
+    pub of_row: Vec<Option<u32>>,
+}

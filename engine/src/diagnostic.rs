@@ -1,0 +1,223 @@
+//! What is wrong in a rule file, and where.
+
+use std::fmt;
+use std::sync::Arc;
+
+use miette::{LabeledSpan, NamedSource, SourceCode};
+
+use crate::script::source::Place;
+
+/// Stable names of what can be wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Code {
+    /// The file does not read as rules.
+    Syntax,
+    /// A file is larger than is accepted.
+    TooLarge,
+    /// Something other than a rule, a function or a constant stands in the file.
+    Statement,
+    /// Two rules have one name.
+    DuplicateName,
+    /// No such class.
+    UnknownClass,
+    /// No such property of a class.
+    UnknownProperty,
+    /// No such variable in the rule.
+    UnknownVariable,
+    /// No such function.
+    UnknownFunction,
+    /// A value of the wrong type.
+    Type,
+    /// Something that cannot be set, or not like this.
+    Assignment,
+    /// Rules that need each other's conclusions.
+    Cycle,
+    /// Two operators at one level of revision.
+    Operator,
+    /// Two rules set one property of one object to different values.
+    Conflict,
+    /// A part that the interpreter runs has failed.
+    Evaluation,
+    /// A rule took longer, or did more, than it may.
+    Deadline,
+    /// The engine itself failed.
+    Panic,
+}
+
+impl Code {
+    /// All codes, in the order of the documentation.
+    pub const ALL: [Self; 16] = [
+        Self::Syntax,
+        Self::TooLarge,
+        Self::Statement,
+        Self::DuplicateName,
+        Self::UnknownClass,
+        Self::UnknownProperty,
+        Self::UnknownVariable,
+        Self::UnknownFunction,
+        Self::Type,
+        Self::Assignment,
+        Self::Cycle,
+        Self::Operator,
+        Self::Conflict,
+        Self::Evaluation,
+        Self::Deadline,
+        Self::Panic,
+    ];
+
+    /// The name that users and programs see.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Syntax => "rule/syntax",
+            Self::TooLarge => "rule/too-large",
+            Self::Statement => "rule/statement",
+            Self::DuplicateName => "rule/duplicate-name",
+            Self::UnknownClass => "rule/unknown-class",
+            Self::UnknownProperty => "rule/unknown-property",
+            Self::UnknownVariable => "rule/unknown-variable",
+            Self::UnknownFunction => "rule/unknown-function",
+            Self::Type => "rule/type",
+            Self::Assignment => "rule/assignment",
+            Self::Cycle => "rule/cycle",
+            Self::Operator => "rule/operator",
+            Self::Conflict => "rule/conflict",
+            Self::Evaluation => "rule/evaluation",
+            Self::Deadline => "rule/deadline",
+            Self::Panic => "rule/panic",
+        }
+    }
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(self.as_str())
+    }
+}
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The rules work, but perhaps not as meant.
+    Warning,
+    /// The rules, or some of them, do not work.
+    Error,
+}
+
+/// One message about a rule file. It prints with a caret through [`miette`].
+#[derive(Clone, Debug)]
+pub struct Diagnostic {
+    /// What kind of thing is wrong.
+    pub code: Code,
+    /// How bad it is.
+    pub severity: Severity,
+    /// One sentence with the names and values in it.
+    pub message: String,
+    /// File name as the host gave it.
+    pub file: String,
+    /// First byte and number of bytes that the caret marks.
+    pub span: (usize, usize),
+    /// Line from 1.
+    pub line: usize,
+    /// Column from 1, in characters.
+    pub column: usize,
+    /// What stands at the caret.
+    pub label: Option<String>,
+    /// What to do about it.
+    pub help: Option<String>,
+    source: Arc<NamedSource<String>>,
+}
+
+impl Diagnostic {
+    pub(crate) fn error(code: Code, place: &Place, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            severity: Severity::Error,
+            message: message.into(),
+            file: place.source.name().to_owned(),
+            span: place.span,
+            line: place.line,
+            column: place.column,
+            label: None,
+            help: None,
+            source: Arc::clone(place.source.named()),
+        }
+    }
+
+    #[must_use]
+    pub(crate) fn warning(mut self) -> Self {
+        self.severity = Severity::Warning;
+        self
+    }
+
+    #[must_use]
+    pub(crate) fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = Some(label.into());
+        self
+    }
+
+    #[must_use]
+    pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    #[must_use]
+    pub(crate) fn did_you_mean(self, name: Option<&str>) -> Self {
+        match name {
+            Some(name) => self.help(format!("did you mean `{name}`?")),
+            None => self,
+        }
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Diagnostic {}
+
+impl miette::Diagnostic for Diagnostic {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.code))
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.severity {
+            Severity::Warning => miette::Severity::Warning,
+            Severity::Error => miette::Severity::Error,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display + 'a>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(self.source.as_ref())
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let (start, len) = self.span;
+        Some(Box::new(std::iter::once(LabeledSpan::new(self.label.clone(), start, len))))
+    }
+}
+
+/// All that is wrong with a set of rule files; never empty as an error.
+#[derive(Clone, Debug)]
+pub struct Diagnostics(pub Vec<Diagnostic>);
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (nth, diagnostic) in self.0.iter().enumerate() {
+            let gap = if nth == 0 { "" } else { "\n" };
+            let Diagnostic { file, line, column, message, code, .. } = diagnostic;
+            write!(out, "{gap}{file}:{line}:{column}: {message} [{code}]")?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Diagnostics {}

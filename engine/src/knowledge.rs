@@ -1,0 +1,158 @@
+//! The knowledge base: what was told, what rules concluded, and why.
+
+mod conclude;
+mod derived;
+mod gaps;
+mod merge;
+mod why;
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::class::{Class, ClassError, Table, value};
+use crate::column::Column;
+use crate::rule::PropertyName;
+use crate::schema::Schema;
+use crate::script::interpreter::Limits;
+use crate::symbols::Symbols;
+use crate::value::{Cell, Value};
+use derived::{Derived, Done};
+
+/// A class as it was last asserted.
+#[derive(Debug)]
+struct Held {
+    table: Table,
+    stamp: u64,
+}
+
+/// Classes of objects with what is told and concluded of them.
+///
+/// A value that was told stands before a concluded one. An asserted class replaces the one of its name, and
+/// everything that rests on it is concluded again by the next [`conclude`](Self::conclude).
+#[derive(Debug, Default)]
+pub struct KnowledgeBase {
+    symbols: RefCell<Symbols>,
+    held: BTreeMap<String, Held>,
+    derived: BTreeMap<PropertyName, Derived>,
+    done: BTreeMap<String, Done>,
+    clock: u64,
+    limits: Limits,
+}
+
+impl KnowledgeBase {
+    /// An empty knowledge base with the default limits.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// An empty knowledge base with other limits.
+    pub fn with_limits(limits: Limits) -> Self {
+        Self { limits, ..Self::default() }
+    }
+
+    /// Adds a class, or replaces it.
+    pub fn assert(&mut self, class: Class) -> Result<(), ClassError> {
+        let table = Table::new(class, self.symbols.get_mut())?;
+        let stamp = self.tick();
+        self.held.insert(table.name.clone(), Held { table, stamp });
+        Ok(())
+    }
+
+    /// Takes a class away, and what rests on it.
+    pub fn retract(&mut self, class: &str) {
+        self.held.remove(class);
+    }
+
+    /// The asserted classes with their properties.
+    pub fn schema(&self) -> Schema {
+        let mut schema = Schema::default();
+        for (name, Held { table, .. }) in &self.held {
+            schema = schema.class(name, &[]);
+            for (property, column) in table.names.iter().zip(&table.columns) {
+                schema.add(name, property, column.kind());
+            }
+        }
+        schema
+    }
+
+    /// How many objects a class has; `None` if it was not asserted.
+    pub fn len(&self, class: &str) -> Option<usize> {
+        self.held.get(class).map(|held| held.table.len)
+    }
+
+    /// Whether nothing was asserted.
+    pub fn is_empty(&self) -> bool {
+        self.held.is_empty()
+    }
+
+    /// The key of an object as text: the values of the key properties joined with `/`.
+    pub fn key(&self, class: &str, row: usize) -> Option<String> {
+        let table = &self.held.get(class)?.table;
+        (row < table.len).then(|| table.key_text(row, &self.symbols.borrow()))
+    }
+
+    /// The row of the object with this key. Looks through the class.
+    pub fn row(&self, class: &str, key: &str) -> Option<usize> {
+        self.held.get(class)?.table.row(key, &self.symbols.borrow())
+    }
+
+    /// One value, told or concluded; `None` if it is unknown, or there is no such object or property.
+    pub fn value(&self, class: &str, key: &str, property: &str) -> Option<Value> {
+        let row = self.row(class, key)?;
+        let column = self.column(&PropertyName::new(class, property))?;
+        value(column.cell(row), &self.symbols.borrow())
+    }
+
+    /// A property of all objects as numbers; `None` if it does not hold numbers.
+    pub fn numbers(&self, class: &str, property: &str) -> Option<Vec<Option<f64>>> {
+        match self.column(&PropertyName::new(class, property))? {
+            Column::Numbers(values) => {
+                Some(values.iter().map(|&number| Some(number).filter(|number| !number.is_nan())).collect())
+            }
+            _ => None,
+        }
+    }
+
+    /// A property of all objects as texts; `None` if it does not hold texts.
+    pub fn texts(&self, class: &str, property: &str) -> Option<Vec<Option<Arc<str>>>> {
+        match self.column(&PropertyName::new(class, property))? {
+            Column::Texts(values) => {
+                let symbols = self.symbols.borrow();
+                Some(values.iter().map(|&symbol| symbols.text(symbol).cloned()).collect())
+            }
+            _ => None,
+        }
+    }
+
+    /// A property of all objects as truth values; `None` if it does not hold truth values.
+    pub fn truths(&self, class: &str, property: &str) -> Option<Vec<Option<bool>>> {
+        match self.column(&PropertyName::new(class, property))? {
+            Column::Truths(values) => Some(values.iter().map(|truth| truth.known()).collect()),
+            _ => None,
+        }
+    }
+
+    /// The column that hosts and rules see.
+    fn column(&self, name: &PropertyName) -> Option<&Column> {
+        self.view(name, None).map(|(column, _)| column)
+    }
+
+    /// The column as revised by levels below the given one (`None`: by all), and its stamp.
+    fn view(&self, name: &PropertyName, below: Option<i64>) -> Option<(&Column, u64)> {
+        let held = self.held.get(&name.class)?;
+        match self.derived.get(name) {
+            Some(derived) => Some(derived.view(below)),
+            None => held.table.column(&name.property).map(|column| (column, held.stamp)),
+        }
+    }
+
+    fn host_value(&self, cell: Cell) -> Option<Value> {
+        value(cell, &self.symbols.borrow())
+    }
+
+    fn tick(&mut self) -> u64 {
+        self.clock += 1;
+        self.clock
+    }
+}

@@ -1,0 +1,151 @@
+//! Runs what stays with the interpreter, binding by binding.
+
+use rhai::{Dynamic, EvalAltResult, ImmutableString, Map, Scope};
+
+use super::Machine;
+use super::evaluate::Batch;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::plan::action::Target;
+use crate::plan::fragment::{Fragment, Source};
+use crate::script::interpreter::start_run;
+use crate::value::Cell;
+
+impl Machine<'_> {
+    /// The fragment's value for each binding: unknown where anything that it looks at is unknown.
+    pub(crate) fn interpret(&self, fragment: &Fragment, batch: Batch) -> Vec<Cell> {
+        (0..batch.frame.len)
+            .map(|index| {
+                let active = batch.mask.is_none_or(|mask| mask[index]);
+                let mut scope = self.scope(fragment, batch, index).filter(|_| active)?;
+                self.run(fragment, &mut scope).map(|result| self.cell(&result, fragment))
+            })
+            .map(|cell| cell.unwrap_or(Cell::Unknown))
+            .collect()
+    }
+
+    /// Runs a whole action for one binding. For each target: what was set, or `None` if it was not.
+    /// Where anything that the action looks at is unknown, all that it may set is unknown.
+    pub(crate) fn interpret_action(
+        &self,
+        fragment: &Fragment,
+        targets: &[Target],
+        batch: Batch,
+        index: usize,
+    ) -> Vec<Option<Cell>> {
+        let Some(mut scope) = self.scope(fragment, batch, index) else {
+            return vec![Some(Cell::Unknown); targets.len()];
+        };
+        if self.run(fragment, &mut scope).is_none() {
+            return vec![Some(Cell::Unknown); targets.len()];
+        }
+        let set = |target: &Target| {
+            let (name, _) = fragment.objects.iter().find(|(_, object)| object.variable == target.variable)?;
+            let object = scope.get(name)?.as_map_ref().ok()?;
+            let value = object.get(target.name.property.as_str())?.clone();
+            drop(object);
+            Some(self.cell(&value, fragment))
+        };
+        targets.iter().map(set).collect()
+    }
+
+    fn run(&self, fragment: &Fragment, scope: &mut Scope) -> Option<Dynamic> {
+        if self.tick().is_err() {
+            return None;
+        }
+        start_run(self.deadline);
+        match self.runner.eval_ast_with_scope::<Dynamic>(scope, &fragment.script) {
+            Ok(result) => Some(result),
+            Err(error) => {
+                self.failed(fragment, &error);
+                None
+            }
+        }
+    }
+
+    fn failed(&self, fragment: &Fragment, error: &EvalAltResult) {
+        self.troubles.set(self.troubles.get() + 1);
+        let cause = error.unwrap_inner();
+        let limit =
+            matches!(cause, EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_));
+        if limit {
+            self.stopped.set(true);
+        }
+        let position = error.position();
+        let position = if position.is_none() { fragment.position } else { position };
+        let place = self.rule.file.source.place(position);
+        let code = if limit { Code::Deadline } else { Code::Evaluation };
+        let reason = match cause {
+            EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
+            EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
+            _ => error.to_string(),
+        };
+        let message = format!("rule \"{}\": {reason}", self.rule.name);
+        self.trouble.borrow_mut().get_or_insert_with(|| Diagnostic::error(code, &place, message));
+    }
+
+    fn scope<'s>(&self, fragment: &'s Fragment, batch: Batch, index: usize) -> Option<Scope<'s>> {
+        let mut scope = Scope::new();
+        let column = |variable: usize, column: usize| {
+            let row = batch.frame.rows[variable].at(index);
+            self.dynamic(self.columns[column].cell(row as usize))
+        };
+        for (name, value) in &fragment.constants {
+            scope.push_dynamic(name.as_str(), value.clone());
+        }
+        for (name, variable, number) in &fragment.bare {
+            scope.push_dynamic(name.as_str(), column(*variable, *number)?);
+        }
+        for (name, object) in &fragment.objects {
+            let mut map = Map::new();
+            for (property, source) in &object.properties {
+                let value = match source {
+                    Source::Column(number) => column(object.variable, *number)?,
+                    Source::Slot(slot) => self.dynamic(batch.slots[*slot].cell(index))?,
+                };
+                map.insert(property.as_str().into(), value);
+            }
+            scope.push_dynamic(name.as_str(), Dynamic::from_map(map));
+        }
+        for (name, slot, used) in &fragment.locals {
+            let value = self.dynamic(batch.slots[*slot].cell(index));
+            let value = if *used { value? } else { value.unwrap_or(Dynamic::UNIT) };
+            scope.push_dynamic(name.as_str(), value);
+        }
+        Some(scope)
+    }
+
+    fn dynamic(&self, cell: Cell) -> Option<Dynamic> {
+        Some(match cell {
+            Cell::Unknown => return None,
+            Cell::Number(number) => number.into(),
+            Cell::Truth(truth) => truth.into(),
+            Cell::Text(symbol) => {
+                let text: &str = &self.symbols.borrow().text(symbol)?.clone();
+                Dynamic::from(ImmutableString::from(text))
+            }
+        })
+    }
+
+    fn cell(&self, value: &Dynamic, fragment: &Fragment) -> Cell {
+        let kind = value.type_name();
+        if let Ok(number) = value.as_float() {
+            Cell::number(number)
+        } else if let Ok(number) = value.as_int() {
+            Cell::Number(number as f64)
+        } else if let Ok(truth) = value.as_bool() {
+            Cell::Truth(truth)
+        } else if value.is_unit() {
+            Cell::Unknown
+        } else if value.is_string() || value.is_char() {
+            Cell::Text(self.symbols.borrow_mut().intern(&value.to_string()))
+        } else {
+            let place = self.rule.file.source.place(fragment.position);
+            let message =
+                format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
+            self.troubles.set(self.troubles.get() + 1);
+            let problem = Diagnostic::error(Code::Evaluation, &place, message);
+            self.trouble.borrow_mut().get_or_insert(problem);
+            Cell::Unknown
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! The values of a batch: one for all, or one for each.
+
+use std::borrow::Cow;
+
+use crate::symbols::Symbol;
+use crate::value::{Cell, Truth, Type};
+
+#[derive(Clone, Debug)]
+pub(crate) enum Lane<'a, T: Copy> {
+    Same(T),
+    Each(Cow<'a, [T]>),
+}
+
+impl<T: Copy> Lane<'_, T> {
+    pub(crate) fn at(&self, index: usize) -> T {
+        match self {
+            Self::Same(value) => *value,
+            Self::Each(values) => values[index],
+        }
+    }
+
+    pub(crate) fn map<U: Copy>(&self, f: impl Fn(T) -> U) -> Lane<'static, U> {
+        match self {
+            Self::Same(value) => Lane::Same(f(*value)),
+            Self::Each(values) => Lane::Each(values.iter().map(|&value| f(value)).collect()),
+        }
+    }
+
+    pub(crate) fn zip<V: Copy, U: Copy>(&self, other: &Lane<V>, f: impl Fn(T, V) -> U) -> Lane<'static, U> {
+        match (self, other) {
+            (Self::Same(a), Lane::Same(b)) => Lane::Same(f(*a, *b)),
+            (Self::Same(a), Lane::Each(b)) => Lane::Each(b.iter().map(|&b| f(*a, b)).collect()),
+            (Self::Each(a), Lane::Same(b)) => Lane::Each(a.iter().map(|&a| f(a, *b)).collect()),
+            (Self::Each(a), Lane::Each(b)) => {
+                Lane::Each(a.iter().zip(b.iter()).map(|(&a, &b)| f(a, b)).collect())
+            }
+        }
+    }
+
+    pub(crate) fn into_static(self) -> Lane<'static, T> {
+        match self {
+            Self::Same(value) => Lane::Same(value),
+            Self::Each(values) => Lane::Each(Cow::Owned(values.into_owned())),
+        }
+    }
+
+    /// The values from `yes` where `choose` says so, else from `self`.
+    pub(crate) fn blend(&self, yes: &Self, len: usize, choose: impl Fn(usize) -> bool) -> Lane<'static, T> {
+        Lane::Each((0..len).map(|index| if choose(index) { yes.at(index) } else { self.at(index) }).collect())
+    }
+}
+
+/// Values of one type, or cells where only running tells the type.
+#[derive(Clone, Debug)]
+pub(crate) enum Values<'a> {
+    Numbers(Lane<'a, f64>),
+    Texts(Lane<'a, Symbol>),
+    Truths(Lane<'a, Truth>),
+    Cells(Lane<'a, Cell>),
+}
+
+impl<'a> Values<'a> {
+    pub(crate) const UNKNOWN: Values<'static> = Values::Cells(Lane::Same(Cell::Unknown));
+
+    pub(crate) fn cell(&self, index: usize) -> Cell {
+        match self {
+            Self::Numbers(lane) => Cell::number(lane.at(index)),
+            Self::Texts(lane) => text_cell(lane.at(index)),
+            Self::Truths(lane) => truth_cell(lane.at(index)),
+            Self::Cells(lane) => lane.at(index),
+        }
+    }
+
+    pub(crate) fn known(&self) -> Lane<'static, Truth> {
+        match self {
+            Self::Numbers(lane) => lane.map(|number| (!number.is_nan()).into()),
+            Self::Texts(lane) => lane.map(|symbol| (symbol != Symbol::UNKNOWN).into()),
+            Self::Truths(lane) => lane.map(|truth| (truth != Truth::Unknown).into()),
+            Self::Cells(lane) => lane.map(|cell| (cell != Cell::Unknown).into()),
+        }
+    }
+
+    pub(crate) fn into_static(self) -> Values<'static> {
+        match self {
+            Self::Numbers(lane) => Values::Numbers(lane.into_static()),
+            Self::Texts(lane) => Values::Texts(lane.into_static()),
+            Self::Truths(lane) => Values::Truths(lane.into_static()),
+            Self::Cells(lane) => Values::Cells(lane.into_static()),
+        }
+    }
+
+    /// As numbers; what is none is unknown.
+    pub(crate) fn numbers(self) -> Lane<'a, f64> {
+        match self {
+            Self::Numbers(lane) => lane,
+            Self::Cells(lane) => lane.map(|cell| match cell {
+                Cell::Number(number) => number,
+                _ => f64::NAN,
+            }),
+            _ => Lane::Same(f64::NAN),
+        }
+    }
+
+    /// As texts; what is none is unknown.
+    pub(crate) fn texts(self) -> Lane<'a, Symbol> {
+        match self {
+            Self::Texts(lane) => lane,
+            Self::Cells(lane) => lane.map(|cell| match cell {
+                Cell::Text(symbol) => symbol,
+                _ => Symbol::UNKNOWN,
+            }),
+            _ => Lane::Same(Symbol::UNKNOWN),
+        }
+    }
+
+    /// As truth values; what is none is unknown.
+    pub(crate) fn truths(self) -> Lane<'a, Truth> {
+        match self {
+            Self::Truths(lane) => lane,
+            Self::Cells(lane) => lane.map(|cell| match cell {
+                Cell::Truth(truth) => truth.into(),
+                _ => Truth::Unknown,
+            }),
+            _ => Lane::Same(Truth::Unknown),
+        }
+    }
+
+    pub(crate) fn cells(self) -> Lane<'a, Cell> {
+        match self {
+            Self::Numbers(lane) => lane.map(Cell::number),
+            Self::Texts(lane) => lane.map(text_cell),
+            Self::Truths(lane) => lane.map(truth_cell),
+            Self::Cells(lane) => lane,
+        }
+    }
+
+    pub(crate) fn narrow(self, kind: Type) -> Self {
+        match kind {
+            Type::Number => Values::Numbers(self.numbers()),
+            Type::Text => Values::Texts(self.texts()),
+            Type::Truth => Values::Truths(self.truths()),
+        }
+    }
+
+    /// The values of `yes` where `choose` says so, else those of `self`.
+    pub(crate) fn blend(self, yes: Self, len: usize, choose: impl Fn(usize) -> bool) -> Values<'static> {
+        match (self, yes) {
+            (Self::Numbers(a), Self::Numbers(b)) => Values::Numbers(a.blend(&b, len, choose)),
+            (Self::Texts(a), Self::Texts(b)) => Values::Texts(a.blend(&b, len, choose)),
+            (Self::Truths(a), Self::Truths(b)) => Values::Truths(a.blend(&b, len, choose)),
+            (a, b) => match (a.kind(), b.kind()) {
+                (Some(kind), None) => Self::blend(a, b.narrow(kind), len, choose),
+                (None, Some(kind)) => Self::blend(a.narrow(kind), b, len, choose),
+                _ => Values::Cells(a.cells().blend(&b.cells(), len, choose)),
+            },
+        }
+    }
+
+    /// The type; `None` for cells.
+    pub(crate) const fn kind(&self) -> Option<Type> {
+        match self {
+            Self::Numbers(_) => Some(Type::Number),
+            Self::Texts(_) => Some(Type::Text),
+            Self::Truths(_) => Some(Type::Truth),
+            Self::Cells(_) => None,
+        }
+    }
+}
+
+fn text_cell(symbol: Symbol) -> Cell {
+    if symbol == Symbol::UNKNOWN { Cell::Unknown } else { Cell::Text(symbol) }
+}
+
+fn truth_cell(truth: Truth) -> Cell {
+    truth.known().map_or(Cell::Unknown, Cell::Truth)
+}
+
+/// The rows that a variable is bound to in a batch.
+#[derive(Clone, Debug)]
+pub(crate) enum Rows {
+    /// Not bound: all its properties are unknown.
+    Unbound,
+    /// This row and the following ones.
+    From(u32),
+    /// One row for the whole batch.
+    Same(u32),
+    Each(Vec<u32>),
+}
+
+/// Stands where a variable is bound to no row.
+pub(crate) const NO_ROW: u32 = u32::MAX;
+
+impl Rows {
+    pub(crate) fn at(&self, index: usize) -> u32 {
+        match self {
+            Self::Unbound => NO_ROW,
+            Self::From(first) => first + index as u32,
+            Self::Same(row) => *row,
+            Self::Each(rows) => rows[index],
+        }
+    }
+
+    fn select(&self, chosen: &[u32]) -> Self {
+        match self {
+            Self::Unbound => Self::Unbound,
+            Self::Same(row) => Self::Same(*row),
+            Self::From(first) => Self::Each(chosen.iter().map(|&index| first + index).collect()),
+            Self::Each(rows) => Self::Each(chosen.iter().map(|&index| rows[index as usize]).collect()),
+        }
+    }
+}
+
+/// A batch of bindings.
+#[derive(Clone, Debug)]
+pub(crate) struct Frame {
+    pub(crate) len: usize,
+    pub(crate) rows: Vec<Rows>,
+}
+
+impl Frame {
+    /// The bindings with these numbers, in this order.
+    pub(crate) fn select(&self, chosen: &[u32]) -> Self {
+        Self { len: chosen.len(), rows: self.rows.iter().map(|rows| rows.select(chosen)).collect() }
+    }
+
+    /// One binding, repeated.
+    pub(crate) fn repeat(&self, index: usize, len: usize) -> Self {
+        let rows = self.rows.iter().map(|rows| match rows {
+            Rows::Unbound => Rows::Unbound,
+            bound => Rows::Same(bound.at(index)),
+        });
+        Self { len, rows: rows.collect() }
+    }
+}

@@ -1,0 +1,75 @@
+//! A rule made ready to run: typed expressions over columns, joins by index, an action in steps.
+
+pub(crate) mod action;
+pub(crate) mod call;
+pub(crate) mod clause;
+pub(crate) mod fragment;
+pub(crate) mod lower;
+pub(crate) mod node;
+
+use std::cell::RefCell;
+
+use crate::diagnostic::Diagnostic;
+use crate::rule::{Action, PropertyName, Rule};
+use crate::symbols::Symbols;
+use crate::value::Type;
+use action::ActionPlan;
+use clause::ClausePlan;
+use lower::Lowering;
+use node::Node;
+
+/// What is known of a property before objects are looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// There is no such property.
+    Missing,
+    /// It holds this type; `None` is a type that only running tells.
+    Holds(Option<Type>),
+}
+
+/// Tells what kind a property is.
+pub(crate) trait Kinds {
+    fn kind(&self, property: &PropertyName) -> Kind;
+    /// The type that a property was declared with, whatever rules conclude of it.
+    fn declared(&self, property: &PropertyName) -> Option<Type>;
+    /// Names to suggest for a misspelt one.
+    fn properties(&self, class: &str) -> Vec<String>;
+}
+
+/// What a rule does for each binding.
+#[derive(Debug)]
+pub(crate) enum Effect {
+    Conclude { then: ActionPlan, otherwise: Option<ActionPlan> },
+    Revise { variable: usize, amount: Node },
+}
+
+/// A rule ready to run.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    pub(crate) clauses: Vec<ClausePlan>,
+    pub(crate) effect: Effect,
+    /// The columns that the nodes name by number.
+    pub(crate) columns: Vec<PropertyName>,
+}
+
+/// Compiles a rule, or tells everything that is wrong with its names and types.
+pub(crate) fn plan(
+    rule: &Rule,
+    kinds: &dyn Kinds,
+    symbols: &RefCell<Symbols>,
+) -> Result<Plan, Vec<Diagnostic>> {
+    let mut lowering = Lowering::new(rule, kinds, symbols);
+    let clauses = clause::clauses(&mut lowering);
+    let effect = match &rule.action {
+        Action::Conclude { then, otherwise } => Effect::Conclude {
+            then: action::action(&mut lowering, then),
+            otherwise: otherwise.as_ref().map(|block| action::action(&mut lowering, block)),
+        },
+        Action::Revise { target, amount, position, .. } => {
+            action::check_revised(&mut lowering, target, *position);
+            Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
+        }
+    };
+    let (columns, problems) = lowering.finish();
+    if problems.is_empty() { Ok(Plan { clauses, effect, columns }) } else { Err(problems) }
+}

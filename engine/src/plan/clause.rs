@@ -1,0 +1,90 @@
+//! Clauses made ready: what an index answers, what is tested once for the class, what for each binding.
+
+use super::lower::Lowering;
+use super::node::{Comparison, Node};
+use crate::script::syntax::Quantifier;
+use crate::value::Type;
+
+/// An equation that an index answers: this column of the clause's class equals this value.
+#[derive(Debug)]
+pub(crate) struct Join {
+    pub(crate) column: usize,
+    pub(crate) key: Node,
+}
+
+/// A clause ready to run.
+#[derive(Debug)]
+pub(crate) struct ClausePlan {
+    pub(crate) quantifier: Quantifier,
+    pub(crate) joins: Vec<Join>,
+    /// The part of `where` that looks at this clause's object alone.
+    pub(crate) own: Option<Node>,
+    /// The part of `where` that looks at others too.
+    pub(crate) test: Option<Node>,
+    pub(crate) by: Option<Node>,
+    /// Whether `by` looks at this clause's object alone.
+    pub(crate) by_own: bool,
+}
+
+pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
+    let rule = lowering.rule;
+    let mut plans = vec![];
+    for (index, clause) in rule.clauses.iter().enumerate() {
+        let by = clause.by.as_ref().map(|by| {
+            lowering.own = Some(index);
+            let node = lowering.wanted(by, Type::Number);
+            lowering.own = None;
+            node
+        });
+        let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
+        let mut plan = ClausePlan {
+            quantifier: clause.quantifier,
+            joins: vec![],
+            own: None,
+            test: None,
+            by_own: by.as_ref().is_none_or(|by| by.variables() & !(1 << index) == 0),
+            by,
+        };
+        split(condition, index, &mut plan);
+        plans.push(plan);
+    }
+    plans
+}
+
+fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
+    let parts = match condition {
+        None => return,
+        Some(Node::And(parts)) => parts,
+        Some(other) => vec![other],
+    };
+    let (mut own, mut test) = (vec![], vec![]);
+    for part in parts {
+        match part {
+            part if part.variables() & !(1 << index) == 0 => own.push(part),
+            Node::Compare(Comparison::Equal, a, b) => match join(*a, *b, index) {
+                Ok(join) => plan.joins.push(join),
+                Err((a, b)) => test.push(Node::Compare(Comparison::Equal, Box::new(a), Box::new(b))),
+            },
+            part => test.push(part),
+        }
+    }
+    plan.own = all(own);
+    plan.test = all(test);
+}
+
+fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
+    let free = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
+    match (a, b) {
+        (Node::Property { variable, column }, key) if variable == index && free(&key) => {
+            Ok(Join { column, key })
+        }
+        (key, Node::Property { variable, column }) if variable == index && free(&key) => {
+            Ok(Join { column, key })
+        }
+        other => Err(other),
+    }
+}
+
+fn all(mut parts: Vec<Node>) -> Option<Node> {
+    if parts.len() > 1 { Some(Node::And(parts)) } else { parts.pop() }
+}

@@ -1,0 +1,376 @@
+//! From rhai's expression trees to typed nodes.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use rhai::{AST, Dynamic, Expr, Position, Stmt, StmtBlock};
+
+use super::fragment::{Fragment, Object, Source};
+use super::node::{Comparison, Node};
+use super::{Kind, Kinds};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::rule::{Constant, PropertyName, Rule};
+use crate::script::names::{Names, Patterns, property_of};
+use crate::suggest::nearest;
+use crate::symbols::{Symbol, Symbols};
+use crate::value::{Cell, Truth, Type};
+
+/// A node and the type that it gives; `None` is a type that only running tells.
+pub(crate) type Typed = (Node, Option<Type>);
+
+/// Why an expression has no typed node.
+#[derive(Debug)]
+pub(crate) enum Stop {
+    /// It is not among what is compiled; the interpreter can run it.
+    Interpret,
+    /// It is wrong, and that is on the list of problems.
+    Wrong,
+}
+
+/// A variable made by `let`.
+#[derive(Clone, Debug)]
+pub(crate) struct Local {
+    pub(crate) name: String,
+    pub(crate) slot: usize,
+    pub(crate) kind: Option<Type>,
+}
+
+/// One rule on its way to a plan.
+pub(crate) struct Lowering<'r> {
+    pub(crate) rule: &'r Rule,
+    pub(crate) kinds: &'r dyn Kinds,
+    symbols: &'r RefCell<Symbols>,
+    columns: Vec<PropertyName>,
+    problems: Vec<Diagnostic>,
+    /// Pattern variables by the number of their clause.
+    variables: Vec<String>,
+    /// The variable whose properties may stand bare.
+    pub(crate) own: Option<usize>,
+    pub(crate) locals: Vec<Local>,
+    pub(crate) slots: usize,
+    /// Properties that an earlier line of the action has set for certain.
+    pub(crate) certain: BTreeMap<(usize, String), (usize, Option<Type>)>,
+}
+
+impl<'r> Lowering<'r> {
+    pub(crate) fn new(rule: &'r Rule, kinds: &'r dyn Kinds, symbols: &'r RefCell<Symbols>) -> Self {
+        let variables = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
+        Self {
+            rule,
+            kinds,
+            symbols,
+            columns: vec![],
+            problems: vec![],
+            variables,
+            own: None,
+            locals: vec![],
+            slots: 0,
+            certain: BTreeMap::new(),
+        }
+    }
+
+    pub(crate) fn finish(self) -> (Vec<PropertyName>, Vec<Diagnostic>) {
+        (self.columns, self.problems)
+    }
+
+    pub(crate) fn variable(&self, name: &str) -> Option<usize> {
+        self.variables.iter().position(|variable| variable == name)
+    }
+
+    pub(crate) fn problem(
+        &mut self,
+        code: Code,
+        position: Position,
+        message: impl Into<String>,
+    ) -> &mut Diagnostic {
+        let place = self.rule.file.source.place(position);
+        self.problems.push(Diagnostic::error(code, &place, message));
+        let last = self.problems.len() - 1;
+        &mut self.problems[last]
+    }
+
+    /// An expression that must give this type. What is wrong is on the list, and the node is then unknown.
+    pub(crate) fn wanted(&mut self, expr: &Expr, wanted: Type) -> Node {
+        match self.lower(expr) {
+            Ok(typed) => self.narrow(typed, wanted, expr.start_position()).unwrap_or(Node::Unknown),
+            Err(_) => Node::Unknown,
+        }
+    }
+
+    /// Any expression: compiled, or as a fragment for the interpreter.
+    pub(crate) fn lower(&mut self, expr: &Expr) -> Result<Typed, Stop> {
+        match self.compiled(expr) {
+            Err(Stop::Interpret) => self.interpreted(expr),
+            done => done,
+        }
+    }
+
+    fn compiled(&mut self, expr: &Expr) -> Result<Typed, Stop> {
+        Ok(match expr {
+            Expr::IntegerConstant(number, _) => (Node::Number(*number as f64), Some(Type::Number)),
+            Expr::FloatConstant(number, _) => (Node::Number(**number), Some(Type::Number)),
+            Expr::BoolConstant(truth, _) => (Node::Truth((*truth).into()), Some(Type::Truth)),
+            Expr::StringConstant(text, _) => (Node::Text(self.intern(text)), Some(Type::Text)),
+            Expr::Unit(_) => (Node::Unknown, None),
+            Expr::Variable(variable, _, position) => self.bare(&variable.1, *position)?,
+            Expr::Dot(dot, ..) => match property_of(expr) {
+                Some((variable, property, position)) => self.property(variable, property, position)?,
+                None => match &dot.rhs {
+                    Expr::MethodCall(call, position) => {
+                        let arguments: Vec<&Expr> = std::iter::once(&dot.lhs).chain(&call.args).collect();
+                        self.call(&call.name, &arguments, *position)?
+                    }
+                    _ => return Err(Stop::Interpret),
+                },
+            },
+            Expr::And(parts, _) => (Node::And(flat(self.truths(parts)?)), Some(Type::Truth)),
+            Expr::Or(parts, _) => (Node::Or(self.truths(parts)?), Some(Type::Truth)),
+            Expr::Coalesce(parts, position) => self.coalesce(parts, *position)?,
+            Expr::FnCall(call, position) if !call.is_qualified() => {
+                let arguments: Vec<&Expr> = call.args.iter().collect();
+                self.call(&call.name, &arguments, *position)?
+            }
+            Expr::InterpolatedString(parts, _) => self.written(parts)?,
+            Expr::Stmt(block) => self.value_of(block)?,
+            _ => return Err(Stop::Interpret),
+        })
+    }
+
+    fn truths(&mut self, parts: &[Expr]) -> Result<Vec<Node>, Stop> {
+        let mut nodes = vec![];
+        for part in parts {
+            let typed = self.lower(part)?;
+            nodes.push(self.narrow(typed, Type::Truth, part.start_position())?);
+        }
+        Ok(nodes)
+    }
+
+    fn coalesce(&mut self, parts: &[Expr], position: Position) -> Result<Typed, Stop> {
+        let mut parts = parts.iter();
+        let mut typed = match parts.next() {
+            Some(first) => self.lower(first)?,
+            None => return Ok((Node::Unknown, None)),
+        };
+        for part in parts {
+            let other = self.lower(part)?;
+            let (a, b, kind) = self.unify(typed, other, position)?;
+            typed = (Node::Coalesce(Box::new(a), Box::new(b)), kind);
+        }
+        Ok(typed)
+    }
+
+    fn written(&mut self, parts: &[Expr]) -> Result<Typed, Stop> {
+        let mut whole = Node::Text(self.intern(""));
+        for part in parts {
+            let (node, kind) = self.lower(part)?;
+            if kind.is_none_or(|kind| kind == Type::Truth) {
+                return Err(Stop::Interpret);
+            }
+            whole = Node::Concat(Box::new(whole), Box::new(node));
+        }
+        Ok((whole, Some(Type::Text)))
+    }
+
+    /// The value of `if a { b } else { c }`, or of a block of one expression.
+    fn value_of(&mut self, block: &StmtBlock) -> Result<Typed, Stop> {
+        match block.statements() {
+            [Stmt::Expr(expr)] => self.lower(expr),
+            [Stmt::Block(block)] => self.value_of(block),
+            [Stmt::FnCall(call, position)] if !call.is_qualified() => {
+                let arguments: Vec<&Expr> = call.args.iter().collect();
+                self.call(&call.name, &arguments, *position)
+            }
+            [Stmt::If(flow, position)] if !flow.branch.is_empty() => {
+                let typed = self.lower(&flow.expr)?;
+                let condition = self.narrow(typed, Type::Truth, flow.expr.start_position())?;
+                let (yes, no) = (self.value_of(&flow.body)?, self.value_of(&flow.branch)?);
+                let (yes, no, kind) = self.unify(yes, no, *position)?;
+                Ok((Node::Choose(Box::new(condition), Box::new(yes), Box::new(no)), kind))
+            }
+            _ => Err(Stop::Interpret),
+        }
+    }
+
+    fn bare(&mut self, name: &str, position: Position) -> Result<Typed, Stop> {
+        if let Some(local) = self.locals.iter().rev().find(|local| local.name == name) {
+            return Ok((Node::Local(local.slot), local.kind));
+        }
+        if let Some(constant) = self.rule.file.constants.get(name) {
+            return Ok(match constant {
+                Constant::Text(text) => (Node::Text(self.intern(text)), Some(Type::Text)),
+                Constant::Cell(Cell::Number(number)) => (Node::Number(*number), Some(Type::Number)),
+                Constant::Cell(Cell::Truth(truth)) => (Node::Truth(Truth::from(*truth)), Some(Type::Truth)),
+                Constant::Cell(_) => (Node::Unknown, None),
+            });
+        }
+        if let Some(own) = self.own {
+            let variable = self.variables[own].clone();
+            return self.property(&variable, name, position);
+        }
+        self.problem(Code::UnknownVariable, position, format!("nothing here is called `{name}`"));
+        Err(Stop::Wrong)
+    }
+
+    pub(crate) fn property(
+        &mut self,
+        variable: &str,
+        property: &str,
+        position: Position,
+    ) -> Result<Typed, Stop> {
+        let Some(index) = self.variable(variable) else { return Err(Stop::Interpret) };
+        if let Some(&(slot, kind)) = self.certain.get(&(index, property.to_owned())) {
+            return Ok((Node::Local(slot), kind));
+        }
+        let name = PropertyName::new(&self.rule.clauses[index].class, property);
+        match self.kinds.kind(&name) {
+            Kind::Missing => {
+                let known = self.kinds.properties(&name.class);
+                let meant = nearest(property, known.iter().map(String::as_str)).map(str::to_owned);
+                let message = format!("{} has no property `{property}`", name.class);
+                let problem = self.problem(Code::UnknownProperty, position, message);
+                *problem = problem.clone().did_you_mean(meant.as_deref());
+                Err(Stop::Wrong)
+            }
+            Kind::Holds(kind) => Ok((Node::Property { variable: index, column: self.column(name) }, kind)),
+        }
+    }
+
+    pub(crate) fn column(&mut self, name: PropertyName) -> usize {
+        self.columns.iter().position(|column| *column == name).unwrap_or_else(|| {
+            self.columns.push(name);
+            self.columns.len() - 1
+        })
+    }
+
+    /// The node where this type is wanted.
+    pub(crate) fn narrow(
+        &mut self,
+        (node, kind): Typed,
+        wanted: Type,
+        position: Position,
+    ) -> Result<Node, Stop> {
+        match kind {
+            Some(kind) if kind == wanted => Ok(node),
+            Some(kind) => {
+                let message =
+                    format!("{} are wanted here, and this gives {}", wanted.plural(), kind.plural());
+                self.problem(Code::Type, position, message);
+                Err(Stop::Wrong)
+            }
+            None => Ok(Node::Narrow(wanted, Box::new(node))),
+        }
+    }
+
+    /// Two nodes brought to one type.
+    pub(crate) fn unify(
+        &mut self,
+        (a, kind_a): Typed,
+        (b, kind_b): Typed,
+        position: Position,
+    ) -> Result<(Node, Node, Option<Type>), Stop> {
+        match (kind_a, kind_b) {
+            (Some(kind), Some(other)) if kind != other => {
+                let message = format!("{} cannot stand beside {}", kind.plural(), other.plural());
+                self.problem(Code::Type, position, message);
+                Err(Stop::Wrong)
+            }
+            (Some(kind), None) => Ok((a, Node::Narrow(kind, Box::new(b)), Some(kind))),
+            (None, Some(kind)) => Ok((Node::Narrow(kind, Box::new(a)), b, Some(kind))),
+            (kind, _) => Ok((a, b, kind)),
+        }
+    }
+
+    pub(crate) fn compare(
+        &mut self,
+        comparison: Comparison,
+        a: &Expr,
+        b: &Expr,
+        position: Position,
+    ) -> Result<Typed, Stop> {
+        let (a, b) = (self.lower(a)?, self.lower(b)?);
+        let (a, b, kind) = self.unify(a, b, position)?;
+        let ordered = !matches!(comparison, Comparison::Equal | Comparison::Unequal);
+        if ordered && kind == Some(Type::Truth) {
+            self.problem(Code::Type, position, "truth values have no order");
+            return Err(Stop::Wrong);
+        }
+        Ok((Node::Compare(comparison, Box::new(a), Box::new(b)), Some(Type::Truth)))
+    }
+
+    pub(crate) fn intern(&self, text: &str) -> Symbol {
+        self.symbols.borrow_mut().intern(text)
+    }
+
+    fn interpreted(&mut self, expr: &Expr) -> Result<Typed, Stop> {
+        let mut names = Names::default();
+        let patterns = self.variables.clone();
+        names.expression(expr, &Patterns(&patterns), self.own);
+        let statement = Stmt::Expr(Box::new(expr.clone()));
+        let fragment = self.fragment(vec![statement], &names, expr.start_position())?;
+        Ok((Node::Interpret(Box::new(fragment)), None))
+    }
+
+    /// A script with all that it names.
+    pub(crate) fn fragment(
+        &mut self,
+        statements: Vec<Stmt>,
+        names: &Names,
+        position: Position,
+    ) -> Result<Fragment, Stop> {
+        let mut objects: BTreeMap<String, Object> = BTreeMap::new();
+        let mut bare = vec![];
+        let free: BTreeSet<&str> = names.free.iter().map(|(name, _)| name.as_str()).collect();
+        for ((variable, property), &place) in &names.reads {
+            let name = self.variables[*variable].clone();
+            if self.own == Some(*variable) && self.is_given(property) {
+                continue;
+            }
+            let source = match self.property(&name, property, place)? {
+                (Node::Property { column, .. }, _) => Source::Column(column),
+                (Node::Local(slot), _) => Source::Slot(slot),
+                _ => continue,
+            };
+            if let (Some(own), Source::Column(column)) = (self.own, source)
+                && own == *variable
+            {
+                bare.push((property.clone(), own, column));
+            }
+            let object = objects.entry(name).or_default();
+            object.variable = *variable;
+            object.properties.push((property.clone(), source));
+        }
+        let constants = self
+            .rule
+            .file
+            .constants
+            .iter()
+            .map(|(name, constant)| (name.clone(), dynamic(constant)))
+            .collect();
+        let locals = self
+            .locals
+            .iter()
+            .map(|local| (local.name.clone(), local.slot, free.contains(local.name.as_str())))
+            .collect();
+        let script = AST::new(statements, self.rule.file.functions.clone());
+        Ok(Fragment { script, position, objects, bare, constants, locals })
+    }
+
+    fn is_given(&self, name: &str) -> bool {
+        self.rule.file.constants.contains_key(name) || self.locals.iter().any(|local| local.name == name)
+    }
+}
+
+/// `(a && b) && c` is one condition of three parts.
+fn flat(parts: Vec<Node>) -> Vec<Node> {
+    let inner = |part| if let Node::And(inner) = part { inner } else { vec![part] };
+    parts.into_iter().flat_map(inner).collect()
+}
+
+fn dynamic(constant: &Constant) -> Dynamic {
+    match constant {
+        Constant::Text(text) => text.clone().into(),
+        Constant::Cell(Cell::Number(number)) => (*number).into(),
+        Constant::Cell(Cell::Truth(truth)) => (*truth).into(),
+        Constant::Cell(_) => Dynamic::UNIT,
+    }
+}

@@ -1,0 +1,105 @@
+//! Expressions of rules, lowered: no names, no dispatch by name, types settled.
+
+use super::fragment::Fragment;
+use crate::symbols::Symbol;
+use crate::value::{Truth, Type};
+
+/// Two numbers to one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arithmetic {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Remainder,
+    Power,
+    Min,
+    Max,
+    Hypot,
+}
+
+/// One number to one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Function {
+    Negate,
+    Abs,
+    Sqrt,
+    Floor,
+    Ceil,
+    Round,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Comparison {
+    Equal,
+    Unequal,
+    Less,
+    AtMost,
+    Greater,
+    AtLeast,
+}
+
+/// A lowered expression. Unknown goes in and comes out everywhere; "and", "or" and "not" are Kleene's.
+#[derive(Debug)]
+pub(crate) enum Node {
+    Unknown,
+    Number(f64),
+    Text(Symbol),
+    Truth(Truth),
+    /// Variable and column by number.
+    Property {
+        variable: usize,
+        column: usize,
+    },
+    /// What a `let`, or a property set before, holds.
+    Local(usize),
+    Arithmetic(Arithmetic, Box<Self>, Box<Self>),
+    Function(Function, Box<Self>),
+    /// Both sides hold the same type.
+    Compare(Comparison, Box<Self>, Box<Self>),
+    And(Vec<Self>),
+    Or(Vec<Self>),
+    Not(Box<Self>),
+    Known(Box<Self>),
+    /// Texts and numbers written one after the other.
+    Concat(Box<Self>, Box<Self>),
+    Choose(Box<Self>, Box<Self>, Box<Self>),
+    /// The first, or the second where the first is unknown.
+    Coalesce(Box<Self>, Box<Self>),
+    /// A value of a type that only running tells, where this type is wanted.
+    Narrow(Type, Box<Self>),
+    Interpret(Box<Fragment>),
+}
+
+impl Node {
+    /// The pattern variables that it looks at, as bits.
+    pub(crate) fn variables(&self) -> u64 {
+        match self {
+            Self::Unknown | Self::Number(_) | Self::Text(_) | Self::Truth(_) | Self::Local(_) => 0,
+            Self::Property { variable, .. } => 1 << variable,
+            Self::Arithmetic(_, a, b)
+            | Self::Compare(_, a, b)
+            | Self::Concat(a, b)
+            | Self::Coalesce(a, b) => a.variables() | b.variables(),
+            Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.variables(),
+            Self::And(parts) | Self::Or(parts) => parts.iter().fold(0, |bits, part| bits | part.variables()),
+            Self::Choose(a, b, c) => a.variables() | b.variables() | c.variables(),
+            Self::Interpret(fragment) => fragment.variables(),
+        }
+    }
+
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        match self {
+            Self::Interpret(_) => true,
+            Self::Arithmetic(_, a, b)
+            | Self::Compare(_, a, b)
+            | Self::Concat(a, b)
+            | Self::Coalesce(a, b) => a.interprets() || b.interprets(),
+            Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.interprets(),
+            Self::And(parts) | Self::Or(parts) => parts.iter().any(Self::interprets),
+            Self::Choose(a, b, c) => a.interprets() || b.interprets() || c.interprets(),
+            _ => false,
+        }
+    }
+}

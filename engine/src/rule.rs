@@ -1,0 +1,178 @@
+//! A rule as it was read: clauses, action, what it reads and what it sets.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::sync::Arc;
+
+use rhai::{Expr, Module, Position, Shared, StmtBlock};
+
+use crate::script::source::SourceFile;
+use crate::script::syntax::Quantifier;
+use crate::value::Cell;
+
+/// A property of a class, as rules name it: `DOORS.hardness`.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+pub struct PropertyName {
+    /// The class.
+    pub class: String,
+    /// The property.
+    pub property: String,
+}
+
+impl PropertyName {
+    /// The property of the class.
+    pub fn new(class: impl Into<String>, property: impl Into<String>) -> Self {
+        Self { class: class.into(), property: property.into() }
+    }
+}
+
+impl fmt::Display for PropertyName {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{}.{}", self.class, self.property)
+    }
+}
+
+/// How a revision changes a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Operator {
+    /// `* amount`
+    Times,
+    /// `+ amount`
+    Plus,
+    /// `- amount`
+    Minus,
+    /// The greater of the two.
+    Max,
+    /// The lesser of the two.
+    Min,
+}
+
+impl Operator {
+    /// The sign that rules write.
+    pub const fn sign(self) -> &'static str {
+        match self {
+            Self::Times => "*",
+            Self::Plus => "+",
+            Self::Minus => "-",
+            Self::Max => "max",
+            Self::Min => "min",
+        }
+    }
+
+    /// Whether the order of the two does not matter, rounding aside.
+    pub(crate) fn commutes_with(self, other: Self) -> bool {
+        let sum = |operator| matches!(operator, Self::Plus | Self::Minus);
+        self == other || (sum(self) && sum(other))
+    }
+
+    pub(crate) fn apply(self, value: f64, amount: f64) -> f64 {
+        match self {
+            Self::Times => value * amount,
+            Self::Plus => value + amount,
+            Self::Minus => value - amount,
+            Self::Max | Self::Min if value.is_nan() || amount.is_nan() => f64::NAN,
+            Self::Max => value.max(amount),
+            Self::Min => value.min(amount),
+        }
+    }
+}
+
+/// One line of a rule's condition.
+#[derive(Clone, Debug)]
+pub(crate) struct Clause {
+    pub(crate) quantifier: Quantifier,
+    pub(crate) variable: String,
+    pub(crate) position: Position,
+    pub(crate) class: String,
+    pub(crate) class_position: Position,
+    pub(crate) by: Option<Expr>,
+    pub(crate) condition: Option<Expr>,
+}
+
+/// What a rule does with what its clauses bind.
+#[derive(Clone, Debug)]
+pub(crate) enum Action {
+    Conclude { then: Box<StmtBlock>, otherwise: Option<Box<StmtBlock>> },
+    Revise { target: (usize, String), operator: Operator, amount: Expr, level: i64, position: Position },
+}
+
+/// What all rules of a file share.
+#[derive(Clone, Debug)]
+pub(crate) struct FileScope {
+    pub(crate) source: SourceFile,
+    pub(crate) constants: BTreeMap<String, Constant>,
+    pub(crate) functions: Shared<Module>,
+    pub(crate) function_names: BTreeSet<(String, usize)>,
+}
+
+/// A constant of a file.
+#[derive(Clone, Debug)]
+pub(crate) enum Constant {
+    Cell(Cell),
+    Text(String),
+}
+
+/// A rule that was read from a file.
+#[derive(Clone, Debug)]
+pub struct Rule {
+    pub(crate) name: String,
+    pub(crate) position: Position,
+    pub(crate) line: usize,
+    pub(crate) version: String,
+    pub(crate) clauses: Vec<Clause>,
+    pub(crate) action: Action,
+    pub(crate) reads: BTreeMap<PropertyName, Position>,
+    pub(crate) sets: BTreeMap<PropertyName, Position>,
+    pub(crate) file: Arc<FileScope>,
+}
+
+impl Rule {
+    /// The name, unique in a rule base.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The file that it stands in.
+    pub fn file(&self) -> &str {
+        self.file.source.name()
+    }
+
+    /// The line of its name, from 1.
+    pub const fn line(&self) -> usize {
+        self.line
+    }
+
+    /// A short hash of its text; of the file's constants and functions too, if it uses any.
+    pub fn version(&self) -> &str {
+        &self.version
+    }
+
+    /// The classes that its clauses range over, in their order.
+    pub fn classes(&self) -> impl Iterator<Item = &str> {
+        self.clauses.iter().map(|clause| clause.class.as_str())
+    }
+
+    /// Its variables with the classes that they stand for objects of, in the order of its clauses.
+    pub fn variables(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.clauses.iter().map(|clause| (clause.variable.as_str(), clause.class.as_str()))
+    }
+
+    /// The properties that it reads, sorted.
+    pub fn reads(&self) -> impl Iterator<Item = &PropertyName> {
+        self.reads.keys()
+    }
+
+    /// The properties that it sets, sorted.
+    pub fn sets(&self) -> impl Iterator<Item = &PropertyName> {
+        self.sets.keys()
+    }
+
+    /// The level of a revision; `None` for a rule that concludes.
+    pub const fn level(&self) -> Option<i64> {
+        match &self.action {
+            Action::Conclude { .. } => None,
+            Action::Revise { level, .. } => Some(*level),
+        }
+    }
+}

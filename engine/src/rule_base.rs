@@ -1,0 +1,125 @@
+//! Rule files compiled into one rule base.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::thread;
+
+use rhai::Position;
+
+use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::order::{Step, order};
+use crate::rule::{Action, Operator, PropertyName, Rule};
+use crate::schema::Schema;
+use crate::script::interpreter::{STACK_BYTES, function_names, reader};
+use crate::script::read::read;
+use crate::script::source::SourceFile;
+
+/// The rules of a site: read, ordered, and free of errors that can be seen without objects.
+#[derive(Clone, Debug, Default)]
+pub struct RuleBase {
+    pub(crate) rules: Vec<Rule>,
+    pub(crate) order: Vec<Step>,
+}
+
+impl RuleBase {
+    /// Reads rule files. Each file is read up to its first error of syntax, and all files are reported.
+    pub fn compile(files: &[SourceFile]) -> Result<Self, Diagnostics> {
+        let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(files))).ok());
+        let Some((rules, mut problems)) = outcome else {
+            let place = files.first().map(|file| file.place(Position::START));
+            let message = "reading the rule files failed inside the engine";
+            return Err(Diagnostics(
+                place.map(|place| Diagnostic::error(Code::Panic, &place, message)).into_iter().collect(),
+            ));
+        };
+        problems.extend(duplicates(&rules));
+        problems.extend(operators(&rules));
+        if !problems.is_empty() {
+            return Err(Diagnostics(problems));
+        }
+        let order = order(&rules).map_err(Diagnostics)?;
+        Ok(Self { rules, order })
+    }
+
+    /// The rules, in the order of the files.
+    pub fn rules(&self) -> &[Rule] {
+        &self.rules
+    }
+
+    /// Names and types against the classes that there are; empty if all is well.
+    pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
+        on_deep_stack(|| crate::check::check(self, schema))
+    }
+
+    /// The properties that rules conclude or revise, sorted.
+    pub fn concluded(&self) -> BTreeSet<&PropertyName> {
+        self.rules.iter().flat_map(|rule| rule.sets.keys()).collect()
+    }
+}
+
+/// Runs on a thread with a stack for the deepest rule that is allowed.
+pub(crate) fn on_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    thread::scope(|scope| {
+        let thread = thread::Builder::new().name("rules".into()).stack_size(STACK_BYTES);
+        let running = thread.spawn_scoped(scope, work).expect("the system has room for one thread more");
+        running.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
+fn read_all(files: &[SourceFile]) -> (Vec<Rule>, Vec<Diagnostic>) {
+    let engine = reader();
+    let known = function_names();
+    let (mut rules, mut problems) = (vec![], vec![]);
+    for file in files {
+        let (read, wrong) = read(file, engine, known);
+        rules.extend(read);
+        problems.extend(wrong);
+    }
+    (rules, problems)
+}
+
+fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
+    let mut seen: BTreeMap<&str, &Rule> = BTreeMap::new();
+    let mut problems = vec![];
+    for rule in rules {
+        if let Some(first) = seen.get(rule.name()) {
+            let place = rule.file.source.place(rule.position);
+            problems.push(
+                Diagnostic::error(
+                    Code::DuplicateName,
+                    &place,
+                    format!("two rules are called \"{}\"", rule.name),
+                )
+                .label("the second")
+                .help(format!("the first is in {}, line {}", first.file(), first.line)),
+            );
+        } else {
+            seen.insert(rule.name(), rule);
+        }
+    }
+    problems
+}
+
+/// One level of revision takes one operator, or the order of the rules would matter.
+fn operators(rules: &[Rule]) -> Vec<Diagnostic> {
+    let mut seen: BTreeMap<(&PropertyName, i64), (Operator, &Rule)> = BTreeMap::new();
+    let mut problems = vec![];
+    for rule in rules {
+        let Action::Revise { operator, level, position, .. } = &rule.action else { continue };
+        let Some(target) = rule.sets.keys().next() else { continue };
+        let (first, other) = *seen.entry((target, *level)).or_insert((*operator, rule));
+        if !first.commutes_with(*operator) {
+            let message = format!(
+                "level {level} of {target} is revised by `{}` here and by `{}` in \"{}\"",
+                operator.sign(),
+                first.sign(),
+                other.name
+            );
+            problems
+                .push(Diagnostic::error(Code::Operator, &rule.file.source.place(*position), message).help(
+                    "give one of them another level: each level starts from what the level below gave",
+                ));
+        }
+    }
+    problems
+}

@@ -1,0 +1,46 @@
+//! What classes and properties there are, before there are objects.
+
+use std::collections::BTreeMap;
+
+use crate::value::Type;
+
+/// The classes that rules may name, with the types of their properties.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Schema {
+    classes: BTreeMap<String, BTreeMap<String, Type>>,
+}
+
+impl Schema {
+    /// Adds a class, or properties to it.
+    #[must_use]
+    pub fn class(mut self, name: &str, properties: &[(&str, Type)]) -> Self {
+        let class = self.classes.entry(name.to_owned()).or_default();
+        class.extend(properties.iter().map(|&(property, kind)| (property.to_owned(), kind)));
+        self
+    }
+
+    /// Adds one property.
+    pub fn add(&mut self, class: &str, property: &str, kind: Type) {
+        self.classes.entry(class.to_owned()).or_default().insert(property.to_owned(), kind);
+    }
+
+    /// Whether a class is known.
+    pub fn has(&self, class: &str) -> bool {
+        self.classes.contains_key(class)
+    }
+
+    /// The type of a property.
+    pub fn kind(&self, class: &str, property: &str) -> Option<Type> {
+        self.classes.get(class)?.get(property).copied()
+    }
+
+    /// The names of all classes, sorted.
+    pub fn classes(&self) -> impl Iterator<Item = &str> {
+        self.classes.keys().map(String::as_str)
+    }
+
+    /// The names of a class's properties, sorted.
+    pub fn properties(&self, class: &str) -> impl Iterator<Item = &str> {
+        self.classes.get(class).into_iter().flat_map(|properties| properties.keys().map(String::as_str))
+    }
+}

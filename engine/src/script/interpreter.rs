@@ -1,0 +1,194 @@
+//! The one place where a rhai engine is made, with every limit set.
+
+use std::cell::Cell;
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use rhai::packages::{
+    BasicArrayPackage, BasicMapPackage, BasicMathPackage, CorePackage, LogicPackage, MoreStringPackage,
+    Package,
+};
+use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, OptimizationLevel};
+
+use super::syntax;
+
+/// Steps that one run of an interpreted part may take, its closures included.
+pub(crate) const MAX_STEPS: u64 = 1_000_000;
+/// Function calls inside each other.
+pub(crate) const MAX_CALL_LEVELS: usize = 32;
+/// Nesting of expressions, outside and inside functions.
+pub(crate) const MAX_DEPTHS: (usize, usize) = (64, 32);
+/// Bytes of a text.
+pub(crate) const MAX_TEXT: usize = 64 * 1024;
+/// Elements of an array.
+pub(crate) const MAX_ARRAY: usize = 10_000;
+/// Entries of a map.
+pub(crate) const MAX_MAP: usize = 1_000;
+/// Variables alive at once.
+pub(crate) const MAX_VARIABLES: usize = 256;
+/// Functions of a file.
+pub(crate) const MAX_FUNCTIONS: usize = 128;
+/// Stack of the threads that read rules and run them, in bytes: the deepest script allowed needs more than
+/// 2 MiB in a debug build, and a stack overflow cannot be caught.
+pub(crate) const STACK_BYTES: usize = 16 * 1024 * 1024;
+
+thread_local! {
+    static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
+    static STEPS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// Starts the budget of one run on this thread.
+pub(crate) fn start_run(deadline: Instant) {
+    DEADLINE.set(Some(deadline));
+    STEPS.set(0);
+}
+
+/// Every step looks here. rhai's own counter starts anew in each closure that a native function calls, so
+/// the steps are counted on the thread.
+fn on_step() -> Option<Dynamic> {
+    let steps = STEPS.get() + 1;
+    STEPS.set(steps);
+    if steps > MAX_STEPS {
+        return Some("more steps than a rule may take".into());
+    }
+    let late = steps.is_multiple_of(64) && DEADLINE.get().is_some_and(|deadline| Instant::now() > deadline);
+    late.then(|| "longer than a rule may take".into())
+}
+
+/// For reading files: knows the rule syntax.
+pub(crate) fn reader() -> &'static Engine {
+    static READER: OnceLock<Engine> = OnceLock::new();
+    READER.get_or_init(|| {
+        let mut engine = bare();
+        // Each rule leaves a marker among the variables of the file.
+        engine.set_max_variables(100_000);
+        syntax::register(&mut engine);
+        engine
+    })
+}
+
+/// For running what cannot be compiled.
+pub(crate) fn runner() -> &'static Engine {
+    static RUNNER: OnceLock<Engine> = OnceLock::new();
+    RUNNER.get_or_init(|| {
+        let mut engine = bare();
+        engine.set_max_variables(MAX_VARIABLES);
+        engine
+    })
+}
+
+/// The names of all functions that rules may call.
+pub(crate) fn function_names() -> &'static BTreeSet<String> {
+    static NAMES: OnceLock<BTreeSet<String>> = OnceLock::new();
+    NAMES.get_or_init(|| {
+        let json = runner().gen_fn_metadata_to_json(true).unwrap_or_default();
+        let listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
+        let functions = listed["functions"].as_array().into_iter().flatten();
+        let names = functions.filter_map(|function| function["name"].as_str());
+        // Keywords that read as functions.
+        let keywords =
+            ["type_of", "is_shared", "Fn", "call", "curry", "is_def_var", "is_def_fn", "print", "debug"];
+        names.chain(keywords).map(str::to_owned).collect()
+    })
+}
+
+fn bare() -> Engine {
+    let mut engine = Engine::new_raw();
+    CorePackage::new().register_into_engine(&mut engine);
+    LogicPackage::new().register_into_engine(&mut engine);
+    BasicMathPackage::new().register_into_engine(&mut engine);
+    BasicArrayPackage::new().register_into_engine(&mut engine);
+    BasicMapPackage::new().register_into_engine(&mut engine);
+    MoreStringPackage::new().register_into_engine(&mut engine);
+    // Rules are compiled by this crate; the interpreter gets its parts as they are written.
+    engine.set_optimization_level(OptimizationLevel::None);
+    engine.set_max_operations(MAX_STEPS);
+    engine.set_max_call_levels(MAX_CALL_LEVELS);
+    engine.set_max_expr_depths(MAX_DEPTHS.0, MAX_DEPTHS.1);
+    engine.set_max_string_size(MAX_TEXT);
+    engine.set_max_array_size(MAX_ARRAY);
+    engine.set_max_map_size(MAX_MAP);
+    engine.set_max_functions(MAX_FUNCTIONS);
+    engine.set_max_modules(0);
+    engine.set_max_strings_interned(1024);
+    engine.disable_symbol("eval");
+    engine.disable_symbol("import");
+    engine.disable_symbol("export");
+    engine.on_print(|_| {});
+    engine.on_debug(|_, _, _| {});
+    engine.on_progress(|_| on_step());
+    // Otherwise the built-in operators win over ours.
+    engine.set_fast_operators(false);
+    register_functions(&mut engine);
+    engine
+}
+
+/// The interpreter's numbers are those of rules: `1 / 2` is a half, and 3.0 is written "3".
+fn register_functions(engine: &mut Engine) {
+    type Refused = Result<(), Box<EvalAltResult>>;
+    engine
+        .register_fn("sleep", |_: i64| -> Refused { Err("a rule may not sleep".into()) })
+        .register_fn("sleep", |_: f64| -> Refused { Err("a rule may not sleep".into()) })
+        .register_fn("/", |a: i64, b: i64| a as f64 / b as f64)
+        .register_fn("%", |a: i64, b: i64| a as f64 % b as f64)
+        .register_fn("**", |a: i64, b: i64| (a as f64).powf(b as f64))
+        .register_fn("+", |text: ImmutableString, number: f64| format!("{text}{number}"))
+        .register_fn("+", |number: f64, text: ImmutableString| format!("{number}{text}"))
+        .register_fn("+=", |text: &mut ImmutableString, number: f64| *text += number.to_string())
+        .register_fn("to_string", |number: &mut f64| number.to_string())
+        .register_fn("ceil", f64::ceil)
+        .register_fn("ceil", |a: i64| a)
+        .register_fn("floor", |a: i64| a)
+        .register_fn("round", |a: i64| a)
+        .register_fn("sqrt", |a: i64| (a as f64).sqrt());
+    macro_rules! two {
+        ($name:literal, $function:expr) => {
+            engine
+                .register_fn($name, |a: f64, b: f64| -> f64 { $function(a, b) })
+                .register_fn($name, |a: i64, b: f64| -> f64 { $function(a as f64, b) })
+                .register_fn($name, |a: f64, b: i64| -> f64 { $function(a, b as f64) })
+                .register_fn($name, |a: i64, b: i64| -> f64 { $function(a as f64, b as f64) });
+        };
+    }
+    two!("min", f64::min);
+    two!("max", f64::max);
+    two!("hypot", f64::hypot);
+    engine
+        .register_fn("min", |a: f64, b: f64, c: f64| a.min(b).min(c))
+        .register_fn("max", |a: f64, b: f64, c: f64| a.max(b).max(c))
+        .register_fn("known", |value: Dynamic| !value.is_unit())
+        .register_fn("unknown", |value: Dynamic| value.is_unit());
+}
+
+/// How long rules may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// One rule in one inference.
+    pub rule: Duration,
+    /// All rules of one inference.
+    pub inference: Duration,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { rule: Duration::from_secs(10), inference: Duration::from_mins(1) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An update of rhai must not bring a function that nobody has looked at.
+    /// `BLESS=1 cargo test -p adit-engine allowed` writes the list anew.
+    #[test]
+    fn the_functions_are_those_of_the_allowed_list() {
+        let now: String = function_names().iter().flat_map(|name| [name, "\n"]).collect();
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/script/allowed_functions.txt");
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(path, &now).unwrap();
+        }
+        assert_eq!(std::fs::read_to_string(path).unwrap_or_default(), now);
+    }
+}

@@ -1,0 +1,215 @@
+//! Which names a rule uses: properties read and set, variables, functions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rhai::{ASTNode, Expr, Position, Stmt, StmtBlock};
+
+/// A property of a pattern variable: its clause, and the property's name.
+pub(crate) type Use = (usize, String);
+
+/// What was found in the parts of one rule.
+#[derive(Debug, Default)]
+pub(crate) struct Names {
+    pub(crate) reads: BTreeMap<Use, Position>,
+    pub(crate) sets: BTreeMap<Use, Position>,
+    /// Variables that are neither of a clause nor declared here: name, place.
+    pub(crate) free: Vec<(String, Position)>,
+    /// Objects used whole, which rules cannot do.
+    pub(crate) whole: Vec<(String, Position)>,
+    /// `x.p += e` and the like.
+    pub(crate) updates: Vec<(String, Position)>,
+    /// Assignments to a clause's variable itself, or to a part of a property.
+    pub(crate) misplaced: Vec<Position>,
+    /// Functions called: name, number of arguments, place.
+    pub(crate) calls: Vec<(String, usize, Position)>,
+    /// A rule inside a rule.
+    pub(crate) nested: Vec<Position>,
+}
+
+/// The pattern variables that are in scope, in the order of their clauses.
+pub(crate) struct Patterns<'a>(pub(crate) &'a [String]);
+
+impl Patterns<'_> {
+    pub(crate) fn index(&self, name: &str) -> Option<usize> {
+        self.0.iter().position(|variable| variable == name)
+    }
+}
+
+impl Names {
+    /// Looks through an expression. `own` is the variable whose properties may stand bare, as in `by hardness`.
+    pub(crate) fn expression(&mut self, expr: &Expr, patterns: &Patterns, own: Option<usize>) {
+        let declared = BTreeSet::new();
+        let mut path = vec![];
+        let mut calls: Vec<*const Expr> = vec![];
+        expr.walk(&mut path, &mut |path| {
+            if let Some(ASTNode::Expr(expr)) = path.last() {
+                self.node(expr, patterns, &declared, &mut calls, own, &BTreeSet::new());
+            }
+            true
+        });
+    }
+
+    /// Looks through an action. What an earlier line has set for certain may be read by a later one.
+    pub(crate) fn block(&mut self, block: &StmtBlock, patterns: &Patterns) {
+        let declared = declared(block);
+        let mut certain: BTreeSet<Use> = BTreeSet::new();
+        for stmt in block.statements() {
+            self.statement(stmt, patterns, &declared, &certain);
+            if let Stmt::Assignment(assignment) = stmt
+                && let Some((variable, property, _)) = property_of(&assignment.1.lhs)
+                && let Some(index) = patterns.index(variable)
+            {
+                certain.insert((index, property.to_owned()));
+            }
+        }
+    }
+
+    fn statement(
+        &mut self,
+        stmt: &Stmt,
+        patterns: &Patterns,
+        declared: &BTreeSet<String>,
+        certain: &BTreeSet<Use>,
+    ) {
+        let mut done: Vec<*const Expr> = vec![];
+        stmt.walk(&mut vec![], &mut |path| {
+            match path.last() {
+                Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
+                    self.assignment(assignment.0.is_op_assignment(), &assignment.1.lhs, patterns, &mut done);
+                }
+                Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => {
+                    self.calls.push((call.name.to_string(), call.args.len(), *position));
+                }
+                Some(ASTNode::Expr(expr)) => self.node(expr, patterns, declared, &mut done, None, certain),
+                _ => {}
+            }
+            true
+        });
+    }
+
+    fn assignment(&mut self, update: bool, target: &Expr, patterns: &Patterns, done: &mut Vec<*const Expr>) {
+        match property_of(target) {
+            Some((variable, property, position)) => {
+                let Some(index) = patterns.index(variable) else { return };
+                if update {
+                    self.updates.push((format!("{variable}.{property}"), position));
+                }
+                self.sets.entry((index, property.to_owned())).or_insert(position);
+                skip(target, done);
+            }
+            None => {
+                if root(target).is_some_and(|name| patterns.index(name).is_some()) {
+                    self.misplaced.push(target.start_position());
+                    skip(target, done);
+                }
+            }
+        }
+    }
+
+    fn node(
+        &mut self,
+        expr: &Expr,
+        patterns: &Patterns,
+        declared: &BTreeSet<String>,
+        done: &mut Vec<*const Expr>,
+        own: Option<usize>,
+        certain: &BTreeSet<Use>,
+    ) {
+        if done.iter().any(|&seen| std::ptr::eq(seen, expr)) {
+            return;
+        }
+        match expr {
+            Expr::Dot(dot, ..) => {
+                if let (Expr::Variable(variable, ..), Some((property, position))) =
+                    (&dot.lhs, leading_property(&dot.rhs))
+                    && let Some(index) = patterns.index(&variable.1)
+                {
+                    let used = (index, property.to_owned());
+                    if !certain.contains(&used) {
+                        self.reads.entry(used).or_insert(position);
+                    }
+                    done.push(&raw const dot.lhs);
+                }
+            }
+            Expr::Variable(variable, _, position) => {
+                let name = variable.1.as_str();
+                if patterns.index(name).is_some() {
+                    self.whole.push((name.to_owned(), *position));
+                } else if let Some(own) = own {
+                    self.reads.entry((own, name.to_owned())).or_insert(*position);
+                } else if !declared.contains(name) {
+                    self.free.push((name.to_owned(), *position));
+                }
+            }
+            Expr::FnCall(call, position) if !call.is_operator_call() => {
+                self.calls.push((call.name.to_string(), call.args.len(), *position));
+            }
+            Expr::MethodCall(call, position) => {
+                self.calls.push((call.name.to_string(), call.args.len() + 1, *position));
+            }
+            Expr::Custom(_, position) => self.nested.push(*position),
+            _ => {}
+        }
+    }
+}
+
+/// `variable.property` and nothing more: the two names, and the place of the property.
+pub(crate) fn property_of(expr: &Expr) -> Option<(&str, &str, Position)> {
+    let Expr::Dot(dot, ..) = expr else { return None };
+    match (&dot.lhs, &dot.rhs) {
+        (Expr::Variable(variable, ..), Expr::Property(property, position)) => {
+            Some((&variable.1, &property.2, *position))
+        }
+        _ => None,
+    }
+}
+
+fn leading_property(expr: &Expr) -> Option<(&str, Position)> {
+    match expr {
+        Expr::Property(property, position) => Some((&property.2, *position)),
+        Expr::Dot(dot, ..) | Expr::Index(dot, ..) => leading_property(&dot.lhs),
+        _ => None,
+    }
+}
+
+fn root(expr: &Expr) -> Option<&str> {
+    match expr {
+        Expr::Variable(variable, ..) => Some(&variable.1),
+        Expr::Dot(dot, ..) | Expr::Index(dot, ..) => root(&dot.lhs),
+        _ => None,
+    }
+}
+
+/// Marks an assigned place, so that it does not count as read.
+fn skip(target: &Expr, done: &mut Vec<*const Expr>) {
+    done.push(std::ptr::from_ref(target));
+    if let Expr::Dot(dot, ..) | Expr::Index(dot, ..) = target {
+        skip(&dot.lhs, done);
+    }
+}
+
+/// The names that a block declares anywhere in it.
+fn declared(block: &StmtBlock) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    for stmt in block.statements() {
+        stmt.walk(&mut vec![], &mut |path| {
+            match path.last() {
+                Some(ASTNode::Stmt(Stmt::Var(var, ..))) => {
+                    names.insert(var.0.name.to_string());
+                }
+                Some(ASTNode::Stmt(Stmt::For(each, _))) => {
+                    names.insert(each.0.name.to_string());
+                    names.extend(each.1.iter().map(|counter| counter.name.to_string()));
+                }
+                Some(ASTNode::Stmt(Stmt::TryCatch(flow, _))) => {
+                    if let Expr::Variable(caught, ..) = &flow.expr {
+                        names.insert(caught.1.to_string());
+                    }
+                }
+                _ => {}
+            }
+            true
+        });
+    }
+    names
+}

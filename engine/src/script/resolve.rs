@@ -1,0 +1,157 @@
+//! Finds what the names of a rule mean.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use rhai::Position;
+
+use super::names::{Names, Patterns, Use};
+use super::syntax::Quantifier;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::rule::{Action, PropertyName, Rule};
+use crate::suggest::nearest;
+
+/// Most clauses of a rule: sets of variables are the bits of a word.
+const MAX_CLAUSES: usize = 32;
+
+/// Finds what the rule reads and sets, reports names that mean nothing, and tells whether the rule uses
+/// constants or functions of its file.
+pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut Vec<Diagnostic>) -> bool {
+    let file = Arc::clone(&rule.file);
+    let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
+    problems.extend(clause_complaints(rule, &variables));
+    let names = names(rule, &variables);
+    let place = |(index, property): &Use| PropertyName::new(&rule.clauses[*index].class, property);
+    let reads = names.reads.iter().map(|(used, position)| (place(used), *position)).collect();
+    let sets = names.sets.iter().map(|(used, position)| (place(used), *position)).collect();
+    (rule.reads, rule.sets) = (reads, sets);
+    if !names.nested.is_empty() {
+        let inside = |position: &Position| {
+            complaint(rule, Code::Syntax, *position, "a rule cannot stand inside another".to_owned())
+        };
+        problems.extend(names.nested.iter().map(inside));
+        return false;
+    }
+    problems.extend(variable_complaints(rule, &variables, &names));
+    problems.extend(use_complaints(rule, &names));
+    problems.extend(call_complaints(rule, &names, known));
+    names.free.iter().any(|(name, _)| file.constants.contains_key(name))
+        || names.calls.iter().any(|(name, count, _)| file.function_names.contains(&(name.clone(), *count)))
+}
+
+/// All names in a rule's parts, each with the variables that it may speak of.
+fn names(rule: &Rule, variables: &[String]) -> Names {
+    let mut names = Names::default();
+    for (index, clause) in rule.clauses.iter().enumerate() {
+        let patterns = Patterns(&variables[..=index]);
+        if let Some(by) = &clause.by {
+            let mut of_object = Names::default();
+            of_object.expression(by, &patterns, Some(index));
+            of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));
+            merge(&mut names, of_object);
+        }
+        if let Some(condition) = &clause.condition {
+            names.expression(condition, &patterns, None);
+        }
+    }
+    let bound = |clause: &crate::rule::Clause| match clause.quantifier {
+        Quantifier::None => String::new(),
+        _ => clause.variable.clone(),
+    };
+    let bound: Vec<String> = rule.clauses.iter().map(bound).collect();
+    let patterns = Patterns(&bound);
+    match &rule.action {
+        Action::Conclude { then, otherwise } => {
+            names.block(then, &patterns);
+            if let Some(block) = otherwise {
+                names.block(block, &patterns);
+            }
+        }
+        Action::Revise { target, amount, position, .. } => {
+            names.expression(amount, &patterns, None);
+            names.sets.insert(target.clone(), *position);
+        }
+    }
+    names
+}
+
+fn merge(into: &mut Names, from: Names) {
+    for (used, position) in from.reads {
+        into.reads.entry(used).or_insert(position);
+    }
+    into.free.extend(from.free);
+    into.whole.extend(from.whole);
+    into.calls.extend(from.calls);
+    into.nested.extend(from.nested);
+}
+
+fn complaint(rule: &Rule, code: Code, position: Position, message: String) -> Diagnostic {
+    Diagnostic::error(code, &rule.file.source.place(position), message)
+}
+
+fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {
+    let mut problems = vec![];
+    for (index, clause) in rule.clauses.iter().enumerate() {
+        if variables[..index].contains(&clause.variable) {
+            let message = format!("the variable `{}` is bound twice", clause.variable);
+            problems.push(complaint(rule, Code::Syntax, clause.position, message));
+        }
+    }
+    if variables.len() > MAX_CLAUSES {
+        let message = format!("a rule has at most {MAX_CLAUSES} clauses");
+        problems.push(complaint(rule, Code::Syntax, rule.position, message));
+    }
+    problems
+}
+
+fn variable_complaints(rule: &Rule, variables: &[String], names: &Names) -> Vec<Diagnostic> {
+    let constants = &rule.file.constants;
+    let unbound = |name: &str| {
+        rule.clauses.iter().any(|clause| clause.quantifier == Quantifier::None && clause.variable == *name)
+    };
+    let mut problems = vec![];
+    for (name, position) in names.free.iter().filter(|(name, _)| !constants.contains_key(name)) {
+        let candidates = variables.iter().chain(constants.keys()).map(String::as_str);
+        let message = format!("nothing here is called `{name}`");
+        let problem = complaint(rule, Code::UnknownVariable, *position, message);
+        problems.push(if unbound(name) {
+            problem.help(format!("`none {name}` binds nothing: there is no such object"))
+        } else {
+            problem.did_you_mean(nearest(name, candidates))
+        });
+    }
+    problems
+}
+
+fn use_complaints(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
+    let mut problems = vec![];
+    for (name, position) in &names.whole {
+        let message = format!("`{name}` is an object; name one of its properties, as in `{name}.width`");
+        problems.push(complaint(rule, Code::Type, *position, message));
+    }
+    for (name, position) in &names.updates {
+        let message = format!("`{name}` is concluded once, with `=`");
+        let problem = complaint(rule, Code::Assignment, *position, message);
+        problems.push(problem.help("a `revise` changes what others concluded"));
+    }
+    for position in &names.misplaced {
+        let message = "only a property of an object can be set, as in `door.hardness = 1.0`".to_owned();
+        problems.push(complaint(rule, Code::Assignment, *position, message));
+    }
+    problems
+}
+
+fn call_complaints(rule: &Rule, names: &Names, known: &BTreeSet<String>) -> Vec<Diagnostic> {
+    let own = &rule.file.function_names;
+    let mut problems = vec![];
+    for (name, count, position) in &names.calls {
+        if own.contains(&(name.clone(), *count)) || known.contains(name) {
+            continue;
+        }
+        let candidates = own.iter().map(|(name, _)| name).chain(known).map(String::as_str);
+        let message = format!("there is no function `{name}`");
+        let problem = complaint(rule, Code::UnknownFunction, *position, message);
+        problems.push(problem.did_you_mean(nearest(name, candidates)));
+    }
+    problems
+}

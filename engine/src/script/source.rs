@@ -1,0 +1,69 @@
+//! A rule file's text, and places in it.
+
+use std::sync::Arc;
+
+use miette::NamedSource;
+use rhai::Position;
+
+/// Largest rule file that is read, in bytes.
+pub const MAX_FILE_BYTES: usize = 1_000_000;
+
+/// A rule file as the host hands it over: a name for messages, and the text.
+#[derive(Clone, Debug)]
+pub struct SourceFile {
+    named: Arc<NamedSource<String>>,
+}
+
+impl SourceFile {
+    /// A file; `name` is what messages call it.
+    pub fn new(name: impl AsRef<str>, text: impl Into<String>) -> Self {
+        Self { named: Arc::new(NamedSource::new(name, text.into())) }
+    }
+
+    /// The name in messages.
+    pub fn name(&self) -> &str {
+        self.named.name()
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        self.named.inner()
+    }
+
+    pub(crate) const fn named(&self) -> &Arc<NamedSource<String>> {
+        &self.named
+    }
+
+    /// The place of a token. The interpreter counts lines and characters from 1.
+    pub(crate) fn place(&self, position: Position) -> Place {
+        let line = position.line().unwrap_or(1);
+        let column = position.position().unwrap_or(1).max(1);
+        let text = self.text();
+        let start: usize = text.split_inclusive('\n').take(line - 1).map(str::len).sum();
+        let rest = &text[start..];
+        let offset = start + rest.char_indices().nth(column - 1).map_or(rest.len(), |(at, _)| at);
+        Place { source: self.clone(), span: (offset, token_len(&text[offset..])), line, column }
+    }
+}
+
+/// A token's place in a file.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub(crate) source: SourceFile,
+    pub(crate) span: (usize, usize),
+    pub(crate) line: usize,
+    pub(crate) column: usize,
+}
+
+/// Bytes of the name, number, text or sign at the start.
+fn token_len(text: &str) -> usize {
+    let mut chars = text.chars();
+    match chars.next() {
+        None => 0,
+        Some('"') => text[1..].find(['"', '\n']).map_or(1, |end| end + 2).min(text.len()),
+        Some(first) if first.is_alphanumeric() || first == '_' => {
+            text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
+        }
+        Some(first) => first.len_utf8(),
+    }
+}

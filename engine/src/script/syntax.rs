@@ -1,0 +1,223 @@
+//! The grammar of `rule` and `revise`, as rhai's custom syntax asks for it: token by token.
+
+use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
+
+use crate::suggest::nearest;
+
+/// What a clause asks of the objects of its class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantifier {
+    Each,
+    Least,
+    Most,
+    Some,
+    None,
+}
+
+impl Quantifier {
+    fn of(word: &str) -> Option<Self> {
+        Some(match word {
+            "each" => Self::Each,
+            "least" => Self::Least,
+            "most" => Self::Most,
+            "some" => Self::Some,
+            "none" => Self::None,
+            _ => return None,
+        })
+    }
+
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::Each => "each",
+            Self::Least => "least",
+            Self::Most => "most",
+            Self::Some => "some",
+            Self::None => "none",
+        }
+    }
+}
+
+/// What an input of the custom syntax is; there is one for each input, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Slot {
+    RuleName,
+    RevisionName,
+    Variable(Quantifier),
+    Class,
+    Where,
+    By,
+    Then,
+    Else,
+    Target,
+    Operator,
+    Amount,
+    Level,
+}
+
+/// Where the reading of an item stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum At {
+    Name,
+    Clause,
+    Variable(Quantifier),
+    In,
+    Class,
+    Options { by: bool, condition: bool },
+    By,
+    Where,
+    Then,
+    AfterThen,
+    Else,
+    Target,
+    TargetBy,
+    Operator,
+    Amount,
+    AfterAmount,
+    Level,
+    End,
+}
+
+/// The state that travels with one custom expression.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape {
+    pub(crate) slots: Vec<Slot>,
+    at: At,
+    revision: bool,
+    clause: Option<Quantifier>,
+}
+
+/// How rhai shows the end of the file.
+const END: &str = "{EOF}";
+
+type Next = Result<Option<ImmutableString>, ParseError>;
+
+/// Teaches an engine the rule syntax.
+pub(crate) fn register(engine: &mut Engine) {
+    for key in ["rule", "revise"] {
+        engine.register_custom_syntax_with_state_raw(
+            key,
+            move |_, ahead, state| {
+                let mut shape = state.clone().try_cast::<Shape>().unwrap_or(Shape {
+                    slots: vec![],
+                    at: At::Name,
+                    revision: key == "revise",
+                    clause: None,
+                });
+                let next = shape.next(ahead);
+                *state = Dynamic::from(shape);
+                next
+            },
+            true,
+            |_, _, _| Err("a rule is declared, not run".into()),
+        );
+    }
+}
+
+impl Shape {
+    fn next(&mut self, ahead: &str) -> Next {
+        // What is no token comes as the reader's complaint about it.
+        if ahead.starts_with("Unexpected ") {
+            return wrong(format!("{ahead}: names have letters a to z, digits and _ only"));
+        }
+        if ahead.contains("not terminated") {
+            return wrong("this text is not closed by a double quote on its line".into());
+        }
+        match self.at {
+            At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
+            At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
+            At::Clause => self.clause(ahead),
+            At::Variable(quantifier) => self.input(Slot::Variable(quantifier), At::In, "$ident$"),
+            At::In if ahead == "in" => self.word("in", At::Class),
+            At::In => wrong(format!("`in` and a class belong here, not `{ahead}`")),
+            At::Class => {
+                let options = At::Options { by: false, condition: false };
+                self.input(Slot::Class, options, "$ident$")
+            }
+            At::Options { by, condition } => self.options(ahead, by, condition),
+            At::By => self.input(Slot::By, At::Options { by: true, condition: false }, "$expr$"),
+            At::Where => self.input(Slot::Where, At::Options { by: true, condition: true }, "$expr$"),
+            At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
+            At::AfterThen if ahead == "else" => self.word("else", At::Else),
+            At::Else => self.input(Slot::Else, At::End, "$block$"),
+            At::Target => self.input(Slot::Target, At::TargetBy, "$expr$"),
+            At::TargetBy if ahead == "by" => self.word("by", At::Operator),
+            At::TargetBy => wrong(format!("`by` and an operator belong here, not `{ahead}`")),
+            At::Operator => match ahead {
+                "*" | "+" | "-" => self.input(Slot::Operator, At::Amount, "$symbol$"),
+                "max" | "min" => self.input(Slot::Operator, At::Amount, "$ident$"),
+                _ => wrong(format!("a revision goes by *, +, -, max or min, not `{ahead}`")),
+            },
+            At::Amount => self.input(Slot::Amount, At::AfterAmount, "$expr$"),
+            At::AfterAmount if ahead == "level" => self.word("level", At::Level),
+            At::Level => self.input(Slot::Level, At::End, "$int$"),
+            At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
+        }
+    }
+
+    /// A `revise` does not end in a block, and rhai would ask for a semicolon before the next item; so the
+    /// next item is read as part of the same expression.
+    fn item(&mut self, ahead: &str) -> Next {
+        match ahead {
+            "rule" | "revise" if self.revision => {
+                self.revision = ahead == "revise";
+                self.clause = None;
+                let word = if self.revision { "revise" } else { "rule" };
+                self.word(word, At::Name)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
+        let ranked = matches!(self.clause, Some(Quantifier::Least | Quantifier::Most));
+        match ahead {
+            "by" if ranked && !by => self.word("by", At::By),
+            "where" if ranked && !by => {
+                wrong("what to compare belongs before `where`, as in `by hardness where ...`".into())
+            }
+            "where" if !condition => self.word("where", At::Where),
+            _ if ranked && !by => {
+                wrong("`least` and `most` need `by` and what to compare, as in `by hardness`".into())
+            }
+            _ => self.clause(ahead),
+        }
+    }
+
+    fn clause(&mut self, ahead: &str) -> Next {
+        if let Some(quantifier) = Quantifier::of(ahead) {
+            if self.clause.is_none() && !matches!(quantifier, Quantifier::Each | Quantifier::Some) {
+                return wrong(format!("the first clause says `each`, not `{ahead}`"));
+            }
+            self.clause = Some(quantifier);
+            return self.word(quantifier.word(), At::Variable(quantifier));
+        }
+        let (end, at) = if self.revision { ("set", At::Target) } else { ("then", At::Then) };
+        if ahead == end && self.clause.is_some() {
+            return self.word(end, at);
+        }
+        if self.clause.is_none() {
+            return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`"));
+        }
+        let words = ["each", "least", "most", "some", "none", "where", "by", end];
+        let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
+        let found = if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") };
+        wrong(format!("another clause or `{end}` belongs here, not {found}{meant}"))
+    }
+
+    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
+    fn input(&mut self, slot: Slot, at: At, marker: &'static str) -> Next {
+        self.slots.push(slot);
+        self.at = at;
+        Ok(Some(marker.into()))
+    }
+
+    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
+    fn word(&mut self, word: &'static str, at: At) -> Next {
+        self.at = at;
+        Ok(Some(word.into()))
+    }
+}
+
+fn wrong(message: String) -> Next {
+    Err(LexError::ImproperSymbol(String::new(), message).into_err(Position::NONE))
+}

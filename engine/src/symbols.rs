@@ -1,0 +1,46 @@
+//! Texts are kept once and compared by number.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A text of a knowledge base.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(crate) struct Symbol(u32);
+
+impl Symbol {
+    /// Stands where no text is known.
+    pub(crate) const UNKNOWN: Self = Self(u32::MAX);
+
+    pub(crate) const fn id(self) -> u32 {
+        self.0
+    }
+}
+
+/// All texts of a knowledge base.
+#[derive(Debug, Default)]
+pub(crate) struct Symbols {
+    texts: Vec<Arc<str>>,
+    ids: HashMap<Arc<str>, u32>,
+}
+
+impl Symbols {
+    /// The symbol of a text, new or known.
+    pub(crate) fn intern(&mut self, text: &str) -> Symbol {
+        if let Some(&id) = self.ids.get(text) {
+            return Symbol(id);
+        }
+        let id = u32::try_from(self.texts.len()).unwrap_or(u32::MAX);
+        if id == u32::MAX {
+            return Symbol::UNKNOWN;
+        }
+        let text: Arc<str> = text.into();
+        self.texts.push(Arc::clone(&text));
+        self.ids.insert(text, id);
+        Symbol(id)
+    }
+
+    /// The text of a symbol; `None` for the unknown one.
+    pub(crate) fn text(&self, symbol: Symbol) -> Option<&Arc<str>> {
+        self.texts.get(symbol.0 as usize)
+    }
+}

@@ -1,0 +1,131 @@
+//! Values of properties, as hosts see them and as rules compute with them.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::symbols::Symbol;
+
+/// What a property holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Type {
+    /// A number; infinite is allowed, NaN is unknown.
+    Number,
+    /// A text.
+    Text,
+    /// True or false.
+    Truth,
+}
+
+impl Type {
+    /// The plural, as messages name it.
+    pub const fn plural(self) -> &'static str {
+        match self {
+            Self::Number => "numbers",
+            Self::Text => "texts",
+            Self::Truth => "truth values",
+        }
+    }
+}
+
+/// A known value. Unknown is `None` of an `Option<Value>`.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(#[serde(serialize_with = "as_str")] Arc<str>),
+    /// True or false.
+    Truth(bool),
+}
+
+fn as_str<S: serde::Serializer>(text: &str, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(text)
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "{number}"),
+            Self::Text(text) => out.write_str(text),
+            Self::Truth(truth) => write!(out, "{truth}"),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl From<bool> for Value {
+    fn from(truth: bool) -> Self {
+        Self::Truth(truth)
+    }
+}
+
+/// Kleene's three truth values, ordered so that "and" is the least and "or" the greatest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub(crate) enum Truth {
+    False,
+    Unknown,
+    True,
+}
+
+impl Truth {
+    pub(crate) const fn not(self) -> Self {
+        match self {
+            Self::False => Self::True,
+            Self::Unknown => Self::Unknown,
+            Self::True => Self::False,
+        }
+    }
+
+    pub(crate) const fn known(self) -> Option<bool> {
+        match self {
+            Self::False => Some(false),
+            Self::Unknown => None,
+            Self::True => Some(true),
+        }
+    }
+}
+
+impl From<bool> for Truth {
+    fn from(truth: bool) -> Self {
+        if truth { Self::True } else { Self::False }
+    }
+}
+
+/// One value inside the engine: small, copied, perhaps unknown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Unknown,
+    Number(f64),
+    Text(Symbol),
+    Truth(bool),
+}
+
+impl Cell {
+    pub(crate) fn kind(self) -> Option<Type> {
+        match self {
+            Self::Unknown => None,
+            Self::Number(_) => Some(Type::Number),
+            Self::Text(_) => Some(Type::Text),
+            Self::Truth(_) => Some(Type::Truth),
+        }
+    }
+
+    /// A number; NaN is unknown.
+    pub(crate) fn number(number: f64) -> Self {
+        if number.is_nan() { Self::Unknown } else { Self::Number(number) }
+    }
+}

@@ -1,0 +1,67 @@
+//! Why, for every value; and why there is none.
+
+use adit_engine::{Origin, Reason};
+
+use crate::support::{concluded, robots, rules, things};
+
+const RULE: &str = r#"
+rule "who fits" each t in THINGS
+    least s in ROBOTS by hardness where s.height < t.size
+    then { t.state = s.state; }
+revise "more" each t in THINGS where t.size > 6 set t.size by * 2"#;
+
+#[test]
+fn a_conclusion_names_its_rule_its_version_and_its_witnesses() {
+    let (base, _) = concluded(RULE, [robots(), things("size", &[Some(6.0)])]);
+    let why = base.why(&rules(RULE), "THINGS", "1", "state").unwrap();
+    let Origin::Rule(support) = &why.origin else { panic!("{why}") };
+    assert_eq!(support.rule, "who fits");
+    assert_eq!(support.version, rules(RULE).rules()[0].version());
+    assert_eq!(
+        why.to_string(),
+        format!(
+            "THINGS 1 state is LIE-FACE-DOWN, by rule \"who fits\" (test.rhai, line 2, version {}) \
+             with t = THINGS 1, s = ROBOTS robot/LIE-FACE-DOWN",
+            support.version
+        )
+    );
+}
+
+#[test]
+fn a_told_value_says_so_and_a_revised_one_says_by_what() {
+    let (base, _) = concluded(RULE, [robots(), things("size", &[Some(6.0), Some(7.0)])]);
+    let why = |key: &str, property: &str| base.why(&rules(RULE), "THINGS", key, property).unwrap();
+    assert_eq!(why("1", "thing").to_string(), "THINGS 1 thing is 1, as told");
+    assert_eq!(why("1", "size").to_string(), "THINGS 1 size is 6, as told");
+    assert!(
+        why("2", "size")
+            .to_string()
+            .starts_with("THINGS 2 size is 14, as told; revised * 2 by rule \"more\"")
+    );
+}
+
+#[test]
+fn a_whole_column_of_justifications_is_numbers() {
+    let (base, _) = concluded(RULE, [robots(), things("size", &[Some(6.0), None, Some(60.0)])]);
+    let why = base.justifications("THINGS", "state").unwrap();
+    assert_eq!(why.rules[0].0, "who fits");
+    assert_eq!(why.of_row, [Some(0), None, Some(0)]);
+    let base_rules = rules(RULE);
+    let witnesses = base.witness_rows(&base_rules.rules()[0], "THINGS", "state", "s").unwrap();
+    assert_eq!(witnesses, [Some(3), None, Some(0)]);
+}
+
+#[test]
+fn objects_that_got_nothing_are_listed_with_the_reason() {
+    let (_, report) = concluded(RULE, [robots(), things("size", &[Some(-1.0), None, Some(6.0), Some(-2.0)])]);
+    let gap = &report.gaps[0];
+    assert_eq!((gap.property.to_string().as_str(), gap.rows.as_slice()), ("THINGS.state", &[0, 1, 3][..]));
+    let (rule, variable) = ("who fits".to_owned(), "s".to_owned());
+    assert_eq!(
+        gap.reasons,
+        [
+            (Reason::Unmet { rule: rule.clone(), variable: variable.clone() }, 2),
+            (Reason::Undecided { rule, variable }, 1)
+        ]
+    );
+}

@@ -1,0 +1,219 @@
+//! What is compiled gives what rhai's interpreter gives.
+
+use std::fmt::Write as _;
+
+use adit_engine::{Class, Code, KnowledgeBase, Value};
+use proptest::prelude::*;
+
+use crate::support::{concluded, rules};
+
+/// Expressions of numbers over `$x`, `$y`.
+fn numbers() -> impl Strategy<Value = String> + Clone {
+    let leaf = prop_oneof![
+        Just("$x".to_owned()),
+        Just("$y".to_owned()),
+        (-9..9_i32).prop_map(|n| format!("({n})")),
+        (-9..9_i32).prop_map(|n| format!("({:.2})", f64::from(n) / 4.0)),
+    ];
+    leaf.prop_recursive(4, 24, 3, |inner| {
+        prop_oneof![
+            (inner.clone(), prop::sample::select(vec!["+", "-", "*"]), inner.clone())
+                .prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+            (inner.clone(), prop::sample::select(vec!["/", "%"]), 1..9_i32)
+                .prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+            (inner.clone(), 1..3_i32).prop_map(|(a, b)| format!("({a} ** {b})")),
+            (inner.clone(), prop::sample::select(vec!["min", "max", "hypot"]), inner.clone())
+                .prop_map(|(a, f, b)| format!("{f}({a}, {b})")),
+            (inner.clone(), prop::sample::select(vec!["abs", "floor", "ceil", "round"]))
+                .prop_map(|(a, f)| format!("{f}({a})")),
+            inner.clone().prop_map(|a| format!("sqrt(abs({a}))")),
+            inner.clone().prop_map(|a| format!("(-{a})")),
+            (inner.clone(), inner.clone(), inner.clone(), inner)
+                .prop_map(|(a, b, c, d)| format!("(if {a} < {b} {{ {c} }} else {{ {d} }})")),
+        ]
+    })
+}
+
+/// Expressions of texts over `$s` and the numbers.
+fn texts() -> impl Strategy<Value = String> + Clone {
+    let leaf = prop_oneof![Just("$s".to_owned()), "[a-c]{0,2}".prop_map(|text| format!("\"{text}\""))];
+    leaf.prop_recursive(2, 6, 2, |inner| {
+        prop_oneof![
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a} + {b})")),
+            inner.prop_map(|a| format!("({a} + $x)")),
+        ]
+    })
+}
+
+/// Conditions over all of them and `$b`.
+fn truths() -> impl Strategy<Value = String> + Clone {
+    let comparison = || prop::sample::select(vec!["==", "!=", "<", "<=", ">", ">="]);
+    let leaf = prop_oneof![
+        Just("$b".to_owned()),
+        (numbers(), comparison(), numbers()).prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+        (texts(), comparison(), texts()).prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+    ];
+    leaf.prop_recursive(3, 12, 2, |inner| {
+        prop_oneof![
+            (inner.clone(), prop::sample::select(vec!["&&", "||", "=="]), inner.clone())
+                .prop_map(|(a, op, b)| format!("({a} {op} {b})")),
+            inner.prop_map(|a| format!("(!{a})")),
+        ]
+    })
+}
+
+/// Values of x, y, s and b.
+type Row<'a> = (Option<f64>, Option<f64>, Option<&'a str>, Option<bool>);
+
+fn class(rows: &[Row]) -> Class {
+    Class::new("T", &[])
+        .numbers("x", rows.iter().map(|row| row.0))
+        .numbers("y", rows.iter().map(|row| row.1))
+        .texts("s", rows.iter().map(|row| row.2))
+        .truths("b", rows.iter().map(|row| row.3))
+}
+
+const ROWS: [Row; 4] = [
+    (Some(0.0), Some(1.5), Some("a"), Some(true)),
+    (Some(-2.25), Some(3.0), Some(""), Some(false)),
+    (Some(7.0), Some(-1.0), Some("bc"), Some(true)),
+    (Some(0.125), Some(0.125), Some("c"), Some(false)),
+];
+
+fn of_object(expression: &str) -> String {
+    expression.replace('$', "t.")
+}
+
+fn values(base: &KnowledgeBase, property: &str) -> Vec<Option<Value>> {
+    (1..=ROWS.len()).map(|row| base.value("T", &row.to_string(), property)).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, ..ProptestConfig::default() })]
+
+    #[test]
+    fn an_expression_is_compiled_as_it_is_interpreted(
+        number in numbers(), text in texts(), truth in truths()
+    ) {
+        let mut script = String::new();
+        for (nth, expression) in [number, text, truth].iter().enumerate() {
+            let (compiled, plain) = (of_object(expression), expression.replace('$', ""));
+            write!(script, "rule \"c{nth}\" each t in T then {{ t.c{nth} = {compiled}; }}
+                fn f{nth}(x, y, s, b) {{ {plain} }}
+                rule \"i{nth}\" each t in T then {{ t.i{nth} = f{nth}(t.x, t.y, t.s, t.b); }}
+            ").unwrap();
+        }
+        let (base, _) = concluded(&script, [class(&ROWS)]);
+        for nth in 0..3 {
+            prop_assert_eq!(values(&base, &format!("c{nth}")), values(&base, &format!("i{nth}")), "{}", script);
+        }
+    }
+
+    /// Kleene's logic says true or false only where every value of the unknown would say the same.
+    #[test]
+    fn what_is_concluded_from_unknown_holds_whatever_it_is(truth in truths()) {
+        let rule = format!("rule \"r\" each t in T then {{ t.r = {}; }}", of_object(&truth));
+        let unknown = |which: usize| ROWS.map(|(x, y, s, b)| (
+            x.filter(|_| which != 0), y.filter(|_| which != 1), s.filter(|_| which != 2), b.filter(|_| which != 3),
+        ));
+        let known = concluded(&rule, [class(&ROWS)]).0.truths("T", "r").unwrap();
+        for which in 0..4 {
+            let partly = concluded(&rule, [class(&unknown(which))]).0.truths("T", "r").unwrap();
+            for (partly, known) in partly.iter().zip(&known) {
+                prop_assert!(partly.is_none() || partly == known, "{}", rule);
+            }
+        }
+    }
+
+    #[test]
+    fn an_action_is_compiled_as_it_is_interpreted(
+        a in numbers(), b in numbers(), c in truths(), d in truths()
+    ) {
+        let body = format!("
+            let v = {a};
+            if {c} {{ v = {b}; t.p# = v + 1; }} else {{ let v = 2.5; t.q# = v * {a}; }}
+            if {d} {{ v += 1; t.p# = {b}; }}
+            t.r# = v;", a = of_object(&a), b = of_object(&b), c = of_object(&c), d = of_object(&d));
+        // The loop keeps the second action from being compiled.
+        let script = format!("rule \"c\" each t in T then {{ {} }}
+            rule \"i\" each t in T then {{ for i in 0..1 {{ }} {} }}", body.replace('#', "c"), body.replace('#', "i"));
+        let (base, _) = concluded(&script, [class(&ROWS)]);
+        for property in ["p", "q", "r"] {
+            prop_assert_eq!(
+                values(&base, &format!("{property}c")), values(&base, &format!("{property}i")), "{}", script
+            );
+        }
+    }
+}
+
+#[test]
+fn functions_of_the_file_and_of_the_library_may_be_called_anywhere() {
+    let rule = r#"
+        const FAR = 5;
+        fn slope(a, b) { if b == 0.0 { FAR_AWAY() } else { a / b } }
+        fn FAR_AWAY() { 1000.0 }
+        rule "r" each t in T where slope(t.x, t.y) < FAR
+            least u in T by slope(u.x, t.y) + y where u.s.len() > 0 && u.s.contains("c")
+            then { t.r = u.s.to_upper(); t.wide = `x is ${t.x}`; }
+    "#;
+    let (base, _) = concluded(rule, [class(&ROWS)]);
+    assert_eq!(base.texts("T", "r").unwrap().iter().flatten().count(), 4);
+    assert_eq!(base.value("T", "1", "r"), Some("C".into()));
+    assert_eq!(base.value("T", "3", "r"), Some("BC".into()));
+    assert_eq!(base.value("T", "3", "wide"), Some("x is 7".into()));
+}
+
+#[test]
+fn switch_and_loops_run_in_the_interpreter() {
+    let rule = r#"
+        rule "r" each t in T then {
+            switch t.s { "a" => t.kind = "first", "bc" | "c" => t.kind = "later", _ => t.kind = "none" }
+            let sum = 0;
+            for i in 1..4 { sum += i; }
+            t.sum = sum;
+        }"#;
+    let (base, report) = concluded(rule, [class(&ROWS)]);
+    let kinds: Vec<_> = base.texts("T", "kind").unwrap().into_iter().flatten().collect();
+    assert_eq!(kinds.join(" "), "first none later later");
+    assert_eq!(base.numbers("T", "sum").unwrap(), [Some(6.0); 4]);
+    assert!(report.gaps.is_empty());
+}
+
+#[test]
+fn what_is_unknown_is_not_handed_to_functions() {
+    let rule = r#"fn f(x) { if x == () { 1 } else { 2 } } rule "r" each t in T then { t.r = f(t.x); }"#;
+    let (base, _) = concluded(rule, [class(&[(None, None, None, None), ROWS[0]])]);
+    assert_eq!(base.numbers("T", "r").unwrap(), [None, Some(2.0)]);
+}
+
+#[test]
+fn a_failing_part_gives_unknown_and_one_message_with_its_place() {
+    let text = "fn f(x) { throw \"no\" }\nrule \"r\" each t in T then { t.r = f(t.x); t.ok = true; }";
+    let mut base = KnowledgeBase::new();
+    base.assert(class(&ROWS)).unwrap();
+    let report = base.conclude(&rules(text));
+    let [problem] = report.diagnostics.as_slice() else { panic!("{:?}", report.diagnostics) };
+    assert_eq!((problem.code, problem.line), (Code::Evaluation, 2));
+    assert_eq!(problem.help.as_deref(), Some("it failed 4 times; this is the first"));
+    assert_eq!(base.truths("T", "ok").unwrap(), [Some(true); 4]);
+    assert_eq!(base.value("T", "1", "r"), None);
+}
+
+#[test]
+fn a_part_behind_a_deciding_condition_does_not_run() {
+    let text = r#"fn f(x) { throw "no" } rule "r" each t in T then {
+        t.r = t.x > 100 && f(t.x) || t.x <= 100;
+        t.s2 = if t.x > 100 { f(t.x) } else { 3 };
+    }"#;
+    let (base, _) = concluded(text, [class(&ROWS)]);
+    assert_eq!(base.truths("T", "r").unwrap(), [Some(true); 4]);
+    assert_eq!(base.numbers("T", "s2").unwrap(), [Some(3.0); 4]);
+}
+
+/// Found by the property tests: an "and" within an "or" was taken apart, as if it were within an "and".
+#[test]
+fn an_and_within_an_or_stays_together() {
+    let rule = r#"rule "r" each t in T then { t.r = t.b || (t.b && t.x < 100); }"#;
+    let (base, _) = concluded(rule, [class(&ROWS)]);
+    assert_eq!(base.truths("T", "r"), base.truths("T", "b"));
+}

@@ -1,0 +1,103 @@
+//! What a careless author cannot do.
+
+use std::time::{Duration, Instant};
+
+use adit_engine::{Class, Code, KnowledgeBase, Limits, RuleBase, SourceFile};
+
+use crate::support::{rules, things};
+
+fn problems(text: &str) -> Vec<Code> {
+    let limits = Limits { rule: Duration::from_millis(300), inference: Duration::from_secs(2) };
+    let mut base = KnowledgeBase::with_limits(limits);
+    base.assert(things("x", &[Some(1.0), Some(2.0)])).unwrap();
+    let started = Instant::now();
+    let report = base.conclude(&rules(text));
+    assert!(started.elapsed() < Duration::from_secs(5), "{text}");
+    report.diagnostics.iter().map(|problem| problem.code).collect()
+}
+
+fn action(body: &str) -> String {
+    format!(
+        "fn again(x) {{ again(x) }} rule \"r\" each t in THINGS then {{ let f = |n| n; {body} t.y = 1; }}"
+    )
+}
+
+#[test]
+fn endless_work_is_stopped() {
+    for body in [
+        "loop { }",
+        "let n = 0; while true { n += 1; }",
+        "let a = []; for i in 0..9999 { a.push(i); } a.map(|m| { let n = 0; for i in 0..1000 { n += i; } n });",
+    ] {
+        assert_eq!(problems(&action(body)), [Code::Deadline], "{body}");
+    }
+}
+
+#[test]
+fn what_grows_without_end_is_refused() {
+    for body in [
+        "let n = again(1);",
+        "let s = \"x\"; loop { s += s; }",
+        "let a = [1]; loop { a.push(1); }",
+        "let s = \"\"; s.pad(100000000000, \"x\");",
+    ] {
+        assert_eq!(problems(&action(body)), [Code::Evaluation], "{body}");
+    }
+}
+
+#[test]
+fn sleeping_is_refused() {
+    assert_eq!(problems(&action("sleep(2);")), [Code::Evaluation]);
+    assert_eq!(problems(&action("sleep(2.5);")), [Code::Evaluation]);
+}
+
+#[test]
+fn code_from_elsewhere_is_refused_when_the_file_is_read() {
+    for body in ["eval(\"1\");", "import \"x\" as x;"] {
+        let wrong = RuleBase::compile(&[SourceFile::new("test.rhai", action(body))]).unwrap_err();
+        assert_eq!(wrong.0[0].code, Code::Syntax, "{body}");
+    }
+}
+
+#[test]
+fn a_million_million_matches_are_stopped() {
+    let many = Class::new("MANY", &[]).numbers("n", (0..1_000_000).map(|n| Some(f64::from(n))));
+    let limits = Limits { rule: Duration::from_millis(200), inference: Duration::from_secs(2) };
+    let mut base = KnowledgeBase::with_limits(limits);
+    base.assert(many).unwrap();
+    let report = base
+        .conclude(&rules("rule \"r\" each a in MANY each b in MANY where a.n + b.n < 0 then { a.x = 1; }"));
+    assert_eq!(report.diagnostics[0].code, Code::Deadline);
+    assert!(report.diagnostics[0].message.starts_with("rule \"r\" was stopped"));
+}
+
+#[test]
+fn a_file_of_more_than_a_million_bytes_is_not_read() {
+    let text = " ".repeat(adit_engine::MAX_FILE_BYTES + 1);
+    let wrong = RuleBase::compile(&[SourceFile::new("big.rhai", text)]).unwrap_err();
+    assert_eq!(wrong.0[0].code, Code::TooLarge);
+    let text = " ".repeat(adit_engine::MAX_FILE_BYTES);
+    assert!(RuleBase::compile(&[SourceFile::new("big.rhai", text)]).is_ok());
+}
+
+#[test]
+fn what_nests_too_deep_is_refused_and_the_deepest_that_is_allowed_runs() {
+    for (open, close) in [("(", ")"), ("[", "]"), ("!", ""), ("-", ""), ("{", "}"), ("1+(", ")")] {
+        for depth in [1_000, 50_000] {
+            let text = format!(
+                "rule \"r\" each t in THINGS then {{ t.y = {}1{}; }}",
+                open.repeat(depth),
+                close.repeat(depth)
+            );
+            assert!(RuleBase::compile(&[SourceFile::new("deep.rhai", text)]).is_err(), "{open}");
+        }
+    }
+    let long = format!("rule \"r\" each t in THINGS then {{ t.y = 1{}; }}", "+1".repeat(100_000));
+    drop(RuleBase::compile(&[SourceFile::new("long.rhai", long)]));
+    let depth = 20;
+    let deep = format!("t.y = {}t.x{};", "abs(".repeat(depth), ")".repeat(depth));
+    let deep = format!(
+        "fn f(n) {{ if n == 0 {{ 0 }} else {{ f(n - 1) }} }} rule \"r\" each t in THINGS then {{ {deep} t.z = f(20); }}"
+    );
+    assert_eq!(problems(&deep), []);
+}

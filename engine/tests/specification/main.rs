@@ -1,0 +1,16 @@
+//! The engine's behaviour, as its users may rely on it.
+
+// clippy knows test functions, but not their helpers.
+#![allow(clippy::unwrap_used)]
+
+mod conflicts;
+mod doors;
+mod explanation;
+mod interpreter;
+mod joins;
+mod limits;
+mod order;
+mod revisions;
+mod support;
+mod unknown;
+mod wrong_files;

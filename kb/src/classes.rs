@@ -1,0 +1,96 @@
+//! Facts on their way between planners, the rule engine and the database: the same columns, three owners.
+
+use adit_engine::{Class, KnowledgeBase as Inference, Schema, Type, Value};
+use adit_planners::facts::{Column, Facts, Table};
+
+use crate::error::{Error, Result};
+
+/// Where NULL is not unknown: a height that nothing limits.
+const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
+
+/// Classes whose key is not their first property alone.
+const KEYS: [(&str, &[&str]); 3] = [
+    ("ROBOTS", &["robot", "state"]),
+    ("CHANGES", &["robot", "from_state", "to_state"]),
+    ("STRIPS", &["axis", "strip"]),
+];
+
+/// Asserts a class; its key is its first property, where that tells the objects apart.
+pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()> {
+    let composite = KEYS.iter().find(|(class, _)| *class == name).map(|(_, key)| key.to_vec());
+    let key = composite.unwrap_or_else(|| first_if_unique(table));
+    let mut class = Class::new(name, &key);
+    for (property, column) in &table.columns {
+        class = match column {
+            Column::Number(values) => class.numbers(property, values.iter().copied()),
+            Column::Text(values) => class.texts(property, values.iter().cloned()),
+            Column::Truth(values) => class.truths(property, values.iter().copied()),
+        };
+    }
+    for (_, property) in UNLIMITED.iter().filter(|(class, _)| *class == name) {
+        if table.column(property).is_some() {
+            class = class.null_means(*property, Value::Number(f64::INFINITY));
+        }
+    }
+    knowledge.assert(class).map_err(|error| Error::said("facts/class", error.to_string(), None))
+}
+
+fn first_if_unique(table: &Table) -> Vec<&str> {
+    let Some((name, column)) = table.columns.first() else { return Vec::new() };
+    let mut keys: Vec<String> = match column {
+        Column::Number(values) => values.iter().flatten().map(ToString::to_string).collect(),
+        Column::Text(values) => values.iter().flatten().cloned().collect(),
+        Column::Truth(_) => return Vec::new(),
+    };
+    let all = keys.len() == column.len();
+    keys.sort_unstable();
+    keys.dedup();
+    if all && keys.len() == column.len() { vec![name] } else { Vec::new() }
+}
+
+/// A property as `CLASS.property`, split.
+pub fn split(name: &str) -> (&str, &str) {
+    name.split_once('.').unwrap_or((name, ""))
+}
+
+/// What a planner may know: the properties that it needs, as they stand.
+pub fn known(knowledge: &Inference, needs: &[String]) -> Facts {
+    let mut facts = Facts::new();
+    for need in needs {
+        let (class, property) = split(need);
+        if let Some(column) = column(knowledge, class, property) {
+            let table = facts.entry(class.to_owned()).or_default();
+            table.columns.push((property.to_owned(), column));
+        }
+    }
+    facts
+}
+
+/// One property of all objects of a class, told or concluded; `None` where there is no such property.
+pub fn column(knowledge: &Inference, class: &str, property: &str) -> Option<Column> {
+    if let Some(values) = knowledge.numbers(class, property) {
+        let unlimited = UNLIMITED.contains(&(class, property));
+        let values = values.into_iter().map(|v| v.filter(|v| !(unlimited && v.is_infinite())));
+        return Some(values.collect());
+    }
+    if let Some(values) = knowledge.texts(class, property) {
+        return Some(values.into_iter().map(|text| text.map(|text| text.to_string())).collect());
+    }
+    knowledge.truths(class, property).map(Column::Truth)
+}
+
+/// Adds what a planner gives to the classes that rules may name. A property's type stands behind a colon
+/// (`ROOMS.name: text`); without one it holds numbers.
+pub fn declare(schema: &mut Schema, gives: &[String]) {
+    for given in gives {
+        let (name, kind) =
+            given.split_once(':').map_or((given.as_str(), "number"), |(name, kind)| (name, kind.trim()));
+        let kind = match kind {
+            "text" => Type::Text,
+            "truth" => Type::Truth,
+            _ => Type::Number,
+        };
+        let (class, property) = split(name.trim());
+        schema.add(class, property, kind);
+    }
+}

@@ -1,0 +1,111 @@
+//! `adit build`, and what it and `tune` print of a report.
+
+use super::output::{json, line, maybe, number, remark, time};
+use super::{BuildArgs, SiteArgs};
+use crate::error::Result;
+use crate::knowledge::KnowledgeBase;
+use crate::progress::Spinner;
+use crate::report::Report;
+
+/// Opens a site as the arguments say.
+pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
+    let knowledge = KnowledgeBase::open(&args.site)?;
+    Ok(knowledge.with_database(args.db.as_deref()).with_rules(args.rules.as_deref()))
+}
+
+/// `adit build`.
+pub fn run(args: &BuildArgs) -> Result<()> {
+    let knowledge = open(&args.site)?.reseeding(args.reseed);
+    let report = {
+        let spinner = Spinner::new();
+        knowledge.build(&spinner)?
+    };
+    if args.site.json {
+        notes(&report);
+        return json(&report.json());
+    }
+    show(&knowledge, &report);
+    Ok(())
+}
+
+/// Prints what was made.
+pub fn show(knowledge: &KnowledgeBase, report: &Report) {
+    let routes = &report.routes;
+    line(&format!(
+        "{}: {} rooms, {} doors, routes from {} starts (generation {})",
+        knowledge.site().name,
+        report.rooms.total,
+        report.doors.total,
+        routes.starts,
+        report.generation
+    ));
+    free_space(report);
+    let stages: Vec<String> = report
+        .stages
+        .iter()
+        .map(|stage| {
+            format!("{} {}", stage.name, if stage.kept { "kept".to_owned() } else { time(stage.took) })
+        })
+        .collect();
+    line(&format!("  {}", stages.join(", ")));
+    notes(report);
+}
+
+/// What the way in which the map is read cost or gave, where it did.
+fn free_space(report: &Report) {
+    let map = &report.map;
+    let mut parts = Vec::new();
+    for (what, area) in
+        [("unknown", map.unknown), ("specks", map.specks), ("grid", map.grid), ("clearance", map.clearance)]
+    {
+        if area.abs() >= 0.005 {
+            let verb = if area > 0.0 { "gave" } else { "cost" };
+            parts.push(format!("{what} {verb} {} m²", number(area.abs())));
+        }
+    }
+    if map.unknown_in_file > 0.0 && map.unknown == 0.0 {
+        parts.push(format!("{} m² are unknown and count as wall", number(map.unknown_in_file)));
+    }
+    let more = if parts.is_empty() { String::new() } else { format!(": {}", parts.join(", ")) };
+    line(&format!("  free space {} m²{more}", number(map.free)));
+}
+
+/// What the expert should know.
+pub fn notes(report: &Report) {
+    for note in &report.notes {
+        remark(&format!("note: {note}"));
+    }
+}
+
+/// Prints what an edit changed.
+pub fn changes(report: &Report) {
+    if report.cut_anew {
+        line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
+    } else {
+        line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
+        for change in &report.changes {
+            let action = match (&change.old_action, &change.new_action) {
+                (old, new) if old == new => String::new(),
+                (old, new) => format!(
+                    ", {} → {}",
+                    old.as_deref().unwrap_or("no action"),
+                    new.as_deref().unwrap_or("no action")
+                ),
+            };
+            line(&format!("  {}: {} → {}{action}", change.what, maybe(change.old), maybe(change.new)));
+        }
+        let listed = report.changes.len();
+        let all = report.rooms.changed + report.doors.changed;
+        if all > listed {
+            line(&format!("  and {} more", all - listed));
+        }
+    }
+    match (report.routes.changed, report.routes.rerouted) {
+        (Some(changed), Some(rerouted)) => line(&format!(
+            "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way",
+            report.routes.starts
+        )),
+        _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
+    }
+    notes(report);
+}

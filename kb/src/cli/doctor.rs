@@ -1,0 +1,80 @@
+//! `adit check` and `adit doctor`.
+
+use adit_db::Store;
+
+use super::build::open;
+use super::output::{json, line, problems};
+use super::{CheckArgs, DoctorArgs};
+use crate::error::Result;
+
+/// Lints rules, tables and map; `false` where something is wrong.
+pub fn check(args: &CheckArgs) -> Result<bool> {
+    let (found, sound) = match open(&args.site).and_then(|knowledge| knowledge.check()) {
+        Ok(found) => {
+            let sound =
+                found.iter().all(|problem| problem.severity().is_some_and(|s| s != miette::Severity::Error));
+            (found, sound)
+        }
+        Err(error) => (error.into_problems(), false),
+    };
+    if args.site.json {
+        let handler = miette::JSONReportHandler::new();
+        let mut list = Vec::new();
+        for problem in &found {
+            let mut text = String::new();
+            if handler.render_report(&mut text, problem.as_ref()).is_ok()
+                && let Ok(value) = serde_json::from_str::<serde_json::Value>(&text)
+            {
+                list.push(value);
+            }
+        }
+        json(&list)?;
+    } else {
+        problems(&found);
+        line(if sound {
+            "rules, tables and map are in order"
+        } else {
+            "something is wrong: nothing was built"
+        });
+    }
+    Ok(sound)
+}
+
+/// Examines the database; `false` where it is damaged.
+pub fn doctor(args: &DoctorArgs) -> Result<bool> {
+    let knowledge = open(&args.site)?;
+    let mut store = Store::open_read_only(knowledge.database())?;
+    let health = store.doctor()?;
+    if let Some(file) = &args.backup {
+        store.backup(file)?;
+    }
+    if args.site.json {
+        json(&health)?;
+        return Ok(health.is_sound());
+    }
+    line(&format!(
+        "adit {}, SQLite {}, schema {}, journal {}",
+        env!("CARGO_PKG_VERSION"),
+        health.sqlite,
+        health.schema,
+        health.journal
+    ));
+    for (table, rows) in &health.rows {
+        line(&format!("  {table}: {rows} rows"));
+    }
+    for mark in &health.stale {
+        line(&format!("  edited since the last build: {} {}", mark.table, mark.key));
+    }
+    for damage in health.damages.iter().chain(&health.dangling) {
+        line(&format!("  damage: {damage}"));
+    }
+    line(if health.is_sound() {
+        "the database is sound"
+    } else {
+        "the database is damaged: go back to a backup"
+    });
+    if let Some(file) = &args.backup {
+        line(&format!("a copy is in {}", file.display()));
+    }
+    Ok(health.is_sound())
+}

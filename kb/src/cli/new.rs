@@ -1,0 +1,110 @@
+//! `adit new`: a site to begin with.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::NewArgs;
+use super::output::{json, line};
+use crate::error::{Error, Result};
+use crate::shipped::{self, Rules, Sites};
+use crate::site::{Rooms, Site};
+
+/// Starts a site.
+pub fn run(args: &NewArgs) -> Result<()> {
+    if args.dir.join("site.toml").exists() {
+        let message = format!("{} is a site already", args.dir.display());
+        return Err(Error::said("site/exists", message, None));
+    }
+    fs::create_dir_all(&args.dir).map_err(|error| Error::io("make", &args.dir, &error))?;
+    let mode =
+        Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
+    let map = match &args.map {
+        Some(map) => copy_map(map, &args.dir)?,
+        None => starter(&args.dir, "map.toml")?,
+    };
+    shipped::write::<Rules>(mode.rule_base(), &args.dir.join("rules"))?;
+    starter(&args.dir, "robots.toml")?;
+    write(&args.dir.join("site.toml"), &site_text(&args.dir, &map, mode))?;
+    Site::open(&args.dir)?.world()?;
+    if args.json {
+        return json(&serde_json::json!({"site": args.dir, "map": map, "rooms": mode.name()}));
+    }
+    let site = args.dir.display();
+    line(&format!("{site} is a site now:"));
+    line("  site.toml    what it is made of; places, bridges and obstacles may be laid over the map here");
+    line("  robots.toml  the robot's states: height and width in metres, hardness per metre, action");
+    line("  rules/       what decides; edit it, and build again");
+    line(&format!("next: adit build {site}"));
+    Ok(())
+}
+
+/// A map of the user's, with its image where it has one, under its own name.
+fn copy_map(map: &Path, into: &Path) -> Result<String> {
+    let name = map
+        .file_name()
+        .map(PathBuf::from)
+        .ok_or_else(|| Error::said("map/unreadable", format!("{} is no file", map.display()), None))?;
+    let text = fs::read_to_string(map).map_err(|error| Error::io("read", map, &error))?;
+    let is_toml = name.extension().is_some_and(|extension| extension == "toml");
+    let image = text
+        .lines()
+        .find_map(|line| line.strip_prefix("image:"))
+        .map(|image| image.trim().trim_matches(['"', '\'']));
+    if let Some(image) = image.filter(|_| !is_toml) {
+        let from = map.parent().unwrap_or(Path::new("")).join(image);
+        let file = Path::new(image).file_name().map(PathBuf::from).unwrap_or_default();
+        let to = into.join(&file);
+        fs::copy(&from, &to).map_err(|error| Error::io("copy", &from, &error))?;
+        let renamed = text.replacen(image, &file.display().to_string(), 1);
+        write(&into.join(&name), &renamed)?;
+    } else {
+        write(&into.join(&name), &text)?;
+    }
+    Ok(name.display().to_string())
+}
+
+/// A file of the site that beginners start from.
+fn starter(into: &Path, name: &str) -> Result<String> {
+    let files = shipped::files::<Sites>("starter");
+    let text = files.iter().find(|(file, _)| file == name).map_or("", |(_, text)| text.as_str());
+    write(&into.join(name), text)?;
+    Ok(name.to_owned())
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    if path.exists() {
+        return Err(Error::said("site/exists", format!("{} is there already", path.display()), None));
+    }
+    fs::write(path, text).map_err(|error| Error::io("write", path, &error))
+}
+
+fn site_text(folder: &Path, map: &str, mode: Rooms) -> String {
+    let name = folder.file_name().map_or("site".to_owned(), |name| name.to_string_lossy().into_owned());
+    let name = name.replace(['"', '\\'], "");
+    format!(
+        r#"name   = "{name}"
+map    = "{map}"
+robots = "robots.toml"     # seeds the table once; from then on `adit tune` changes it
+rules  = "rules"           # without this line the shipped rules count
+rooms  = "{}"        # or "paper", "minimum"
+# starts = ["dock"]        # from where routes are kept; all places and rooms up to 2,000 rooms, places above
+
+# For images:
+# unknown    = "wall"      # or "free": what nobody has seen
+# speck_area = 0.0         # square metres: smaller blobs of wall are noise
+# grid       = 0.05        # metres: side of a cell of the rooms by state
+# clearance  = 0.0         # metres kept free around every state
+
+# Laid over any map, in its coordinates:
+# [[place]]
+# name = "dock"
+# at   = [1.0, 2.0]
+# [[bridge]]
+# rect   = [3.0, 0.0, 4.0, 5.0]
+# height = 1.3
+# [[obstacle]]
+# rect = [6.0, 0.0, 6.5, 2.0]
+"#,
+        mode.name()
+    )
+}

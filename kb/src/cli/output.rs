@@ -1,0 +1,76 @@
+//! How answers are printed: tables for people, JSON for programs; data on standard output, the rest on standard
+//! error. A closed pipe ends the printing quietly.
+
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::time::Duration;
+
+use comfy_table::{ContentArrangement, Table, presets};
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+
+/// Prints a line of data.
+pub fn line(text: &str) {
+    writeln!(stdout(), "{text}").ok();
+}
+
+/// Prints a remark on standard error.
+pub fn remark(text: &str) {
+    writeln!(stderr(), "{text}").ok();
+}
+
+/// Prints a value as JSON.
+pub fn json(value: &impl Serialize) -> Result<()> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| Error::said("output/json", error.to_string(), None))?;
+    line(&text);
+    Ok(())
+}
+
+/// Prints a table with a head.
+pub fn table(head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);
+    table.set_header(head);
+    for row in rows {
+        table.add_row(row);
+    }
+    for text in table.lines() {
+        line(text.trim_end());
+    }
+}
+
+/// Prints what went wrong, each problem with its place.
+pub fn problems(problems: &[miette::Report]) {
+    let handler = miette::GraphicalReportHandler::new_themed(theme()).with_width(100);
+    for problem in problems {
+        let mut text = String::new();
+        if handler.render_report(&mut text, problem.as_ref()).is_err() {
+            text = problem.to_string();
+        }
+        remark(text.trim_end());
+    }
+}
+
+fn theme() -> miette::GraphicalTheme {
+    let coloured = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    if coloured { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() }
+}
+
+/// A number as people read it: at most three decimals, none that say nothing.
+pub fn number(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// [`number`], or nothing.
+pub fn maybe(value: Option<f64>) -> String {
+    value.map_or(String::new(), number)
+}
+
+/// A time as people read it.
+pub fn time(took: Duration) -> String {
+    let seconds = took.as_secs_f64();
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
+}

@@ -1,0 +1,71 @@
+//! `adit route`.
+
+use super::RouteArgs;
+use super::build::open;
+use super::output::{json, line, maybe, number, remark, table};
+use crate::answer::{Answer, Status};
+use crate::error::Result;
+
+/// Prints the route; `false` where there is none.
+pub fn run(args: &RouteArgs) -> Result<Outcome> {
+    let answer = open(&args.site)?.route(&args.start, &args.goal, args.robot.as_deref())?;
+    if args.site.json {
+        json(&answer)?;
+        if let Some(reason) = &answer.reason {
+            remark(reason);
+        }
+    } else {
+        show(&answer);
+    }
+    Ok(match answer.status {
+        Status::Ok | Status::SameRoom => Outcome::Found,
+        Status::NoRoute => Outcome::NoRoute,
+        Status::UnknownStart | Status::UnknownGoal => Outcome::Unknown,
+    })
+}
+
+/// What the exit status says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// A route.
+    Found,
+    /// None, for a reason that is said.
+    NoRoute,
+    /// A name that nobody knows.
+    Unknown,
+}
+
+/// Prints an answer for people.
+pub fn show(answer: &Answer) {
+    let (start, goal) = (&answer.start, &answer.goal);
+    match answer.status {
+        Status::Ok => line(&format!("{start} to {goal}, hardness {}:", maybe(answer.cost))),
+        Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
+        Status::NoRoute => {
+            line(&format!(
+                "no route from {start} to {goal}: {}",
+                answer.reason.as_deref().unwrap_or_default()
+            ));
+            return;
+        }
+        Status::UnknownStart | Status::UnknownGoal => {
+            remark(answer.reason.as_deref().unwrap_or_default());
+            return;
+        }
+    }
+    let rows = answer.steps.iter().map(|step| {
+        vec![
+            step.step.to_string(),
+            step.kind.clone(),
+            step.place.clone(),
+            step.state.clone().unwrap_or_default(),
+            step.action.clone().unwrap_or_default(),
+            maybe(step.hardness),
+            number(step.cost),
+            maybe(step.x),
+            maybe(step.y),
+            step.heading.map_or(String::new(), |heading| format!("{heading:.0}°")),
+        ]
+    });
+    table(&["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "heading"], rows);
+}

@@ -1,0 +1,82 @@
+//! `adit sql`: a read-only look into the database.
+
+use std::io::{BufRead, IsTerminal, stdin};
+
+use adit_db::Store;
+use adit_db::cell::Cell;
+use adit_db::query::{Answer, Limits};
+
+use super::SqlArgs;
+use super::build::open;
+use super::output::{json, line, problems, remark};
+use crate::error::Result;
+
+/// One query, or those of standard input, each ended by `;`.
+pub fn run(args: &SqlArgs) -> Result<bool> {
+    let knowledge = open(&args.site)?;
+    let store = Store::open_read_only(knowledge.database())?;
+    if let Some(query) = &args.query {
+        show(&store.query(query, &Limits::default())?, args.site.json)?;
+        return Ok(true);
+    }
+    if stdin().is_terminal() {
+        remark(
+            "SQL, ended by `;`. Tables: robots, rooms, doors, places; views: action_sequence, route, routes, conclusions",
+        );
+    }
+    let mut statement = String::new();
+    let mut all_well = true;
+    for text in stdin().lock().lines().map_while(std::result::Result::ok) {
+        statement.push_str(&text);
+        statement.push('\n');
+        if text.trim_end().ends_with(';') {
+            all_well &= answer(&store, &std::mem::take(&mut statement), args.site.json);
+        }
+    }
+    if !statement.trim().is_empty() {
+        all_well &= answer(&store, &statement, args.site.json);
+    }
+    Ok(all_well)
+}
+
+/// Answers one statement of the shell; an error is printed and the shell goes on.
+fn answer(store: &Store, statement: &str, as_json: bool) -> bool {
+    let outcome = store.query(statement, &Limits::default()).map_err(crate::error::Error::from);
+    match outcome.and_then(|answer| show(&answer, as_json)) {
+        Ok(()) => true,
+        Err(error) => {
+            problems(error.problems());
+            false
+        }
+    }
+}
+
+/// Columns by `|`, as the sqlite3 shell prints them, with a head; or objects as JSON.
+fn show(answer: &Answer, as_json: bool) -> Result<()> {
+    if as_json {
+        let object = |row: &Vec<Cell>| -> serde_json::Value {
+            let pairs = answer.columns.iter().cloned().zip(row.iter().map(|cell| serde_json::json!(cell)));
+            serde_json::Value::Object(pairs.collect())
+        };
+        json(&answer.rows.iter().map(object).collect::<Vec<_>>())?;
+    } else {
+        line(&answer.columns.join("|"));
+        for row in &answer.rows {
+            let cells: Vec<String> = row.iter().map(cell).collect();
+            line(&cells.join("|"));
+        }
+    }
+    if answer.truncated {
+        remark(&format!("note: only the first {} rows are shown", answer.rows.len()));
+    }
+    Ok(())
+}
+
+/// As the sqlite3 shell prints it: a real number keeps its point.
+fn cell(cell: &Cell) -> String {
+    match cell {
+        Cell::Null => String::new(),
+        Cell::Real(value) if value.fract() == 0.0 && value.abs() < 1e15 => format!("{value:.1}"),
+        other => other.to_string(),
+    }
+}

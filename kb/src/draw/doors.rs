@@ -1,0 +1,101 @@
+//! Doors: the line where one crosses, coloured and wide by hardness; numbers; a cross where nobody passes.
+
+use super::frame::{At, Block};
+use super::labels::Face;
+use super::palette::{CLOSED, INK, Scale};
+use super::scene::Door;
+use super::sheet::{Sheet, cross, line};
+use super::svg::{self, Svg};
+
+/// Above so many doors their numbers would be a carpet: only those of the route are written.
+const MOST_NUMBERS: usize = 450;
+
+/// The crossings, the hard ones on top.
+pub(super) fn crossings(svg: &mut Svg, sheet: &Sheet) {
+    let mut doors: Vec<&Door> = sheet.view.doors.iter().map(|&i| &sheet.scene.doors[i]).collect();
+    doors.sort_by_key(|door| (door.passable, sheet.class(door)));
+    for door in doors {
+        let block = sheet.frame.block(&sheet.crossing(door));
+        let (from, to) = ends(&block);
+        if door.passable {
+            let class = sheet.class(door);
+            line(svg, from, to, Scale::colour(class), Scale::width(class) * sheet.detail, "");
+            if door.one_way {
+                arrow(svg, sheet, door, block.centre());
+            }
+        } else {
+            line(svg, from, to, CLOSED, 2.0 * sheet.detail, "3 3");
+            cross(svg, block.centre(), 5.0 * sheet.unit * sheet.detail.max(0.6));
+        }
+    }
+}
+
+/// Numbers beside the crossings, those of the route first.
+pub(super) fn numbers(sheet: &mut Sheet) {
+    let few = sheet.view.doors.len() <= MOST_NUMBERS;
+    let used = |sheet: &Sheet, i: usize| sheet.view.route_doors.contains(&i);
+    let mut doors: Vec<usize> = sheet.view.doors.iter().copied().filter(|&i| few || used(sheet, i)).collect();
+    doors.sort_by_key(|&i| !used(sheet, i));
+    let size = (11.0 * sheet.unit * sheet.detail.sqrt()).max(7.0);
+    for i in doors {
+        let door = &sheet.scene.doors[i];
+        let block = sheet.frame.block(&sheet.crossing(door));
+        if used(sheet, i) || block.w.max(block.h) >= 6.0 {
+            let face = Face { size, colour: INK, strong: false, chip: false };
+            let content = door.number.to_string();
+            let centres = beside(&block, super::labels::extent(&content, size));
+            sheet.labels.place(&content, face, &sheet.frame.map, centres);
+        }
+    }
+}
+
+/// The two ends of a crossing. An area is crossed along its longer middle line.
+fn ends(block: &Block) -> (At, At) {
+    let (x, y) = block.centre();
+    // A point would have no line: give it some extent.
+    let reach = (block.w.max(block.h) / 2.0).max(1.0);
+    if block.w >= block.h { ((x - reach, y), (x + reach, y)) } else { ((x, y - reach), (x, y + reach)) }
+}
+
+/// Spots beside a crossing, near its middle first.
+fn beside(block: &Block, (w, h): At) -> Vec<At> {
+    let (x, y) = block.centre();
+    let level = block.w >= block.h;
+    let shifts = [0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45];
+    let spot = |shift: f64, side: f64| {
+        if level {
+            (x + shift * block.w, y + side * (h / 2.0 + 3.0))
+        } else {
+            (x + side * (w / 2.0 + 3.0), y + shift * block.h)
+        }
+    };
+    shifts.iter().flat_map(|&shift| [spot(shift, 1.0), spot(shift, -1.0)]).collect()
+}
+
+/// A triangle from the first room to the second.
+fn arrow(svg: &mut Svg, sheet: &Sheet, door: &Door, (x, y): At) {
+    let centre = |i: usize| sheet.scene.rooms.get(i).map(|room| sheet.frame.at(room.rect.centre()));
+    if let (Some(from), Some(to)) = (centre(door.room1), centre(door.room2)) {
+        triangle(svg, (x, y), (to.0 - from.0, to.1 - from.1), 6.0 * sheet.unit, INK);
+    }
+}
+
+/// A filled triangle about a point, pointing along a direction; nothing where that has no length.
+pub(super) fn triangle(svg: &mut Svg, (x, y): At, (dx, dy): At, size: f64, fill: &str) {
+    let length = dx.hypot(dy);
+    if !(length.is_finite() && length > 0.0) {
+        return;
+    }
+    let (ux, uy) = (dx / length * size, dy / length * size);
+    let mut path = String::new();
+    svg::command(&mut path, 'M', &[x + ux, y + uy]);
+    svg::command(&mut path, 'L', &[x - 0.7 * ux - 0.75 * uy, y - 0.7 * uy + 0.75 * ux]);
+    svg::command(&mut path, 'L', &[x - 0.7 * ux + 0.75 * uy, y - 0.7 * uy - 0.75 * ux]);
+    path.push('z');
+    svg.element("path")
+        .attr("d", &path)
+        .attr("fill", fill)
+        .attr("stroke", "#ffffff")
+        .num("stroke-width", 1.0)
+        .end();
+}

@@ -1,0 +1,159 @@
+//! What a picture is drawn from: plain records, as the tables of a site hold them. Metres, in the map's frame.
+
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::world::{Bridge, Place, Shape};
+
+/// One map with what is known about it. Every list may be empty; what is empty is not drawn.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Written above the picture.
+    pub title: String,
+    /// The environment; its edge is drawn as a wall.
+    pub bounds: Rect,
+    /// Walls and furniture.
+    pub obstacles: Vec<Shape>,
+    /// Passages of limited height.
+    pub bridges: Vec<Bridge>,
+    /// Rooms of all states.
+    pub rooms: Vec<Room>,
+    /// Doors of all rooms.
+    pub doors: Vec<Door>,
+    /// Named points.
+    pub places: Vec<Place>,
+    /// Edges of the vertical strips, ascending: n + 1 edges make n strips (Figure 4).
+    pub strips_x: Vec<f64>,
+    /// Edges of the horizontal strips, ascending.
+    pub strips_y: Vec<f64>,
+    /// Prime areas (Figure 5).
+    pub prime_areas: Vec<PrimeArea>,
+    /// A route to show.
+    pub route: Option<Route>,
+    /// The actions in the order of the robot table: an action's colour is that of its position. Actions that
+    /// are not named here follow in the order of their first use.
+    pub actions: Vec<String>,
+}
+
+impl Scene {
+    /// A scene of bare ground.
+    pub fn new(title: &str, bounds: Rect) -> Self {
+        Self {
+            title: title.to_owned(),
+            bounds,
+            obstacles: Vec::new(),
+            bridges: Vec::new(),
+            rooms: Vec::new(),
+            doors: Vec::new(),
+            places: Vec::new(),
+            strips_x: Vec::new(),
+            strips_y: Vec::new(),
+            prime_areas: Vec::new(),
+            route: None,
+            actions: Vec::new(),
+        }
+    }
+}
+
+/// A row of `rooms`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Room {
+    /// Its name.
+    pub name: String,
+    /// Its outline.
+    pub rect: Rect,
+    /// The state whose layer it belongs to; `None` in the paper's modes.
+    pub state: Option<String>,
+    /// Clear height, metres; `None`: unlimited.
+    pub height: Option<f64>,
+    /// Hardness per metre, where rules gave one.
+    pub hardness: Option<f64>,
+    /// The action in it, where rules gave one.
+    pub action: Option<String>,
+}
+
+/// Whether the robot passes or changes shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DoorKind {
+    /// A common boundary of two rooms of one layer.
+    Door,
+    /// A common area of two rooms of different layers: a change of shape.
+    Change,
+}
+
+/// A row of `doors`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Door {
+    /// Its number.
+    pub number: i64,
+    /// What it is.
+    pub kind: DoorKind,
+    /// Index of its first room in [`Scene::rooms`].
+    pub room1: usize,
+    /// Index of its second room.
+    pub room2: usize,
+    /// Where it is crossed: a segment (one side 0) or, for a change, an area. `None`: what the two rooms share.
+    pub crossing: Option<Rect>,
+    /// Its crossing point, `x` and `y` of the table.
+    pub at: Point,
+    /// What crossing it adds, where rules gave it.
+    pub hardness: Option<f64>,
+    /// The action through it, where rules gave one.
+    pub action: Option<String>,
+    /// Whether some state passes.
+    pub passable: bool,
+    /// Whether it leads from the first room to the second only.
+    pub one_way: bool,
+}
+
+/// A row of `prime_areas`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrimeArea {
+    /// What is written on it: `A`, or its strings.
+    pub label: String,
+    /// Its outline.
+    pub rect: Rect,
+    /// Whether it is on list 2 (open); `None` before the rules have run.
+    pub open: Option<bool>,
+}
+
+/// A route: rows of `action_sequence`, with its ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Route {
+    /// Where it starts.
+    pub start: Place,
+    /// Where it leads.
+    pub goal: Place,
+    /// Its steps in order.
+    pub steps: Vec<Step>,
+    /// Its whole cost.
+    pub cost: f64,
+}
+
+/// What a step of a route passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepKind {
+    /// Through a room.
+    Room,
+    /// Through a door.
+    Door,
+    /// From one shape into another, on the spot.
+    Change,
+}
+
+/// A row of `action_sequence`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What it passes.
+    pub kind: StepKind,
+    /// The room's name or the door's number.
+    pub place: String,
+    /// The state in which it is done, where one is known.
+    pub state: Option<String>,
+    /// Its action, where rules gave one.
+    pub action: Option<String>,
+    /// What it adds to the cost.
+    pub hardness: f64,
+    /// Where it ends.
+    pub to: Point,
+    /// Heading there, degrees counterclockwise from x; `None` where any will do.
+    pub heading: Option<f64>,
+}

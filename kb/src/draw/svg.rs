@@ -1,0 +1,124 @@
+//! A small writer of SVG: elements, escaped attributes and text, numbers of two decimals.
+
+use std::fmt::Write;
+
+/// An SVG text in the making.
+#[derive(Debug, Default)]
+pub(super) struct Svg {
+    out: String,
+}
+
+impl Svg {
+    /// Begins an element; finish it with [`Element::end`], [`Element::text`] or [`Element::children`].
+    pub fn element(&mut self, tag: &'static str) -> Element<'_> {
+        self.out.push('<');
+        self.out.push_str(tag);
+        Element { svg: self, tag }
+    }
+
+    /// A group of what `draw` writes, with an id that scripts and editors find; left out when that is nothing.
+    pub fn group(&mut self, id: &str, draw: impl FnOnce(&mut Self)) {
+        let mut inner = Self::default();
+        draw(&mut inner);
+        if !inner.out.is_empty() {
+            self.element("g").attr("id", id).children(|svg| svg.append(&inner));
+        }
+    }
+
+    /// Adds what was written apart.
+    pub fn append(&mut self, other: &Self) {
+        self.out.push_str(&other.out);
+    }
+
+    /// The text so far.
+    pub fn finish(self) -> String {
+        self.out
+    }
+}
+
+/// A start tag in the making.
+pub(super) struct Element<'a> {
+    svg: &'a mut Svg,
+    tag: &'static str,
+}
+
+impl Element<'_> {
+    /// A text attribute.
+    pub fn attr(self, name: &str, value: &str) -> Self {
+        self.svg.out.push(' ');
+        self.svg.out.push_str(name);
+        self.svg.out.push_str("=\"");
+        escape(&mut self.svg.out, value);
+        self.svg.out.push('"');
+        self
+    }
+
+    /// A number attribute.
+    pub fn num(self, name: &str, value: f64) -> Self {
+        self.attr(name, &number(value))
+    }
+
+    /// Several number attributes.
+    pub fn nums<const N: usize>(self, values: [(&str, f64); N]) -> Self {
+        values.into_iter().fold(self, |element, (name, value)| element.num(name, value))
+    }
+
+    /// Ends it without content.
+    pub fn end(self) {
+        self.svg.out.push_str("/>\n");
+    }
+
+    /// Ends it with a text.
+    pub fn text(self, content: &str) {
+        self.svg.out.push('>');
+        escape(&mut self.svg.out, content);
+        self.close();
+    }
+
+    /// Ends it with what `draw` writes.
+    pub fn children(self, draw: impl FnOnce(&mut Svg)) {
+        self.svg.out.push_str(">\n");
+        draw(self.svg);
+        self.close();
+    }
+
+    fn close(self) {
+        self.svg.out.push_str("</");
+        self.svg.out.push_str(self.tag);
+        self.svg.out.push_str(">\n");
+    }
+}
+
+/// The number with at most two decimals; what is not finite becomes 0, which every reader of SVG accepts.
+pub(super) fn number(value: f64) -> String {
+    let rounded = (value * 100.0).round() / 100.0;
+    if rounded.is_finite() && rounded != 0.0 { format!("{rounded}") } else { "0".to_owned() }
+}
+
+/// Appends path commands: a letter and its numbers.
+pub(super) fn command(path: &mut String, letter: char, values: &[f64]) {
+    path.push(letter);
+    for (i, value) in values.iter().enumerate() {
+        if i > 0 {
+            path.push(' ');
+        }
+        // Writing to a String cannot fail.
+        let _ = write!(path, "{}", number(*value));
+    }
+}
+
+fn escape(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            // XML 1.0 has no way to write these.
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! Edits of the tables that people tune.
+
+use adit_db::Tx;
+use adit_db::cell::Cell;
+use adit_db::history::Author;
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+use crate::robots::ONLY_ROBOT;
+use crate::suggest::did_you_mean;
+
+/// What is to be edited. Values are as people write them; the column says what they must be.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// One cell: table, key, column, value.
+    Set(String, String, String, String),
+    /// A new row: table, key, and the columns that the key does not say.
+    Add(String, String, Vec<(String, String)>),
+    /// A row that goes: table, key.
+    Remove(String, String),
+    /// An entry of the history that is taken back; the latest one without a number.
+    Undo(Option<i64>),
+}
+
+/// What was edited.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Done {
+    /// Number in the history.
+    pub id: i64,
+    /// The row's whole key.
+    pub key: String,
+    /// The value, or the row, of before.
+    pub old: Cell,
+    /// The value, or the row, of now.
+    pub new: Cell,
+}
+
+impl Edit {
+    /// Carries it out and writes the history.
+    pub fn apply(&self, tx: &mut Tx<'_>, author: &Author) -> Result<Done> {
+        let done = match self {
+            Self::Set(table, key, column, value) => {
+                let columns = columns(tx, table)?;
+                known_column(table, column, &columns)?;
+                let found = tx.set_cell((table, key, column), &cell(value), author);
+                found.map_err(|error| explain(tx, &error, table, key, value))?
+            }
+            Self::Add(table, key, cells) => {
+                let row = row(tx, table, key, cells)?;
+                let named: Vec<(&str, Cell)> =
+                    row.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+                tx.add_row(table, &named, author)?
+            }
+            Self::Remove(table, key) => {
+                columns(tx, table)?;
+                let gone = tx.remove_row(table, key, author);
+                gone.map_err(|error| explain(tx, &error, table, key, ""))?
+            }
+            Self::Undo(Some(id)) => tx.undo(*id, author)?,
+            Self::Undo(None) => match tx.undoable(1)?.first() {
+                Some(id) => tx.undo(*id, author)?,
+                None => return Err(Error::said("edit/nothing-to-undo", "there is nothing to undo", None)),
+            },
+        };
+        Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new })
+    }
+}
+
+/// A number where the text is one.
+fn cell(text: &str) -> Cell {
+    if let Ok(integer) = text.parse::<i64>() {
+        return Cell::Integer(integer);
+    }
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Cell::Real(number),
+        _ => Cell::Text(text.to_owned()),
+    }
+}
+
+const TUNABLE: [&str; 2] = ["robots", "changes"];
+const DERIVED: [&str; 12] = [
+    "rooms",
+    "doors",
+    "routes",
+    "route",
+    "action_sequence",
+    "conclusions",
+    "prime_areas",
+    "places",
+    "frames",
+    "strips",
+    "areas",
+    "history",
+];
+
+/// The columns of a table that may be edited, its key's first.
+fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<(String, bool)>> {
+    let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
+    if DERIVED.contains(&table) {
+        let message =
+            format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
+        let help = "tune `robots` or `changes`, edit a rule, or edit the map and build".to_owned();
+        return Err(Error::said("edit/derived", message, Some(help)));
+    }
+    if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {
+        let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
+        return Err(Error::said("edit/unknown-table", format!("there is no table `{table}`"), help));
+    }
+    let relation = tx.read_table(table)?;
+    Ok(relation.columns.into_iter().map(|column| (column.name, column.key > 0)).collect())
+}
+
+fn known_column(table: &str, column: &str, columns: &[(String, bool)]) -> Result<()> {
+    if columns.iter().any(|(name, _)| name == column) {
+        return Ok(());
+    }
+    let help = did_you_mean(column, columns.iter().map(|(name, _)| name.as_str()));
+    Err(Error::said("edit/unknown-column", format!("table `{table}` has no column `{column}`"), help))
+}
+
+/// The cells of a new row: the key's parts, then the others. A robot that is left out is the only one there is.
+fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> Result<Vec<(String, Cell)>> {
+    let columns = columns(tx, table)?;
+    let keys: Vec<&str> = columns.iter().filter(|(_, key)| *key).map(|(name, _)| name.as_str()).collect();
+    let mut parts: Vec<String> = key.splitn(keys.len().max(1), '/').map(str::to_owned).collect();
+    if parts.len() + 1 == keys.len() && keys.first() == Some(&"robot") {
+        let robots = tx.states()?;
+        parts.insert(0, robots.first().map_or(ONLY_ROBOT.to_owned(), |state| state.robot.clone()));
+    }
+    if parts.len() != keys.len() {
+        let message = format!("the key of `{table}` is {}, and `{key}` is not that", keys.join("/"));
+        return Err(Error::said("edit/key", message, None));
+    }
+    let mut row: Vec<(String, Cell)> = Vec::new();
+    for (name, part) in keys.iter().zip(parts) {
+        row.push(((*name).to_owned(), cell(&part)));
+    }
+    for (name, value) in cells {
+        known_column(table, name, &columns)?;
+        row.push((name.clone(), cell(value)));
+    }
+    if table == "robots" && !cells.iter().any(|(name, _)| name == "position") {
+        let last = tx.states()?.iter().map(|state| state.position).max().unwrap_or(0);
+        row.push(("position".to_owned(), Cell::Integer(last + 1)));
+    }
+    Ok(row)
+}
+
+/// The store's error, with the row that was probably meant, or the value that was refused.
+fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, value: &str) -> Error {
+    let help = match error {
+        adit_db::Error::UnknownKey { .. } => {
+            keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
+        }
+        _ => None,
+    };
+    let found = if matches!(error, adit_db::Error::Refused { .. }) {
+        format!(" (found {value})")
+    } else {
+        String::new()
+    };
+    Error::said("edit/refused", format!("{error}{found}"), help)
+}
+
+/// The keys of a table's rows, whole and without the robot.
+fn keys(tx: &mut Tx<'_>, table: &str) -> Result<Vec<String>> {
+    let relation = tx.read_table(table)?;
+    let parts: Vec<_> = relation.columns.iter().filter(|column| column.key > 0).collect();
+    let rows = parts.first().map_or(0, |column| column.values.len());
+    let mut keys = Vec::new();
+    for row in 0..rows {
+        let key: Vec<String> = parts.iter().map(|column| column.values[row].to_string()).collect();
+        if parts.first().is_some_and(|column| column.name == "robot") && key.len() > 1 {
+            keys.push(key[1..].join("/"));
+        }
+        keys.push(key.join("/"));
+    }
+    Ok(keys)
+}

@@ -1,0 +1,151 @@
+//! The graph of a site, for searches: rooms and doors by index, and where points and names lie in it.
+
+use std::collections::BTreeMap;
+
+use adit_db::door::Door;
+use adit_db::place::Place;
+use adit_db::room::Room;
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::routes::{RouteDoor, RouteGraph, RouteRoom, Start};
+
+/// Rooms, doors and places as they stand in the tables, ready to be searched.
+pub struct SiteGraph {
+    /// Rows of `rooms`, by index.
+    pub rooms: Vec<Room>,
+    /// Rows of `doors`, by index.
+    pub doors: Vec<Door>,
+    /// Rows of `places`, by index.
+    pub places: Vec<Place>,
+    graph: RouteGraph,
+    room_by_key: BTreeMap<i64, usize>,
+    room_by_name: BTreeMap<String, usize>,
+}
+
+/// Something that a route starts from or leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// A room, by index.
+    Room(usize),
+    /// A place, by index.
+    Place(usize),
+    /// A point that has no name.
+    Point(Point),
+}
+
+impl SiteGraph {
+    /// Indexes the tables.
+    pub fn new(rooms: Vec<Room>, doors: Vec<Door>, places: Vec<Place>) -> Self {
+        let room_by_key: BTreeMap<i64, usize> =
+            rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
+        let room_by_name = rooms.iter().enumerate().map(|(index, room)| (room.name.clone(), index)).collect();
+        let route_rooms = rooms
+            .iter()
+            .map(|room| RouteRoom { rect: rect_of(room), hardness_per_m: room.hardness.value })
+            .collect();
+        let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
+        let graph = RouteGraph::new(route_rooms, route_doors);
+        Self { rooms, doors, places, graph, room_by_key, room_by_name }
+    }
+
+    /// The graph that is searched.
+    pub fn graph(&self) -> &RouteGraph {
+        &self.graph
+    }
+
+    /// Index of the room with this key.
+    pub fn room(&self, key: i64) -> Option<usize> {
+        self.room_by_key.get(&key).copied()
+    }
+
+    /// The door with this key.
+    pub fn door(&self, key: i64) -> Option<&Door> {
+        self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
+    }
+
+    /// The robots that have rooms of their own; none in the paper's modes.
+    pub fn robots(&self) -> Vec<String> {
+        let mut robots: Vec<String> = self
+            .rooms
+            .iter()
+            .filter_map(|room| room.layer.as_ref().map(|(robot, _)| robot.clone()))
+            .collect();
+        robots.sort_unstable();
+        robots.dedup();
+        robots
+    }
+
+    /// What a name means: a place, a room, or `x,y`.
+    pub fn end(&self, name: &str) -> Option<End> {
+        if let Some(index) = self.places.iter().position(|place| place.place == name) {
+            return Some(End::Place(index));
+        }
+        if let Some(index) = self.room_by_name.get(name) {
+            return Some(End::Room(*index));
+        }
+        let (x, y) = name.split_once(',')?;
+        let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+        (x.is_finite() && y.is_finite()).then(|| End::Point(Point::new(x, y)))
+    }
+
+    /// All names that an end may have, places first.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.places
+            .iter()
+            .map(|place| place.place.as_str())
+            .chain(self.rooms.iter().map(|room| room.name.as_str()))
+    }
+
+    /// Where an end is: a room stands for its centre.
+    pub fn point(&self, end: &End) -> Point {
+        match end {
+            End::Room(index) => rect_of(&self.rooms[*index]).centre(),
+            End::Place(index) => Point::new(self.places[*index].x, self.places[*index].y),
+            End::Point(point) => *point,
+        }
+    }
+
+    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state.
+    pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<usize> {
+        if let End::Room(index) = end {
+            return vec![*index];
+        }
+        let at = self.point(end);
+        let mut states = Vec::new();
+        let mut found = Vec::new();
+        for (index, room) in self.rooms.iter().enumerate() {
+            let of_robot = match (&room.layer, robot) {
+                (Some((of, _)), Some(robot)) => of == robot,
+                _ => true,
+            };
+            if of_robot && rect_of(room).contains(at) && !states.contains(&&room.layer) {
+                states.push(&room.layer);
+                found.push(index);
+            }
+        }
+        found
+    }
+
+    /// Where a search from this end begins.
+    pub fn start(&self, end: &End, robot: Option<&str>) -> Start {
+        Start { rooms: self.rooms_of(end, robot), at: self.point(end) }
+    }
+}
+
+fn rect_of(room: &Room) -> Rect {
+    let [x0, y0, x1, y1] = room.rect;
+    Rect::new(x0, y0, x1, y1)
+}
+
+fn route_door(door: &Door, rooms: &BTreeMap<i64, usize>) -> Option<RouteDoor> {
+    let [x0, y0, x1, y1] = door.segment;
+    Some(RouteDoor {
+        door: u32::try_from(door.door).ok()?,
+        room1: *rooms.get(&door.side1.room)?,
+        room2: *rooms.get(&door.side2.room)?,
+        crossing: Rect::new(x0, y0, x1, y1),
+        at: Point::new(door.at[0], door.at[1]),
+        hardness: door.hardness.value,
+        passable: door.passable.value.unwrap_or(false),
+        one_way: door.one_way,
+    })
+}

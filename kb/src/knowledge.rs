@@ -1,0 +1,385 @@
+//! The knowledge base of one site: planners are registered, the site is built, tables are edited, and each
+//! time everything that follows is derived by the same path, in one transaction.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use adit_db::history::Author;
+use adit_db::robot::{Change, State};
+use adit_db::{Store, Tx};
+use adit_engine::{RuleBase, Schema, Type};
+use adit_planners::bridges::Bridges;
+use adit_planners::facts::{Column, Facts};
+use adit_planners::layers::RoomsByState;
+use adit_planners::minimum::MinimumRooms;
+use adit_planners::planner::Planner;
+use adit_planners::prime_areas::PrimeAreas;
+use adit_planners::read::MapReport;
+use adit_planners::rooms::PaperRooms;
+use adit_planners::world::World;
+
+use crate::derive::{Stage, derive};
+use crate::edit::{Done, Edit};
+use crate::error::{Error, Result};
+use crate::graph::SiteGraph;
+use crate::progress::Progress;
+use crate::report::{Before, Report, Routes};
+use crate::robots::RobotFile;
+use crate::site::{Rooms, Site};
+use crate::store::{LastBuild, Tables};
+use crate::{classes, rules, tables, trees};
+
+/// What a derivation starts from, besides the tables.
+pub(crate) struct Inputs {
+    rules: RuleBase,
+    world: World,
+    pub(crate) map_report: MapReport,
+    pub(crate) notes: Vec<String>,
+    stage: Stage,
+}
+
+/// A site with its planners, ready to be built and edited.
+pub struct KnowledgeBase {
+    site: Site,
+    planners: Vec<Box<dyn Planner>>,
+    database: PathBuf,
+    rules: Option<PathBuf>,
+    reseed: bool,
+}
+
+impl KnowledgeBase {
+    /// Opens a site's folder and registers the planners that its mode of rooms asks for.
+    pub fn open(folder: &Path) -> Result<Self> {
+        let site = Site::open(folder)?;
+        let database = site.database();
+        let mode = site.rooms;
+        let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
+        match mode {
+            Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
+            Rooms::Paper => {
+                knowledge.register(Box::new(Bridges));
+                knowledge.register(Box::new(PrimeAreas));
+                knowledge.register(Box::new(PaperRooms));
+            }
+            Rooms::Minimum => {
+                knowledge.register(Box::new(Bridges));
+                knowledge.register(Box::new(PrimeAreas));
+                knowledge.register(Box::new(MinimumRooms));
+            }
+        }
+        Ok(knowledge)
+    }
+
+    /// Adds a planner. What it gives, rules use by name.
+    pub fn register(&mut self, planner: Box<dyn Planner>) {
+        self.planners.push(planner);
+    }
+
+    /// Keeps the database in another file than `site.db` of the site's folder.
+    #[must_use]
+    pub fn with_database(mut self, file: Option<&Path>) -> Self {
+        if let Some(file) = file {
+            file.clone_into(&mut self.database);
+        }
+        self
+    }
+
+    /// Takes the rules from another folder than the site's.
+    #[must_use]
+    pub fn with_rules(mut self, folder: Option<&Path>) -> Self {
+        self.rules = folder.map(Path::to_owned);
+        self
+    }
+
+    /// Whether the next build takes the robot table from its file again.
+    #[must_use]
+    pub fn reseeding(mut self, reseed: bool) -> Self {
+        self.reseed = reseed;
+        self
+    }
+
+    /// The site.
+    pub fn site(&self) -> &Site {
+        &self.site
+    }
+
+    /// The file of the database.
+    pub fn database(&self) -> &Path {
+        &self.database
+    }
+
+    /// Map, facts, rules, routes: into the site's database, all or nothing.
+    pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
+        let inputs = self.inputs(progress)?;
+        let seed = RobotFile::read(&self.site.robots)?;
+        let fresh = !self.database.exists();
+        let outcome = self.build_into(&inputs, &seed, progress);
+        if outcome.is_err() && fresh {
+            // a first build that failed leaves no empty database behind; nothing of the user's is in it
+            std::fs::remove_file(&self.database).ok();
+        }
+        outcome
+    }
+
+    fn build_into(&self, inputs: &Inputs, seed: &RobotFile, progress: &dyn Progress) -> Result<Report> {
+        let mut store = Store::open_or_create(&self.database)?;
+        store.transaction(|tx| {
+            let notes = self.seed(tx, seed)?;
+            let mut report = self.follow(tx, inputs, progress)?;
+            report.notes.extend(notes);
+            Ok(report)
+        })
+    }
+
+    /// Edits a table and derives what follows, in one transaction; with `rehearse` all of it is taken back.
+    pub fn edit(
+        &self,
+        edit: &Edit,
+        author: &Author,
+        rehearse: bool,
+        progress: &dyn Progress,
+    ) -> Result<(Done, Report)> {
+        let inputs = self.inputs(progress)?;
+        let mut store = Store::open(&self.database)?;
+        let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
+            let done = edit.apply(tx, author)?;
+            let report = self.follow(tx, &inputs, progress)?;
+            Ok((done, report))
+        };
+        if rehearse { store.rehearse(work) } else { store.transaction(work) }
+    }
+
+    /// Problems of the rules, the tables and the map, found without building.
+    pub fn check(&self) -> Result<Vec<miette::Report>> {
+        let rules = rules::load(&self.site, self.rules.as_deref())?;
+        let (_, _, notes) = self.site.world()?;
+        RobotFile::read(&self.site.robots)?;
+        let mut problems: Vec<miette::Report> = notes.into_iter().map(miette::Report::new).collect();
+        let told = if self.database.exists() {
+            Store::open_read_only(&self.database)?.snapshot(|tx| self.told(tx, &rules))?
+        } else {
+            Facts::from([
+                ("ROBOTS".to_owned(), tables::robots(&[])),
+                ("CHANGES".to_owned(), tables::changes(&[])),
+            ])
+        };
+        problems.extend(rules.check(&self.schema(&told)).into_iter().map(miette::Report::new));
+        Ok(problems)
+    }
+
+    fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
+        progress.stage("map");
+        let began = Instant::now();
+        let rules = rules::load(&self.site, self.rules.as_deref())?;
+        let (world, map_report, notes) = self.site.world()?;
+        let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
+        let notes = notes.into_iter().map(|note| note.to_string()).collect();
+        Ok(Inputs { rules, world, map_report, notes, stage })
+    }
+
+    /// The states of a robot, as the database has them.
+    pub fn states(&self, robot: &str) -> Result<Vec<State>> {
+        let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states())?;
+        Ok(states.into_iter().filter(|state| state.robot == robot).collect())
+    }
+
+    /// Fills the robot table the first time, or when asked; says where file and table differ otherwise.
+    fn seed(&self, tx: &mut Tx<'_>, file: &RobotFile) -> Result<Vec<String>> {
+        let (states, changes) = (tx.states()?, tx.changes()?);
+        if states.is_empty() || self.reseed {
+            tx.seed(&file.robots, &file.changes)?;
+            return Ok(Vec::new());
+        }
+        Ok(self.differences(&states, &changes, file))
+    }
+
+    fn differences(&self, states: &[State], changes: &[Change], file: &RobotFile) -> Vec<String> {
+        let differs = |row: &State| {
+            let same = |other: &&State| other.robot == row.robot && other.state == row.state;
+            match states.iter().find(same) {
+                Some(known) => State { position: row.position, ..known.clone() } != *row,
+                None => true,
+            }
+        };
+        let mut named: Vec<&str> =
+            file.robots.iter().filter(|row| differs(row)).map(|row| row.state.as_str()).collect();
+        let gone = |row: &&State| {
+            !file.robots.iter().any(|other| other.robot == row.robot && other.state == row.state)
+        };
+        named.extend(states.iter().filter(gone).map(|row| row.state.as_str()));
+        let mut by_key = file.changes.clone();
+        by_key.sort_by(|a, b| {
+            (&a.robot, &a.from_state, &a.to_state).cmp(&(&b.robot, &b.from_state, &b.to_state))
+        });
+        if named.is_empty() && by_key == changes {
+            return Vec::new();
+        }
+        let what = if named.is_empty() { "changes of shape".to_owned() } else { named.join(", ") };
+        vec![format!(
+            "{} differs from the database in {what}; the database counts (--reseed takes the file)",
+            self.site.robots.display()
+        )]
+    }
+
+    /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
+    fn follow(&self, tx: &mut Tx<'_>, inputs: &Inputs, progress: &dyn Progress) -> Result<Report> {
+        let before = Before::read(tx)?;
+        let told = self.told(tx, &inputs.rules)?;
+        self.check_rules(&inputs.rules, &told)?;
+        let robots = self.robots(tx)?;
+        let mut derived = derive(
+            &inputs.world,
+            &told,
+            &self.planners,
+            &inputs.rules,
+            &mut LastBuild::new(tx, &before),
+            progress,
+        )?;
+        derived.stages.insert(0, inputs.stage.clone());
+        let made = Tables::new(&derived, &inputs.rules)?;
+
+        progress.stage("database");
+        let began = Instant::now();
+        made.write(tx, &inputs.world, &derived)?;
+        keep_planned_classes(tx, &derived.facts)?;
+        let database = Stage { name: "database".to_owned(), took: began.elapsed(), kept: false };
+
+        progress.stage("routes");
+        let began = Instant::now();
+        let graph = SiteGraph::new(made.rooms, made.doors, tx.places()?);
+        let routes = self.keep_routes(tx, &graph, &robots, &before, progress)?;
+        derived.stages.push(database);
+        derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
+        let generation = self.sign(tx, &inputs.rules)?;
+        Ok(Report::new(&before, &graph, routes, derived, inputs, generation))
+    }
+
+    /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
+    fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Facts> {
+        let mut told = Facts::from([
+            ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
+            ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
+        ]);
+        let planned = self.planned_classes();
+        for table in tx.user_tables()? {
+            let class = table.name.to_uppercase();
+            let named = rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
+            if named && !planned.contains(&class) {
+                told.insert(class, tables::read(&tx.read_table(&table.name)?)?);
+            }
+        }
+        Ok(told)
+    }
+
+    fn planned_classes(&self) -> Vec<String> {
+        let gives = self.planners.iter().flat_map(|planner| planner.signature().gives);
+        let mut classes: Vec<String> = gives.map(|given| classes::split(&given).0.to_owned()).collect();
+        classes.dedup();
+        classes
+    }
+
+    fn schema(&self, told: &Facts) -> Schema {
+        let mut schema = Schema::default();
+        for (class, table) in told {
+            schema = schema.class(class, &[]);
+            for (property, column) in &table.columns {
+                let kind = match column {
+                    Column::Number(_) => Type::Number,
+                    Column::Text(_) => Type::Text,
+                    Column::Truth(_) => Type::Truth,
+                };
+                schema.add(class, property, kind);
+            }
+        }
+        for planner in &self.planners {
+            classes::declare(&mut schema, &planner.signature().gives);
+        }
+        schema
+    }
+
+    fn check_rules(&self, rules: &RuleBase, told: &Facts) -> Result<()> {
+        let problems = rules.check(&self.schema(told));
+        let errors: Vec<_> =
+            problems.into_iter().filter(|problem| problem.severity == adit_engine::Severity::Error).collect();
+        if errors.is_empty() { Ok(()) } else { Err(Error::all(errors)) }
+    }
+
+    fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {
+        let mut robots: Vec<String> = tx.states()?.into_iter().map(|state| state.robot).collect();
+        robots.dedup();
+        if robots.len() > 1 && self.site.rooms != Rooms::ByState {
+            let named = robots.join(", ");
+            let message = format!(
+                "rooms = \"{}\" weighs doors for one robot, and this site has {named}",
+                self.site.rooms.name()
+            );
+            return Err(Error::said("site/robots", message, Some("use rooms = \"by-state\"".to_owned())));
+        }
+        Ok(robots)
+    }
+
+    /// Keeps the routes. Where the starts are those of before, only trees that differ are written.
+    fn keep_routes(
+        &self,
+        tx: &mut Tx<'_>,
+        graph: &SiteGraph,
+        robots: &[String],
+        before: &Before,
+        progress: &dyn Progress,
+    ) -> Result<Routes> {
+        let plan = trees::plan(graph, robots, self.site.starts.as_ref())?;
+        let ends = trees::ends(graph)?;
+        let comparable = before.starts == plan.starts && before.same_rooms(graph);
+        let mut routes = Routes::new(plan.starts.len(), comparable);
+        if !comparable {
+            tx.clear_trees()?;
+            tx.replace_starts(&plan.starts)?;
+        }
+        tx.replace_ends(&ends)?;
+        for (batch, roots) in plan.roots.chunks(64).enumerate() {
+            progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
+            let made = trees::rows(graph, roots);
+            let numbered = (batch as i64 * 64 + 1..).zip(made);
+            if comparable {
+                for (tree, rows) in numbered {
+                    if routes.differs(before, &tx.tree_rows(tree)?, &rows, graph) {
+                        routes.rows += tx.put_tree(tree, rows)?;
+                    }
+                }
+            } else {
+                let rows = numbered.flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
+                routes.rows += tx.put_trees(rows)?;
+            }
+        }
+        Ok(routes)
+    }
+
+    /// Says what the database now stands for.
+    fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<u64> {
+        let last = tx.site_value("generation")?.and_then(|text| text.parse::<u64>().ok()).unwrap_or(0);
+        let generation = last + 1;
+        tx.set_site_value("generation", Some(&generation.to_string()))?;
+        tx.set_site_value("name", Some(&self.site.name))?;
+        tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
+        let own: Vec<String> = tx.user_tables()?.into_iter().map(|table| table.name).collect();
+        let read = |table: &&String| {
+            let class = table.to_uppercase();
+            rules.rules().iter().any(|rule| rule.classes().any(|name| name == class))
+        };
+        let watched: Vec<&str> = own.iter().filter(read).map(String::as_str).collect();
+        tx.watch_tables(&watched)?;
+        tx.mark_fresh()?;
+        Ok(generation)
+    }
+}
+
+/// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner
+/// goes on from them.
+fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
+    for (class, table) in facts {
+        if !["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"].contains(&class.as_str()) {
+            tables::keep(tx, &class.to_lowercase(), table)?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,132 @@
+//! `robots.toml`: the states of each robot, and what it costs to change from one to another. It seeds the tables once;
+//! from then on the database is what counts.
+
+use std::fs;
+use std::path::Path;
+
+use adit_db::robot::{Change, State};
+use adit_planners::read::{Code, Document, Fields, Located, Problem};
+
+use crate::error::{Error, Result};
+
+/// The robot's name where a file names none.
+pub const ONLY_ROBOT: &str = "robot";
+
+/// What the file says.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RobotFile {
+    /// States, in the order that breaks ties.
+    pub robots: Vec<State>,
+    /// Costs of changing shape.
+    pub changes: Vec<Change>,
+}
+
+impl RobotFile {
+    /// Reads a file.
+    pub fn read(path: &Path) -> Result<Self> {
+        let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
+        Self::parse(&path.display().to_string(), &text)
+    }
+
+    /// Reads a text; `name` is how messages call it.
+    pub fn parse(name: &str, text: &str) -> Result<Self> {
+        let document = Document::parse(name, text).map_err(|error| Error::all(error.problems))?;
+        let fields = document.fields("robots.toml");
+        let mut problems = Vec::new();
+        fields.refuse_unknown(&["robots", "changes"], &mut problems);
+        let file = Self { robots: robots(&fields, &mut problems), changes: changes(&fields, &mut problems) };
+        file.check_changes(&fields, &mut problems);
+        if !problems.is_empty() {
+            return Err(Error::all(problems));
+        }
+        if file.robots.is_empty() {
+            return Err(Error::said(
+                "robots/empty",
+                format!("{name} has no state of a robot"),
+                Some(EXAMPLE.to_owned()),
+            ));
+        }
+        Ok(file)
+    }
+
+    fn check_changes(&self, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) {
+        let mut ignored = Vec::new();
+        let entries = fields.tables("changes", "[[changes]]", &mut ignored);
+        for (change, entry) in self.changes.iter().zip(&entries) {
+            for state in [&change.from_state, &change.to_state] {
+                if !self.robots.iter().any(|row| row.robot == change.robot && row.state == *state) {
+                    let message = format!("`{state}` is not a state of robot `{}`", change.robot);
+                    problems.push(fields.text.problem(Code::WrongType, &entry.span, message));
+                }
+            }
+        }
+    }
+}
+
+const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE\"\naction = \"DRIVE\"\n\
+                       height = 1.2\nwidth = 0.6\nhardness = 1.0";
+
+fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
+    let mut rows: Vec<State> = Vec::new();
+    for entry in fields.tables("robots", "[[robots]]", problems) {
+        entry.refuse_unknown(&["robot", "state", "action", "height", "width", "hardness"], problems);
+        let robot = robot(&entry, problems);
+        let (state, action) = (name(&entry, "state", problems), name(&entry, "action", problems));
+        let sizes = ["height", "width", "hardness"].map(|key| not_negative(&entry, key, problems));
+        let (Some(state), Some(action), [Some(height), Some(width), Some(hardness)]) = (state, action, sizes)
+        else {
+            continue;
+        };
+        if rows.iter().any(|row| row.robot == robot && row.state == state.value) {
+            let message = format!("state `{}` of robot `{robot}` stands here twice", state.value);
+            problems.push(entry.text.problem(Code::DuplicatePlace, &state.span, message));
+            continue;
+        }
+        let position = rows.iter().filter(|row| row.robot == robot).count() as i64 + 1;
+        let (state, action) = (state.value, action.value);
+        rows.push(State { robot, state, action, height, width, hardness, position });
+    }
+    rows
+}
+
+fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> {
+    let mut rows = Vec::new();
+    for entry in fields.tables("changes", "[[changes]]", problems) {
+        entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness"], problems);
+        let robot = robot(&entry, problems);
+        let from = name(&entry, "from_state", problems);
+        let to = name(&entry, "to_state", problems);
+        if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems))
+        {
+            rows.push(Change { robot, from_state: from.value, to_state: to.value, hardness });
+        }
+    }
+    rows
+}
+
+fn robot(entry: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> String {
+    if entry.get("robot").is_none() {
+        return ONLY_ROBOT.to_owned();
+    }
+    name(entry, "robot", problems).map_or_else(String::new, |robot| robot.value)
+}
+
+fn name(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
+    let text = entry.string(key, problems)?;
+    if text.value.trim().is_empty() {
+        let message = format!("`{key}` is empty");
+        problems.push(entry.text.problem(Code::EmptyName, &text.span, message));
+        return None;
+    }
+    Some(text)
+}
+
+fn not_negative(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {
+    let number = entry.number(key, problems)?;
+    if number.value >= 0.0 {
+        return Some(number.value);
+    }
+    let message = format!("`{key}` is {} and must not be negative", number.value);
+    problems.push(entry.text.problem(Code::NotPositive, &number.span, message));
+    None
+}

@@ -1,0 +1,156 @@
+//! A site as a scene to be drawn: its map, its tables, and a route.
+
+use adit_db::door::DoorKind;
+use adit_db::{Store, Tx};
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::world::{Occupancy, Place, Shape, World};
+
+use crate::answer::{Answer, Status};
+use crate::draw::{Door, DoorKind as Kind, PrimeArea, Room, Route, Scene, Step, StepKind};
+use crate::error::{Error, Result};
+use crate::graph::SiteGraph;
+use crate::knowledge::KnowledgeBase;
+
+impl KnowledgeBase {
+    /// What is to be seen of the site, with a route from start to goal where one is asked for.
+    pub fn scene(&self, route: Option<(&str, &str)>, robot: Option<&str>) -> Result<Scene> {
+        let (world, _, _) = self.site().world()?;
+        let answer = route.map(|(start, goal)| self.route(start, goal, robot)).transpose()?;
+        let mut scene =
+            Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;
+        crop(&mut scene, &world);
+        if let Some(answer) = answer {
+            if !matches!(answer.status, Status::Ok | Status::SameRoom) {
+                let why = answer.reason.unwrap_or_default();
+                let message = format!("no route from {} to {}: {why}", answer.start, answer.goal);
+                return Err(Error::said("draw/no-route", message, None));
+            }
+            scene.route = Some(self.drawn(&answer)?);
+        }
+        Ok(scene)
+    }
+
+    fn drawn(&self, answer: &Answer) -> Result<Route> {
+        let graph = Store::open_read_only(self.database())?.snapshot(|tx| -> Result<SiteGraph> {
+            Ok(SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?))
+        })?;
+        let place = |name: &str| Place {
+            name: name.to_owned(),
+            at: graph.end(name).map_or(Point::default(), |end| graph.point(&end)),
+        };
+        let step = |row: &adit_db::route::Step| Step {
+            kind: match row.kind.as_str() {
+                "door" => StepKind::Door,
+                "change" => StepKind::Change,
+                _ => StepKind::Room,
+            },
+            place: row.place.clone(),
+            state: row.state.clone(),
+            action: row.action.clone(),
+            hardness: row.hardness.unwrap_or_default(),
+            to: Point::new(row.x.unwrap_or_default(), row.y.unwrap_or_default()),
+            heading: row.heading,
+        };
+        Ok(Route {
+            start: place(&answer.start),
+            goal: place(&answer.goal),
+            steps: answer.steps.iter().map(step).collect(),
+            cost: answer.cost.unwrap_or_default(),
+        })
+    }
+}
+
+/// An image map is often mostly unknown: what lies far from every room is cut off.
+fn crop(scene: &mut Scene, world: &World) {
+    if world.occupancy.is_none() || scene.rooms.is_empty() {
+        return;
+    }
+    let none = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    let all = scene.rooms.iter().fold(none, |all, room| {
+        let r = room.rect;
+        Rect::new(all.x0.min(r.x0), all.y0.min(r.y0), all.x1.max(r.x1), all.y1.max(r.y1))
+    });
+    let margin = 0.05 * all.dx().max(all.dy());
+    let seen = Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin);
+    scene.bounds = scene.bounds.intersection(&seen).unwrap_or(scene.bounds);
+    let bounds = scene.bounds;
+    scene.obstacles = std::mem::take(&mut scene.obstacles)
+        .into_iter()
+        .filter_map(|shape| match shape {
+            Shape::Rect(rect) => bounds.intersection(&rect).map(Shape::Rect),
+            polygon => polygon.enclosing_rect().overlaps(&bounds).then_some(polygon),
+        })
+        .collect();
+}
+
+/// The state in which most of a route's rooms are crossed: the layer that its picture shows.
+pub fn main_state(route: &Route) -> Option<String> {
+    let rooms = route.steps.iter().filter(|step| step.kind == StepKind::Room);
+    let states: Vec<&String> = rooms.filter_map(|step| step.state.as_ref()).collect();
+    let count = |state: &String| states.iter().filter(|other| **other == state).count();
+    states.iter().rev().max_by_key(|state| count(state)).map(|state| (*state).clone())
+}
+
+fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
+    let rect = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(x0, y0, x1, y1);
+    let mut scene = Scene::new(title, world.bounds);
+    scene.obstacles = world.obstacles.iter().map(|obstacle| obstacle.shape.clone()).collect();
+    scene.obstacles.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(Shape::Rect));
+    scene.bridges.clone_from(&world.bridges);
+    scene.places.clone_from(&world.places);
+    let rooms = tx.rooms()?;
+    let index = |key: i64| rooms.binary_search_by_key(&key, |room| room.room).unwrap_or_default();
+    for door in tx.doors()? {
+        scene.doors.push(Door {
+            number: door.door,
+            kind: match door.kind {
+                DoorKind::Door => Kind::Door,
+                DoorKind::Change => Kind::Change,
+            },
+            room1: index(door.side1.room),
+            room2: index(door.side2.room),
+            crossing: Some(rect(door.segment)),
+            at: Point::new(door.at[0], door.at[1]),
+            hardness: door.hardness.value,
+            action: door.action.value,
+            passable: door.passable.value.unwrap_or(false),
+            one_way: door.one_way,
+        });
+    }
+    scene.rooms = rooms
+        .into_iter()
+        .map(|room| Room {
+            name: room.name,
+            rect: rect(room.rect),
+            state: room.layer.map(|(_, state)| state),
+            height: room.height,
+            hardness: room.hardness.value,
+            action: room.action.value,
+        })
+        .collect();
+    [scene.strips_x, scene.strips_y] = tx.strip_edges()?;
+    for (number, area) in tx.areas()?.into_iter().enumerate() {
+        let edge = |edges: &[f64], strip: i64| edges.get(strip as usize).copied().unwrap_or_default();
+        scene.prime_areas.push(PrimeArea {
+            label: label(number),
+            rect: Rect::new(
+                edge(&scene.strips_x, area.x.0),
+                edge(&scene.strips_y, area.y.0),
+                edge(&scene.strips_x, area.x.1 + 1),
+                edge(&scene.strips_y, area.y.1 + 1),
+            ),
+            open: area.open.value,
+        });
+    }
+    for state in tx.states()? {
+        if !scene.actions.contains(&state.action) {
+            scene.actions.push(state.action);
+        }
+    }
+    Ok(scene)
+}
+
+/// Prime areas are lettered as in the paper's Figure 5.
+fn label(number: usize) -> String {
+    adit_planners::names::room_name(number).to_uppercase()
+}

@@ -1,0 +1,46 @@
+//! What the program carries: the shipped rule bases and the example sites.
+
+use std::fs;
+use std::path::Path;
+
+use rust_embed::RustEmbed;
+
+use crate::error::{Error, Result};
+
+/// The folder `rules/` of the repository.
+#[derive(RustEmbed)]
+#[folder = "$CARGO_MANIFEST_DIR/../rules"]
+#[include = "*.rhai"]
+pub struct Rules;
+
+/// The example sites.
+#[derive(RustEmbed)]
+#[folder = "$CARGO_MANIFEST_DIR/sites"]
+#[include = "*.toml"]
+pub struct Sites;
+
+/// Files of one folder of `E`, by name, in the order of their names.
+pub fn files<E: RustEmbed>(folder: &str) -> Vec<(String, String)> {
+    let mut found: Vec<_> = E::iter()
+        .filter_map(|path| {
+            let name = path.strip_prefix(folder)?.strip_prefix('/')?.to_owned();
+            let content = E::get(&path)?;
+            (!name.contains('/')).then(|| (name, String::from_utf8_lossy(&content.data).into_owned()))
+        })
+        .collect();
+    found.sort();
+    found
+}
+
+/// Writes one shipped folder into a folder of the user's. Files that are there already are an error.
+pub fn write<E: RustEmbed>(folder: &str, into: &Path) -> Result<()> {
+    fs::create_dir_all(into).map_err(|error| Error::io("make", into, &error))?;
+    for (name, text) in files::<E>(folder) {
+        let path = into.join(name);
+        if path.exists() {
+            return Err(Error::said("site/exists", format!("{} is there already", path.display()), None));
+        }
+        fs::write(&path, text).map_err(|error| Error::io("write", &path, &error))?;
+    }
+    Ok(())
+}

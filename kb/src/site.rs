@@ -1,0 +1,210 @@
+//! A site: a folder with `site.toml`, which names its map, robot table and rule base.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use adit_planners::read::{
+    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map,
+};
+use adit_planners::world::World;
+use toml::de::DeValue;
+
+use crate::error::{Error, Result};
+
+/// How a map is cut into rooms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Rooms {
+    /// A layer of rooms for each state in which a robot can move.
+    #[default]
+    ByState,
+    /// The paper's greedy choice among prime areas.
+    Paper,
+    /// As few rectangles as possible.
+    Minimum,
+}
+
+impl Rooms {
+    /// The names in `site.toml`.
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("by-state", Self::ByState), ("paper", Self::Paper), ("minimum", Self::Minimum)];
+
+    /// The name in `site.toml`.
+    pub fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, mode)| *mode == self).map_or("by-state", |(name, _)| name)
+    }
+
+    /// The shipped rule base that goes with it.
+    pub fn rule_base(self) -> &'static str {
+        match self {
+            Self::ByState => "rooms/by-state",
+            Self::Paper | Self::Minimum => "rooms/paper",
+        }
+    }
+}
+
+/// From where routes are kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Starts {
+    /// From every place and every room.
+    All,
+    /// From these places and rooms.
+    Named(Vec<String>),
+}
+
+/// What `site.toml` says.
+#[derive(Clone, Debug)]
+pub struct Site {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Its name.
+    pub name: String,
+    /// The map's file.
+    pub map: PathBuf,
+    /// The file that seeds the robot table.
+    pub robots: PathBuf,
+    /// Folder of the site's own rule base; `None`: the shipped one.
+    pub rules: Option<PathBuf>,
+    /// How the map is cut into rooms.
+    pub rooms: Rooms,
+    /// From where routes are kept; `None`: not said.
+    pub starts: Option<Starts>,
+    settings: MapSettings,
+    overlay: Overlay,
+}
+
+const KEYS: [&str; 12] = [
+    "name",
+    "map",
+    "robots",
+    "rules",
+    "rooms",
+    "starts",
+    "unknown",
+    "speck_area",
+    "grid",
+    "clearance",
+    "place",
+    "bridge",
+];
+
+impl Site {
+    /// Reads `site.toml` of a folder.
+    pub fn open(folder: &Path) -> Result<Self> {
+        let file = folder.join("site.toml");
+        let text = fs::read_to_string(&file).map_err(|error| no_site(folder, &file, &error))?;
+        let name = file.display().to_string();
+        let document = Document::parse(&name, &text).map_err(|error| Error::all(error.problems))?;
+        let fields = document.fields("site.toml");
+        let mut problems = Vec::new();
+        let mut keys = KEYS.to_vec();
+        keys.push("obstacle");
+        fields.refuse_unknown(&keys, &mut problems);
+        let path =
+            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
+        let site = Self {
+            folder: folder.to_owned(),
+            name: optional_text(&fields, "name", &mut problems)
+                .unwrap_or_else(|| folder.display().to_string()),
+            map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
+            robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
+            rules: optional_text(&fields, "rules", &mut problems).map(|rules| folder.join(rules)),
+            rooms: rooms(&fields, &mut problems),
+            starts: starts(&fields, &mut problems),
+            settings: settings(&fields, &mut problems),
+            overlay: Overlay::from_fields(&fields, &mut problems),
+        };
+        if problems.is_empty() { Ok(site) } else { Err(Error::all(problems)) }
+    }
+
+    /// The database, unless the user names another one.
+    pub fn database(&self) -> PathBuf {
+        self.folder.join("site.db")
+    }
+
+    /// Reads the map and lays over it what `site.toml` says.
+    ///
+    /// # Returns
+    /// The world, what it cost or gave of free space to read it so, and notes.
+    pub fn world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
+        let (mut world, report) =
+            read_map(&self.map, &self.settings).map_err(|errors| Error::all(errors.problems))?;
+        let mut notes = report.notes.clone();
+        let laid = self.overlay.clone().lay_over(&mut world).map_err(|errors| Error::all(errors.problems))?;
+        notes.extend(laid);
+        Ok((world, report, notes))
+    }
+}
+
+fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
+    if error.kind() != std::io::ErrorKind::NotFound {
+        return Error::io("read", file, error);
+    }
+    Error::said(
+        "site/missing",
+        format!("{} is not a site: it has no site.toml", folder.display()),
+        Some(format!("`adit new {}` starts one", folder.display())),
+    )
+}
+
+fn optional_text(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<String> {
+    fields.get(key)?;
+    fields.string(key, problems).map(|text| text.value)
+}
+
+fn rooms(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Rooms {
+    let names = Rooms::NAMES.map(|(name, _)| name);
+    choice(fields, "rooms", &names, problems).map_or(Rooms::default(), |index| Rooms::NAMES[index].1)
+}
+
+/// The index of a text among those it may be.
+fn choice(fields: &Fields<'_, '_>, key: &str, names: &[&str], problems: &mut Vec<Problem>) -> Option<usize> {
+    fields.get(key)?;
+    let text = fields.string(key, problems)?;
+    let found = names.iter().position(|name| *name == text.value);
+    if found.is_none() {
+        let message = format!("`{key}` is `{}` and must be one of {}", text.value, names.join(", "));
+        problems.push(fields.text.problem(Code::WrongType, &text.span, message));
+    }
+    found
+}
+
+fn starts(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Starts> {
+    let value = fields.get("starts")?;
+    let named = |entry: &toml::Spanned<DeValue<'_>>| match entry.get_ref() {
+        DeValue::String(name) => Some(name.to_string()),
+        _ => None,
+    };
+    let found = match value.get_ref() {
+        DeValue::String(all) if all == "all" => Some(Starts::All),
+        DeValue::Array(entries) => entries.iter().map(named).collect::<Option<Vec<_>>>().map(Starts::Named),
+        _ => None,
+    };
+    if found.is_none() {
+        let message = "`starts` must be \"all\" or a list of places and rooms";
+        problems.push(fields.text.problem(Code::WrongType, &value.span(), message));
+    }
+    found
+}
+
+fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings {
+    let mut settings = MapSettings::default();
+    if let Some(index) = choice(fields, "unknown", &["wall", "free"], problems) {
+        settings.unknown = [Unknown::Wall, Unknown::Free][index];
+    }
+    if fields.get("grid").is_some() {
+        settings.grid = fields.positive("grid", problems).map(|grid| grid.value);
+    }
+    for (key, value) in [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)] {
+        if fields.get(key).is_some()
+            && let Some(number) = fields.number(key, problems)
+        {
+            if number.value < 0.0 {
+                let message = format!("`{key}` is {} and must not be negative", number.value);
+                problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
+            } else {
+                *value = number.value;
+            }
+        }
+    }
+    settings
+}

@@ -1,0 +1,261 @@
+//! What a derivation made, on its way into the database; and what an earlier one left there.
+
+use std::collections::BTreeMap;
+
+use adit_db::conclusion::{Derivation, Rule, Witness};
+use adit_db::door::Door;
+use adit_db::place::{Frame, Place};
+use adit_db::room::Room;
+use adit_db::{Derived as Reasoned, Tx};
+use adit_engine::{KnowledgeBase as Inference, RuleBase};
+use adit_planners::facts::Facts;
+use adit_planners::planner::Planner;
+use adit_planners::world::World;
+
+use crate::derive::{Derived, Memory};
+use crate::error::Result;
+use crate::report::Before;
+use crate::{classes, rows, tables};
+
+/// Rooms and doors of the last build, kept while the inputs of their planner stay the same.
+pub struct LastBuild<'a, 's> {
+    tx: &'a mut Tx<'s>,
+    before: &'a Before,
+}
+
+impl<'a, 's> LastBuild<'a, 's> {
+    /// What was read of the last build in this transaction.
+    pub fn new(tx: &'a mut Tx<'s>, before: &'a Before) -> Self {
+        Self { tx, before }
+    }
+}
+
+impl Memory for LastBuild<'_, '_> {
+    fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
+        let gives = planner.signature().gives;
+        let makes_rooms =
+            gives.iter().all(|given| given.starts_with("ROOMS.") || given.starts_with("DOORS."));
+        if !makes_rooms {
+            return Ok(None);
+        }
+        let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
+        if stored.as_deref() != Some(&fingerprint.to_string()) {
+            return Ok(None);
+        }
+        Ok(Some(Facts::from([
+            ("ROOMS".to_owned(), rows::rooms_table(&self.before.rooms)),
+            ("DOORS".to_owned(), rows::doors_table(&self.before.doors)),
+        ])))
+    }
+}
+
+fn fingerprint_key(planner: &str) -> String {
+    format!("planner.{planner}")
+}
+
+/// Numbers of the rules, and the reasons behind values, as the database keeps them.
+struct Reasons<'a> {
+    knowledge: &'a Inference,
+    rules: &'a RuleBase,
+    witnesses: Vec<Witness>,
+    known: BTreeMap<String, i64>,
+}
+
+impl Reasons<'_> {
+    /// For each object the rule behind a property and its witness.
+    fn of(&mut self, class: &str, property: &str) -> Vec<(Option<i64>, Option<i64>)> {
+        let Some(found) = self.knowledge.justifications(class, property) else { return Vec::new() };
+        let mut reasons: Vec<(Option<i64>, Option<i64>)> = vec![(None, None); found.of_row.len()];
+        for (writer, (name, _)) in found.rules.iter().enumerate() {
+            let Some(number) = self.rules.rules().iter().position(|rule| rule.name() == name) else {
+                continue;
+            };
+            let rule = &self.rules.rules()[number];
+            // the object itself is the first witness: the row says that already
+            let choices: Vec<(&str, &str, Vec<Option<u32>>)> = rule
+                .variables()
+                .skip(1)
+                .filter_map(|(variable, class_of)| {
+                    let rows = self.knowledge.witness_rows(rule, class, property, variable)?;
+                    Some((variable, class_of, rows))
+                })
+                .collect();
+            for (row, by) in found.of_row.iter().enumerate() {
+                if *by == Some(writer as u32) {
+                    let facts = facts(self.knowledge, &choices, row);
+                    let witness = facts.map(|facts| number_of(&mut self.known, &mut self.witnesses, facts));
+                    reasons[row] = (Some(number as i64 + 1), witness);
+                }
+            }
+        }
+        reasons
+    }
+}
+
+fn facts(knowledge: &Inference, choices: &[(&str, &str, Vec<Option<u32>>)], row: usize) -> Option<String> {
+    let chosen: serde_json::Map<String, serde_json::Value> = choices
+        .iter()
+        .filter_map(|(variable, class, rows)| {
+            let key = knowledge.key(class, rows.get(row).copied().flatten()? as usize)?;
+            Some(((*variable).to_owned(), format!("{class} {key}").into()))
+        })
+        .collect();
+    (!chosen.is_empty()).then(|| serde_json::Value::Object(chosen).to_string())
+}
+
+fn number_of(known: &mut BTreeMap<String, i64>, witnesses: &mut Vec<Witness>, facts: String) -> i64 {
+    if let Some(number) = known.get(&facts) {
+        return *number;
+    }
+    let witness = witnesses.len() as i64 + 1;
+    witnesses.push(Witness { witness, facts: facts.clone() });
+    known.insert(facts, witness);
+    witness
+}
+
+/// Values of a property with their reasons, one an object.
+fn reasoned<T>(
+    values: Option<Vec<Option<T>>>,
+    reasons: &[(Option<i64>, Option<i64>)],
+    len: usize,
+) -> Vec<Reasoned<T>> {
+    let mut values = values.unwrap_or_default().into_iter();
+    (0..len)
+        .map(|row| {
+            let (rule, witness) = reasons.get(row).copied().unwrap_or_default();
+            Reasoned { value: values.next().flatten(), rule, witness }
+        })
+        .collect()
+}
+
+/// The tables that a derivation gives.
+pub struct Tables {
+    /// Rooms with their weights.
+    pub rooms: Vec<Room>,
+    /// Doors with their weights.
+    pub doors: Vec<Door>,
+    areas: Vec<adit_db::area::Area>,
+    strips: [Vec<f64>; 2],
+    rules: Vec<Rule>,
+    witnesses: Vec<Witness>,
+    derivations: Vec<Derivation>,
+}
+
+impl Tables {
+    /// The tables of what was derived.
+    pub fn new(derived: &Derived, rules: &RuleBase) -> Result<Self> {
+        let knowledge = &derived.knowledge;
+        let facts = |class: &str| derived.facts.get(class).cloned().unwrap_or_default();
+        let mut reasons = Reasons { knowledge, rules, witnesses: Vec::new(), known: BTreeMap::new() };
+        let (mut rooms, mut doors) = (rows::rooms(&facts("ROOMS"))?, rows::doors(&facts("DOORS"))?);
+        let mut areas = Vec::new();
+        let mut strips = [Vec::new(), Vec::new()];
+        if derived.facts.contains_key("PRIME_AREAS") {
+            areas = rows::areas(&facts("PRIME_AREAS"))?;
+            strips = rows::strip_edges(&facts("STRIPS"))?;
+        }
+        let numbers = |class, property| knowledge.numbers(class, property);
+        let texts = |class, property| {
+            let owned = |text: Option<std::sync::Arc<str>>| text.map(|text| text.to_string());
+            knowledge.texts(class, property).map(|texts| texts.into_iter().map(owned).collect())
+        };
+        let open = reasoned(
+            knowledge.truths("PRIME_AREAS", "open"),
+            &reasons.of("PRIME_AREAS", "open"),
+            areas.len(),
+        );
+        for (area, open) in areas.iter_mut().zip(open) {
+            area.open = open;
+        }
+        let hardness = reasoned(numbers("ROOMS", "hardness"), &reasons.of("ROOMS", "hardness"), rooms.len());
+        let action = reasoned(texts("ROOMS", "action"), &reasons.of("ROOMS", "action"), rooms.len());
+        for (room, (hardness, action)) in rooms.iter_mut().zip(hardness.into_iter().zip(action)) {
+            (room.hardness, room.action) = (hardness, action);
+        }
+        let hardness = reasoned(numbers("DOORS", "hardness"), &reasons.of("DOORS", "hardness"), doors.len());
+        let action = reasoned(texts("DOORS", "action"), &reasons.of("DOORS", "action"), doors.len());
+        let passable =
+            reasoned(knowledge.truths("DOORS", "passable"), &reasons.of("DOORS", "passable"), doors.len());
+        for (door, ((hardness, action), passable)) in
+            doors.iter_mut().zip(hardness.into_iter().zip(action).zip(passable))
+        {
+            (door.hardness, door.action, door.passable) = (hardness, action, passable);
+        }
+        let derivations = derivations(knowledge, rules, &mut reasons);
+        let witnesses = reasons.witnesses;
+        Ok(Self { rooms, doors, areas, strips, rules: rule_rows(rules), witnesses, derivations })
+    }
+
+    /// Writes all of it in place of what was there.
+    pub fn write(&self, tx: &mut Tx<'_>, world: &World, derived: &Derived) -> Result<()> {
+        tx.replace_areas(&self.strips[0], &self.strips[1], &self.areas)?;
+        tx.replace_rooms(&self.rooms)?;
+        tx.replace_doors(&self.doors)?;
+        tx.replace_places(&places(world))?;
+        let frame =
+            Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
+        tx.replace_frames(&[frame])?;
+        tx.replace_rules(&self.rules, &self.witnesses)?;
+        tx.replace_derivations(&self.derivations)?;
+        for (planner, fingerprint) in &derived.fingerprints {
+            tx.set_site_value(&fingerprint_key(planner), Some(&fingerprint.to_string()))?;
+        }
+        Ok(())
+    }
+}
+
+/// The map's places as rows.
+pub fn places(world: &World) -> Vec<Place> {
+    let mut places: Vec<Place> = world
+        .places
+        .iter()
+        .map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y })
+        .collect();
+    places.sort_by(|a, b| a.place.cmp(&b.place));
+    places
+}
+
+fn rule_rows(rules: &RuleBase) -> Vec<Rule> {
+    let row = |(index, rule): (usize, &adit_engine::Rule)| Rule {
+        rule: index as i64 + 1,
+        name: rule.name().to_owned(),
+        version: rule.version().to_owned(),
+        file: Some(rule.file().to_owned()),
+        line: Some(rule.line() as i64),
+    };
+    rules.rules().iter().enumerate().map(row).collect()
+}
+
+/// Columns of these classes have tables of their own.
+const TABLED: [(&str, &str); 6] = [
+    ("PRIME_AREAS", "open"),
+    ("ROOMS", "hardness"),
+    ("ROOMS", "action"),
+    ("DOORS", "hardness"),
+    ("DOORS", "action"),
+    ("DOORS", "passable"),
+];
+
+/// Values that rules concluded about anything else.
+fn derivations(knowledge: &Inference, rules: &RuleBase, reasons: &mut Reasons<'_>) -> Vec<Derivation> {
+    let mut found = Vec::new();
+    for name in rules.concluded() {
+        let (class, property) = (name.class.as_str(), name.property.as_str());
+        if TABLED.contains(&(class, property)) {
+            continue;
+        }
+        let Some(column) = classes::column(knowledge, class, property) else { continue };
+        for (row, (rule, witness)) in reasons.of(class, property).into_iter().enumerate() {
+            let (Some(rule), Some(key)) = (rule, knowledge.key(class, row)) else { continue };
+            found.push(Derivation {
+                class: class.to_lowercase(),
+                key: key.as_str().into(),
+                property: property.to_owned(),
+                value: tables::cell(&column, row),
+                rule,
+                witness,
+            });
+        }
+    }
+    found
+}

@@ -1,0 +1,112 @@
+//! Tables of the database as classes, and planners' classes as tables.
+
+use adit_db::relation::{Relation, RelationColumn};
+use adit_db::robot::{Change, State};
+use adit_db::{Cell, Tx};
+use adit_planners::facts::{Column, Table};
+
+use crate::error::{Error, Result};
+
+/// The states of the robots as a class.
+pub fn robots(states: &[State]) -> Table {
+    Table::default()
+        .with("robot", states.iter().map(|row| row.robot.clone()).collect::<Column>())
+        .with("state", states.iter().map(|row| row.state.clone()).collect::<Column>())
+        .with("action", states.iter().map(|row| row.action.clone()).collect::<Column>())
+        .with("height", states.iter().map(|row| row.height).collect::<Column>())
+        .with("width", states.iter().map(|row| row.width).collect::<Column>())
+        .with("hardness", states.iter().map(|row| row.hardness).collect::<Column>())
+        .with("position", states.iter().map(|row| row.position as f64).collect::<Column>())
+}
+
+/// The costs of changing shape as a class.
+pub fn changes(changes: &[Change]) -> Table {
+    Table::default()
+        .with("robot", changes.iter().map(|row| row.robot.clone()).collect::<Column>())
+        .with("from_state", changes.iter().map(|row| row.from_state.clone()).collect::<Column>())
+        .with("to_state", changes.iter().map(|row| row.to_state.clone()).collect::<Column>())
+        .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
+}
+
+/// A table or view of the site's own as a class: a column holds numbers or texts; one that is declared BOOLEAN
+/// holds truth values.
+pub fn read(relation: &Relation) -> Result<Table> {
+    let mut table = Table::default();
+    for column in &relation.columns {
+        table.columns.push((column.name.clone(), values(&relation.name, column)?));
+    }
+    Ok(table)
+}
+
+fn values(table: &str, column: &RelationColumn) -> Result<Column> {
+    let declared = column.declared.as_str();
+    if declared.contains("BOOL") {
+        let truth = |cell: &Cell| match cell {
+            Cell::Integer(value) => Some(*value != 0),
+            _ => None,
+        };
+        return Ok(Column::Truth(column.values.iter().map(truth).collect()));
+    }
+    let texts = column.values.iter().filter(|cell| matches!(cell, Cell::Text(_))).count();
+    let numbers =
+        column.values.iter().filter(|cell| matches!(cell, Cell::Integer(_) | Cell::Real(_))).count();
+    if texts > 0 && numbers > 0 {
+        let message =
+            format!("column `{}` of table `{table}` holds {texts} texts and {numbers} numbers", column.name);
+        return Err(Error::said("table/mixed", message, Some("a rule needs one or the other".to_owned())));
+    }
+    let is_text = texts > 0 || (numbers == 0 && (declared.contains("CHAR") || declared.contains("TEXT")));
+    let text = |cell: &Cell| match cell {
+        Cell::Text(text) => Some(text.clone()),
+        _ => None,
+    };
+    let number = |cell: &Cell| match cell {
+        Cell::Integer(value) => Some(*value as f64),
+        Cell::Real(value) => Some(*value),
+        _ => None,
+    };
+    Ok(if is_text {
+        column.values.iter().map(text).collect()
+    } else {
+        column.values.iter().map(number).collect()
+    })
+}
+
+/// Keeps what a planner gave as a table of the database, in place of what it gave before.
+pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
+    let mark = format!("class.{name}");
+    let taken = tx.user_tables()?.iter().any(|known| known.name == name);
+    if taken && tx.site_value(&mark)?.is_none() {
+        let message = format!(
+            "a planner gives the class {}, and the site has a table `{name}` of its own",
+            name.to_uppercase()
+        );
+        return Err(Error::said("table/taken", message, Some("rename one of them".to_owned())));
+    }
+    let columns: Vec<(&str, &str)> = table
+        .columns
+        .iter()
+        .map(|(property, column)| {
+            let declared = match column {
+                Column::Number(_) => "REAL",
+                Column::Text(_) => "TEXT",
+                Column::Truth(_) => "BOOLEAN",
+            };
+            (property.as_str(), declared)
+        })
+        .collect();
+    let rows =
+        (0..table.len()).map(|row| table.columns.iter().map(|(_, column)| cell(column, row)).collect());
+    tx.replace_user_table(name, &columns, rows)?;
+    tx.set_site_value(&mark, Some("planner"))?;
+    Ok(())
+}
+
+/// One value of a column, as SQL holds it.
+pub fn cell(column: &Column, row: usize) -> Cell {
+    match column {
+        Column::Number(values) => values[row].map_or(Cell::Null, Cell::Real),
+        Column::Text(values) => values[row].clone().map_or(Cell::Null, Cell::Text),
+        Column::Truth(values) => values[row].map_or(Cell::Null, |truth| Cell::Integer(truth.into())),
+    }
+}

@@ -1,0 +1,110 @@
+//! Routes of least total hardness over rooms and doors.
+//!
+//! [petgraph](https://docs.rs/petgraph) holds the graph and is the reference that tests compare with. Its `dijkstra`
+//! returns no predecessors and cannot tell two doors between the same rooms apart, so the search here is a loop of
+//! our own over petgraph's edges that keeps how each room was entered, by which door and where.
+//!
+//! Where a room weighs its metres, it matters where it was entered: the robot squats down just before the pipe, not
+//! where it enters the corridor. So a room keeps every arrival that no other one makes superfluous. Rooms are convex:
+//! an arrival is superfluous if walking over from another one costs no more.
+
+mod blocked;
+mod crossing;
+mod search;
+mod tree;
+
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use crate::geometry::{Point, Rect};
+
+pub use blocked::{Blockage, blockage};
+pub use tree::{Arrival, Tree};
+
+/// A room as the search sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteRoom {
+    /// Its rectangle.
+    pub rect: Rect,
+    /// Hardness of a metre walked in it; `None` where all hardness lies on the doors (the paper's Table 6).
+    pub hardness_per_m: Option<f64>,
+}
+
+/// A door as the search sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteDoor {
+    /// Its key, unique.
+    pub door: u32,
+    /// Index of the first room.
+    pub room1: usize,
+    /// Index of the second room.
+    pub room2: usize,
+    /// Where it is crossed: a segment shared by both rooms, or the area in which a change of shape is possible.
+    pub crossing: Rect,
+    /// The point that stands for it where no distance in its rooms is weighed.
+    pub at: Point,
+    /// Hardness of passing it; `None`: unknown, so it is not passed.
+    pub hardness: Option<f64>,
+    /// Whether rules let a state through.
+    pub passable: bool,
+    /// Whether it leads from the first room to the second only.
+    pub one_way: bool,
+}
+
+impl RouteDoor {
+    /// The hardness of passing it, where it can be passed.
+    pub fn weight(&self) -> Option<f64> {
+        self.hardness.filter(|hardness| self.passable && !hardness.is_nan())
+    }
+}
+
+/// Where a search begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Rooms that hold the start: one in the paper's modes, one for each state that fits there otherwise.
+    pub rooms: Vec<usize>,
+    /// The start point, metres.
+    pub at: Point,
+}
+
+/// Rooms joined by the doors that can be passed.
+#[derive(Clone, Debug)]
+pub struct RouteGraph {
+    rooms: Vec<RouteRoom>,
+    doors: Vec<RouteDoor>,
+    graph: DiGraph<(), u32>,
+}
+
+impl RouteGraph {
+    /// The graph of all doors with a known hardness that are passable; other doors are kept for [`blockage`].
+    pub fn new(rooms: Vec<RouteRoom>, doors: Vec<RouteDoor>) -> Self {
+        let mut graph = DiGraph::with_capacity(rooms.len(), doors.len() * 2);
+        for _ in &rooms {
+            graph.add_node(());
+        }
+        for (index, door) in doors.iter().enumerate() {
+            if door.weight().is_some() {
+                let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
+                graph.add_edge(a, b, index as u32);
+                if !door.one_way {
+                    graph.add_edge(b, a, index as u32);
+                }
+            }
+        }
+        Self { rooms, doors, graph }
+    }
+
+    /// The rooms, by index.
+    pub fn rooms(&self) -> &[RouteRoom] {
+        &self.rooms
+    }
+
+    /// The doors, passable or not.
+    pub fn doors(&self) -> &[RouteDoor] {
+        &self.doors
+    }
+
+    /// petgraph's graph of the passable doors; edge weights are indices into [`RouteGraph::doors`].
+    pub fn petgraph(&self) -> &DiGraph<(), u32> {
+        &self.graph
+    }
+}

@@ -1,0 +1,61 @@
+//! Why there is no route: the fewest doors that would have to open.
+
+use std::collections::VecDeque;
+
+use super::{RouteGraph, Start};
+
+/// What stands between a start and a goal that no route joins.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Blockage {
+    /// These doors, in order, would have to let a state through; fewer do not suffice.
+    Doors(Vec<u32>),
+    /// No chain of doors joins them at all, passable or not.
+    Apart,
+}
+
+/// The fewest doors that would have to be passable to reach one of `goals`. O(rooms + doors).
+pub fn blockage(graph: &RouteGraph, start: &Start, goals: &[usize]) -> Blockage {
+    let mut leaving: Vec<Vec<(usize, usize)>> = vec![Vec::new(); graph.rooms.len()];
+    for (index, door) in graph.doors.iter().enumerate() {
+        leaving[door.room1].push((door.room2, index));
+        if !door.one_way {
+            leaving[door.room2].push((door.room1, index));
+        }
+    }
+    // 0-1 breadth-first search: an open door costs nothing, a shut one costs one
+    let mut least: Vec<Option<usize>> = vec![None; graph.rooms.len()];
+    let mut from: Vec<Option<(usize, usize)>> = vec![None; graph.rooms.len()];
+    let mut queue: VecDeque<(usize, usize)> = start.rooms.iter().map(|&room| (room, 0)).collect();
+    for &room in &start.rooms {
+        least[room] = Some(0);
+    }
+    while let Some((room, shut)) = queue.pop_front() {
+        if least[room].is_some_and(|known| known < shut) {
+            continue;
+        }
+        for &(next, door) in &leaving[room] {
+            let open = graph.doors[door].weight().is_some();
+            let total = shut + usize::from(!open);
+            if least[next].is_none_or(|known| total < known) {
+                least[next] = Some(total);
+                from[next] = Some((room, door));
+                if open {
+                    queue.push_front((next, total));
+                } else {
+                    queue.push_back((next, total));
+                }
+            }
+        }
+    }
+    let nearest = goals.iter().filter_map(|&goal| least[goal].map(|shut| (shut, goal))).min();
+    let Some((_, mut room)) = nearest else { return Blockage::Apart };
+    let mut doors = Vec::new();
+    while let Some((before, door)) = from[room] {
+        if graph.doors[door].weight().is_none() {
+            doors.push(graph.doors[door].door);
+        }
+        room = before;
+    }
+    doors.reverse();
+    Blockage::Doors(doors)
+}

@@ -1,0 +1,149 @@
+//! Every route has the least cost: our loop beside petgraph's Dijkstra and Bellman-Ford.
+#![allow(clippy::float_cmp)] // sums of small whole numbers are exact
+
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::routes::{Blockage, RouteDoor, RouteGraph, RouteRoom, Start, blockage};
+use petgraph::algo::{bellman_ford, dijkstra};
+use petgraph::graph::{DiGraph, NodeIndex};
+use proptest::prelude::*;
+
+fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
+    RouteDoor {
+        door,
+        room1,
+        room2,
+        crossing: Rect::new(0.0, 0.0, 0.0, 0.0),
+        at: Point::default(),
+        hardness: Some(hardness),
+        passable: true,
+        one_way: false,
+    }
+}
+
+fn rooms(count: usize) -> Vec<RouteRoom> {
+    vec![RouteRoom { rect: Rect::new(0.0, 0.0, 1.0, 1.0), hardness_per_m: None }; count]
+}
+
+fn start(room: usize) -> Start {
+    Start { rooms: vec![room], at: Point::default() }
+}
+
+fn any_doors(rooms: usize) -> impl Strategy<Value = Vec<RouteDoor>> {
+    let any = (0..rooms, 0..rooms, 0_u8..20, prop::bool::weighted(0.9), prop::bool::weighted(0.2));
+    prop::collection::vec(any, 0..60).prop_map(|doors| {
+        let build = |(number, (room1, room2, hardness, passable, one_way)): (usize, (_, _, u8, _, _))| {
+            RouteDoor { passable, one_way, ..door(number as u32 + 1, room1, room2, f64::from(hardness)) }
+        };
+        doors.into_iter().enumerate().map(build).collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn the_cost_of_every_room_is_the_least(doors in any_doors(12)) {
+        let graph = RouteGraph::new(rooms(12), doors);
+        let tree = graph.tree(&start(0));
+        let reference = dijkstra(graph.petgraph(), NodeIndex::new(0), None, |edge| {
+            graph.doors()[*edge.weight() as usize].hardness.unwrap()
+        });
+        let weighted: DiGraph<(), f64> =
+            graph.petgraph().map(|_, ()| (), |_, door| graph.doors()[*door as usize].hardness.unwrap());
+        let other = bellman_ford(&weighted, NodeIndex::new(0)).unwrap();
+        for room in 0..12 {
+            let ours = tree.best(room).map(|arrival| arrival.cost);
+            prop_assert_eq!(ours, reference.get(&NodeIndex::new(room)).copied());
+            prop_assert_eq!(ours.unwrap_or(f64::INFINITY), other.distances[room]);
+        }
+    }
+
+    #[test]
+    fn each_arrival_adds_up_door_by_door(doors in any_doors(12)) {
+        let graph = RouteGraph::new(rooms(12), doors);
+        let tree = graph.tree(&start(3));
+        for arrival in &tree.arrivals {
+            let Some((before, number)) = arrival.from else { continue };
+            let (before, through) = (tree.arrivals[before], graph.doors()[number as usize - 1]);
+            prop_assert!(through.passable);
+            prop_assert_eq!(arrival.cost, before.cost + through.hardness.unwrap());
+            prop_assert_eq!(arrival.hops, before.hops + 1);
+        }
+    }
+
+    #[test]
+    fn a_blockage_names_doors_that_suffice(doors in any_doors(12)) {
+        let graph = RouteGraph::new(rooms(12), doors.clone());
+        match blockage(&graph, &start(0), &[11]) {
+            Blockage::Doors(shut) => {
+                let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..*d };
+                let opened = RouteGraph::new(rooms(12), doors.iter().map(open).collect());
+                prop_assert!(opened.tree(&start(0)).best(11).is_some());
+                prop_assert_eq!(shut.is_empty(), graph.tree(&start(0)).best(11).is_some());
+            }
+            Blockage::Apart => prop_assert!(graph.tree(&start(0)).best(11).is_none()),
+        }
+    }
+}
+
+#[test]
+fn of_two_parallel_doors_the_easier_one_is_passed() {
+    let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 5.0), door(2, 0, 1, 3.0)]);
+    assert_eq!(graph.tree(&start(0)).best(1).unwrap().from, Some((0, 2)));
+}
+
+#[test]
+fn of_two_equal_doors_the_lower_number_is_passed() {
+    let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 3.0), door(2, 0, 1, 3.0)]);
+    assert_eq!(graph.tree(&start(0)).best(1).unwrap().from, Some((0, 1)));
+}
+
+#[test]
+fn a_one_way_door_is_passed_from_its_first_room_only() {
+    let graph = RouteGraph::new(rooms(2), vec![RouteDoor { one_way: true, ..door(1, 0, 1, 1.0) }]);
+    assert!(graph.tree(&start(0)).best(1).is_some());
+    assert!(graph.tree(&start(1)).best(0).is_none());
+    assert_eq!(blockage(&graph, &start(1), &[0]), Blockage::Apart);
+}
+
+#[test]
+fn a_door_without_hardness_is_not_passed_but_named() {
+    let unknown = RouteDoor { hardness: None, ..door(7, 0, 1, 0.0) };
+    let graph = RouteGraph::new(rooms(2), vec![unknown]);
+    assert!(graph.tree(&start(0)).best(1).is_none());
+    assert_eq!(blockage(&graph, &start(0), &[1]), Blockage::Doors(vec![7]));
+}
+
+#[test]
+fn metres_are_weighed_from_crossing_point_to_crossing_point() {
+    // two rooms side by side; the shared wall lies at x = 10, the start 3 m left of it and 4 m below its lower end
+    let room = |x0, hardness| RouteRoom {
+        rect: Rect::new(x0, 0.0, x0 + 10.0, 10.0),
+        hardness_per_m: Some(hardness),
+    };
+    let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
+    let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
+    let tree = graph.tree(&Start { rooms: vec![0], at: Point::new(7.0, 4.0) });
+    let arrival = tree.best(1).unwrap();
+    assert_eq!((arrival.at, arrival.leg, arrival.cost), (Point::new(10.0, 8.0), 5.0, 5.5));
+    let (arrival, last) = tree.best_at(&graph, &[1], Point::new(13.0, 8.0)).unwrap();
+    assert_eq!((tree.arrivals[arrival].room, last), (1, 6.0));
+}
+
+#[test]
+fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() {
+    // a corridor 20 m long, walked at 1 a metre but for a pipe between 9 and 10 m; on the knees 4 a metre all along
+    let room =
+        |x0, x1, hardness| RouteRoom { rect: Rect::new(x0, 0.0, x1, 2.0), hardness_per_m: Some(hardness) };
+    let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];
+    let change = |number, from, to, x0, x1| RouteDoor {
+        crossing: Rect::new(x0, 0.0, x1, 2.0),
+        one_way: true,
+        ..door(number, from, to, 0.5)
+    };
+    let doors = vec![change(1, 0, 2, 0.0, 9.0), change(2, 2, 1, 10.0, 20.0)];
+    let graph = RouteGraph::new(rooms, doors);
+    let tree = graph.tree(&Start { rooms: vec![0], at: Point::new(1.0, 1.0) });
+    let (arrival, last) = tree.best_at(&graph, &[1], Point::new(19.0, 1.0)).unwrap();
+    assert!((tree.arrivals[arrival].cost + last - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
+    let at: Vec<Point> = tree.way(arrival).iter().map(|arrival| arrival.at).collect();
+    assert_eq!(at, [Point::new(1.0, 1.0), Point::new(9.0, 1.0), Point::new(10.0, 1.0)]);
+}

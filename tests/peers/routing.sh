@@ -1,0 +1,22 @@
+#!/bin/bash
+# tests/peers/routing.sh PEERS WORK: one stored route through our view beside SpatiaLite's VirtualRouting, on the same
+# graphs and pairs, in one run. PEERS holds the peers' gen.py and bench.py; WORK is a folder for what is made.
+# Needs: mod_spatialite (Debian: libsqlite3-mod-spatialite), a python3 whose sqlite3 loads extensions (PYTHON), and
+# one with numpy and scipy for the graphs (GEN_PYTHON). SIZES="1000 10000" for less.
+set -euo pipefail
+PEERS=$(readlink -f "$1"); mkdir -p "$2"; WORK=$(readlink -f "$2"); HERE=$(dirname "$(readlink -f "$0")")
+PYTHON=${PYTHON:-/usr/bin/python3}; GEN_PYTHON=${GEN_PYTHON:-python3}; SIZES=${SIZES:-1000 10000 100000}
+cd "$HERE/../.."
+cargo build --release -p adit-db --example load_graph
+LOAD=${CARGO_TARGET_DIR:-target}/release/examples/load_graph
+for n in $SIZES; do
+  [ -f "$WORK/g/$n/doors.u32" ] || "$GEN_PYTHON" "$PEERS/gen.py" "$WORK/g" "$n"
+  rm -f "$WORK/site-$n.db"
+  keep=$(( n <= 1000 ? 200 : n <= 10000 ? 50 : 5 ))
+  starts=$("$PYTHON" "$HERE/routing.py" starts "$WORK/g/$n" $keep)
+  # shellcheck disable=SC2086
+  "$LOAD" "$WORK/g/$n/doors.u32" "$n" "$WORK/site-$n.db" $starts
+  # makes spatialite.db; its own figures come without a second tool between them
+  BUDGET=1 "$PYTHON" "$PEERS/bench.py" spatialite "$WORK/g" "$n" > /dev/null
+  "$PYTHON" "$HERE/routing.py" measure "$WORK/g/$n" "$keep" "$WORK/site-$n.db"
+done

@@ -1,0 +1,192 @@
+//! Bad input gets a clear error that names the place, and the database of before stays as it was.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use std::fs;
+use std::process::Command;
+
+use adit_tests::TestSite;
+
+/// Builds the paper's example, spoils one of its files, and expects a build to fail with these words,
+/// status 2, and an untouched database.
+#[track_caller]
+fn spoiled(file: &str, from: &str, to: &str, words: &[&str]) {
+    let site = TestSite::example("paper").built();
+    let before = fs::read(site.path().join("site.db")).unwrap();
+    site.edit(file, from, to);
+    site.adit("build", &["--reseed"]).expecting(2).complains(words);
+    assert_eq!(fs::read(site.path().join("site.db")).unwrap(), before, "the database was touched");
+}
+
+#[test]
+fn an_unknown_key_in_a_map() {
+    spoiled("map.toml", "depth = ", "dept = ", &["map.toml", "dept", "depth"]);
+}
+
+#[test]
+fn an_unknown_key_in_a_site() {
+    spoiled("site.toml", "rooms", "room", &["site.toml", "room", "rooms"]);
+}
+
+#[test]
+fn a_nan_in_a_map() {
+    spoiled("map.toml", "19.1", "nan", &["map.toml", "nan", "finite"]);
+}
+
+#[test]
+fn a_negative_height() {
+    spoiled("map.toml", "height = 15.0", "height = -15.0", &["map.toml", "-15", "height"]);
+}
+
+#[test]
+fn a_negative_width_of_a_state() {
+    spoiled("robots.toml", "width = 3.0", "width = -3.0", &["robots.toml", "-3", "width"]);
+}
+
+#[test]
+fn an_obstacle_outside_of_the_map() {
+    spoiled("map.toml", "[19.1, 6.0, 29.5, 16.5]", "[119.1, 6.0, 129.5, 16.5]", &["map.toml", "outside"]);
+}
+
+#[test]
+fn a_start_inside_an_obstacle() {
+    spoiled("map.toml", "at = [9.55, 8.25]", "at = [25.0, 10.0]", &["home", "inside", "obstacle"]);
+}
+
+#[test]
+fn a_place_named_like_a_room() {
+    spoiled("map.toml", "name = \"home\"", "name = \"d\"", &["`d`", "room"]);
+}
+
+#[test]
+fn a_rule_file_with_a_syntax_error() {
+    let site = TestSite::example("paper");
+    site.copy_rules("paper");
+    let site = site.built();
+    let before = fs::read(site.path().join("site.db")).unwrap();
+    site.edit("rules/doors.rhai", "by hardness where first", "by hardness were first");
+    let ran = site.adit("build", &[]).expecting(2);
+    ran.complains(&["doors.rhai", "were", "where"]);
+    assert_eq!(fs::read(site.path().join("site.db")).unwrap(), before);
+    site.adit("check", &[]).expecting(1).complains(&["doors.rhai"]);
+}
+
+#[test]
+fn a_rule_that_misspells_a_property() {
+    let site = TestSite::example("paper");
+    site.copy_rules("paper");
+    site.edit("rules/doors.rhai", "door.distance1 *", "door.distnce1 *");
+    site.adit("build", &[]).expecting(2).complains(&["doors.rhai", "distnce1", "distance1"]);
+}
+
+#[test]
+fn an_empty_robot_table() {
+    let site = TestSite::example("paper").with("robots.toml", "");
+    site.adit("build", &[]).expecting(2).complains(&["robots.toml", "[[robots]]"]);
+}
+
+#[test]
+fn a_start_inside_an_obstacle_on_the_command_line() {
+    let site = TestSite::example("paper").built();
+    site.adit("route", &["25,10", "e"]).expecting(2).complains(&["25", "obstacle"]);
+}
+
+#[test]
+fn a_start_outside_of_the_map() {
+    let site = TestSite::example("paper").built();
+    site.adit("route", &["-3.5,2", "e"]).expecting(2).complains(&["-3.5", "outside"]);
+}
+
+fn ros_site(image: &str) -> TestSite {
+    TestSite::example("paper")
+        .with("site.toml", "name = \"ros\"\nmap = \"map.yaml\"\nrobots = \"robots.toml\"\n")
+        .with(
+            "map.yaml",
+            &format!(
+                "image: {image}\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n\
+                 occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+            ),
+        )
+}
+
+#[test]
+fn a_missing_image() {
+    ros_site("floor.pgm").adit("build", &[]).expecting(2).complains(&["map.yaml", "floor.pgm"]);
+}
+
+#[test]
+fn a_16_bit_pgm() {
+    let site = ros_site("floor.pgm");
+    site.write("floor.pgm", [b"P5\n4 4\n65535\n".as_slice(), &[255; 32]].concat());
+    site.adit("build", &[]).expecting(2).complains(&["floor.pgm", "16"]);
+}
+
+#[test]
+fn a_truncated_image() {
+    let site = ros_site("floor.pgm");
+    site.write("floor.pgm", [b"P5\n40 40\n255\n".as_slice(), &[255; 100]].concat());
+    site.adit("build", &[]).expecting(2).complains(&["floor.pgm"]);
+}
+
+#[test]
+fn an_image_of_sixty_thousand_pixels_squared() {
+    let site = ros_site("floor.pgm");
+    site.write("floor.pgm", b"P5\n60000 60000\n255\n");
+    site.adit("build", &[]).expecting(2).complains(&["floor.pgm", "60000"]);
+}
+
+#[test]
+fn a_database_of_a_newer_version() {
+    let site = TestSite::example("paper").built();
+    site.outside_edit("PRAGMA user_version = 999");
+    for verb in ["build", "history"] {
+        site.adit(verb, &[]).expecting(2).complains(&["site.db", "newer"]);
+    }
+}
+
+#[test]
+fn a_file_that_is_no_database() {
+    let site = TestSite::example("paper").with("site.db", "this is a shopping list, not a database, is it?");
+    site.adit("build", &[]).expecting(2).complains(&["site.db"]);
+    assert!(site.read("site.db").starts_with("this is a shopping list"));
+}
+
+#[test]
+fn a_locked_database() {
+    let site = TestSite::example("paper").built();
+    let mut holder = Command::new("python3")
+        .args([
+            "-c",
+            "import sqlite3, sys, time
+db = sqlite3.connect(sys.argv[1], isolation_level=None)
+db.execute('BEGIN EXCLUSIVE')
+print('held', flush=True)
+time.sleep(60)",
+        ])
+        .arg(site.path().join("site.db"))
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = [0; 5];
+    std::io::Read::read_exact(holder.stdout.as_mut().unwrap(), &mut line).unwrap();
+    let ran = site.adit("tune", &["robots", "SQUAT", "hardness", "3"]);
+    holder.kill().unwrap();
+    holder.wait().unwrap();
+    ran.expecting(2).complains(&["site.db", "locked"]);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
+}
+
+#[test]
+fn a_read_only_folder() {
+    let site = TestSite::example("paper").built();
+    Command::new("chmod").args(["-R", "a=rX"]).arg(site.path()).status().unwrap();
+    let mut build = if Command::new("id").arg("-u").output().unwrap().stdout == b"0\n" {
+        let mut setpriv = Command::new("setpriv");
+        setpriv.args(["--reuid=65534", "--regid=65534", "--clear-groups"]).arg(adit_tests::adit());
+        setpriv
+    } else {
+        Command::new(adit_tests::adit())
+    };
+    let ran = adit_tests::Ran::new(&build.arg("build").arg(site.path()).output().unwrap());
+    Command::new("chmod").args(["-R", "u+w"]).arg(site.path()).status().unwrap();
+    ran.expecting(2).complains(&["site.db"]);
+}

@@ -1,0 +1,91 @@
+//! Real occupancy maps build end to end, and a route leads across each.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use std::path::Path;
+
+use adit_tests::{TestSite, shared};
+
+const ROBOTS: &str = r#"
+[[robots]]
+state = "DRIVE"
+action = "DRIVE"
+height = 1.2
+width = 0.35
+hardness = 1.0
+
+[[robots]]
+state = "TUCKED"
+action = "CREEP"
+height = 0.5
+width = 0.22
+hardness = 3.0
+"#;
+
+/// A site on a map of somebody else's; `places` are points on its floor.
+fn site(map: &Path, places: &[(&str, [f64; 2])]) -> TestSite {
+    let mut text =
+        format!("name = \"{}\"\nmap = \"{}\"\nstarts = [\"here\"]\n", map.display(), map.display());
+    for (name, [x, y]) in places {
+        text = format!("{text}[[place]]\nname = \"{name}\"\nat = [{x}, {y}]\n");
+    }
+    TestSite::empty().with("robots.toml", ROBOTS).with("site.toml", &text)
+}
+
+#[track_caller]
+fn leads_across(map: &str, here: [f64; 2], there: [f64; 2]) {
+    let Some(map) = shared(map) else { return };
+    let site = site(&map, &[("here", here), ("there", there)]).built();
+    let rows = site.sqlite3("SELECT status, cost > 0 FROM route WHERE start = 'here' AND goal = 'there'");
+    assert_eq!(rows, ["ok|1"]);
+    let picture = site.path().join("map.png");
+    site.adit("draw", &["-o", picture.to_str().unwrap(), "--route", "here", "there"]).expect_status(0);
+    assert!(std::fs::metadata(picture).unwrap().len() > 10_000);
+}
+
+#[test]
+fn nav2_depot() {
+    leads_across("data/nav2/depot.yaml", [2.0, 7.0], [28.0, 7.0]);
+}
+
+#[test]
+fn nav2_tb3_sandbox() {
+    leads_across("data/nav2/tb3_sandbox.yaml", [-2.0, -0.5], [1.9, 0.6]);
+}
+
+#[test]
+fn turtlebot3_world() {
+    leads_across("data/turtlebot3/map.yaml", [-2.0, -0.5], [1.9, 0.6]);
+}
+
+#[test]
+fn aws_bookstore() {
+    leads_across("data/aws-robomaker/bookstore_map.yaml", [-2.5, 6.2], [3.0, -3.3]);
+}
+
+#[test]
+fn aws_small_warehouse_rotated() {
+    leads_across("data/aws-robomaker/small_warehouse_005_map.yaml", [-4.0, -2.85], [5.5, -4.35]);
+}
+
+#[test]
+fn aws_small_warehouse_as_scanned() {
+    let Some(image) = shared("data/aws-robomaker/small_warehouse_005_map.pgm") else { return };
+    let yaml = format!(
+        "image: {}\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+        image.display()
+    );
+    let folder = TestSite::empty().with("warehouse.yaml", &yaml);
+    let site =
+        site(&folder.path().join("warehouse.yaml"), &[("here", [5.0, 2.7]), ("there", [15.0, 7.7])]).built();
+    assert_eq!(site.sqlite3("SELECT status FROM route WHERE start = 'here' AND goal = 'there'"), ["ok"]);
+}
+
+#[test]
+fn mir_maze() {
+    leads_across("data/mir_robot/maze.yaml", [2.0, 2.0], [18.0, 18.0]);
+}
+
+#[test]
+fn stage_lse_arena() {
+    leads_across("data/stage/lse_arena.yaml", [0.6, 0.6], [3.4, 2.4]);
+}

@@ -1,0 +1,106 @@
+//! The domain expert tunes a table: one cell, one transaction, and what changed is said.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use adit_tests::TestSite;
+
+#[test]
+fn a_hardness_is_tuned_and_what_follows_is_said() {
+    let site = TestSite::example("paper").built();
+    let change = site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--json"]).expecting(0).json();
+    assert_eq!(change["doors"]["changed"], 2);
+    assert_eq!(change["rooms"]["changed"], 0);
+    let doors = site.sqlite3("SELECT door, round(hardness, 3) FROM doors WHERE door IN (3, 4)");
+    assert_eq!(doors, ["3|32.556", "4|23.55"]);
+    assert_eq!(site.sqlite3("SELECT round(cost, 3) FROM route WHERE start = 'f' AND goal = 'e'"), ["83.107"]);
+}
+
+#[test]
+fn a_dry_run_says_the_same_and_changes_nothing() {
+    let site = TestSite::example("paper").built();
+    let before = site.sqlite3("SELECT * FROM doors");
+    let dry =
+        site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--dry-run", "--json"]).expecting(0).json();
+    assert_eq!(dry["doors"]["changed"], 2);
+    assert_eq!(site.sqlite3("SELECT * FROM doors"), before);
+    assert!(site.sqlite3("SELECT * FROM history").is_empty());
+    let wet = site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--json"]).expecting(0).json();
+    assert_eq!(wet["doors"], dry["doors"]);
+}
+
+#[test]
+fn an_edit_is_in_the_history_and_undo_takes_it_back() {
+    let site = TestSite::example("paper").built();
+    let before = site.sqlite3("SELECT door, hardness FROM doors ORDER BY door");
+    site.adit("tune", &["robots", "SQUAT", "hardness", "3", "--why", "new knee pads"]).expect_status(0);
+    let history = site.adit("history", &["--json"]).expecting(0).json();
+    assert_eq!(history[0]["old"].to_string().trim_matches('"'), "4.0");
+    assert_eq!(history[0]["new"].to_string().trim_matches('"'), "3.0");
+    assert_eq!(history[0]["why"], "new knee pads");
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT door, hardness FROM doors ORDER BY door"), before);
+    site.adit("undo", &[]).expecting(2).complains(&["nothing to undo"]);
+}
+
+#[test]
+fn a_changed_width_cuts_the_layers_anew_as_a_fresh_build_would() {
+    let site = TestSite::example("hospital").built();
+    site.adit("tune", &["robots", "STAND", "width", "0.7"]).expect_status(0);
+    let tuned = site.sqlite3("SELECT state, x0, y0, x1, y1, hardness FROM rooms ORDER BY room");
+    let fresh = TestSite::example("hospital");
+    fresh.edit("robots.toml", "width = 0.6", "width = 0.7");
+    let fresh = fresh.built();
+    assert_eq!(fresh.sqlite3("SELECT state, x0, y0, x1, y1, hardness FROM rooms ORDER BY room"), tuned);
+}
+
+#[test]
+fn a_state_is_added_and_removed() {
+    let site = TestSite::example("paper").built();
+    let before = site.sqlite3("SELECT door, hardness, action FROM doors ORDER BY door");
+    site.adit("tune", &["robots", "ROLL", "--add", "action=ROLL", "height=3", "width=2", "hardness=6"])
+        .expect_status(0);
+    assert_eq!(site.sqlite3("SELECT passable FROM doors WHERE door = 1"), ["1"]);
+    site.adit("tune", &["robots", "ROLL", "--remove"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT door, hardness, action FROM doors ORDER BY door"), before);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM robots WHERE state = 'ROLL'"), ["1"]);
+}
+
+#[test]
+fn an_outside_edit_makes_routes_stale_until_the_next_build() {
+    let site = TestSite::example("paper").built();
+    site.outside_edit("UPDATE robots SET hardness = 3 WHERE state = 'SQUAT'");
+    assert_eq!(site.sqlite3("SELECT status FROM route WHERE start = 'f' AND goal = 'e'"), ["stale"]);
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(
+        site.sqlite3("SELECT status, round(cost, 3) FROM route WHERE start = 'f' AND goal = 'e'"),
+        ["ok|83.107"]
+    );
+}
+
+#[test]
+fn the_robot_table_lives_in_the_database_after_the_first_build() {
+    let site = TestSite::example("paper").built();
+    site.edit("robots.toml", "hardness = 4.0", "hardness = 2.5");
+    site.adit("build", &[]).expecting(0).complains(&["robots.toml", "SQUAT", "--reseed"]);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
+    site.adit("build", &["--reseed"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["2.5"]);
+}
+
+#[test]
+fn bad_edits_are_refused_and_nothing_is_half_done() {
+    let site = TestSite::example("paper").built();
+    let before = site.sqlite3("SELECT * FROM robots");
+    for (edit, words) in [
+        (["robots", "SQUAT", "hardness", "-3"], vec!["hardness", "-3"]),
+        (["robots", "SQUAT", "hardness", "soft"], vec!["hardness", "soft"]),
+        (["robots", "SQAT", "hardness", "3"], vec!["SQAT", "SQUAT"]),
+        (["robots", "SQUAT", "hardnes", "3"], vec!["hardnes", "hardness"]),
+        (["robot", "SQUAT", "hardness", "3"], vec!["robot", "robots"]),
+        (["doors", "7", "hardness", "3"], vec!["doors", "rule"]),
+    ] {
+        site.adit("tune", &edit).expecting(2).complains(&words);
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM robots"), before);
+    assert!(site.sqlite3("SELECT * FROM history").is_empty());
+}
