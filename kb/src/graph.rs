@@ -6,7 +6,7 @@ use adit_db::door::Door;
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{RouteDoor, RouteGraph, RouteRoom, Start};
+use adit_planners::routes::{RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
 pub struct SiteGraph {
@@ -38,10 +38,8 @@ impl SiteGraph {
         let room_by_key: BTreeMap<i64, usize> =
             rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
         let room_by_name = rooms.iter().enumerate().map(|(index, room)| (room.name.clone(), index)).collect();
-        let route_rooms = rooms
-            .iter()
-            .map(|room| RouteRoom { rect: rect_of(room), hardness_per_m: room.hardness.value })
-            .collect();
+        let route_rooms =
+            rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking(room) }).collect();
         let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
         let graph = RouteGraph::new(route_rooms, route_doors);
         Self { rooms, doors, places, graph, room_by_key, room_by_name }
@@ -134,6 +132,16 @@ impl SiteGraph {
 fn rect_of(room: &Room) -> Rect {
     let [x0, y0, x1, y1] = room.rect;
     Rect::new(x0, y0, x1, y1)
+}
+
+/// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh
+/// metres only where a rule says so.
+fn walking(room: &Room) -> Walking {
+    match (room.hardness.value, &room.layer) {
+        (Some(hardness), _) => Walking::PerMetre(hardness),
+        (None, Some(_)) => Walking::Unknown,
+        (None, None) => Walking::OnDoors,
+    }
 }
 
 fn route_door(door: &Door, rooms: &BTreeMap<i64, usize>) -> Option<RouteDoor> {

@@ -54,9 +54,9 @@ fn shut(door: &Door, rules: &Rules) -> String {
     let width = least([Some(door.width), door.side1.width, door.side2.width]);
     let height = least([door.side1.height, door.side2.height, None]);
     let needed = if height.is_finite() {
-        format!("a state lower than {height} m and narrower than {width} m would be needed")
+        format!("a state lower than {height:.2} m and narrower than {width:.2} m would be needed")
     } else {
-        format!("a state narrower than {width} m would be needed")
+        format!("a state narrower than {width:.2} m would be needed")
     };
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
     let [x, y] = door.at;
@@ -112,8 +112,12 @@ fn apart(
             )
         }
         _ => format!(
-            "the widest way is {:.2} m wide at ({:.2}, {:.2}): too narrow for the states that rules let move, or for the grid of {step} m",
-            way.width, way.at.x, way.at.y
+            "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: cells of {step:.3} m \
+             are too coarse for it, so say `grid = {:.3}` in site.toml (or the rules do not let that state move)",
+            way.width,
+            way.at.x,
+            way.at.y,
+            step / 2.0
         ),
     })
 }

@@ -10,11 +10,10 @@ use crate::graph::{End, SiteGraph};
 use crate::site::Starts;
 use crate::suggest::did_you_mean;
 
-/// Up to so many rooms every place and room is a start, unless the site says otherwise; above, places are.
+/// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
+/// where rooms are by state, places are: a tree by state takes tens of milliseconds, and who asks names a place or a
+/// point, not a piece of a layer.
 const ALL_STARTS_UP_TO: usize = 2_000;
-/// The same where rooms are by state: a tree there takes tens of milliseconds instead of one, and who asks names a
-/// place or a point, not a piece of a layer.
-const ALL_STARTS_BY_STATE_UP_TO: usize = 500;
 
 /// The trees to be kept.
 #[derive(Clone, Debug, Default)]
@@ -31,11 +30,10 @@ pub struct Plan {
 /// `robots` are the robots of the site; `wanted` is what `site.toml` says.
 pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Result<Plan> {
     let by_state = !graph.robots().is_empty();
-    let most = if by_state { ALL_STARTS_BY_STATE_UP_TO } else { ALL_STARTS_UP_TO };
     let names: Vec<&str> = match wanted {
         Some(Starts::Named(names)) => known(graph, names)?,
         Some(Starts::All) => graph.names().collect(),
-        None if graph.rooms.len() <= most => graph.names().collect(),
+        None if !by_state && graph.rooms.len() <= ALL_STARTS_UP_TO => graph.names().collect(),
         None => graph.places.iter().map(|place| place.place.as_str()).collect(),
     };
     let mut plan = Plan::default();
@@ -218,7 +216,7 @@ fn arrival_row(graph: &SiteGraph, tree: &Tree, nodes: &Nodes, index: usize) -> T
         };
     };
     let entry = &tree.arrivals[before];
-    let walked = graph.graph().rooms()[entry.room].hardness_per_m.is_some();
+    let walked = graph.graph().rooms()[entry.room].walking.per_m().is_some();
     TreeRow {
         node,
         prev: Some(nodes.of[before]),

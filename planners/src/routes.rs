@@ -25,8 +25,29 @@ pub use tree::{Arrival, Tree};
 pub struct RouteRoom {
     /// Its rectangle.
     pub rect: Rect,
-    /// Hardness of a metre walked in it; `None` where all hardness lies on the doors (the paper's Table 6).
-    pub hardness_per_m: Option<f64>,
+    /// What walking in it weighs.
+    pub walking: Walking,
+}
+
+/// What walking in a room weighs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Walking {
+    /// Nothing by itself: all hardness lies on the doors (the paper's Table 6).
+    OnDoors,
+    /// So much a metre.
+    PerMetre(f64),
+    /// Unknown: no route enters.
+    Unknown,
+}
+
+impl Walking {
+    /// Hardness of a metre, where metres are weighed.
+    pub fn per_m(self) -> Option<f64> {
+        match self {
+            Self::PerMetre(hardness) => Some(hardness),
+            Self::OnDoors | Self::Unknown => None,
+        }
+    }
 }
 
 /// A door as the search sees it.
@@ -51,6 +72,11 @@ pub struct RouteDoor {
 }
 
 impl RouteDoor {
+    /// Whether it is an area in which the robot changes its shape, not a segment to pass.
+    pub fn is_change(&self) -> bool {
+        self.crossing.dx() > 0.0 && self.crossing.dy() > 0.0
+    }
+
     /// The hardness of passing it, where it can be passed.
     pub fn weight(&self) -> Option<f64> {
         self.hardness.filter(|hardness| self.passable && !hardness.is_nan())
@@ -82,7 +108,8 @@ impl RouteGraph {
             graph.add_node(());
         }
         for (index, door) in doors.iter().enumerate() {
-            if door.weight().is_some() {
+            let known = |room: usize| rooms[room].walking != Walking::Unknown;
+            if door.weight().is_some() && known(door.room1) && known(door.room2) {
                 let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
                 graph.add_edge(a, b, index as u32);
                 if !door.one_way {
@@ -91,6 +118,13 @@ impl RouteGraph {
             }
         }
         Self { rooms, doors, graph }
+    }
+
+    /// Whether a route may pass the door, by index.
+    fn is_open(&self, door: usize) -> bool {
+        let known = |room: usize| self.rooms[room].walking != Walking::Unknown;
+        let door = &self.doors[door];
+        door.weight().is_some() && known(door.room1) && known(door.room2)
     }
 
     /// The rooms, by index.

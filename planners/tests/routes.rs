@@ -2,7 +2,7 @@
 #![allow(clippy::float_cmp)] // sums of small whole numbers are exact
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Blockage, RouteDoor, RouteGraph, RouteRoom, Start, blockage};
+use adit_planners::routes::{Blockage, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage};
 use petgraph::algo::{bellman_ford, dijkstra};
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
@@ -21,7 +21,7 @@ fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
 }
 
 fn rooms(count: usize) -> Vec<RouteRoom> {
-    vec![RouteRoom { rect: Rect::new(0.0, 0.0, 1.0, 1.0), hardness_per_m: None }; count]
+    vec![RouteRoom { rect: Rect::new(0.0, 0.0, 1.0, 1.0), walking: Walking::OnDoors }; count]
 }
 
 fn start(room: usize) -> Start {
@@ -117,7 +117,7 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     // two rooms side by side; the shared wall lies at x = 10, the start 3 m left of it and 4 m below its lower end
     let room = |x0, hardness| RouteRoom {
         rect: Rect::new(x0, 0.0, x0 + 10.0, 10.0),
-        hardness_per_m: Some(hardness),
+        walking: Walking::PerMetre(hardness),
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
     let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
@@ -131,8 +131,10 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
 #[test]
 fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() {
     // a corridor 20 m long, walked at 1 a metre but for a pipe between 9 and 10 m; on the knees 4 a metre all along
-    let room =
-        |x0, x1, hardness| RouteRoom { rect: Rect::new(x0, 0.0, x1, 2.0), hardness_per_m: Some(hardness) };
+    let room = |x0, x1, hardness| RouteRoom {
+        rect: Rect::new(x0, 0.0, x1, 2.0),
+        walking: Walking::PerMetre(hardness),
+    };
     let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];
     let change = |number, from, to, x0, x1| RouteDoor {
         crossing: Rect::new(x0, 0.0, x1, 2.0),
@@ -146,4 +148,16 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     assert!((tree.arrivals[arrival].cost + last - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
     let at: Vec<Point> = tree.way(arrival).iter().map(|arrival| arrival.at).collect();
     assert_eq!(at, [Point::new(1.0, 1.0), Point::new(9.0, 1.0), Point::new(10.0, 1.0)]);
+}
+
+#[test]
+fn a_room_of_unknown_hardness_is_not_entered_and_its_door_is_named() {
+    // two rules that disagree about a room left its hardness unknown, and it was walked for nothing
+    let mut rooms = rooms(3);
+    rooms[1].walking = Walking::Unknown;
+    let graph = RouteGraph::new(rooms, vec![door(1, 0, 1, 1.0), door(2, 1, 2, 1.0)]);
+    let tree = graph.tree(&start(0));
+    assert!(tree.best(1).is_none() && tree.best(2).is_none());
+    assert_eq!(blockage(&graph, &start(0), &[2]), Blockage::Doors(vec![1, 2]));
+    assert!(graph.tree(&start(1)).best(1).is_none());
 }

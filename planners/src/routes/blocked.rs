@@ -34,7 +34,7 @@ pub fn blockage(graph: &RouteGraph, start: &Start, goals: &[usize]) -> Blockage 
             continue;
         }
         for &(next, door) in &leaving[room] {
-            let open = graph.doors[door].weight().is_some();
+            let open = graph.is_open(door);
             let total = shut + usize::from(!open);
             if least[next].is_none_or(|known| total < known) {
                 least[next] = Some(total);
@@ -51,7 +51,7 @@ pub fn blockage(graph: &RouteGraph, start: &Start, goals: &[usize]) -> Blockage 
     let Some((_, mut room)) = nearest else { return Blockage::Apart };
     let mut doors = Vec::new();
     while let Some((before, door)) = from[room] {
-        if graph.doors[door].weight().is_none() {
+        if !graph.is_open(door) {
             doors.push(graph.doors[door].door);
         }
         room = before;

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use petgraph::graph::NodeIndex;
 use petgraph::visit::EdgeRef;
 
-use super::{Arrival, RouteGraph, Start, Tree, crossing};
+use super::{Arrival, RouteGraph, Start, Tree, Walking, crossing};
 use crate::geometry::Point;
 
 /// An arrival is superfluous, too, where walking over from another one costs more by at most this share of its last
@@ -47,8 +47,16 @@ impl<'g> Search<'g> {
         let tree = Tree { arrivals: Vec::new(), of_room: vec![Vec::new(); graph.rooms().len()] };
         let over = vec![Vec::new(); graph.petgraph().edge_count()];
         let mut search = Self { graph, tree, queue: BinaryHeap::new(), found: Vec::new(), over };
-        for &room in &start.rooms {
-            search.wait(Arrival { room, from: None, cost: 0.0, leg: 0.0, at: start.at, hops: 0 });
+        for &room in start.rooms.iter().filter(|&&room| graph.rooms()[room].walking != Walking::Unknown) {
+            search.wait(Arrival {
+                room,
+                from: None,
+                cost: 0.0,
+                leg: 0.0,
+                at: start.at,
+                hops: 0,
+                by_change: false,
+            });
         }
         search
     }
@@ -86,7 +94,7 @@ impl<'g> Search<'g> {
     }
 
     fn per_m(&self, room: usize) -> f64 {
-        self.graph.rooms()[room].hardness_per_m.unwrap_or(0.0)
+        self.graph.rooms()[room].walking.per_m().unwrap_or(0.0)
     }
 
     fn is_superfluous(&self, arrival: &Arrival) -> bool {
@@ -111,6 +119,7 @@ impl<'g> Search<'g> {
     fn leave(&mut self, index: usize, arrival: Arrival) {
         let graph = self.graph;
         let entered_by = arrival.from.map(|(_, door)| door);
+        let just_changed = arrival.by_change;
         for edge in graph.petgraph().edges(NodeIndex::new(arrival.room)) {
             let door = &graph.doors()[*edge.weight() as usize];
             let Some(weight) = door.weight().filter(|_| Some(door.door) != entered_by) else { continue };
@@ -122,16 +131,19 @@ impl<'g> Search<'g> {
                     leg,
                     at,
                     hops: arrival.hops + 1,
+                    by_change: door.is_change(),
                 };
                 if !self.is_superfluous(&next) && !self.is_foreseen(edge.id().index(), &next) {
                     let found = self.wait(next);
                     self.over[edge.id().index()].push(found);
                 }
             };
-            match graph.rooms()[arrival.room].hardness_per_m {
+            match graph.rooms()[arrival.room].walking.per_m() {
                 None => pass(door.at, 0.0),
                 Some(per_m) => {
-                    for at in crossing::points(&door.crossing, arrival.at) {
+                    let points = crossing::points(&door.crossing, arrival.at);
+                    // one change of shape at a point is enough: a second one there would only shuffle rooms
+                    for at in points.filter(|at| !(just_changed && door.is_change() && *at == arrival.at)) {
                         pass(at, arrival.at.distance(at) * per_m);
                     }
                 }

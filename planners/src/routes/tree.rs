@@ -19,6 +19,8 @@ pub struct Arrival {
     pub at: Point,
     /// Doors passed.
     pub hops: u32,
+    /// Whether the last of them was a change of shape.
+    pub by_change: bool,
 }
 
 /// Least-cost ways from one start.
@@ -41,7 +43,7 @@ impl Tree {
         let arrivals = rooms.iter().flat_map(|&room| &self.of_room[room]);
         let reached = arrivals.map(|&index| {
             let arrival = &self.arrivals[index];
-            let per_m = graph.rooms()[arrival.room].hardness_per_m.unwrap_or(0.0);
+            let per_m = graph.rooms()[arrival.room].walking.per_m().unwrap_or(0.0);
             (index, arrival.at.distance(goal) * per_m)
         });
         let total = |(index, leg): &(usize, f64)| self.arrivals[*index].cost + leg;
