@@ -120,6 +120,9 @@ pub struct RouteArgs {
     /// Which robot, where the site has several
     #[arg(long)]
     pub robot: Option<String>,
+    /// Print every step, not only where the action changes
+    #[arg(long)]
+    pub steps: bool,
 }
 
 /// `adit tune`.
@@ -250,8 +253,29 @@ pub fn run(cli: &Cli) -> ExitCode {
     match outcome {
         Ok(status) => ExitCode::from(status),
         Err(error) => {
+            if cli.verb.wants_json() {
+                output::line(&serde_json::json!({"error": output::as_json(error.problems())}).to_string());
+            }
             output::problems(error.problems());
             ExitCode::from(2)
+        }
+    }
+}
+
+impl Verb {
+    fn wants_json(&self) -> bool {
+        match self {
+            Self::Demo(args) => args.json,
+            Self::New(args) => args.json,
+            Self::Build(args) => args.site.json,
+            Self::Route(args) => args.site.json,
+            Self::Tune(args) => args.site.json,
+            Self::Check(args) => args.site.json,
+            Self::Sql(args) => args.site.json,
+            Self::Draw(args) => args.site.json,
+            Self::History(args) => args.site.json,
+            Self::Undo(args) => args.site.json,
+            Self::Doctor(args) => args.site.json,
         }
     }
 }

@@ -65,7 +65,14 @@ impl std::error::Error for Error {}
 
 impl From<adit_db::Error> for Error {
     fn from(error: adit_db::Error) -> Self {
-        Self::said("database", error.to_string(), None)
+        let help = match &error {
+            adit_db::Error::Missing(_) => Some("`adit build` makes it".to_owned()),
+            adit_db::Error::NotAdit(_) => {
+                Some("build the site first, then make tables of your own in its site.db; or name another file with --db".to_owned())
+            }
+            _ => None,
+        };
+        Self::said("database", error.to_string(), help)
     }
 }
 

@@ -60,6 +60,12 @@ impl SiteGraph {
         self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
     }
 
+    /// The place whose node this is.
+    pub fn place_of(&self, node: i64) -> Option<&str> {
+        let index = usize::try_from(-node - 1).ok()?;
+        self.places.get(index).map(|place| place.place.as_str())
+    }
+
     /// The robots that have rooms of their own; none in the paper's modes.
     pub fn robots(&self) -> Vec<String> {
         let mut robots: Vec<String> = self

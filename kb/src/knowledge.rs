@@ -22,12 +22,12 @@ use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
-use crate::progress::Progress;
+use crate::progress::{Progress, Silent};
 use crate::report::{Before, Report, Routes};
 use crate::robots::RobotFile;
 use crate::site::{Rooms, Site};
 use crate::store::{LastBuild, Tables};
-use crate::{classes, rules, tables, trees};
+use crate::{classes, lint, rules, tables, trees};
 
 /// What a derivation starts from, besides the tables.
 pub(crate) struct Inputs {
@@ -37,6 +37,12 @@ pub(crate) struct Inputs {
     pub(crate) notes: Vec<String>,
     stage: Stage,
 }
+
+/// Something that the expert should know, though nothing is wrong.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(severity(advice))]
+struct Note(String);
 
 /// A site with its planners, ready to be built and edited.
 pub struct KnowledgeBase {
@@ -110,19 +116,29 @@ impl KnowledgeBase {
 
     /// Map, facts, rules, routes: into the site's database, all or nothing.
     pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
+        self.build_at(&self.database, progress)
+    }
+
+    fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
         let inputs = self.inputs(progress)?;
         let seed = RobotFile::read(&self.site.robots)?;
-        let fresh = !self.database.exists();
-        let outcome = self.build_into(&inputs, &seed, progress);
+        let fresh = !database.exists();
+        let outcome = self.build_into(database, &inputs, &seed, progress);
         if outcome.is_err() && fresh {
             // a first build that failed leaves no empty database behind; nothing of the user's is in it
-            std::fs::remove_file(&self.database).ok();
+            std::fs::remove_file(database).ok();
         }
         outcome
     }
 
-    fn build_into(&self, inputs: &Inputs, seed: &RobotFile, progress: &dyn Progress) -> Result<Report> {
-        let mut store = Store::open_or_create(&self.database)?;
+    fn build_into(
+        &self,
+        database: &Path,
+        inputs: &Inputs,
+        seed: &RobotFile,
+        progress: &dyn Progress,
+    ) -> Result<Report> {
+        let mut store = Store::open_or_create(database)?;
         store.transaction(|tx| {
             let notes = self.seed(tx, seed)?;
             let mut report = self.follow(tx, inputs, progress)?;
@@ -149,21 +165,21 @@ impl KnowledgeBase {
         if rehearse { store.rehearse(work) } else { store.transaction(work) }
     }
 
-    /// Problems of the rules, the tables and the map, found without building.
+    /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
+    /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<miette::Report>> {
         let rules = rules::load(&self.site, self.rules.as_deref())?;
-        let (_, _, notes) = self.site.world()?;
-        RobotFile::read(&self.site.robots)?;
-        let mut problems: Vec<miette::Report> = notes.into_iter().map(miette::Report::new).collect();
-        let told = if self.database.exists() {
-            Store::open_read_only(&self.database)?.snapshot(|tx| self.told(tx, &rules))?
-        } else {
-            Facts::from([
-                ("ROBOTS".to_owned(), tables::robots(&[])),
-                ("CHANGES".to_owned(), tables::changes(&[])),
-            ])
-        };
-        problems.extend(rules.check(&self.schema(&told)).into_iter().map(miette::Report::new));
+        let unread = lint::unread(&rules, &self.planners);
+        let said: Vec<String> = unread.iter().map(ToString::to_string).collect();
+        let mut problems: Vec<miette::Report> = unread.into_iter().map(miette::Report::new).collect();
+        let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
+        let scratch = folder.path().join("check.db");
+        if self.database.exists() {
+            Store::open_read_only(&self.database)?.backup(&scratch)?;
+        }
+        let report = self.build_at(&scratch, &Silent)?;
+        let notes = report.notes.into_iter().filter(|note| !said.contains(note));
+        problems.extend(notes.map(|note| miette::Report::new(Note(note))));
         Ok(problems)
     }
 
@@ -173,7 +189,9 @@ impl KnowledgeBase {
         let rules = rules::load(&self.site, self.rules.as_deref())?;
         let (world, map_report, notes) = self.site.world()?;
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
-        let notes = notes.into_iter().map(|note| note.to_string()).collect();
+        let notes = notes.into_iter().map(|note| note.to_string());
+        let unread = lint::unread(&rules, &self.planners).into_iter().map(|problem| problem.to_string());
+        let notes = unread.chain(notes).collect();
         Ok(Inputs { rules, world, map_report, notes, stage })
     }
 
@@ -342,7 +360,7 @@ impl KnowledgeBase {
             let numbered = (batch as i64 * 64 + 1..).zip(made);
             if comparable {
                 for (tree, rows) in numbered {
-                    if routes.differs(before, &tx.tree_rows(tree)?, &rows, graph) {
+                    if routes.differs(before, (plan.name(tree), &tx.tree_rows(tree)?), &rows, graph) {
                         routes.rows += tx.put_tree(tree, rows)?;
                     }
                 }

@@ -25,6 +25,7 @@ pub mod edit;
 mod error;
 mod graph;
 mod knowledge;
+mod lint;
 mod progress;
 mod reason;
 mod report;

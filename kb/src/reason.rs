@@ -35,7 +35,7 @@ pub fn no_route(
                 .iter()
                 .take(DESCRIBED)
                 .filter_map(|door| graph.door(i64::from(*door)))
-                .map(|door| shut(door, rules))
+                .map(|door| shut(graph, door, rules))
                 .collect();
             let more = doors.len().saturating_sub(DESCRIBED);
             let more = if more > 0 { format!("; and {more} doors more") } else { String::new() };
@@ -49,7 +49,7 @@ pub fn no_route(
 }
 
 /// A door that lets no state through, and what would fit.
-fn shut(door: &Door, rules: &Rules) -> String {
+fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     let least = |values: [Option<f64>; 3]| values.into_iter().flatten().fold(f64::INFINITY, f64::min);
     let width = least([Some(door.width), door.side1.width, door.side2.width]);
     let height = least([door.side1.height, door.side2.height, None]);
@@ -64,7 +64,13 @@ fn shut(door: &Door, rules: &Rules) -> String {
     match (door.passable.value, rule) {
         (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
         (Some(false), None) => format!("{place} lets no state through: {needed}"),
-        _ => format!("{place} has no hardness: no rule gives it one"),
+        _ if door.hardness.value.is_none() => format!("{place} has no hardness: no rule gives it one"),
+        _ => {
+            let unknown = [door.side1.room, door.side2.room].into_iter().filter_map(|room| graph.room(room));
+            let named = unknown.map(|room| &graph.rooms[room]).find(|room| room.hardness.value.is_none());
+            let room = named.map_or("another room", |room| room.name.as_str());
+            format!("{place} leads into room {room}, whose hardness is unknown")
+        }
     }
 }
 

@@ -70,7 +70,7 @@ pub struct Change {
 }
 
 /// The routes that are kept.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Routes {
     /// Names that routes start from.
     pub starts: usize,
@@ -80,17 +80,43 @@ pub struct Routes {
     pub changed: Option<usize>,
     /// Those of them that lead another way.
     pub rerouted: Option<usize>,
+    /// Of those between places the ones whose cost changed most, at most ten.
+    pub changes: Vec<RouteChange>,
 }
+
+/// A route between two places, before and now.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RouteChange {
+    /// Where from.
+    pub start: String,
+    /// Where to.
+    pub goal: String,
+    /// Cost of before; `None`: there was no route.
+    pub old: Option<f64>,
+    /// Cost of now; `None`: there is no route.
+    pub new: Option<f64>,
+    /// Whether it leads another way.
+    pub other_way: bool,
+}
+
+/// How many routes are listed one by one.
+const ROUTES_LISTED: usize = 10;
 
 impl Routes {
     /// None yet; `comparable` where routes of before can be compared.
     pub fn new(starts: usize, comparable: bool) -> Self {
         let none = comparable.then_some(0);
-        Self { starts, rows: 0, changed: none, rerouted: none }
+        Self { starts, changed: none, rerouted: none, ..Self::default() }
     }
 
     /// Counts what differs between a tree of before and of now; whether its rows must be written.
-    pub fn differs(&mut self, before: &Before, old: &[TreeRow], new: &[TreeRow], graph: &SiteGraph) -> bool {
+    pub fn differs(
+        &mut self,
+        before: &Before,
+        (start, old): (&str, &[TreeRow]),
+        new: &[TreeRow],
+        graph: &SiteGraph,
+    ) -> bool {
         let now = |row: &TreeRow| {
             row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0)
         };
@@ -100,15 +126,24 @@ impl Routes {
         let (old_rows, new_rows) = (by_node(old), by_node(new));
         let (mut changed, mut rerouted) = (0, 0);
         for node in old_rows.keys().chain(new_rows.keys().filter(|node| !old_rows.contains_key(node))) {
-            let (Some(old_row), Some(new_row)) = (old_rows.get(node), new_rows.get(node)) else {
-                (changed, rerouted) = (changed + 1, rerouted + 1);
-                continue;
-            };
-            let dearer_or_cheaper = then(old_row).total_cmp(&now(new_row)).is_ne();
-            let other_way = old_row.prev != new_row.prev || way(&old_rows, *node) != way(&new_rows, *node);
-            changed += usize::from(dearer_or_cheaper || other_way);
+            let (old_row, new_row) = (old_rows.get(node), new_rows.get(node));
+            let costs = (old_row.map(|row| then(row)), new_row.map(|row| now(row)));
+            let other_way = old_row.map(|row| row.prev) != new_row.map(|row| row.prev)
+                || way(&old_rows, *node) != way(&new_rows, *node);
+            let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
+            changed += usize::from(differ || other_way);
             rerouted += usize::from(other_way);
+            if differ && let Some(place) = graph.place_of(*node) {
+                let (start, goal) = (start.to_owned(), place.to_owned());
+                self.changes.push(RouteChange { start, goal, old: costs.0, new: costs.1, other_way });
+            }
         }
+        let by = |change: &RouteChange| match (change.old, change.new) {
+            (Some(old), Some(new)) => (new - old).abs(),
+            _ => f64::INFINITY,
+        };
+        self.changes.sort_by(|a, b| by(b).total_cmp(&by(a)));
+        self.changes.truncate(ROUTES_LISTED);
         self.changed = self.changed.map(|count| count + changed);
         self.rerouted = self.rerouted.map(|count| count + rerouted);
         old != new
@@ -139,7 +174,7 @@ pub struct Report {
     pub rooms: Counts,
     /// Doors.
     pub doors: Counts,
-    /// The first rooms and doors that changed.
+    /// The rooms and doors that changed; none where all were cut anew.
     pub changes: Vec<Change>,
     /// Whether rooms were cut anew.
     pub cut_anew: bool,
@@ -152,9 +187,6 @@ pub struct Report {
     /// What the expert should know.
     pub notes: Vec<String>,
 }
-
-/// How many changes are listed one by one.
-const LISTED: usize = 20;
 
 impl Report {
     pub(crate) fn new(
@@ -179,7 +211,6 @@ impl Report {
             changed_doors = doors.len();
             changes.extend(doors);
         }
-        changes.truncate(LISTED);
         let mut notes = inputs.notes.clone();
         notes.extend(gaps(&derived.conclusions, graph));
         Self {
@@ -256,20 +287,14 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph) -> Vec<String> {
             waiting.needs.join(", ")
         ));
     }
-    for conflict in &conclusions.conflicts {
-        let said: Vec<String> =
-            conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
-        notes.push(format!(
-            "{} of {} is unknown, since rules disagree: {}",
-            conflict.property,
-            conflict.key,
-            said.join(", ")
-        ));
+    notes.extend(conflicts(conclusions));
+    let unweighed =
+        graph.rooms.iter().filter(|room| room.hardness.value.is_none() && room.layer.is_some()).count();
+    if unweighed > 0 {
+        notes.push(format!("{unweighed} rooms have no ROOMS.hardness, so no route enters them"));
     }
     let missing = |what: &str, count: usize| {
-        (count > 0).then(|| {
-            format!("{count} doors have no DOORS.{what}: no rule gives them one, so no route passes them")
-        })
+        (count > 0).then(|| format!("{count} doors have no DOORS.{what}, so no route passes them"))
     };
     let unweighed =
         graph.doors.iter().filter(|door| door.hardness.value.is_none() && door.passable.value != Some(false));
@@ -277,4 +302,23 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph) -> Vec<String> {
     notes.extend(missing("hardness", unweighed.count()));
     notes.extend(missing("passable", undecided.count()));
     notes
+}
+
+/// Objects on which the same rules disagree, in one sentence.
+fn conflicts(conclusions: &Conclusions) -> Vec<String> {
+    let mut groups: BTreeMap<(String, Vec<String>), Vec<&str>> = BTreeMap::new();
+    for conflict in &conclusions.conflicts {
+        let said = conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
+        groups.entry((conflict.property.to_string(), said)).or_default().push(&conflict.key);
+    }
+    let sentence = |((property, said), keys): ((String, Vec<String>), Vec<&str>)| {
+        let more = if keys.len() > 5 { ", ..." } else { "" };
+        let named = keys.iter().take(5).copied().collect::<Vec<_>>().join(", ");
+        format!(
+            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}",
+            keys.len(),
+            said.join(", ")
+        )
+    };
+    groups.into_iter().map(sentence).collect()
 }

@@ -66,6 +66,15 @@ impl Reasons<'_> {
     fn of(&mut self, class: &str, property: &str) -> Vec<(Option<i64>, Option<i64>)> {
         let Some(found) = self.knowledge.justifications(class, property) else { return Vec::new() };
         let mut reasons: Vec<(Option<i64>, Option<i64>)> = vec![(None, None); found.of_row.len()];
+        let mut revisions: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+        for (rule, rows) in self.knowledge.revised(self.rules, class, property) {
+            for row in rows {
+                let by = revisions.entry(row as usize).or_default();
+                if by.last() != Some(&rule.name()) {
+                    by.push(rule.name());
+                }
+            }
+        }
         for (writer, (name, _)) in found.rules.iter().enumerate() {
             let Some(number) = self.rules.rules().iter().position(|rule| rule.name() == name) else {
                 continue;
@@ -82,7 +91,7 @@ impl Reasons<'_> {
                 .collect();
             for (row, by) in found.of_row.iter().enumerate() {
                 if *by == Some(writer as u32) {
-                    let facts = facts(self.knowledge, &choices, row);
+                    let facts = facts(self.knowledge, &choices, revisions.get(&row), row);
                     let witness = facts.map(|facts| number_of(&mut self.known, &mut self.witnesses, facts));
                     reasons[row] = (Some(number as i64 + 1), witness);
                 }
@@ -92,14 +101,23 @@ impl Reasons<'_> {
     }
 }
 
-fn facts(knowledge: &Inference, choices: &[(&str, &str, Vec<Option<u32>>)], row: usize) -> Option<String> {
-    let chosen: serde_json::Map<String, serde_json::Value> = choices
+/// What a rule chose for an object, and which rules revised the value after it.
+fn facts(
+    knowledge: &Inference,
+    choices: &[(&str, &str, Vec<Option<u32>>)],
+    revised_by: Option<&Vec<&str>>,
+    row: usize,
+) -> Option<String> {
+    let mut chosen: serde_json::Map<String, serde_json::Value> = choices
         .iter()
         .filter_map(|(variable, class, rows)| {
             let key = knowledge.key(class, rows.get(row).copied().flatten()? as usize)?;
             Some(((*variable).to_owned(), format!("{class} {key}").into()))
         })
         .collect();
+    if let Some(rules) = revised_by {
+        chosen.insert("revised by".to_owned(), serde_json::json!(rules));
+    }
     (!chosen.is_empty()).then(|| serde_json::Value::Object(chosen).to_string())
 }
 

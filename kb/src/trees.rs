@@ -24,6 +24,13 @@ pub struct Plan {
     pub roots: Vec<(String, Start)>,
 }
 
+impl Plan {
+    /// The first name of a tree's start.
+    pub fn name(&self, tree: i64) -> &str {
+        self.starts.iter().find(|start| start.tree == tree).map_or("", |start| &start.name)
+    }
+}
+
 /// Decides which routes are kept.
 ///
 /// # Arguments

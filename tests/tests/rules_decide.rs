@@ -97,9 +97,39 @@ revise "wet floors are slippery"
     );
     site.adit("build", &[]).expect_status(0);
     assert_eq!(site.sqlite3(ROUTE), ["f 7 d 8 g 6 c 5 e"]);
+    let why =
+        site.sqlite3("SELECT witness FROM conclusions WHERE object = 'doors.3' AND property = 'hardness'");
+    assert!(why[0].contains("\"revised by\":[\"wet floors are slippery\"]"), "{why:?}");
     // from now on an edit of that table marks the routes stale, whoever makes it
     site.outside_edit("DELETE FROM wet_floors");
     assert_eq!(site.sqlite3("SELECT status FROM route WHERE start = 'f' AND goal = 'e'"), ["stale"]);
     site.adit("build", &[]).expect_status(0);
     assert_eq!(site.sqlite3(ROUTE), ["f 7 d 3 b 4 e"]);
+}
+
+#[test]
+fn a_misspelt_property_is_found_by_check() {
+    let site = example_with_own_rules().built();
+    site.edit("rules/doors.rhai", "door.hardness = door.distance1", "door.hardnes = door.distance1");
+    site.adit("check", &[]).expecting(1).complains(&["DOORS.hardnes", "DOORS.hardness"]);
+}
+
+#[test]
+fn rules_that_disagree_close_a_room_instead_of_making_it_free() {
+    // an expert added a second rule for the hardness of some rooms: unknown was walked for nothing
+    let site = TestSite::example("hospital");
+    site.copy_rules("by-state");
+    site.write(
+        "rules/mine.rhai",
+        "rule \"the corridor is harder\"
+    each room in ROOMS where room.state == \"STAND\" && room.y0 > 11.0 && room.y1 < 15.0
+    then { room.hardness = 5.0; }
+",
+    );
+    site.adit("build", &[]).expecting(0).complains(&["rules disagree", "no route enters them"]);
+    let through = site.sqlite3(
+        "SELECT count(*) FROM action_sequence s JOIN rooms r ON r.name = s.place
+         WHERE start = 'dock' AND goal = 'ward 6' AND s.kind = 'room' AND r.hardness IS NULL",
+    );
+    assert_eq!(through, ["0"]);
 }

@@ -73,6 +73,17 @@ impl KnowledgeBase {
         Some(derived.origin.iter().map(witness).collect())
     }
 
+    /// For a property that rules revise: each such rule with the rows that it revises.
+    pub fn revised<'r>(&self, rules: &'r RuleBase, class: &str, property: &str) -> Vec<(&'r Rule, Vec<u32>)> {
+        let name = PropertyName::new(class, property);
+        let revises = |rule: &&Rule| rule.level().is_some() && rule.sets.contains_key(&name);
+        let rows = |rule: &'r Rule| {
+            let given = self.done.get(rule.name()).into_iter().flat_map(|done| &done.output.given);
+            (rule, given.flat_map(|given| given.rows.iter().copied()).collect())
+        };
+        rules.rules.iter().filter(revises).map(rows).collect()
+    }
+
     fn support(&self, rule: &Rule, firing: u32) -> Option<Support> {
         let output = &self.done.get(rule.name())?.output;
         let witness = |(clause, rows): (&crate::rule::Clause, &Vec<u32>)| {

@@ -77,13 +77,16 @@ pub fn notes(report: &Report) {
     }
 }
 
+/// How many rooms and doors are listed one by one.
+const LISTED: usize = 10;
+
 /// Prints what an edit changed.
 pub fn changes(report: &Report) {
     if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
     } else {
         line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
-        for change in &report.changes {
+        for change in report.changes.iter().take(LISTED) {
             let action = match (&change.old_action, &change.new_action) {
                 (old, new) if old == new => String::new(),
                 (old, new) => format!(
@@ -94,10 +97,8 @@ pub fn changes(report: &Report) {
             };
             line(&format!("  {}: {} → {}{action}", change.what, maybe(change.old), maybe(change.new)));
         }
-        let listed = report.changes.len();
-        let all = report.rooms.changed + report.doors.changed;
-        if all > listed {
-            line(&format!("  and {} more", all - listed));
+        if report.changes.len() > LISTED {
+            line(&format!("  and {} more", report.changes.len() - LISTED));
         }
     }
     match (report.routes.changed, report.routes.rerouted) {
@@ -106,6 +107,17 @@ pub fn changes(report: &Report) {
             report.routes.starts
         )),
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
+    }
+    for change in &report.routes.changes {
+        let way = if change.other_way { ", another way" } else { "" };
+        let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
+        line(&format!(
+            "  {} to {}: {} → {}{way}",
+            change.start,
+            change.goal,
+            cost(change.old),
+            cost(change.new)
+        ));
     }
     notes(report);
 }

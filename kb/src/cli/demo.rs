@@ -25,12 +25,12 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     show(&paper.knowledge, &paper.report);
     rooms(&paper.knowledge)?;
     line("");
-    route::show(&paper.answer);
+    route::steps(&paper.answer);
     line(&format!("picture: {}\n", paper.picture.display()));
     line("== A clinic: low pipes, narrow gaps, a corridor full of beds\n");
     show(&clinic.knowledge, &clinic.report);
     line("");
-    summary(&clinic.answer);
+    route::summary(&clinic.answer);
     line(&format!("picture: {}\n", clinic.picture.display()));
     let site = args.out.join("clinic");
     let site = site.display();
@@ -107,23 +107,4 @@ fn rooms(knowledge: &KnowledgeBase) -> Result<()> {
     line("");
     table(&["room", "x0, y0, x1, y1", "height", "width", "action"], rows);
     Ok(())
-}
-
-/// A long route in a few lines: runs of equal actions.
-fn summary(answer: &crate::answer::Answer) {
-    line(&format!("{} to {}, hardness {}:", answer.start, answer.goal, maybe(answer.cost)));
-    let mut runs: Vec<(String, f64, f64, f64)> = Vec::new();
-    for step in &answer.steps {
-        let action = step.action.clone().unwrap_or_default();
-        let (x, y) = (step.x.unwrap_or_default(), step.y.unwrap_or_default());
-        let hardness = step.hardness.unwrap_or_default();
-        match runs.last_mut().filter(|run| run.0 == action) {
-            Some(run) => *run = (action, run.1 + hardness, x, y),
-            None => runs.push((action, hardness, x, y)),
-        }
-    }
-    let rows = runs.into_iter().map(|(action, hardness, x, y)| {
-        vec![action, format!("to {x:.1}, {y:.1}"), format!("hardness {hardness:.1}")]
-    });
-    table(&["", "", ""], rows);
 }

@@ -3,7 +3,7 @@
 use adit_db::Store;
 
 use super::build::open;
-use super::output::{json, line, problems};
+use super::output::{as_json, json, line, problems};
 use super::{CheckArgs, DoctorArgs};
 use crate::error::Result;
 
@@ -11,30 +11,19 @@ use crate::error::Result;
 pub fn check(args: &CheckArgs) -> Result<bool> {
     let (found, sound) = match open(&args.site).and_then(|knowledge| knowledge.check()) {
         Ok(found) => {
-            let sound =
-                found.iter().all(|problem| problem.severity().is_some_and(|s| s != miette::Severity::Error));
+            let sound = found.iter().all(|problem| problem.severity() == Some(miette::Severity::Advice));
             (found, sound)
         }
         Err(error) => (error.into_problems(), false),
     };
     if args.site.json {
-        let handler = miette::JSONReportHandler::new();
-        let mut list = Vec::new();
-        for problem in &found {
-            let mut text = String::new();
-            if handler.render_report(&mut text, problem.as_ref()).is_ok()
-                && let Ok(value) = serde_json::from_str::<serde_json::Value>(&text)
-            {
-                list.push(value);
-            }
-        }
-        json(&list)?;
+        json(&as_json(&found))?;
     } else {
         problems(&found);
         line(if sound {
             "rules, tables and map are in order"
         } else {
-            "something is wrong: nothing was built"
+            "something is wrong; the site is as it was"
         });
     }
     Ok(sound)

@@ -52,6 +52,17 @@ pub fn problems(problems: &[miette::Report]) {
     }
 }
 
+/// Problems for programs: code, message, help and place of each.
+pub fn as_json(problems: &[miette::Report]) -> Vec<serde_json::Value> {
+    let handler = miette::JSONReportHandler::new();
+    let one = |problem: &miette::Report| {
+        let mut text = String::new();
+        handler.render_report(&mut text, problem.as_ref()).ok()?;
+        serde_json::from_str(&text).ok()
+    };
+    problems.iter().filter_map(one).collect()
+}
+
 fn theme() -> miette::GraphicalTheme {
     let coloured = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     if coloured { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() }

@@ -8,6 +8,7 @@ use super::output::{json, line};
 use crate::draw::{Layers, Style, render_png, render_svg};
 use crate::error::{Error, Result};
 use crate::scene::main_state;
+use crate::suggest::did_you_mean;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
@@ -20,8 +21,18 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
     let scene = knowledge.scene(route, args.robot.as_deref())?;
-    if layers.state.is_none() {
-        layers.state = scene.route.as_ref().and_then(main_state);
+    let states: Vec<&String> = scene.rooms.iter().filter_map(|room| room.state.as_ref()).collect();
+    match &layers.state {
+        None => {
+            let of_route = scene.route.as_ref().and_then(main_state);
+            layers.state = of_route.or_else(|| states.first().map(|state| (*state).clone()));
+        }
+        Some(state) if !states.contains(&state) => {
+            let message = format!("no state `{state}` has rooms in this site");
+            let help = did_you_mean(state, states.iter().map(|state| state.as_str()));
+            return Err(Error::said("draw/unknown-state", message, help));
+        }
+        Some(_) => {}
     }
     let svg = render_svg(&scene, &layers, &Style::default());
     let bytes = if extension == "png" {

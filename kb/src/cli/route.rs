@@ -14,8 +14,10 @@ pub fn run(args: &RouteArgs) -> Result<Outcome> {
         if let Some(reason) = &answer.reason {
             remark(reason);
         }
+    } else if args.steps {
+        steps(&answer);
     } else {
-        show(&answer);
+        summary(&answer);
     }
     Ok(match answer.status {
         Status::Ok | Status::SameRoom => Outcome::Found,
@@ -35,8 +37,8 @@ pub enum Outcome {
     Unknown,
 }
 
-/// Prints an answer for people.
-pub fn show(answer: &Answer) {
+/// Prints an answer for people; whether there are steps to print.
+fn head(answer: &Answer) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
     match answer.status {
         Status::Ok => line(&format!("{start} to {goal}, hardness {}:", maybe(answer.cost))),
@@ -46,12 +48,20 @@ pub fn show(answer: &Answer) {
                 "no route from {start} to {goal}: {}",
                 answer.reason.as_deref().unwrap_or_default()
             ));
-            return;
+            return false;
         }
         Status::UnknownStart | Status::UnknownGoal => {
             remark(answer.reason.as_deref().unwrap_or_default());
-            return;
+            return false;
         }
+    }
+    true
+}
+
+/// Prints every step of an answer.
+pub fn steps(answer: &Answer) {
+    if !head(answer) {
+        return;
     }
     let rows = answer.steps.iter().map(|step| {
         vec![
@@ -68,4 +78,25 @@ pub fn show(answer: &Answer) {
         ]
     });
     table(&["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "heading"], rows);
+}
+
+/// Prints an answer in a few lines: a line for each run of steps with one action.
+pub fn summary(answer: &Answer) {
+    if !head(answer) {
+        return;
+    }
+    let mut runs: Vec<(String, f64, f64, f64)> = Vec::new();
+    for step in &answer.steps {
+        let action = step.action.clone().unwrap_or_default();
+        let (x, y) = (step.x.unwrap_or_default(), step.y.unwrap_or_default());
+        let hardness = step.hardness.unwrap_or_default();
+        match runs.last_mut().filter(|run| run.0 == action) {
+            Some(run) => *run = (action, run.1 + hardness, x, y),
+            None => runs.push((action, hardness, x, y)),
+        }
+    }
+    let rows = runs.into_iter().map(|(action, hardness, x, y)| {
+        vec![action, format!("to {x:.1}, {y:.1}"), format!("hardness {hardness:.1}")]
+    });
+    table(&["", "", ""], rows);
 }
