@@ -7,7 +7,7 @@ use super::frame::{At, Block};
 use super::labels::Face;
 use super::palette::ROUTE;
 use super::scene::Route;
-use super::sheet::{Sheet, line};
+use super::sheet::Sheet;
 use super::svg::{self, Svg};
 
 /// A route of more points than this keeps labels off only roughly.
@@ -45,11 +45,6 @@ pub(super) fn marks(svg: &mut Svg, sheet: &mut Sheet, route: &Route) {
             .attr("stroke", ROUTE)
             .end();
         sheet.labels.take(Block::about(x, y, 15.0 * unit, 15.0 * unit));
-    }
-    if let Some(heading) = route.steps.last().and_then(|step| step.heading) {
-        let (sin, cos) = heading.to_radians().sin_cos();
-        let (dx, dy) = (cos * 17.0 * unit, -sin * 17.0 * unit);
-        line(svg, goal, (goal.0 + dx, goal.1 + dy), ROUTE, 2.6 * unit, "");
     }
     keep_free(sheet);
     let face = Face { size: 13.5 * unit, colour: ROUTE, strong: true, chip: false };

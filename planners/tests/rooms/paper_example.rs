@@ -194,7 +194,9 @@ fn every_property_that_is_given_was_promised() {
         let (mut given, mut promised): (Vec<String>, Vec<String>) =
             (given.collect(), planner.signature().gives);
         // a promise names the type, too, where that is not a number
-        promised.iter_mut().for_each(|promise| promise.truncate(promise.find(':').unwrap_or(promise.len())));
+        for promise in &mut promised {
+            promise.truncate(promise.find(':').unwrap_or(promise.len()));
+        }
         given.sort();
         promised.sort();
         assert_eq!(given, promised, "{}", planner.name());
