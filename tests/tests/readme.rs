@@ -71,8 +71,7 @@ fn wet_floors_make_a_way_harder() {
 #[test]
 fn the_recipe_that_forbids_a_state_in_a_region() {
     let site = starter();
-    let recipe =
-        block("rhai", "door.passable = !(").replace("RAISED", "SQUAT").replace("10.0", "100.0");
+    let recipe = block("rhai", "door.passable = !(").replace("RAISED", "SQUAT").replace("10.0", "100.0");
     let doors = site.read("rules/doors.rhai");
     site.write("rules/doors.rhai", doors.replace("door.passable = true;", &recipe));
     site.adit("build", &[]).expect_status(0);
