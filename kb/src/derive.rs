@@ -139,7 +139,8 @@ fn conclude(knowledge: &mut Inference, rules: &RuleBase) -> Result<Conclusions> 
     Ok(conclusions)
 }
 
-fn stuck(planner: &dyn Planner, missing: &BTreeSet<String>) -> Error {
+/// The complaint that a planner lacks what nobody gives.
+pub fn stuck(planner: &dyn Planner, missing: &BTreeSet<String>) -> Error {
     let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
     Error::said(
         "rules/missing",
@@ -160,13 +161,22 @@ fn fingerprint(world: &World, known: &Facts) -> u64 {
     hasher.finish()
 }
 
+/// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
+/// does in a database.
+pub fn content(tables: &[Table]) -> u64 {
+    use std::hash::{DefaultHasher, Hasher};
+    let mut hasher = DefaultHasher::new();
+    tables.iter().for_each(|table| hash_table(table, &mut hasher));
+    hasher.finish()
+}
+
 fn hash_table(table: &Table, hasher: &mut impl std::hash::Hasher) {
     use adit_planners::facts::Column;
     use std::hash::Hash;
     for (property, column) in &table.columns {
         property.hash(hasher);
         match column {
-            Column::Number(values) => values.iter().for_each(|v| v.map(f64::to_bits).hash(hasher)),
+            Column::Number(values) => values.iter().for_each(|v| v.map(|v| (v + 0.0).to_bits()).hash(hasher)),
             Column::Text(values) => values.hash(hasher),
             Column::Truth(values) => values.hash(hasher),
         }

@@ -1,6 +1,7 @@
 //! The knowledge base of one site: planners are registered, the site is built, tables are edited, and each
 //! time everything that follows is derived by the same path, in one transaction.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -18,7 +19,7 @@ use adit_planners::read::MapReport;
 use adit_planners::rooms::PaperRooms;
 use adit_planners::world::World;
 
-use crate::derive::{Stage, derive};
+use crate::derive::{Stage, derive, stuck};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
@@ -114,11 +115,26 @@ impl KnowledgeBase {
         let seed = RobotFile::read(&self.site.robots)?;
         let fresh = !self.database.exists();
         let outcome = self.build_into(&inputs, &seed, progress);
-        if outcome.is_err() && fresh {
+        if outcome.is_err() && fresh && self.is_unbuilt() {
             // a first build that failed leaves no empty database behind; nothing of the user's is in it
             std::fs::remove_file(&self.database).ok();
         }
+        if outcome.is_ok() && !self.database.exists() {
+            let message = format!("{} was removed by someone while it was built", self.database.display());
+            return Err(Error::said("database", message, Some("build again".to_owned())));
+        }
         outcome
+    }
+
+    /// Whether no build has ever come to its end in the database, nor is at work there now.
+    fn is_unbuilt(&self) -> bool {
+        if std::fs::metadata(&self.database).is_ok_and(|file| file.len() == 0) {
+            return true;
+        }
+        let generation = |tx: &mut Tx<'_>| tx.site_value("generation");
+        Store::open(&self.database)
+            .and_then(|mut store| store.transaction(generation))
+            .is_ok_and(|g| g.is_none())
     }
 
     fn build_into(&self, inputs: &Inputs, seed: &RobotFile, progress: &dyn Progress) -> Result<Report> {
@@ -163,8 +179,26 @@ impl KnowledgeBase {
                 ("CHANGES".to_owned(), tables::changes(&[])),
             ])
         };
-        problems.extend(rules.check(&self.schema(&told)).into_iter().map(miette::Report::new));
+        let schema = self.schema(&told);
+        problems.extend(rules.check(&schema).into_iter().map(miette::Report::new));
+        for planner in &self.planners {
+            let missing = self.missing(planner.as_ref(), &schema, &rules);
+            if !missing.is_empty() {
+                problems.extend(stuck(planner.as_ref(), &missing).into_problems());
+            }
+        }
         Ok(problems)
+    }
+
+    /// What a planner needs and no table, planner or rule gives.
+    fn missing(&self, planner: &dyn Planner, schema: &Schema, rules: &RuleBase) -> BTreeSet<String> {
+        let concluded = rules.concluded();
+        let given = |need: &String| {
+            let (class, property) = classes::split(need);
+            schema.kind(class, property).is_some()
+                || concluded.iter().any(|name| name.class == class && name.property == property)
+        };
+        planner.signature().needs.into_iter().filter(|need| !given(need)).collect()
     }
 
     fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
@@ -251,7 +285,11 @@ impl KnowledgeBase {
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
         let generation = self.sign(tx, &inputs.rules)?;
-        Ok(Report::new(&before, &graph, routes, derived, inputs, generation))
+        let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
+        if graph.rooms.is_empty() {
+            report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
+        }
+        Ok(report)
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.

@@ -25,6 +25,7 @@ pub mod edit;
 mod error;
 mod graph;
 mod knowledge;
+mod number;
 mod progress;
 mod reason;
 mod report;
@@ -38,6 +39,7 @@ mod store;
 mod suggest;
 mod tables;
 mod trees;
+mod weights;
 
 pub use answer::{Answer, Status};
 pub use derive::Stage;

@@ -1,5 +1,6 @@
 //! `adit draw`.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use super::DrawArgs;
@@ -20,6 +21,18 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
     let scene = knowledge.scene(route, args.robot.as_deref())?;
+    if let Some(state) = &layers.state {
+        let states: BTreeSet<&str> = scene.rooms.iter().filter_map(|room| room.state.as_deref()).collect();
+        if !states.contains(state.as_str()) {
+            let help = if states.is_empty() {
+                "rooms are not by state in this site".to_owned()
+            } else {
+                format!("states with rooms: {}", states.into_iter().collect::<Vec<_>>().join(", "))
+            };
+            let message = format!("there is no room of a state `{state}` to draw");
+            return Err(Error::said("draw/unknown-state", message, Some(help)));
+        }
+    }
     if layers.state.is_none() {
         layers.state = scene.route.as_ref().and_then(main_state);
     }
