@@ -95,7 +95,9 @@ pub fn paper_steps(first: &[Rect], mut lists: [Vec<Rect>; 2]) -> Vec<Rect> {
 }
 
 fn larger(a: Rect, b: Rect) -> Rect {
-    let b_wins = b.area() > a.area() || (b.area() >= a.area() && b < a);
+    // equal but for rounding is equal: a rectangle moved aside is not larger by its last bit
+    let (larger, equal) = (b.area() > a.area() * (1.0 + 1e-12), b.area() >= a.area() * (1.0 - 1e-12));
+    let b_wins = larger || (equal && b < a);
     if b_wins { b } else { a }
 }
 
