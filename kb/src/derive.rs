@@ -166,7 +166,9 @@ fn fingerprint(world: &World, known: &Facts) -> u64 {
 pub fn content(tables: &[Table]) -> u64 {
     use std::hash::{DefaultHasher, Hasher};
     let mut hasher = DefaultHasher::new();
-    tables.iter().for_each(|table| hash_table(table, &mut hasher));
+    for table in tables {
+        hash_table(table, &mut hasher);
+    }
     hasher.finish()
 }
 

@@ -182,23 +182,12 @@ impl KnowledgeBase {
         let schema = self.schema(&told);
         problems.extend(rules.check(&schema).into_iter().map(miette::Report::new));
         for planner in &self.planners {
-            let missing = self.missing(planner.as_ref(), &schema, &rules);
+            let missing = missing(planner.as_ref(), &schema, &rules);
             if !missing.is_empty() {
                 problems.extend(stuck(planner.as_ref(), &missing).into_problems());
             }
         }
         Ok(problems)
-    }
-
-    /// What a planner needs and no table, planner or rule gives.
-    fn missing(&self, planner: &dyn Planner, schema: &Schema, rules: &RuleBase) -> BTreeSet<String> {
-        let concluded = rules.concluded();
-        let given = |need: &String| {
-            let (class, property) = classes::split(need);
-            schema.kind(class, property).is_some()
-                || concluded.iter().any(|name| name.class == class && name.property == property)
-        };
-        planner.signature().needs.into_iter().filter(|need| !given(need)).collect()
     }
 
     fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
@@ -407,6 +396,17 @@ impl KnowledgeBase {
         tx.mark_fresh()?;
         Ok(generation)
     }
+}
+
+/// What a planner needs and no table, planner or rule gives.
+fn missing(planner: &dyn Planner, schema: &Schema, rules: &RuleBase) -> BTreeSet<String> {
+    let concluded = rules.concluded();
+    let given = |need: &String| {
+        let (class, property) = classes::split(need);
+        schema.kind(class, property).is_some()
+            || concluded.iter().any(|name| name.class == class && name.property == property)
+    };
+    planner.signature().needs.into_iter().filter(|need| !given(need)).collect()
 }
 
 /// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner

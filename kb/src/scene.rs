@@ -78,7 +78,7 @@ fn crop(scene: &mut Scene, world: &World) {
         .into_iter()
         .filter_map(|shape| match shape {
             Shape::Rect(rect) => bounds.intersection(&rect).map(Shape::Rect),
-            polygon => polygon.enclosing_rect().overlaps(&bounds).then_some(polygon),
+            polygon @ Shape::Polygon(_) => polygon.enclosing_rect().overlaps(&bounds).then_some(polygon),
         })
         .collect();
 }

@@ -2,6 +2,7 @@
 //! error. A closed pipe ends the printing quietly.
 
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use comfy_table::{ContentArrangement, Table, presets};
@@ -9,13 +10,21 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 
+/// Whether some of the answer could not be written, to a full disk for one.
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Whether some of the answer could not be written; a pipe that its reader closed does not count.
+pub fn is_lost() -> bool {
+    LOST.load(Ordering::Relaxed)
+}
+
 /// Prints a line of data.
 pub fn line(text: &str) {
     if let Err(error) = writeln!(stdout(), "{text}")
         && error.kind() != ErrorKind::BrokenPipe
+        && !LOST.swap(true, Ordering::Relaxed)
     {
         remark(&format!("cannot write the answer: {error}"));
-        std::process::exit(2);
     }
 }
 
