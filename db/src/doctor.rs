@@ -43,14 +43,20 @@ pub async fn examine(connection: &mut SqliteConnection) -> Result<Health> {
         let (table, parent): (String, String) = (row.try_get(0)?, row.try_get(2)?);
         dangling.push(format!("a row of {table} refers to a row of {parent} that is not there"));
     }
+    let there: Vec<String> =
+        sqlx::query_scalar("SELECT name FROM sqlite_schema").fetch_all(&mut *connection).await?;
+    let missing = relation::OWN.iter().filter(|name| !there.iter().any(|known| known == *name));
+    let mut damages: Vec<String> = missing.map(|name| format!("table or view {name} is missing")).collect();
+    let lost_marks = damages.iter().any(|damage| damage.contains("stale_marks"));
+    damages.extend(report.into_iter().filter(|line| line != "ok"));
     Ok(Health {
-        damages: report.into_iter().filter(|line| line != "ok").collect(),
+        damages,
         dangling,
         sqlite: sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&mut *connection).await?,
         schema: sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *connection).await?,
         journal: sqlx::query_scalar("PRAGMA journal_mode").fetch_one(&mut *connection).await?,
         rows: rows(connection).await?,
-        stale: stale::marks(connection).await?,
+        stale: if lost_marks { Vec::new() } else { stale::marks(connection).await? },
     })
 }
 

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::history::{self, Author, Entry};
 use crate::transaction::Tx;
 
+mod dependants;
 mod table;
 mod undo;
 
@@ -66,6 +67,18 @@ pub async fn add_row(
     author: &Author,
 ) -> Result<Edited> {
     let table = Table::editable(connection, table).await?;
+    let (key, new) = insert(connection, &table, row).await?;
+    let entry = Entry { table: table.name, key: &key, column: None, old: &Cell::Null, new: &new };
+    let id = history::record(connection, author, &entry).await?;
+    Ok(Edited { id, key, old: Cell::Null, new })
+}
+
+/// Adds a row without a word in the history; its key, and the row as JSON.
+async fn insert(
+    connection: &mut SqliteConnection,
+    table: &Table<'_>,
+    row: &[(&str, Cell)],
+) -> Result<(String, Cell)> {
     let mut names = Vec::new();
     for (column, _) in row {
         names.push(table.column(column)?);
@@ -83,13 +96,10 @@ pub async fn add_row(
     let row = rows.first().ok_or(sqlx::Error::RowNotFound)?;
     let new = Cell::of(row, 0)?;
     let key: Vec<Cell> = (1..row.len()).map(|index| Cell::of(row, index)).collect::<Result<_>>()?;
-    let key = joined(&key);
-    let entry = Entry { table: table.name, key: &key, column: None, old: &Cell::Null, new: &new };
-    let id = history::record(connection, author, &entry).await?;
-    Ok(Edited { id, key, old: Cell::Null, new })
+    Ok((joined(&key), new))
 }
 
-/// Removes a row.
+/// Removes a row, and with a state the changes of shape from it and to it; the history keeps all of them.
 pub async fn remove_row(
     connection: &mut SqliteConnection,
     table: &str,
@@ -99,6 +109,7 @@ pub async fn remove_row(
     let table = Table::editable(connection, table).await?;
     let found = table.locate(connection, key).await?;
     let old = table.read(connection, &table.json(), &found).await?;
+    let old = dependants::with(connection, table.name, &found, old).await?;
     let sql = format!("DELETE FROM {} WHERE {}", identifier(table.name), table.found());
     dynamic::execute(connection, sql, &found).await.map_err(|e| e.refusing(table.name))?;
     let key = joined(&found);

@@ -66,6 +66,18 @@ pub enum Error {
         /// The columns that there are.
         columns: String,
     },
+    /// A value that is no text of UTF-8.
+    #[error("column {column} of `{table}` cannot be read in row {row}: {reason}")]
+    Unreadable {
+        /// The table.
+        table: String,
+        /// The column.
+        column: String,
+        /// The row in the order of the key, from 1.
+        row: usize,
+        /// What the decoder says.
+        reason: String,
+    },
     /// The table has no such row.
     #[error("table `{table}` has no row `{key}`")]
     UnknownKey {

@@ -132,9 +132,15 @@ pub async fn read(connection: &mut SqliteConnection, table: &str) -> Result<Rela
         keys => keys.iter().map(|name| identifier(name)).collect(),
     };
     let sql = format!("SELECT {} FROM {} ORDER BY {}", names.join(", "), identifier(table), order.join(", "));
-    for row in dynamic::fetch(connection, sql, &[]).await? {
+    for (number, row) in dynamic::fetch(connection, sql, &[]).await?.into_iter().enumerate() {
         for (index, column) in columns.iter_mut().enumerate() {
-            column.values.push(Cell::of(&row, index)?);
+            let value = Cell::of(&row, index).map_err(|error| Error::Unreadable {
+                table: table.to_owned(),
+                column: column.name.clone(),
+                row: number + 1,
+                reason: error.to_string(),
+            })?;
+            column.values.push(value);
         }
     }
     Ok(Relation { name: table.to_owned(), columns })

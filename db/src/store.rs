@@ -90,6 +90,9 @@ impl Store {
 
     fn connect(path: &Path, options: &SqliteConnectOptions) -> Result<Self> {
         let at = || path.to_owned();
+        if path.is_dir() {
+            return Err(Error::CannotOpen(at()));
+        }
         let runtime =
             Builder::new_current_thread().build().map_err(|source| Error::Io { path: at(), source })?;
         let connection = runtime.block_on(options.connect()).map_err(|e| match error::code(&e) {
@@ -113,7 +116,11 @@ impl Store {
         let result = work(&mut tx);
         match result {
             Ok(value) => tx.commit().map(|()| value).map_err(E::from),
-            Err(error) => tx.roll_back().map_err(E::from).and(Err(error)),
+            Err(error) => {
+                // on a full disk SQLite has rolled back already, and says so; what went wrong first is what counts
+                tx.roll_back().ok();
+                Err(error)
+            }
         }
     }
 
@@ -140,8 +147,10 @@ impl Store {
     ) -> std::result::Result<T, E> {
         let mut tx = self.begin(begin)?;
         let result = work(&mut tx);
-        tx.roll_back()?;
-        result
+        let rolled_back = tx.roll_back();
+        let value = result?;
+        rolled_back.map_err(E::from)?;
+        Ok(value)
     }
 
     fn begin(&mut self, begin: &'static str) -> Result<Tx<'_>> {

@@ -251,6 +251,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Doctor(args) => doctor::doctor(args).map(|sound| u8::from(!sound)),
     };
     match outcome {
+        Ok(_) if output::is_lost() => ExitCode::from(2),
         Ok(status) => ExitCode::from(status),
         Err(error) => {
             if cli.verb.wants_json() {

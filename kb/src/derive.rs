@@ -139,6 +139,7 @@ fn conclude(knowledge: &mut Inference, rules: &RuleBase) -> Result<Conclusions> 
     Ok(conclusions)
 }
 
+/// The complaint that a planner lacks what nobody gives.
 fn stuck(planner: &dyn Planner, missing: &BTreeSet<String>) -> Error {
     let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
     Error::said(
@@ -148,13 +149,24 @@ fn stuck(planner: &dyn Planner, missing: &BTreeSet<String>) -> Error {
     )
 }
 
-/// Two runs of a planner on equal inputs have equal fingerprints.
+/// Two runs of a planner of one version on equal inputs have equal fingerprints.
 fn fingerprint(world: &World, known: &Facts) -> u64 {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let mut hasher = DefaultHasher::new();
-    world.fingerprint().hash(&mut hasher);
+    (env!("CARGO_PKG_VERSION"), world.fingerprint()).hash(&mut hasher);
     for (class, table) in known {
         class.hash(&mut hasher);
+        hash_table(table, &mut hasher);
+    }
+    hasher.finish()
+}
+
+/// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
+/// does in a database.
+pub fn content(tables: &[Table]) -> u64 {
+    use std::hash::{DefaultHasher, Hasher};
+    let mut hasher = DefaultHasher::new();
+    for table in tables {
         hash_table(table, &mut hasher);
     }
     hasher.finish()
@@ -166,7 +178,7 @@ fn hash_table(table: &Table, hasher: &mut impl std::hash::Hasher) {
     for (property, column) in &table.columns {
         property.hash(hasher);
         match column {
-            Column::Number(values) => values.iter().for_each(|v| v.map(f64::to_bits).hash(hasher)),
+            Column::Number(values) => values.iter().for_each(|v| v.map(|v| (v + 0.0).to_bits()).hash(hasher)),
             Column::Text(values) => values.hash(hasher),
             Column::Truth(values) => values.hash(hasher),
         }

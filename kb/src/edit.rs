@@ -49,7 +49,7 @@ impl Edit {
                 let row = row(tx, table, key, cells)?;
                 let named: Vec<(&str, Cell)> =
                     row.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-                tx.add_row(table, &named, author)?
+                tx.add_row(table, &named, author).map_err(|error| explain(tx, &error, table, key, ""))?
             }
             Self::Remove(table, key) => {
                 columns(tx, table)?;
@@ -137,6 +137,12 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
     }
     for (name, value) in cells {
         known_column(table, name, &columns)?;
+        if row.iter().any(|(known, _)| known == name) {
+            let message = format!("`{name}` is given twice: by {key} and by {name}={value}");
+            let twice = format!("`{name}` is given twice, the second time as {name}={value}");
+            let message = if keys.contains(&name.as_str()) { message } else { twice };
+            return Err(Error::said("edit/usage", message, None));
+        }
         row.push((name.clone(), cell(value)));
     }
     if table == "robots" && !cells.iter().any(|(name, _)| name == "position") {
@@ -152,9 +158,13 @@ fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, valu
         adit_db::Error::UnknownKey { .. } => {
             keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
         }
+        adit_db::Error::Refused { reason, .. } if reason.starts_with("FOREIGN KEY") => Some(
+            "it names a row of another table that is not there: a state must stand in `robots` first"
+                .to_owned(),
+        ),
         _ => None,
     };
-    let found = if matches!(error, adit_db::Error::Refused { .. }) {
+    let found = if matches!(error, adit_db::Error::Refused { .. }) && !value.is_empty() {
         format!(" (found {value})")
     } else {
         String::new()

@@ -111,7 +111,7 @@ impl SiteGraph {
     /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state.
     pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<usize> {
         if let End::Room(index) = end {
-            return vec![*index];
+            return if is_weighed(&self.rooms[*index]) { vec![*index] } else { Vec::new() };
         }
         let at = self.point(end);
         let mut states = Vec::new();
@@ -121,7 +121,7 @@ impl SiteGraph {
                 (Some((of, _)), Some(robot)) => of == robot,
                 _ => true,
             };
-            if of_robot && rect_of(room).contains(at) && !states.contains(&&room.layer) {
+            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !states.contains(&&room.layer) {
                 states.push(&room.layer);
                 found.push(index);
             }
@@ -129,10 +129,24 @@ impl SiteGraph {
         found
     }
 
+    /// Whether a room is this end, or holds it.
+    pub fn holds(&self, room: &Room, end: &End) -> bool {
+        match end {
+            End::Room(index) => self.rooms[*index].room == room.room,
+            _ => rect_of(room).contains(self.point(end)),
+        }
+    }
+
     /// Where a search from this end begins.
     pub fn start(&self, end: &End, robot: Option<&str>) -> Start {
         Start { rooms: self.rooms_of(end, robot), at: self.point(end) }
     }
+}
+
+/// Whether a room can be walked in: where metres are weighed, a room of unknown hardness is not entered, just as a
+/// door of unknown hardness is not passed. In the paper's modes all hardness lies on the doors.
+pub fn is_weighed(room: &Room) -> bool {
+    room.layer.is_none() || room.hardness.value.is_some()
 }
 
 fn rect_of(room: &Room) -> Rect {

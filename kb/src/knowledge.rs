@@ -124,9 +124,13 @@ impl KnowledgeBase {
         let seed = RobotFile::read(&self.site.robots)?;
         let fresh = !database.exists();
         let outcome = self.build_into(database, &inputs, &seed, progress);
-        if outcome.is_err() && fresh {
+        if outcome.is_err() && fresh && is_unbuilt(database) {
             // a first build that failed leaves no empty database behind; nothing of the user's is in it
             std::fs::remove_file(database).ok();
+        }
+        if outcome.is_ok() && !database.exists() {
+            let message = format!("{} was removed by someone while it was built", database.display());
+            return Err(Error::said("database", message, Some("build again".to_owned())));
         }
         outcome
     }
@@ -269,7 +273,11 @@ impl KnowledgeBase {
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
         let generation = self.sign(tx, &inputs.rules)?;
-        Ok(Report::new(&before, &graph, routes, derived, inputs, generation))
+        let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
+        if graph.rooms.is_empty() {
+            report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
+        }
+        Ok(report)
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
@@ -400,4 +408,13 @@ fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Whether no build has ever come to its end in the database, nor is at work there now.
+fn is_unbuilt(database: &Path) -> bool {
+    if std::fs::metadata(database).is_ok_and(|file| file.len() == 0) {
+        return true;
+    }
+    let generation = |tx: &mut Tx<'_>| tx.site_value("generation");
+    Store::open(database).and_then(|mut store| store.transaction(generation)).is_ok_and(|g| g.is_none())
 }

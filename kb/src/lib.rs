@@ -26,6 +26,7 @@ mod error;
 mod graph;
 mod knowledge;
 mod lint;
+mod number;
 mod progress;
 mod reason;
 mod report;
@@ -39,6 +40,7 @@ mod store;
 mod suggest;
 mod tables;
 mod trees;
+mod weights;
 
 pub use answer::{Answer, Status};
 pub use derive::Stage;

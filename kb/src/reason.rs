@@ -7,8 +7,9 @@ use adit_planners::world::World;
 
 use crate::answer::Rules;
 use crate::error::{Error, Result};
-use crate::graph::{End, SiteGraph};
+use crate::graph::{End, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
+use crate::number::number;
 
 /// How many shut doors are described.
 const DESCRIBED: usize = 3;
@@ -26,19 +27,27 @@ pub fn no_route(
     for (what, end, rooms) in [("start", &ends[0], &start.rooms), ("goal", &ends[1], &goals)] {
         if rooms.is_empty() {
             let at = graph.point(end);
+            if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
+                return Ok(format!("room {} at the {what} has no hardness: no rule gives it one", room.name));
+            }
             return Ok(format!("no state of the robot fits at the {what} ({:.2}, {:.2})", at.x, at.y));
         }
     }
     match blockage(graph.graph(), start, &goals) {
         Blockage::Doors(doors) => {
-            let shut: Vec<String> = doors
+            let mut shut: Vec<String> = doors
                 .iter()
                 .take(DESCRIBED)
                 .filter_map(|door| graph.door(i64::from(*door)))
                 .map(|door| shut(graph, door, rules))
                 .collect();
+            shut.dedup();
             let more = doors.len().saturating_sub(DESCRIBED);
-            let more = if more > 0 { format!("; and {more} doors more") } else { String::new() };
+            let more = if more > 0 {
+                format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
+            } else {
+                String::new()
+            };
             Ok(format!("{}{more}", shut.join("; ")))
         }
         Blockage::Apart => {
@@ -54,23 +63,22 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     let width = least([Some(door.width), door.side1.width, door.side2.width]);
     let height = least([door.side1.height, door.side2.height, None]);
     let needed = if height.is_finite() {
-        format!("a state lower than {height:.2} m and narrower than {width:.2} m would be needed")
+        let (height, width) = (number(height), number(width));
+        format!("a state lower than {height} m and narrower than {width} m would be needed")
     } else {
-        format!("a state narrower than {width:.2} m would be needed")
+        format!("a state narrower than {} m would be needed", number(width))
     };
+    let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
+    if let Some(room) = sides.map(|index| &graph.rooms[index]).find(|room| !is_weighed(room)) {
+        return format!("room {} has no hardness: no rule gives it one", room.name);
+    }
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
     let [x, y] = door.at;
     let place = format!("door {} at ({x:.2}, {y:.2})", door.door);
     match (door.passable.value, rule) {
         (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
         (Some(false), None) => format!("{place} lets no state through: {needed}"),
-        _ if door.hardness.value.is_none() => format!("{place} has no hardness: no rule gives it one"),
-        _ => {
-            let unknown = [door.side1.room, door.side2.room].into_iter().filter_map(|room| graph.room(room));
-            let named = unknown.map(|room| &graph.rooms[room]).find(|room| room.hardness.value.is_none());
-            let room = named.map_or("another room", |room| room.name.as_str());
-            format!("{place} leads into room {room}, whose hardness is unknown")
-        }
+        _ => format!("{place} has no hardness: no rule gives it one"),
     }
 }
 

@@ -90,7 +90,7 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
 }
 
 fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> {
-    let mut rows = Vec::new();
+    let mut rows: Vec<Change> = Vec::new();
     for entry in fields.tables("changes", "[[changes]]", problems) {
         entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness"], problems);
         let robot = robot(&entry, problems);
@@ -98,23 +98,44 @@ fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> 
         let to = name(&entry, "to_state", problems);
         if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems))
         {
-            rows.push(Change { robot, from_state: from.value, to_state: to.value, hardness });
+            let row = Change { robot, from_state: from.value, to_state: to.value, hardness };
+            if rows.iter().any(|known| key(known) == key(&row)) {
+                let message = format!("the change {} stands here twice", key(&row));
+                problems.push(entry.text.problem(Code::DuplicatePlace, &entry.span, message));
+                continue;
+            }
+            rows.push(row);
         }
     }
     rows
+}
+
+/// The row's key as people write it; names with a `/` may make two of them equal.
+fn key(change: &Change) -> String {
+    format!("{}/{}/{}", change.robot, change.from_state, change.to_state)
 }
 
 fn robot(entry: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> String {
     if entry.get("robot").is_none() {
         return ONLY_ROBOT.to_owned();
     }
-    name(entry, "robot", problems).map_or_else(String::new, |robot| robot.value)
+    let Some(robot) = name(entry, "robot", problems) else { return String::new() };
+    if robot.value.contains('/') {
+        let message = format!("`robot` is `{}`; a `/` parts robot and state in a row's key", robot.value);
+        problems.push(entry.text.problem(Code::WrongType, &robot.span, message));
+    }
+    robot.value
 }
 
 fn name(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
     let text = entry.string(key, problems)?;
     if text.value.trim().is_empty() {
         let message = format!("`{key}` is empty");
+        problems.push(entry.text.problem(Code::EmptyName, &text.span, message));
+        return None;
+    }
+    if text.value.contains(char::is_control) {
+        let message = format!("`{key}` is {:?} and holds a control character", text.value);
         problems.push(entry.text.problem(Code::EmptyName, &text.span, message));
         return None;
     }

@@ -34,7 +34,11 @@ fn folder_files(folder: &Path) -> Result<Vec<SourceFile>> {
     }
     paths.sort();
     let read = |path: PathBuf| match fs::read_to_string(&path) {
-        Ok(text) => Ok(SourceFile::new(path.display().to_string(), text)),
+        Ok(text) => {
+            // editors of Windows begin a file with a byte order mark, which is no part of its text
+            let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+            Ok(SourceFile::new(path.display().to_string(), text))
+        }
         Err(error) => Err(Error::io("read", &path, &error)),
     };
     paths.into_iter().map(read).collect()

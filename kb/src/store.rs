@@ -12,9 +12,10 @@ use adit_planners::facts::Facts;
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 
-use crate::derive::{Derived, Memory};
+use crate::derive::{Derived, Memory, content};
 use crate::error::Result;
 use crate::report::Before;
+use crate::weights::check_hardness;
 use crate::{classes, rows, tables};
 
 /// Rooms and doors of the last build, kept while the inputs of their planner stay the same.
@@ -39,14 +40,19 @@ impl Memory for LastBuild<'_, '_> {
             return Ok(None);
         }
         let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
-        if stored.as_deref() != Some(&fingerprint.to_string()) {
+        let made = [rows::rooms_table(&self.before.rooms), rows::doors_table(&self.before.doors)];
+        // another program may have edited or deleted rows since: then they are made anew
+        if stored.as_deref() != Some(&signature(fingerprint, &made)) {
             return Ok(None);
         }
-        Ok(Some(Facts::from([
-            ("ROOMS".to_owned(), rows::rooms_table(&self.before.rooms)),
-            ("DOORS".to_owned(), rows::doors_table(&self.before.doors)),
-        ])))
+        let [rooms, doors] = made;
+        Ok(Some(Facts::from([("ROOMS".to_owned(), rooms), ("DOORS".to_owned(), doors)])))
     }
+}
+
+/// What a planner worked from, and the rooms and doors that came of it.
+fn signature(fingerprint: u64, made: &[adit_planners::facts::Table]) -> String {
+    format!("{fingerprint:016x}{:016x}", content(made))
 }
 
 fn fingerprint_key(planner: &str) -> String {
@@ -172,6 +178,8 @@ impl Tables {
             areas = rows::areas(&facts("PRIME_AREAS"))?;
             strips = rows::strip_edges(&facts("STRIPS"))?;
         }
+        check_hardness(knowledge, "ROOMS", |row| format!("room {}", rooms[row].name))?;
+        check_hardness(knowledge, "DOORS", |row| format!("door {}", doors[row].door))?;
         let numbers = |class, property| knowledge.numbers(class, property);
         let texts = |class, property| {
             let owned = |text: Option<std::sync::Arc<str>>| text.map(|text| text.to_string());
@@ -215,8 +223,9 @@ impl Tables {
         tx.replace_frames(&[frame])?;
         tx.replace_rules(&self.rules, &self.witnesses)?;
         tx.replace_derivations(&self.derivations)?;
+        let made = [rows::rooms_table(&self.rooms), rows::doors_table(&self.doors)];
         for (planner, fingerprint) in &derived.fingerprints {
-            tx.set_site_value(&fingerprint_key(planner), Some(&fingerprint.to_string()))?;
+            tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &made)))?;
         }
         Ok(())
     }

@@ -190,3 +190,54 @@ fn a_read_only_folder() {
     Command::new("chmod").args(["-R", "u+w"]).arg(site.path()).status().unwrap();
     ran.expecting(2).complains(&["site.db"]);
 }
+
+/// Beyond some size a coordinate loses its centimetres and a sum of hardness its end; once, SQLite said so, of no file.
+#[test]
+fn a_number_beyond_all_measure() {
+    spoiled("map.toml", "93.7", "1e308", &["map.toml", "1e308", "1e15"]);
+    spoiled("robots.toml", "width = 3.0", "width = 1e308", &["robots.toml", "1e308", "1e15"]);
+}
+
+#[test]
+fn a_name_with_a_control_character() {
+    spoiled("map.toml", "\"home\"", "\"ho\\u0000me\"", &["map.toml", "control character"]);
+    spoiled("robots.toml", "\"SQUAT\"", "\"SQ\\u001bUAT\"", &["robots.toml", "control character"]);
+}
+
+#[test]
+fn a_change_of_shape_that_stands_there_twice() {
+    let site = TestSite::example("clinic");
+    let again = "[[changes]]\nfrom_state = \"STAND\"\nto_state = \"LIE\"\nhardness = 5.0\n";
+    site.write("robots.toml", site.read("robots.toml") + "\n" + again);
+    site.adit("build", &[]).expecting(2).complains(&["robots.toml", "STAND/LIE", "twice"]);
+}
+
+/// Keys of rows are joined by `/`: robot `x/A` in state `B` would be robot `x` in state `A/B`.
+#[test]
+fn a_robot_with_a_slash_in_its_name() {
+    let site = TestSite::example("paper");
+    site.write("robots.toml", site.read("robots.toml").replace("[[robots]]", "[[robots]]\nrobot = \"x/A\""));
+    site.adit("build", &[]).expecting(2).complains(&["robots.toml", "x/A", "`/`"]);
+}
+
+#[test]
+fn a_negate_that_is_neither_0_nor_1() {
+    let site = ros_site("floor.pgm");
+    site.edit("map.yaml", "negate: 0", "negate: \"1\"");
+    site.adit("build", &[]).expecting(2).complains(&["map.yaml", "`negate` must be 0 or 1"]);
+}
+
+/// The image is all wall. Once, that built a site of no rooms without a word.
+#[test]
+fn a_map_without_a_room_is_remarked() {
+    let site = ros_site("floor.pgm");
+    site.write("floor.pgm", [b"P5\n40 40\n255\n".as_slice(), &[0; 1600]].concat());
+    site.adit("build", &[]).expecting(0).complains(&["there is no room"]);
+}
+
+#[test]
+fn a_state_that_cannot_be_drawn() {
+    let site = TestSite::example("clinic").built();
+    let file = site.path().join("floor.svg").display().to_string();
+    site.adit("draw", &["-o", &file, "--state", "FLY"]).expecting(2).complains(&["FLY", "STAND"]);
+}

@@ -104,3 +104,40 @@ fn bad_edits_are_refused_and_nothing_is_half_done() {
     assert_eq!(site.sqlite3("SELECT * FROM robots"), before);
     assert!(site.sqlite3("SELECT * FROM history").is_empty());
 }
+
+/// The expert removes a state and thinks better of it. Once, the state came back without its changes of shape, and
+/// every change from and to it was free from then on.
+#[test]
+fn a_removed_state_comes_back_with_its_changes() {
+    let site = TestSite::example("clinic").built();
+    let changes = "SELECT * FROM changes ORDER BY from_state, to_state";
+    let route = "SELECT start, goal, cost FROM route WHERE status = 'ok' ORDER BY start, goal";
+    let (before, costs) = (site.sqlite3(changes), site.sqlite3(route));
+    for _ in 0..2 {
+        site.adit("tune", &["robots", "STAND", "--remove"]).expect_status(0);
+        assert!(site.sqlite3(changes).len() < before.len());
+        site.adit("undo", &[]).expect_status(0);
+        assert_eq!(site.sqlite3(changes), before);
+        assert_eq!(site.sqlite3(route), costs);
+    }
+}
+
+#[test]
+fn a_column_of_a_new_row_is_given_once() {
+    let site = TestSite::example("paper").built();
+    let twice = ["robots", "ROLL", "--add", "action=ROLL", "height=1", "width=2", "hardness=6", "height=2"];
+    site.adit("tune", &twice).expecting(2).complains(&["`height`", "twice"]);
+    let key = ["robots", "ROLL", "--add", "state=FLY", "action=ROLL", "height=1", "width=2", "hardness=6"];
+    site.adit("tune", &key).expecting(2).complains(&["`state`", "twice"]);
+}
+
+#[test]
+fn a_removed_state_stays_away_while_a_state_that_it_changes_to_is_gone() {
+    let site = TestSite::example("clinic").built();
+    site.adit("tune", &["robots", "STAND", "--remove"]).expect_status(0);
+    site.adit("tune", &["robots", "LIE", "--remove"]).expect_status(0);
+    site.adit("undo", &["1"]).expecting(2).complains(&["edit 1 cannot be taken back", "changes", "LIE"]);
+    site.adit("undo", &[]).expect_status(0);
+    site.adit("undo", &["1"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM changes"), ["12"]);
+}

@@ -3,7 +3,7 @@
 use sqlx::{Row, SqliteConnection};
 
 use super::table::Table;
-use super::{Edited, add_row, remove_row, set_cell};
+use super::{Edited, add_row, insert, remove_row, set_cell};
 use crate::cell::Cell;
 use crate::error::{Error, Result};
 use crate::history::{self, Author, Edit};
@@ -38,7 +38,7 @@ async fn inverse(connection: &mut SqliteConnection, edit: &Edit, author: &Author
     }
     match (&edit.column, &edit.old) {
         (Some(column), old) => set_cell(connection, (&edit.table, &edit.key, column), old, author).await,
-        (None, Cell::Text(row)) => restore(connection, &table, row, author).await,
+        (None, Cell::Text(row)) => restore(connection, &table, edit.id, row, author).await,
         (None, _) => remove_row(connection, &edit.table, &edit.key, author).await,
     }
 }
@@ -46,14 +46,37 @@ async fn inverse(connection: &mut SqliteConnection, edit: &Edit, author: &Author
 async fn restore(
     connection: &mut SqliteConnection,
     table: &Table<'_>,
+    id: i64,
     row: &str,
     author: &Author,
 ) -> Result<Edited> {
-    let query = sqlx::query("SELECT key, value FROM json_each(?)").bind(row);
-    let mut cells: Vec<(String, Cell)> = Vec::new();
-    for row in query.fetch_all(&mut *connection).await? {
-        cells.push((row.try_get(0)?, Cell::of(&row, 1)?));
+    let (own, with_it): (Vec<_>, Vec<_>) =
+        pairs(connection, row).await?.into_iter().partition(|(name, _)| table.column(name).is_ok());
+    let done = add_row(connection, table.name, &named(&own), author).await?;
+    for (name, rows) in with_it {
+        let gone = Table::editable(connection, &name).await?;
+        for (_, row) in pairs(connection, &rows.to_string()).await? {
+            let cells = pairs(connection, &row.to_string()).await?;
+            let back = insert(connection, &gone, &named(&cells)).await.map_err(|e| e.refusing(&*name));
+            back.map_err(|error| match error {
+                Error::Refused { .. } => Error::Conflict {
+                    id,
+                    reason: format!("a row of `{name}` that went with it names what is gone now: {row}"),
+                },
+                error => error,
+            })?;
+        }
     }
-    let named: Vec<(&str, Cell)> = cells.iter().map(|(name, cell)| (name.as_str(), cell.clone())).collect();
-    add_row(connection, table.name, &named, author).await
+    Ok(done)
+}
+
+/// The keys and values of a JSON object, or the indices and entries of an array.
+async fn pairs(connection: &mut SqliteConnection, json: &str) -> Result<Vec<(String, Cell)>> {
+    let query = sqlx::query("SELECT CAST(key AS TEXT), value FROM json_each(?)").bind(json);
+    let read = |row: &sqlx::sqlite::SqliteRow| Ok((row.try_get(0)?, Cell::of(row, 1)?));
+    query.fetch_all(connection).await?.iter().map(read).collect()
+}
+
+fn named(cells: &[(String, Cell)]) -> Vec<(&str, Cell)> {
+    cells.iter().map(|(name, cell)| (name.as_str(), cell.clone())).collect()
 }

@@ -1,7 +1,8 @@
 //! How answers are printed: tables for people, JSON for programs; data on standard output, the rest on standard
 //! error. A closed pipe ends the printing quietly.
 
-use std::io::{IsTerminal, Write, stderr, stdout};
+use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use comfy_table::{ContentArrangement, Table, presets};
@@ -9,9 +10,22 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 
+/// Whether some of the answer could not be written, to a full disk for one.
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Whether some of the answer could not be written; a pipe that its reader closed does not count.
+pub fn is_lost() -> bool {
+    LOST.load(Ordering::Relaxed)
+}
+
 /// Prints a line of data.
 pub fn line(text: &str) {
-    writeln!(stdout(), "{text}").ok();
+    if let Err(error) = writeln!(stdout(), "{text}")
+        && error.kind() != ErrorKind::BrokenPipe
+        && !LOST.swap(true, Ordering::Relaxed)
+    {
+        remark(&format!("cannot write the answer: {error}"));
+    }
 }
 
 /// Prints a remark on standard error.
@@ -68,12 +82,7 @@ fn theme() -> miette::GraphicalTheme {
     if coloured { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() }
 }
 
-/// A number as people read it: at most three decimals, none that say nothing.
-pub fn number(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
+pub use crate::number::number;
 
 /// [`number`], or nothing.
 pub fn maybe(value: Option<f64>) -> String {

@@ -20,14 +20,14 @@ impl Lattice {
     /// The lattice over `bounds` with cells of `side` metres. The error is one sentence.
     pub fn new(bounds: Rect, side: f64) -> Result<Self, String> {
         if !(side.is_finite() && side > 0.0) {
-            return Err(format!("a grid of {side} m has no cells"));
+            return Err(format!("a grid of {side:?} m has no cells"));
         }
         // A map of 93.7 m has 1874 cells of 5 cm, whatever the binary fractions say.
         let cells = |length: f64| (length / side + 1e-6).floor();
         let (columns, rows) = (cells(bounds.dx()), cells(bounds.dy()));
         if columns * rows > MAX_CELLS {
             return Err(format!(
-                "a grid of {side} m cuts {:.1} x {:.1} m into {:.0} million cells, more than {:.0} million; \
+                "a grid of {side:?} m cuts {:.1} x {:.1} m into {:.0} million cells, more than {:.0} million; \
                  set a coarser `grid`",
                 bounds.dx(),
                 bounds.dy(),
@@ -36,7 +36,7 @@ impl Lattice {
             ));
         }
         if columns < 1.0 || rows < 1.0 {
-            return Err(format!("a grid of {side} m is coarser than the map"));
+            return Err(format!("a grid of {side:?} m is coarser than the map"));
         }
         let origin = Point::new(bounds.x0, bounds.y0);
         Ok(Self { origin, side, columns: columns as u32, rows: rows as u32 })

@@ -10,6 +10,10 @@ use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::suggest::nearest;
 use super::syntax_problem;
 
+/// The largest number that a file may hold. In metres it is far beyond any floor; beyond it the centimetres of a
+/// coordinate would be lost, and sums of hardness would not stay finite.
+pub const LARGEST: f64 = 1e15;
+
 /// A TOML document that was parsed, to be read field by field.
 pub struct Document<'i> {
     table: Spanned<DeTable<'i>>,
@@ -187,10 +191,14 @@ impl Fields<'_, '_> {
                 return None;
             }
         };
-        if number.is_finite() {
+        if number.abs() <= LARGEST {
             return Some(number);
         }
-        let message = format!("`{key}` must be a finite number of metres");
+        let message = if number.is_finite() {
+            format!("`{key}` is {number:e}, and numbers up to {LARGEST:e} are read")
+        } else {
+            format!("`{key}` must be a finite number")
+        };
         problems.push(self.text.problem(Code::NotFinite, &value.span(), message));
         None
     }

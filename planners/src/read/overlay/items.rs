@@ -50,6 +50,11 @@ pub(super) fn places(document: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> 
             problems.push(item.text.problem(Code::EmptyName, &name.span, "a place needs a name"));
             continue;
         }
+        if name.value.contains(char::is_control) {
+            let message = format!("the name {:?} holds a control character, which is no letter", name.value);
+            problems.push(item.text.problem(Code::EmptyName, &name.span, message));
+            continue;
+        }
         if let Some(first) = found.iter().find(|place| place.value.name == name.value) {
             let line = item.text.line(first.span.start);
             let message = format!("`{}` is already the name of the place on line {line}", name.value);

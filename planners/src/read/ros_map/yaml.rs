@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_saphyr::{Location, Spanned};
 
 use super::super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::super::fields::Located;
+use super::super::fields::{LARGEST, Located};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
 use crate::world::Pose;
@@ -95,7 +95,7 @@ struct Written {
 
 /// ROS writes 0 or 1, people true or false.
 #[derive(Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "`negate` must be 0 or 1")]
 enum Negate {
     Number(i64),
     Truth(bool),
@@ -170,22 +170,29 @@ fn located<T: Clone>(value: &Spanned<T>) -> Located<T> {
 }
 
 fn positive(source: &Text, key: &str, number: &Located<f64>, problems: &mut Vec<Problem>) -> Option<f64> {
-    let code = if !number.value.is_finite() {
+    let code = if number.value.is_nan() || number.value > LARGEST {
         Code::NotFinite
     } else if number.value <= 0.0 {
         Code::NotPositive
     } else {
         return Some(number.value);
     };
-    let message = format!("`{key}` is {} and must be a finite number of metres above 0", number.value);
+    let message = format!(
+        "`{key}` is {} and must be a finite number of metres above 0, at most {LARGEST:e}",
+        number.value
+    );
     problems.push(source.problem(code, &number.span, message));
     None
 }
 
 fn origin(source: &Text, origin: &Located<Vec<f64>>, problems: &mut Vec<Problem>) -> Option<Pose> {
     let problem = match origin.value[..] {
-        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.is_finite()) => return Some(Pose { x, y, yaw }),
-        [_, _, _] => source.problem(Code::NotFinite, &origin.span, "`origin` must be finite numbers"),
+        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.abs() <= LARGEST) => return Some(Pose { x, y, yaw }),
+        [_, _, _] => source.problem(
+            Code::NotFinite,
+            &origin.span,
+            format!("`origin` must be finite numbers up to {LARGEST:e}"),
+        ),
         _ => {
             let message = format!("`origin` has {} entries and needs three: x, y, yaw", origin.value.len());
             source.problem(Code::WrongType, &origin.span, message)

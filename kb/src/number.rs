@@ -1,0 +1,28 @@
+//! Numbers as people read them.
+
+/// Beyond this a number is written with an exponent.
+const LONG: f64 = 1e15;
+
+/// At most three decimals, none that say nothing; an exponent where there would be more than 15 digits.
+pub fn number(value: f64) -> String {
+    if value.is_finite() && value.abs() >= LONG {
+        return format!("{value:e}");
+    }
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn a_number_is_as_short_as_what_it_says() {
+        for (value, text) in
+            [(0.25, "0.25"), (-0.0001, "0"), (12.0, "12"), (0.199_999_999_9, "0.2"), (1e300, "1e300")]
+        {
+            assert_eq!(number(value), text);
+        }
+    }
+}

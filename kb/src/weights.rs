@@ -1,0 +1,47 @@
+//! What rules say of rooms and doors, checked before it is kept: a hardness is a number that a sum can take.
+
+use adit_engine::KnowledgeBase as Inference;
+use adit_planners::facts::Column;
+
+use crate::classes;
+use crate::error::{Error, Result};
+use crate::number::number;
+
+/// The largest hardness that the tables take.
+const LARGEST: f64 = 1e300;
+
+/// Checks the hardness of a class's objects.
+///
+/// # Arguments
+/// `name` is how messages call the object in a row.
+pub fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -> String) -> Result<()> {
+    let values = match classes::column(knowledge, class, "hardness") {
+        Some(Column::Number(values)) => values,
+        Some(other) => {
+            let kind = if matches!(other, Column::Text(_)) { "texts" } else { "truth values" };
+            let rules = rules(knowledge, class);
+            let message = format!("{class}.hardness must hold numbers, and {rules} gives it {kind}");
+            return Err(Error::said("rule/hardness", message, None));
+        }
+        None => return Ok(()),
+    };
+    let wrong = |value: &Option<f64>| value.is_some_and(|value| !(0.0..=LARGEST).contains(&value));
+    let Some(row) = values.iter().position(wrong) else { return Ok(()) };
+    let by = knowledge.justifications(class, "hardness").and_then(|found| {
+        let rule = found.of_row.get(row).copied().flatten()?;
+        found.rules.get(rule as usize).map(|(rule, _)| format!("rule \"{rule}\""))
+    });
+    let by = by.unwrap_or_else(|| rules(knowledge, class));
+    let found = values[row].map_or_else(String::new, number);
+    let message = format!("{by} gives {} the hardness {found}", name(row));
+    let help = "a hardness is finite and not negative; revisions count, too".to_owned();
+    Err(Error::said("rule/hardness", message, Some(help)))
+}
+
+/// The rules that give a class its hardness.
+fn rules(knowledge: &Inference, class: &str) -> String {
+    let found = knowledge.justifications(class, "hardness");
+    let names: Vec<String> =
+        found.into_iter().flat_map(|found| found.rules).map(|(rule, _)| format!("rule \"{rule}\"")).collect();
+    if names.is_empty() { "a planner".to_owned() } else { names.join(" or ") }
+}
