@@ -125,6 +125,7 @@ fn bare() -> Engine {
 }
 
 /// The interpreter's numbers are those of rules: `1 / 2` is a half, and 3.0 is written "3".
+#[allow(clippy::float_cmp)]
 fn register_functions(engine: &mut Engine) {
     type Refused = Result<(), Box<EvalAltResult>>;
     engine
@@ -133,6 +134,8 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("/", |a: i64, b: i64| a as f64 / b as f64)
         .register_fn("%", |a: i64, b: i64| a as f64 % b as f64)
         .register_fn("**", |a: i64, b: i64| (a as f64).powf(b as f64))
+        // rhai's own multiplies whole powers out, and differs in the last bit.
+        .register_fn("**", |a: f64, b: i64| a.powf(b as f64))
         .register_fn("+", |text: ImmutableString, number: f64| format!("{text}{number}"))
         .register_fn("+", |number: f64, text: ImmutableString| format!("{number}{text}"))
         .register_fn("+=", |text: &mut ImmutableString, number: f64| *text += number.to_string())
@@ -142,6 +145,16 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("floor", |a: i64| a)
         .register_fn("round", |a: i64| a)
         .register_fn("sqrt", |a: i64| (a as f64).sqrt());
+    // rhai takes numbers that differ in the last bit for equal; rules compare exactly.
+    macro_rules! compare {
+        ($($operator:tt)*) => {$(
+            engine
+                .register_fn(stringify!($operator), |a: f64, b: f64| a $operator b)
+                .register_fn(stringify!($operator), |a: i64, b: f64| (a as f64) $operator b)
+                .register_fn(stringify!($operator), |a: f64, b: i64| a $operator (b as f64));
+        )*};
+    }
+    compare!(< <= > >= == !=);
     macro_rules! two {
         ($name:literal, $function:expr) => {
             engine
