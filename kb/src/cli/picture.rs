@@ -1,5 +1,6 @@
 //! `adit draw`.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use super::DrawArgs;
@@ -29,7 +30,10 @@ pub fn run(args: &DrawArgs) -> Result<()> {
         }
         Some(state) if !states.contains(&state) => {
             let message = format!("no state `{state}` has rooms in this site");
-            let help = did_you_mean(state, states.iter().map(|state| state.as_str()));
+            let known: BTreeSet<&str> = states.iter().map(|state| state.as_str()).collect();
+            let named =
+                || format!("states with rooms: {}", known.iter().copied().collect::<Vec<_>>().join(", "));
+            let help = did_you_mean(state, known.iter().copied()).or_else(|| (!known.is_empty()).then(named));
             return Err(Error::said("draw/unknown-state", message, help));
         }
         Some(_) => {}
