@@ -8,7 +8,7 @@ use adit_planners::routes::Arrival;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::graph::{End, SiteGraph};
+use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
 use crate::{reason, trees};
@@ -148,9 +148,6 @@ impl KnowledgeBase {
         Ok(())
     }
 }
-
-/// Names of the rules by their number.
-pub type Rules = std::collections::BTreeMap<i64, String>;
 
 fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
     let mut robots: Vec<String> = tx.states()?.into_iter().map(|state| state.robot).collect();

@@ -21,6 +21,9 @@ pub struct SiteGraph {
     room_by_name: BTreeMap<String, usize>,
 }
 
+/// Names of the rules by their number.
+pub type Rules = BTreeMap<i64, String>;
+
 /// Something that a route starts from or leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {

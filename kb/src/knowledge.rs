@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use adit_db::history::Author;
-use adit_db::robot::{Change, State};
+use adit_db::robot::State;
 use adit_db::{Store, Tx};
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::bridges::Bridges;
@@ -14,29 +14,19 @@ use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
 use adit_planners::planner::Planner;
 use adit_planners::prime_areas::PrimeAreas;
-use adit_planners::read::MapReport;
 use adit_planners::rooms::PaperRooms;
-use adit_planners::world::World;
 
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
+use crate::inputs::Inputs;
 use crate::progress::{Progress, Silent};
 use crate::report::{Before, Report, Routes};
 use crate::robots::RobotFile;
 use crate::site::{Rooms, Site};
 use crate::store::{LastBuild, Tables};
 use crate::{classes, lint, rules, tables, trees};
-
-/// What a derivation starts from, besides the tables.
-pub(crate) struct Inputs {
-    rules: RuleBase,
-    world: World,
-    pub(crate) map_report: MapReport,
-    pub(crate) notes: Vec<String>,
-    stage: Stage,
-}
 
 /// Something that the expert should know, though nothing is wrong.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -144,7 +134,7 @@ impl KnowledgeBase {
     ) -> Result<Report> {
         let mut store = Store::open_or_create(database)?;
         store.transaction(|tx| {
-            let notes = self.seed(tx, seed)?;
+            let notes = seed.into_tables(tx, &self.site.robots, self.reseed)?;
             let mut report = self.follow(tx, inputs, progress)?;
             report.notes.extend(notes);
             Ok(report)
@@ -189,58 +179,13 @@ impl KnowledgeBase {
 
     fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
         progress.stage("map");
-        let began = Instant::now();
-        let rules = rules::load(&self.site, self.rules.as_deref())?;
-        let (world, map_report, notes) = self.site.world()?;
-        let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
-        let notes = notes.into_iter().map(|note| note.to_string());
-        let unread = lint::unread(&rules, &self.planners).into_iter().map(|problem| problem.to_string());
-        let notes = unread.chain(notes).collect();
-        Ok(Inputs { rules, world, map_report, notes, stage })
+        Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
 
     /// The states of a robot, as the database has them.
     pub fn states(&self, robot: &str) -> Result<Vec<State>> {
         let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states())?;
         Ok(states.into_iter().filter(|state| state.robot == robot).collect())
-    }
-
-    /// Fills the robot table the first time, or when asked; says where file and table differ otherwise.
-    fn seed(&self, tx: &mut Tx<'_>, file: &RobotFile) -> Result<Vec<String>> {
-        let (states, changes) = (tx.states()?, tx.changes()?);
-        if states.is_empty() || self.reseed {
-            tx.seed(&file.robots, &file.changes)?;
-            return Ok(Vec::new());
-        }
-        Ok(self.differences(&states, &changes, file))
-    }
-
-    fn differences(&self, states: &[State], changes: &[Change], file: &RobotFile) -> Vec<String> {
-        let differs = |row: &State| {
-            let same = |other: &&State| other.robot == row.robot && other.state == row.state;
-            match states.iter().find(same) {
-                Some(known) => State { position: row.position, ..known.clone() } != *row,
-                None => true,
-            }
-        };
-        let mut named: Vec<&str> =
-            file.robots.iter().filter(|row| differs(row)).map(|row| row.state.as_str()).collect();
-        let gone = |row: &&State| {
-            !file.robots.iter().any(|other| other.robot == row.robot && other.state == row.state)
-        };
-        named.extend(states.iter().filter(gone).map(|row| row.state.as_str()));
-        let mut by_key = file.changes.clone();
-        by_key.sort_by(|a, b| {
-            (&a.robot, &a.from_state, &a.to_state).cmp(&(&b.robot, &b.from_state, &b.to_state))
-        });
-        if named.is_empty() && by_key == changes {
-            return Vec::new();
-        }
-        let what = if named.is_empty() { "changes of shape".to_owned() } else { named.join(", ") };
-        vec![format!(
-            "{} differs from the database in {what}; the database counts (--reseed takes the file)",
-            self.site.robots.display()
-        )]
     }
 
     /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.

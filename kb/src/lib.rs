@@ -24,6 +24,7 @@ pub mod draw;
 pub mod edit;
 mod error;
 mod graph;
+mod inputs;
 mod knowledge;
 mod lint;
 mod number;

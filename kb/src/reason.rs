@@ -5,9 +5,8 @@ use adit_planners::layers::{Headroom, headroom, narrowest};
 use adit_planners::routes::{Blockage, Start, blockage};
 use adit_planners::world::World;
 
-use crate::answer::Rules;
 use crate::error::{Error, Result};
-use crate::graph::{End, SiteGraph, is_weighed};
+use crate::graph::{End, Rules, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
 use crate::number::number;
 

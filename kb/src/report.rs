@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::derive::{Derived, Stage};
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::knowledge::Inputs;
+use crate::inputs::Inputs;
 
 /// The site as it was.
 #[derive(Default)]

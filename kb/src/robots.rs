@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::Path;
 
+use adit_db::Tx;
 use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Located, Problem};
 
@@ -47,6 +48,47 @@ impl RobotFile {
             ));
         }
         Ok(file)
+    }
+
+    /// Fills the robot tables the first time, or when asked; otherwise says where file and tables differ.
+    ///
+    /// # Arguments
+    /// `path` is the file, for the notes.
+    pub fn into_tables(&self, tx: &mut Tx<'_>, path: &Path, again: bool) -> Result<Vec<String>> {
+        let (states, changes) = (tx.states()?, tx.changes()?);
+        if states.is_empty() || again {
+            tx.seed(&self.robots, &self.changes)?;
+            return Ok(Vec::new());
+        }
+        let what = self.differences(&states, &changes);
+        let note = |what| {
+            let file = path.display();
+            format!(
+                "{file} differs from the database in {what}; the database counts (--reseed takes the file)"
+            )
+        };
+        Ok(what.map(note).into_iter().collect())
+    }
+
+    /// The states that the file and the table have otherwise.
+    fn differences(&self, states: &[State], changes: &[Change]) -> Option<String> {
+        let same = |a: &State, b: &State| a.robot == b.robot && a.state == b.state;
+        let differs = |row: &State| match states.iter().find(|known| same(known, row)) {
+            Some(known) => State { position: row.position, ..known.clone() } != *row,
+            None => true,
+        };
+        let changed = self.robots.iter().filter(|row| differs(row));
+        let gone = states.iter().filter(|row| !self.robots.iter().any(|other| same(other, row)));
+        let named: Vec<&str> = changed.chain(gone).map(|row| row.state.as_str()).collect();
+        let mut by_key = self.changes.clone();
+        by_key.sort_by(|a, b| {
+            (&a.robot, &a.from_state, &a.to_state).cmp(&(&b.robot, &b.from_state, &b.to_state))
+        });
+        match (named.is_empty(), by_key == changes) {
+            (true, true) => None,
+            (true, false) => Some("changes of shape".to_owned()),
+            (false, _) => Some(named.join(", ")),
+        }
     }
 
     fn check_changes(&self, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) {

@@ -52,6 +52,10 @@ pub fn read_map(path: &Path, settings: &MapSettings) -> Result<(World, MapReport
     check(settings)?;
     let name = path.display().to_string();
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
+    // a pipe or a device may never end
+    if path.exists() && !path.is_file() {
+        return Err(Problem::of_file(Code::Unreadable, format!("the map `{name}` is no file")).into());
+    }
     let text = || {
         std::fs::read_to_string(path).map_err(|error| {
             Problem::of_file(Code::Unreadable, format!("the map `{name}` cannot be read: {error}"))
