@@ -55,10 +55,14 @@ pub struct Answer {
 impl KnowledgeBase {
     /// The route of least hardness between two places, rooms or points (`x,y`).
     ///
-    /// Where tables were edited from outside since the last build, everything is derived again first.
+    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
         let mut store = Store::open_read_only(self.database())?;
-        if !store.snapshot(|tx| tx.stale_marks())?.is_empty() {
+        let texts = self.site().texts().to_string();
+        let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
+            Ok(!tx.stale_marks()?.is_empty() || tx.site_value("texts")?.is_some_and(|built| built != texts))
+        };
+        if store.snapshot(is_old)? {
             drop(store);
             self.build(&crate::progress::Silent)?;
             store = Store::open_read_only(self.database())?;

@@ -258,7 +258,10 @@ pub fn run(cli: &Cli) -> ExitCode {
                 output::line(&serde_json::json!({"error": output::as_json(error.problems())}).to_string());
             }
             output::problems(error.problems());
-            ExitCode::from(2)
+            let no_route = |problem: &miette::Report| {
+                problem.code().is_some_and(|code| code.to_string() == "draw/no-route")
+            };
+            ExitCode::from(if error.problems().iter().all(no_route) { 1 } else { 2 })
         }
     }
 }

@@ -22,7 +22,7 @@ use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Silent};
-use crate::report::{Before, Report, Routes};
+use crate::report::{Before, PlaceCosts, Report, Routes};
 use crate::robots::RobotFile;
 use crate::site::{Rooms, Site};
 use crate::store::{LastBuild, Tables};
@@ -33,6 +33,12 @@ use crate::{classes, lint, rules, tables, trees};
 #[error("{0}")]
 #[diagnostic(severity(advice))]
 struct Note(String);
+
+/// Something that routes need and no rule gives.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(code("rule/gap"), severity(warning))]
+struct Gap(String);
 
 /// A site with its planners, ready to be built and edited.
 pub struct KnowledgeBase {
@@ -134,7 +140,7 @@ impl KnowledgeBase {
     ) -> Result<Report> {
         let mut store = Store::open_or_create(database)?;
         store.transaction(|tx| {
-            let notes = seed.into_tables(tx, &self.site.robots, self.reseed)?;
+            let notes = seed.seed_tables(tx, &self.site.robots, self.reseed)?;
             let mut report = self.follow(tx, inputs, progress)?;
             report.notes.extend(notes);
             Ok(report)
@@ -174,6 +180,7 @@ impl KnowledgeBase {
         let report = self.build_at(&scratch, &Silent)?;
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
         problems.extend(notes.map(|note| miette::Report::new(Note(note))));
+        problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
         Ok(problems)
     }
 
@@ -302,6 +309,8 @@ impl KnowledgeBase {
         let ends = trees::ends(graph)?;
         let comparable = before.starts == plan.starts && before.same_rooms(graph);
         let mut routes = Routes::new(plan.starts.len(), comparable);
+        let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
+        let mut new = PlaceCosts::new();
         if !comparable {
             tx.clear_trees()?;
             tx.replace_starts(&plan.starts)?;
@@ -313,15 +322,26 @@ impl KnowledgeBase {
             let numbered = (batch as i64 * 64 + 1..).zip(made);
             if comparable {
                 for (tree, rows) in numbered {
-                    if routes.differs(before, (plan.name(tree), &tx.tree_rows(tree)?), &rows, graph) {
+                    let Some(start) = plan.start(tree) else { continue };
+                    if routes.differs(before, (start, &tx.tree_rows(tree)?), &rows, graph) {
                         routes.rows += tx.put_tree(tree, rows)?;
                     }
                 }
             } else {
-                let rows = numbered.flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
+                let numbered: Vec<_> = numbered.collect();
+                for (tree, rows) in &numbered {
+                    new.extend(plan.place_costs(graph, *tree, rows));
+                }
+                let rows = numbered
+                    .into_iter()
+                    .flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
                 routes.rows += tx.put_trees(rows)?;
             }
         }
+        if !before.starts.is_empty() {
+            routes.compare(&old, &new);
+        }
+        routes.sort();
         Ok(routes)
     }
 
@@ -330,6 +350,7 @@ impl KnowledgeBase {
         let last = tx.site_value("generation")?.and_then(|text| text.parse::<u64>().ok()).unwrap_or(0);
         let generation = last + 1;
         tx.set_site_value("generation", Some(&generation.to_string()))?;
+        tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
         let own: Vec<String> = tx.user_tables()?.into_iter().map(|table| table.name).collect();
@@ -362,4 +383,24 @@ fn is_unbuilt(database: &Path) -> bool {
     }
     let generation = |tx: &mut Tx<'_>| tx.site_value("generation");
     Store::open(database).and_then(|mut store| store.transaction(generation)).is_ok_and(|g| g.is_none())
+}
+
+/// What the kept routes between places cost so far; few enough to be asked one by one, or none.
+fn place_costs(tx: &mut Tx<'_>, before: &Before, graph: &SiteGraph) -> Result<PlaceCosts> {
+    const ASKED: usize = 5_000;
+    let is_place = |name: &str| graph.places.iter().any(|place| place.place == name);
+    let starts: Vec<_> = before.starts.iter().filter(|start| is_place(&start.name)).collect();
+    let mut costs = PlaceCosts::new();
+    if starts.len() * graph.places.len() > ASKED {
+        return Ok(costs);
+    }
+    for start in starts {
+        for goal in &graph.places {
+            if let Some(cost) = tx.route(&start.robot, &start.name, &goal.place)?.and_then(|route| route.cost)
+            {
+                costs.insert((start.robot.clone(), start.name.clone(), goal.place.clone()), cost);
+            }
+        }
+    }
+    Ok(costs)
 }

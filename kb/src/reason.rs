@@ -69,7 +69,7 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     };
     let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
     if let Some(room) = sides.map(|index| &graph.rooms[index]).find(|room| !is_weighed(room)) {
-        return format!("room {} has no hardness: no rule gives it one", room.name);
+        return format!("room {} has no hardness: no rule gives it one, or rules disagree", room.name);
     }
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
     let [x, y] = door.at;
@@ -77,7 +77,7 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     match (door.passable.value, rule) {
         (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
         (Some(false), None) => format!("{place} lets no state through: {needed}"),
-        _ => format!("{place} has no hardness: no rule gives it one"),
+        _ => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
     }
 }
 

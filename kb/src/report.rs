@@ -80,13 +80,15 @@ pub struct Routes {
     pub changed: Option<usize>,
     /// Those of them that lead another way.
     pub rerouted: Option<usize>,
-    /// Of those between places the ones whose cost changed most, at most ten.
+    /// Those between places, the ones whose cost changed most first.
     pub changes: Vec<RouteChange>,
 }
 
 /// A route between two places, before and now.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RouteChange {
+    /// Whose.
+    pub robot: String,
     /// Where from.
     pub start: String,
     /// Where to.
@@ -95,12 +97,12 @@ pub struct RouteChange {
     pub old: Option<f64>,
     /// Cost of now; `None`: there is no route.
     pub new: Option<f64>,
-    /// Whether it leads another way.
-    pub other_way: bool,
+    /// Whether it leads another way; unknown where the rooms were cut anew.
+    pub other_way: Option<bool>,
 }
 
-/// How many routes are listed one by one.
-const ROUTES_LISTED: usize = 10;
+/// Costs of the routes between places, by robot, start and goal.
+pub type PlaceCosts = BTreeMap<(String, String, String), f64>;
 
 impl Routes {
     /// None yet; `comparable` where routes of before can be compared.
@@ -113,7 +115,7 @@ impl Routes {
     pub fn differs(
         &mut self,
         before: &Before,
-        (start, old): (&str, &[TreeRow]),
+        (start, old): (&Start, &[TreeRow]),
         new: &[TreeRow],
         graph: &SiteGraph,
     ) -> bool {
@@ -134,19 +136,45 @@ impl Routes {
             changed += usize::from(differ || other_way);
             rerouted += usize::from(other_way);
             if differ && let Some(place) = graph.place_of(*node) {
-                let (start, goal) = (start.to_owned(), place.to_owned());
-                self.changes.push(RouteChange { start, goal, old: costs.0, new: costs.1, other_way });
+                let (robot, from) = (start.robot.clone(), start.name.clone());
+                let (goal, other_way) = (place.to_owned(), Some(other_way));
+                self.changes.push(RouteChange {
+                    robot,
+                    start: from,
+                    goal,
+                    old: costs.0,
+                    new: costs.1,
+                    other_way,
+                });
             }
         }
+        self.changed = self.changed.map(|count| count + changed);
+        self.rerouted = self.rerouted.map(|count| count + rerouted);
+        old != new
+    }
+}
+
+impl Routes {
+    /// Compares the routes between places where the rooms were cut anew, so that trees cannot be compared.
+    pub fn compare(&mut self, old: &PlaceCosts, new: &PlaceCosts) {
+        for key in old.keys().chain(new.keys().filter(|key| !old.contains_key(*key))) {
+            let (old, new) = (old.get(key).copied(), new.get(key).copied());
+            // another cut moves crossing points by a hair
+            let same = matches!((old, new), (Some(old), Some(new)) if (old - new).abs() <= 1e-3 * old.abs());
+            if !same {
+                let (robot, start, goal) = key.clone();
+                self.changes.push(RouteChange { robot, start, goal, old, new, other_way: None });
+            }
+        }
+    }
+
+    /// Puts the greatest changes first.
+    pub fn sort(&mut self) {
         let by = |change: &RouteChange| match (change.old, change.new) {
             (Some(old), Some(new)) => (new - old).abs(),
             _ => f64::INFINITY,
         };
         self.changes.sort_by(|a, b| by(b).total_cmp(&by(a)));
-        self.changes.truncate(ROUTES_LISTED);
-        self.changed = self.changed.map(|count| count + changed);
-        self.rerouted = self.rerouted.map(|count| count + rerouted);
-        old != new
     }
 }
 
@@ -186,6 +214,8 @@ pub struct Report {
     pub map: MapReport,
     /// What the expert should know.
     pub notes: Vec<String>,
+    /// What routes need and no rule gave.
+    pub gaps: Vec<String>,
 }
 
 impl Report {
@@ -211,8 +241,6 @@ impl Report {
             changed_doors = doors.len();
             changes.extend(doors);
         }
-        let mut notes = inputs.notes.clone();
-        notes.extend(gaps(&derived.conclusions, graph));
         Self {
             generation,
             rooms: Counts { total: graph.rooms.len(), changed: changed_rooms },
@@ -222,7 +250,8 @@ impl Report {
             routes,
             stages: derived.stages,
             map: inputs.map_report.clone(),
-            notes,
+            notes: inputs.notes.clone(),
+            gaps: gaps(&derived.conclusions, graph),
         }
     }
 
@@ -247,6 +276,7 @@ impl Report {
                 "free": self.map.free,
             },
             "notes": self.notes,
+            "gaps": self.gaps,
         })
     }
 }

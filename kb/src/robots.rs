@@ -54,7 +54,7 @@ impl RobotFile {
     ///
     /// # Arguments
     /// `path` is the file, for the notes.
-    pub fn into_tables(&self, tx: &mut Tx<'_>, path: &Path, again: bool) -> Result<Vec<String>> {
+    pub fn seed_tables(&self, tx: &mut Tx<'_>, path: &Path, again: bool) -> Result<Vec<String>> {
         let (states, changes) = (tx.states()?, tx.changes()?);
         if states.is_empty() || again {
             tx.seed(&self.robots, &self.changes)?;

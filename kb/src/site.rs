@@ -1,6 +1,7 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use adit_planners::read::{
@@ -70,6 +71,7 @@ pub struct Site {
     pub starts: Option<Starts>,
     settings: MapSettings,
     overlay: Overlay,
+    text: String,
 }
 
 const KEYS: [&str; 12] = [
@@ -112,6 +114,7 @@ impl Site {
             starts: starts(&fields, &mut problems),
             settings: settings(&fields, &mut problems),
             overlay: Overlay::from_fields(&fields, &mut problems),
+            text: text.clone(),
         };
         if problems.is_empty() { Ok(site) } else { Err(Error::all(problems)) }
     }
@@ -119,6 +122,14 @@ impl Site {
     /// The database, unless the user names another one.
     pub fn database(&self) -> PathBuf {
         self.folder.join("site.db")
+    }
+
+    /// A number that changes with the texts of `site.toml` and of the map's own file (not of its image).
+    pub fn texts(&self) -> u64 {
+        let map = if self.map.is_file() { fs::read(&self.map).unwrap_or_default() } else { Vec::new() };
+        let mut hasher = DefaultHasher::new();
+        (&self.text, map).hash(&mut hasher);
+        hasher.finish()
     }
 
     /// Reads the map and lays over it what `site.toml` says.

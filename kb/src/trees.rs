@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::graph::{End, SiteGraph};
+use crate::report::PlaceCosts;
 use crate::site::Starts;
 use crate::suggest::did_you_mean;
 
@@ -25,9 +26,18 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The first name of a tree's start.
-    pub fn name(&self, tree: i64) -> &str {
-        self.starts.iter().find(|start| start.tree == tree).map_or("", |start| &start.name)
+    /// The first start of a tree.
+    pub fn start(&self, tree: i64) -> Option<&StartRow> {
+        self.starts.iter().find(|start| start.tree == tree)
+    }
+
+    /// What the routes of a tree between places cost.
+    pub fn place_costs(&self, graph: &SiteGraph, tree: i64, rows: &[TreeRow]) -> PlaceCosts {
+        let of_places = rows.iter().filter_map(|row| Some((graph.place_of(row.node)?, row.reach)));
+        let Some(start) = self.start(tree) else { return PlaceCosts::new() };
+        of_places
+            .map(|(goal, cost)| ((start.robot.clone(), start.name.clone(), goal.to_owned()), cost))
+            .collect()
     }
 }
 

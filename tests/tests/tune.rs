@@ -141,3 +141,22 @@ fn a_removed_state_stays_away_while_a_state_that_it_changes_to_is_gone() {
     site.adit("undo", &["1"]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT count(*) FROM changes"), ["12"]);
 }
+
+#[test]
+fn a_changed_width_says_which_routes_between_places_follow() {
+    // once, only "the rooms were cut anew" was said
+    let site = TestSite::example("hospital").built();
+    let change =
+        site.adit("tune", &["robots", "SQUAT", "height", "1.5", "--dry-run", "--json"]).expecting(0).json();
+    assert_eq!(change["cut_anew"], true);
+    let routes = change["routes"]["changes"].as_array().unwrap();
+    assert!(routes.iter().any(|route| route["start"] == "dock" && route["goal"] == "ward 6"), "{routes:?}");
+}
+
+#[test]
+fn a_place_added_to_the_site_file_is_known_to_the_next_route() {
+    let site = TestSite::example("hospital").built();
+    let text = site.read("site.toml");
+    site.write("site.toml", format!("{text}\n[[place]]\nname = \"store\"\nat = [11.0, 3.0]\n"));
+    site.adit("route", &["dock", "store"]).expect_status(0);
+}

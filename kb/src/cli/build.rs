@@ -72,7 +72,7 @@ fn free_space(report: &Report) {
 
 /// What the expert should know.
 pub fn notes(report: &Report) {
-    for note in &report.notes {
+    for note in report.notes.iter().chain(&report.gaps) {
         remark(&format!("note: {note}"));
     }
 }
@@ -108,16 +108,16 @@ pub fn changes(report: &Report) {
         )),
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
     }
-    for change in &report.routes.changes {
-        let way = if change.other_way { ", another way" } else { "" };
+    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot);
+    for change in report.routes.changes.iter().take(LISTED) {
+        let way = if change.other_way == Some(true) { ", another way" } else { "" };
+        let whose = if several { format!(" ({})", change.robot) } else { String::new() };
         let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
-        line(&format!(
-            "  {} to {}: {} → {}{way}",
-            change.start,
-            change.goal,
-            cost(change.old),
-            cost(change.new)
-        ));
+        let (old, new) = (cost(change.old), cost(change.new));
+        line(&format!("  {} to {}{whose}: {old} → {new}{way}", change.start, change.goal));
+    }
+    if report.routes.changes.len() > LISTED {
+        line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
     notes(report);
 }

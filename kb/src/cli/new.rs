@@ -87,7 +87,7 @@ map    = "{map}"
 robots = "robots.toml"     # seeds the table once; from then on `adit tune` changes it
 rules  = "rules"           # without this line the shipped rules count
 rooms  = "{}"        # or "paper", "minimum"
-# starts = ["dock"]        # from where routes are kept; all places and rooms up to 2,000 rooms, places above
+# starts = ["dock"]        # from where routes are kept; every place without this line
 
 # For images:
 # unknown    = "wall"      # or "free": what nobody has seen
