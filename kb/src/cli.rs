@@ -168,6 +168,9 @@ pub struct SqlArgs {
     pub site: SiteArgs,
     /// One SQL statement; without it, statements are read from standard input
     pub query: Option<String>,
+    /// At most so many rows of an answer; that there are more is said
+    #[arg(long, value_name = "ROWS", default_value_t = 1_000)]
+    pub limit: usize,
 }
 
 /// `adit draw`.

@@ -15,8 +15,9 @@ use crate::error::Result;
 pub fn run(args: &SqlArgs) -> Result<bool> {
     let knowledge = open(&args.site)?;
     let store = Store::open_read_only(knowledge.database())?;
+    let limits = Limits { rows: args.limit, ..Limits::default() };
     if let Some(query) = &args.query {
-        show(&store.query(query, &Limits::default())?, args.site.json)?;
+        show(&store.query(query, &limits)?, args.site.json)?;
         return Ok(true);
     }
     if stdin().is_terminal() {
@@ -30,18 +31,18 @@ pub fn run(args: &SqlArgs) -> Result<bool> {
         statement.push_str(&text);
         statement.push('\n');
         if text.trim_end().ends_with(';') {
-            all_well &= answer(&store, &std::mem::take(&mut statement), args.site.json);
+            all_well &= answer(&store, &std::mem::take(&mut statement), &limits, args.site.json);
         }
     }
     if !statement.trim().is_empty() {
-        all_well &= answer(&store, &statement, args.site.json);
+        all_well &= answer(&store, &statement, &limits, args.site.json);
     }
     Ok(all_well)
 }
 
 /// Answers one statement of the shell; an error is printed and the shell goes on.
-fn answer(store: &Store, statement: &str, as_json: bool) -> bool {
-    let outcome = store.query(statement, &Limits::default()).map_err(crate::error::Error::from);
+fn answer(store: &Store, statement: &str, limits: &Limits, as_json: bool) -> bool {
+    let outcome = store.query(statement, limits).map_err(crate::error::Error::from);
     match outcome.and_then(|answer| show(&answer, as_json)) {
         Ok(()) => true,
         Err(error) => {
@@ -67,7 +68,7 @@ fn show(answer: &Answer, as_json: bool) -> Result<()> {
         }
     }
     if answer.truncated {
-        remark(&format!("note: only the first {} rows are shown", answer.rows.len()));
+        remark(&format!("note: only the first {} rows are shown; --limit asks for more", answer.rows.len()));
     }
     Ok(())
 }
