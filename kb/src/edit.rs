@@ -3,6 +3,7 @@
 use adit_db::Tx;
 use adit_db::cell::Cell;
 use adit_db::history::Author;
+use adit_db::relation::RelationColumn;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
@@ -41,8 +42,8 @@ impl Edit {
         let done = match self {
             Self::Set(table, key, column, value) => {
                 let columns = columns(tx, table)?;
-                known_column(table, column, &columns)?;
-                let found = tx.set_cell((table, key, column), &cell(value), author);
+                let cell = cell_of(table, column, value, &columns)?;
+                let found = tx.set_cell((table, key, column), &cell, author);
                 found.map_err(|error| explain(tx, &error, table, key, value))?
             }
             Self::Add(table, key, cells) => {
@@ -94,7 +95,7 @@ const DERIVED: [&str; 12] = [
 ];
 
 /// The columns of a table that may be edited, its key's first.
-fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<(String, bool)>> {
+fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
     if DERIVED.contains(&table) {
         let message =
@@ -106,22 +107,30 @@ fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<(String, bool)>> {
         let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
         return Err(Error::said("edit/unknown-table", format!("there is no table `{table}`"), help));
     }
-    let relation = tx.read_table(table)?;
-    Ok(relation.columns.into_iter().map(|column| (column.name, column.key > 0)).collect())
+    Ok(tx.read_table(table)?.columns)
 }
 
-fn known_column(table: &str, column: &str, columns: &[(String, bool)]) -> Result<()> {
-    if columns.iter().any(|(name, _)| name == column) {
-        return Ok(());
+/// A value for a column, which must be there and hold such values.
+fn cell_of(table: &str, column: &str, value: &str, columns: &[RelationColumn]) -> Result<Cell> {
+    let Some(known) = columns.iter().find(|known| known.name == column) else {
+        let help = did_you_mean(column, columns.iter().map(|known| known.name.as_str()));
+        let message = format!("table `{table}` has no column `{column}`");
+        return Err(Error::said("edit/unknown-column", message, help));
+    };
+    let cell = cell(value);
+    let holds_numbers = ["REAL", "INTEGER"].contains(&known.declared.as_str());
+    if holds_numbers && matches!(cell, Cell::Text(_)) {
+        let message = format!("`{column}` of `{table}` holds numbers, and `{value}` is none");
+        return Err(Error::said("edit/not-a-number", message, None));
     }
-    let help = did_you_mean(column, columns.iter().map(|(name, _)| name.as_str()));
-    Err(Error::said("edit/unknown-column", format!("table `{table}` has no column `{column}`"), help))
+    Ok(cell)
 }
 
 /// The cells of a new row: the key's parts, then the others. A robot that is left out is the only one there is.
 fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> Result<Vec<(String, Cell)>> {
     let columns = columns(tx, table)?;
-    let keys: Vec<&str> = columns.iter().filter(|(_, key)| *key).map(|(name, _)| name.as_str()).collect();
+    let keys: Vec<&str> =
+        columns.iter().filter(|column| column.key > 0).map(|column| column.name.as_str()).collect();
     let mut parts: Vec<String> = key.splitn(keys.len().max(1), '/').map(str::to_owned).collect();
     if parts.len() + 1 == keys.len() && keys.first() == Some(&"robot") {
         let robots = tx.states()?;
@@ -136,14 +145,14 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
         row.push(((*name).to_owned(), cell(&part)));
     }
     for (name, value) in cells {
-        known_column(table, name, &columns)?;
+        let cell = cell_of(table, name, value, &columns)?;
         if row.iter().any(|(known, _)| known == name) {
             let message = format!("`{name}` is given twice: by {key} and by {name}={value}");
             let twice = format!("`{name}` is given twice, the second time as {name}={value}");
             let message = if keys.contains(&name.as_str()) { message } else { twice };
             return Err(Error::said("edit/usage", message, None));
         }
-        row.push((name.clone(), cell(value)));
+        row.push((name.clone(), cell));
     }
     if table == "robots" && !cells.iter().any(|(name, _)| name == "position") {
         let last = tx.states()?.iter().map(|state| state.position).max().unwrap_or(0);

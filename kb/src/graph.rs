@@ -146,10 +146,9 @@ impl SiteGraph {
     }
 }
 
-/// Whether a room can be walked in: where metres are weighed, a room of unknown hardness is not entered, just as a
-/// door of unknown hardness is not passed. In the paper's modes all hardness lies on the doors.
+/// Whether a room can be walked in, just as a door of unknown hardness is not passed.
 pub fn is_weighed(room: &Room) -> bool {
-    room.layer.is_none() || room.hardness.value.is_some()
+    walking(room) != Walking::Unknown
 }
 
 fn rect_of(room: &Room) -> Rect {

@@ -93,7 +93,7 @@ fn bad_edits_are_refused_and_nothing_is_half_done() {
     let before = site.sqlite3("SELECT * FROM robots");
     for (edit, words) in [
         (["robots", "SQUAT", "hardness", "-3"], vec!["hardness", "-3"]),
-        (["robots", "SQUAT", "hardness", "soft"], vec!["hardness", "soft"]),
+        (["robots", "SQUAT", "hardness", "soft"], vec!["`hardness` of `robots` holds numbers", "soft"]),
         (["robots", "SQAT", "hardness", "3"], vec!["SQAT", "SQUAT"]),
         (["robots", "SQUAT", "hardnes", "3"], vec!["hardnes", "hardness"]),
         (["robot", "SQUAT", "hardness", "3"], vec!["robot", "robots"]),
