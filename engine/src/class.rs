@@ -160,13 +160,15 @@ pub(crate) struct Table {
     pub(crate) key: Vec<usize>,
     pub(crate) names: Vec<String>,
     pub(crate) columns: Vec<Column>,
+    /// Columns in which NULL is a value, with that value.
+    pub(crate) nulls: Vec<(usize, Cell)>,
     pub(crate) len: usize,
 }
 
 impl Table {
     pub(crate) fn new(class: Class, symbols: &mut Symbols) -> Result<Self, ClassError> {
         let Class { name, key, properties, nulls } = class;
-        let mut table = Self { name, key: vec![], names: vec![], columns: vec![], len: 0 };
+        let mut table = Self { name, key: vec![], names: vec![], columns: vec![], nulls: vec![], len: 0 };
         for (property, given) in properties {
             let column = intern(given, symbols);
             table.push(property, column)?;
@@ -197,11 +199,7 @@ impl Table {
     }
 
     fn fill(&mut self, property: &str, value: &Value, symbols: &mut Symbols) -> Result<(), ClassError> {
-        let cell = match value {
-            Value::Number(number) => Cell::number(*number),
-            Value::Text(text) => Cell::Text(symbols.intern(text)),
-            Value::Truth(truth) => Cell::Truth(*truth),
-        };
+        let cell = symbols.cell(value);
         let index = self.index(property)?;
         let column = &mut self.columns[index];
         let holds = column.kind();
@@ -214,6 +212,7 @@ impl Table {
                 column.set(row, cell);
             }
         }
+        self.nulls.push((index, cell));
         Ok(())
     }
 
@@ -246,6 +245,26 @@ impl Table {
         Ok(())
     }
 
+    /// Whether an object with these cells may be added: its key is known, and no other has it.
+    pub(crate) fn check_new(&self, cells: &[Cell], symbols: &Symbols) -> Result<(), ClassError> {
+        if self.key.is_empty() {
+            return Ok(());
+        }
+        let class = || self.name.clone();
+        if self.len >= (u32::MAX - 1) as usize {
+            return Err(ClassError::TooLarge { class: class() });
+        }
+        if self.key.iter().any(|&column| cells[column] == Cell::Unknown) {
+            return Err(ClassError::UnknownKey { class: class(), row: self.len });
+        }
+        let same =
+            |row: &usize| self.key.iter().all(|&column| self.columns[column].cell(*row) == cells[column]);
+        match (0..self.len).find(same) {
+            Some(row) => Err(ClassError::SameKey { class: class(), key: self.key_text(row, symbols) }),
+            None => Ok(()),
+        }
+    }
+
     pub(crate) fn column(&self, property: &str) -> Option<&Column> {
         self.names.iter().position(|name| name == property).map(|index| &self.columns[index])
     }
@@ -268,6 +287,15 @@ impl Table {
 
     /// The row of the object with this key, as [`Table::key_text`] writes it.
     pub(crate) fn row(&self, key: &str, symbols: &Symbols) -> Option<usize> {
+        if let [column] = *self.key {
+            // One column is looked through by value, not by text.
+            let cell = match &self.columns[column] {
+                Column::Numbers(_) => Cell::number(key.parse().ok()?),
+                Column::Texts(_) => Cell::Text(symbols.find(key)?),
+                Column::Truths(_) => Cell::Truth(key.parse().ok()?),
+            };
+            return (0..self.len).find(|&row| self.columns[column].cell(row) == cell);
+        }
         (0..self.len).find(|&row| self.key_text(row, symbols) == key)
     }
 }

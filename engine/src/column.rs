@@ -55,6 +55,27 @@ impl Column {
         self.cell(row) == Cell::Unknown
     }
 
+    /// Adds a row; unknown if the value is of another type.
+    pub(crate) fn push(&mut self, cell: Cell) {
+        match (self, cell) {
+            (Self::Numbers(values), Cell::Number(number)) => values.push(number),
+            (Self::Numbers(values), _) => values.push(f64::NAN),
+            (Self::Texts(values), Cell::Text(symbol)) => values.push(symbol),
+            (Self::Texts(values), _) => values.push(Symbol::UNKNOWN),
+            (Self::Truths(values), Cell::Truth(truth)) => values.push(truth.into()),
+            (Self::Truths(values), _) => values.push(Truth::Unknown),
+        }
+    }
+
+    /// Takes a row out; those after it move up.
+    pub(crate) fn remove(&mut self, row: usize) {
+        match self {
+            Self::Numbers(values) => drop(values.remove(row)),
+            Self::Texts(values) => drop(values.remove(row)),
+            Self::Truths(values) => drop(values.remove(row)),
+        }
+    }
+
     /// Writes a row. `false` if the value is of another type.
     pub(crate) fn set(&mut self, row: usize, cell: Cell) -> bool {
         match (self, cell) {

@@ -2,8 +2,10 @@
 
 mod conclude;
 mod derived;
+pub(crate) mod facts;
 mod gaps;
 mod merge;
+mod update;
 mod why;
 
 use std::cell::RefCell;
@@ -37,6 +39,7 @@ pub struct KnowledgeBase {
     derived: BTreeMap<PropertyName, Derived>,
     done: BTreeMap<String, Done>,
     clock: u64,
+    last: update::Snapshot,
     limits: Limits,
 }
 

@@ -94,6 +94,7 @@
 //! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
 //! | never | `eval`, `import`, `sleep`, printing |
 
+mod changes;
 mod check;
 mod class;
 mod column;
@@ -111,6 +112,7 @@ mod suggest;
 mod symbols;
 mod value;
 
+pub use changes::{Changes, ClassChanges};
 pub use class::{Class, ClassError};
 pub use conclusions::{
     Conclusions, Conflict, Gap, Justification, Justifications, LeftOut, Origin, Reason, Revision, Support,
@@ -118,6 +120,7 @@ pub use conclusions::{
 };
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
+pub use knowledge::facts::FactError;
 pub use rule::{Operator, PropertyName, Rule};
 pub use rule_base::RuleBase;
 pub use schema::Schema;

@@ -1,0 +1,197 @@
+//! Facts told one by one: a cell, a new object, an object that is gone.
+
+use thiserror::Error;
+
+use super::{Held, KnowledgeBase};
+use crate::class::{Class, ClassError, Table};
+use crate::column::Column;
+use crate::value::{Cell, Type, Value};
+
+/// Why a fact cannot be told.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum FactError {
+    /// No such class.
+    #[error("there is no class {class}")]
+    NoClass {
+        /// The class.
+        class: String,
+    },
+    /// No such object.
+    #[error("class {class} has no object {key}")]
+    NoObject {
+        /// The class.
+        class: String,
+        /// Its key, or its row from 0.
+        key: String,
+    },
+    /// The value is of another type than the property.
+    #[error("{class}.{property} holds {}, not {value}", holds.plural())]
+    Type {
+        /// The class.
+        class: String,
+        /// The property.
+        property: String,
+        /// What the property holds.
+        holds: Type,
+        /// The value.
+        value: String,
+    },
+    /// A property of the key says which object it is and does not change.
+    #[error("{class}.{property} is part of the key, which does not change")]
+    Key {
+        /// The class.
+        class: String,
+        /// The property.
+        property: String,
+    },
+    /// An object that cannot be added.
+    #[error(transparent)]
+    Class(#[from] ClassError),
+}
+
+impl KnowledgeBase {
+    /// Tells one value of the object with this key; `None` takes back what was told, and what rules conclude
+    /// holds again. A property that the class does not have yet is added, unknown for the other objects.
+    pub fn tell(
+        &mut self,
+        class: &str,
+        key: &str,
+        property: &str,
+        value: Option<Value>,
+    ) -> Result<(), FactError> {
+        let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
+        let no_object = || FactError::NoObject { class: class.to_owned(), key: key.to_owned() };
+        self.tell_row(class, row.ok_or_else(no_object)?, property, value)
+    }
+
+    /// As [`tell`](Self::tell), by the object's row from 0.
+    pub fn tell_row(
+        &mut self,
+        class: &str,
+        row: usize,
+        property: &str,
+        value: Option<Value>,
+    ) -> Result<(), FactError> {
+        let table = &self.told_class(class)?.table;
+        if row >= table.len {
+            return Err(FactError::NoObject { class: class.to_owned(), key: row.to_string() });
+        }
+        let at = table.names.iter().position(|name| name == property);
+        if at.is_some_and(|at| table.key.contains(&at)) {
+            return Err(FactError::Key { class: class.to_owned(), property: property.to_owned() });
+        }
+        let cell = value.as_ref().map_or(Cell::Unknown, |value| self.symbols.get_mut().cell(value));
+        let Some(Held { table, .. }) = self.held.get_mut(class) else { return Ok(()) };
+        let at = match (at, cell.kind()) {
+            (Some(at), _) => at,
+            (None, None) => return Ok(()),
+            (None, Some(kind)) => table.widen(property, kind),
+        };
+        let cell = if cell == Cell::Unknown { table.null_of(at) } else { cell };
+        let column = &mut table.columns[at];
+        if cell.kind().is_some_and(|kind| kind != column.kind()) {
+            return Err(FactError::Type {
+                class: class.to_owned(),
+                property: property.to_owned(),
+                holds: column.kind(),
+                value: value.map_or_else(String::new, |value| value.to_string()),
+            });
+        }
+        column.set(row, cell);
+        self.touch(class);
+        Ok(())
+    }
+
+    /// Adds an object at the end of its class and gives its row. Properties that are left out are unknown; a class
+    /// or property that is not there is made.
+    pub fn add(&mut self, class: &str, object: &[(&str, Value)]) -> Result<usize, FactError> {
+        if !self.held.contains_key(class) {
+            self.assert(Class::new(class, &[]))?;
+        }
+        let mut cells = vec![];
+        for (property, value) in object {
+            cells.push((*property, self.symbols.get_mut().cell(value), value));
+        }
+        let table = &self.told_class(class)?.table;
+        let mut row: Vec<Cell> = (0..table.columns.len()).map(|at| table.null_of(at)).collect();
+        let mut new: Vec<(&str, Cell)> = vec![];
+        for (property, cell, value) in cells {
+            let Some(at) = table.names.iter().position(|name| name == property) else {
+                new.push((property, cell));
+                continue;
+            };
+            if cell.kind().is_some_and(|kind| kind != table.columns[at].kind()) {
+                return Err(FactError::Type {
+                    class: class.to_owned(),
+                    property: property.to_owned(),
+                    holds: table.columns[at].kind(),
+                    value: value.to_string(),
+                });
+            }
+            row[at] = cell;
+        }
+        table.check_new(&row, &self.symbols.borrow())?;
+        let Some(Held { table, .. }) = self.held.get_mut(class) else { return Ok(0) };
+        for (property, cell) in new {
+            if let Some(kind) = cell.kind() {
+                let at = table.widen(property, kind);
+                row.resize(table.columns.len(), Cell::Unknown);
+                row[at] = cell;
+            }
+        }
+        for (column, cell) in table.columns.iter_mut().zip(row) {
+            column.push(cell);
+        }
+        table.len += 1;
+        let at = table.len - 1;
+        self.touch(class);
+        Ok(at)
+    }
+
+    /// Removes the object with this key; those after it move up.
+    pub fn remove(&mut self, class: &str, key: &str) -> Result<(), FactError> {
+        let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
+        let no_object = || FactError::NoObject { class: class.to_owned(), key: key.to_owned() };
+        self.remove_row(class, row.ok_or_else(no_object)?)
+    }
+
+    /// As [`remove`](Self::remove), by the object's row from 0.
+    pub fn remove_row(&mut self, class: &str, row: usize) -> Result<(), FactError> {
+        let table = &self.told_class(class)?.table;
+        if row >= table.len {
+            return Err(FactError::NoObject { class: class.to_owned(), key: row.to_string() });
+        }
+        if let Some(Held { table, .. }) = self.held.get_mut(class) {
+            table.columns.iter_mut().for_each(|column| column.remove(row));
+            table.len -= 1;
+        }
+        self.touch(class);
+        Ok(())
+    }
+
+    fn told_class(&self, class: &str) -> Result<&Held, FactError> {
+        self.held.get(class).ok_or_else(|| FactError::NoClass { class: class.to_owned() })
+    }
+
+    fn touch(&mut self, class: &str) {
+        let stamp = self.tick();
+        if let Some(held) = self.held.get_mut(class) {
+            held.stamp = stamp;
+        }
+    }
+}
+
+impl Table {
+    /// The number of a new property, unknown for all objects.
+    fn widen(&mut self, property: &str, kind: Type) -> usize {
+        self.names.push(property.to_owned());
+        self.columns.push(Column::unknown(kind, self.len));
+        self.columns.len() - 1
+    }
+
+    /// What NULL means in a column.
+    fn null_of(&self, at: usize) -> Cell {
+        self.nulls.iter().find(|(column, _)| *column == at).map_or(Cell::Unknown, |&(_, cell)| cell)
+    }
+}
