@@ -33,6 +33,8 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A hypothesis that is concluded in another way too, or is not the first object's.
+    Hypothesis,
     /// Two operators at one level of revision.
     Operator,
     /// Two rules set one property of one object to different values.
@@ -47,7 +49,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -59,6 +61,7 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
         Self::Evaluation,
@@ -80,6 +83,7 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
             Self::Evaluation => "rule/evaluation",

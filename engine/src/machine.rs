@@ -2,6 +2,7 @@
 
 pub(crate) mod action;
 pub(crate) mod evaluate;
+mod hypothesis;
 pub(crate) mod index;
 pub(crate) mod interpret;
 pub(crate) mod lane;

@@ -48,6 +48,8 @@ pub(crate) enum Effect {
 pub(crate) struct Plan {
     pub(crate) clauses: Vec<ClausePlan>,
     pub(crate) effect: Effect,
+    /// The truth value that the rule gives to each object of its first clause.
+    pub(crate) hypothesis: Option<PropertyName>,
     /// The columns that the nodes name by number.
     pub(crate) columns: Vec<PropertyName>,
 }
@@ -71,6 +73,7 @@ pub(crate) fn plan(
             Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
         }
     };
+    let hypothesis = action::hypothesis(&mut lowering);
     let (columns, problems) = lowering.finish();
-    if problems.is_empty() { Ok(Plan { clauses, effect, columns }) } else { Err(problems) }
+    if problems.is_empty() { Ok(Plan { clauses, effect, hypothesis, columns }) } else { Err(problems) }
 }

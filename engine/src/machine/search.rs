@@ -2,6 +2,7 @@
 
 use super::action::Slots;
 use super::evaluate::Batch;
+use super::hypothesis::Verdicts;
 use super::index::Index;
 use super::lane::{Frame, Lane, NO_ROW, Rows};
 use super::output::{Failure, Output, Skipped};
@@ -26,22 +27,38 @@ pub(crate) struct Candidates {
     pub(crate) index: Option<Index>,
 }
 
+impl Candidates {
+    /// The rows that an unknown leaves open; all of them where the key to look for is unknown.
+    pub(super) fn perhaps(&self, unknown_key: bool) -> impl Iterator<Item = &u32> + Clone {
+        let all = if unknown_key { self.rows.as_slice() } else { &[] };
+        all.iter().chain(&self.undecided)
+    }
+}
+
 /// The evaluation of one rule.
 pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
     pub(crate) candidates: Vec<Candidates>,
-    output: Output,
+    pub(super) verdicts: Verdicts,
+    pub(super) output: Output,
 }
 
 /// Evaluates a rule; `sizes` are the numbers of objects of its clauses' classes.
 pub(crate) fn search(machine: &Machine, plan: &Plan, sizes: &[usize]) -> Output {
-    let mut search = Search { machine, plan, candidates: vec![], output: Output::default() };
+    let mut search = Search {
+        machine,
+        plan,
+        candidates: vec![],
+        verdicts: Verdicts::default(),
+        output: Output::default(),
+    };
     search.output.witnesses = vec![vec![]; plan.clauses.len()];
     search.expect();
     let stopped = search.prepare(sizes).and_then(|()| {
         let rows = plan.clauses.iter().map(|_| Rows::Unbound).collect();
-        search.advance(0, Frame { len: 1, rows })
+        search.advance(0, Frame { len: 1, rows })?;
+        search.settle()
     });
     let mut output = search.output;
     output.problem = machine.trouble.take();
@@ -71,6 +88,9 @@ impl<'s> Search<'s> {
                     let given = self.output.given(&target.name);
                     given.kind = given.kind.or(target.kind);
                 }
+                if let Some(name) = &self.plan.hypothesis {
+                    self.output.given(name).kind = Some(Type::Truth);
+                }
             }
             Effect::Revise { .. } => {
                 for name in self.machine.rule.sets.keys() {
@@ -87,6 +107,9 @@ impl<'s> Search<'s> {
             let mut undecided = vec![];
             if clause.whole.is_some() {
                 (rows, undecided) = self.decided(number, clause, rows)?;
+                if clause.quantifier.binds() {
+                    unknown += undecided.len();
+                }
             } else if let Some(own) = &clause.own {
                 rows = self.keep(number, &rows, |machine, batch, keep| {
                     let truths = machine.evaluate(own, batch).truths();
@@ -99,6 +122,7 @@ impl<'s> Search<'s> {
             }
             if let (Some(by), true) = (&clause.by, clause.by_own) {
                 let mut values: Vec<f64> = vec![];
+                let before = rows.clone();
                 rows = self.keep(number, &rows, |machine, batch, keep| {
                     let numbers = machine.evaluate(by, batch).numbers();
                     for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
@@ -107,6 +131,10 @@ impl<'s> Search<'s> {
                         values.extend(Some(number).filter(|number| !number.is_nan()));
                     }
                 })?;
+                if self.plan.hypothesis.is_some() {
+                    let mut ranked = rows.iter().peekable();
+                    undecided.extend(before.iter().filter(|&row| ranked.next_if_eq(&row).is_none()));
+                }
                 let mut ranked: Vec<(f64, u32)> = values.into_iter().zip(rows).collect();
                 // Stable: equal values stay in the order of the table.
                 match clause.quantifier {
@@ -117,6 +145,9 @@ impl<'s> Search<'s> {
             }
             if unknown > 0 {
                 self.output.skipped.push(Skipped { clause: number, objects: unknown });
+            }
+            if number == 0 && self.plan.hypothesis.is_some() {
+                self.verdicts.start(size, &undecided);
             }
             let all = rows.iter().zip(0..).all(|(&row, nth)| row == nth);
             let index = (!clause.joins.is_empty()).then(|| {
@@ -155,7 +186,8 @@ impl<'s> Search<'s> {
         let plan = self.plan;
         let Some(clause) = plan.clauses.get(number) else { return self.fire(&frame) };
         if clause.quantifier == Quantifier::Each {
-            return self.each(number, clause, &frame);
+            self.each(number, clause, &frame)?;
+            return self.doubt(number, clause, &frame);
         }
         if clause.quantifier.counts() {
             let numbers = self.tally(number, clause, &frame)?.numbers(clause.quantifier);
@@ -171,11 +203,11 @@ impl<'s> Search<'s> {
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
-            self.fail(
-                number,
-                &frame.select(&failing),
-                failing.iter().map(|&index| found.unknown[index as usize]),
-            )?;
+            let failed = frame.select(&failing);
+            if wanted {
+                self.doubt(number, clause, &failed)?;
+            }
+            self.fail(number, &failed, failing.iter().map(|&index| found.unknown[index as usize]))?;
         }
         if passing.is_empty() {
             return Ok(());
@@ -258,6 +290,10 @@ impl<'s> Search<'s> {
     fn filtered(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
         let Some(test) = &clause.test else { return self.advance(number + 1, frame) };
         let truths = self.machine.evaluate(test, Batch { frame: &frame, slots: &[], mask: None }).truths();
+        if self.plan.hypothesis.is_some() {
+            let unknown = (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown);
+            self.verdicts.leave_open(unknown.map(|index| frame.rows[0].at(index)));
+        }
         let passing: Vec<u32> =
             (0..frame.len as u32).filter(|&index| truths.at(index as usize) == Truth::True).collect();
         if passing.is_empty() {
@@ -282,10 +318,13 @@ impl<'s> Search<'s> {
         unknown: impl Iterator<Item = u32>,
     ) -> Result<(), Stopped> {
         let plan = self.plan;
+        let unknown: Vec<u32> = unknown.collect();
+        let open = unknown.iter().enumerate().filter(|(_, unknown)| **unknown > 0);
+        self.verdicts.leave_open(open.map(|(index, _)| frame.rows[0].at(index)));
         if let Effect::Conclude { otherwise: Some(action), .. } = &plan.effect {
             return self.conclude(action, frame);
         }
-        for (index, unknown) in unknown.enumerate() {
+        for (index, unknown) in unknown.into_iter().enumerate() {
             let row = frame.rows[0].at(index);
             self.output.failures.push(Failure { row, clause: number as u32, unknown });
         }
@@ -295,7 +334,10 @@ impl<'s> Search<'s> {
     fn fire(&mut self, frame: &Frame) -> Result<(), Stopped> {
         let plan = self.plan;
         match &plan.effect {
-            Effect::Conclude { then, .. } => self.conclude(then, frame),
+            Effect::Conclude { then, .. } => {
+                self.prove(frame);
+                self.conclude(then, frame)
+            }
             Effect::Revise { variable, amount, .. } => {
                 let first = self.record(frame)?;
                 let amounts = self.machine.evaluate(amount, Batch { frame, slots: &[], mask: None });
@@ -331,7 +373,7 @@ impl<'s> Search<'s> {
     }
 
     /// Keeps what the bindings rest on; gives the number of the first firing.
-    fn record(&mut self, frame: &Frame) -> Result<u32, Stopped> {
+    pub(super) fn record(&mut self, frame: &Frame) -> Result<u32, Stopped> {
         let first = self.output.firings;
         if first > MAX_FIRINGS {
             return Err(Stopped);

@@ -94,27 +94,27 @@ impl Search<'_> {
     pub(super) fn tally(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Tally, Stopped> {
         let mut tally = Tally::new(frame.len);
         let candidates = &self.candidates[number];
-        let undecided = candidates.undecided.iter();
         if candidates.index.is_none() {
             let pairs = pairs(frame, |_| candidates.rows.iter());
             self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
-            let pairs = self::pairs(frame, |_| undecided.clone());
+            let pairs = self::pairs(frame, |_| candidates.undecided.iter());
             self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
             return Ok(tally);
         }
         let groups = self.groups(number, clause, frame);
         let pairs = pairs(frame, |binding| groups[binding].iter());
         self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
-        // An unknown key may equal every value.
-        let batch = Batch { frame, slots: &[], mask: None };
-        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
-        let open = |binding: usize| keys.iter().any(|key| key.cell(binding) == Cell::Unknown);
-        let pairs = self::pairs(frame, |binding| {
-            let all = if open(binding) { candidates.rows.as_slice() } else { &[] };
-            all.iter().chain(undecided.clone())
-        });
+        let unknown_key = self.unknown_keys(clause, frame);
+        let pairs = self::pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
         self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
         Ok(tally)
+    }
+
+    /// For each binding whether a key of the clause's joins is unknown; it may equal every value then.
+    pub(super) fn unknown_keys(&self, clause: &ClausePlan, frame: &Frame) -> Vec<bool> {
+        let batch = Batch { frame, slots: &[], mask: None };
+        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
+        (0..frame.len).map(|binding| keys.iter().any(|key| key.cell(binding) == Cell::Unknown)).collect()
     }
 
     fn tallied(
@@ -171,7 +171,8 @@ impl Search<'_> {
     }
 }
 
-fn pairs<'r, I: Iterator<Item = &'r u32>>(
+/// Each binding with each of its rows.
+pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
     frame: &Frame,
     rows: impl Fn(usize) -> I,
 ) -> impl Iterator<Item = (u32, u32)> {

@@ -250,3 +250,17 @@ pub(crate) fn check_revised(
         lowering.problem(Code::Type, position, message);
     }
 }
+
+/// A hypothesis needs a property that holds truth values.
+pub(crate) fn hypothesis(lowering: &mut Lowering) -> Option<PropertyName> {
+    let name = lowering.rule.hypothesis()?;
+    let (_, _, position) = lowering.rule.hypothesis.as_ref()?;
+    match lowering.kinds.declared(&name) {
+        Some(kind) if kind != Type::Truth => {
+            let message = format!("a hypothesis is true or false; {name} holds {}", kind.plural());
+            lowering.problem(Code::Type, *position, message);
+            None
+        }
+        _ => Some(name),
+    }
+}

@@ -43,7 +43,8 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
         let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
-        let undecided_counts = clause.quantifier.counts() || clause.quantifier == Quantifier::All;
+        let undecided_counts =
+            clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
         let mut plan = ClausePlan {
             quantifier: clause.quantifier,
             joins: vec![],

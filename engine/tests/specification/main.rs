@@ -6,6 +6,7 @@
 mod conflicts;
 mod doors;
 mod explanation;
+mod hypotheses;
 mod interpreter;
 mod joins;
 mod limits;
