@@ -34,7 +34,7 @@
 //! # Rules
 //!
 //! ```text
-//! rule "NAME"
+//! rule "NAME" [priority N]
 //!     each  x in CLASS [where CONDITION]           for every object that passes
 //!     least y in CLASS by NUMBER [where CONDITION] the one with the least value (most: the greatest)
 //!     some  z in CLASS [where CONDITION]           the first that passes
@@ -54,7 +54,7 @@
 //!
 //! - A **rule concludes**. It is pure, and the order of rules and of rows never counts, but for ties. A property
 //!   has one value: two rules, or two bindings of one rule, that say different things make a [`Conflict`], and the
-//!   value is unknown. Within one action a later assignment replaces an earlier one. A told value stands before a
+//!   value is unknown; the greater `priority` is heard before. Within one action a later assignment replaces an earlier one. A told value stands before a
 //!   concluded one.
 //! - **Rules are ordered** by what they read and set. Rules that need each other's conclusions are refused, and the
 //!   cycle is named.

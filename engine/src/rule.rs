@@ -120,6 +120,7 @@ pub struct Rule {
     pub(crate) position: Position,
     pub(crate) line: usize,
     pub(crate) version: String,
+    pub(crate) priority: i64,
     pub(crate) clauses: Vec<Clause>,
     pub(crate) action: Action,
     pub(crate) reads: BTreeMap<PropertyName, Position>,
@@ -146,6 +147,12 @@ impl Rule {
     /// A short hash of its text; of the file's constants and functions too, if it uses any.
     pub fn version(&self) -> &str {
         &self.version
+    }
+
+    /// Which rule is heard where several conclude one property of one object: the greatest with a known value.
+    /// 0 if not given.
+    pub const fn priority(&self) -> i64 {
+        self.priority
     }
 
     /// The classes that its clauses range over, in their order.

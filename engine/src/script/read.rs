@@ -210,11 +210,13 @@ fn rule(
     let (name, position) = item.name()?;
     let clauses = clauses(item);
     let action = action(item, &clauses, file, problems)?;
+    let priority = priority(item, file, problems);
     let mut rule = Rule {
         name: name.to_owned(),
         position,
         line: file.source.place(position).line,
         version: String::new(),
+        priority,
         clauses,
         action,
         reads: BTreeMap::new(),
@@ -224,6 +226,20 @@ fn rule(
     let shared = resolve(&mut rule, known, problems);
     rule.version = version(text, if shared { outside } else { "" });
     Some(rule)
+}
+
+fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i64 {
+    let given = item.inputs.iter().find(|(slot, _)| *slot == Slot::Priority);
+    match given {
+        None => 0,
+        Some((_, Expr::IntegerConstant(priority, _))) => *priority,
+        Some((_, other)) => {
+            let place = file.source.place(other.start_position());
+            let message = "a priority is a whole number, as in `priority 10` or `priority -1`";
+            problems.push(Diagnostic::error(Code::Syntax, &place, message));
+            0
+        }
+    }
 }
 
 fn clauses(item: &Item) -> Vec<Clause> {

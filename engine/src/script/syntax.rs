@@ -42,6 +42,7 @@ impl Quantifier {
 pub(crate) enum Slot {
     RuleName,
     RevisionName,
+    Priority,
     Variable(Quantifier),
     Class,
     Where,
@@ -58,6 +59,7 @@ pub(crate) enum Slot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum At {
     Name,
+    Priority,
     Clause,
     Variable(Quantifier),
     In,
@@ -125,7 +127,14 @@ impl Shape {
         match self.at {
             At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
             At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
+            At::Clause if ahead == "priority" && self.may_have_priority() => {
+                self.word("priority", At::Priority)
+            }
+            At::Clause if ahead == "priority" && self.revision && self.clause.is_none() => {
+                wrong("a revision has a level, not a priority: `level 3` at its end".into())
+            }
             At::Clause => self.clause(ahead),
+            At::Priority => self.input(Slot::Priority, At::Clause, "$expr$"),
             At::Variable(quantifier) => self.input(Slot::Variable(quantifier), At::In, "$ident$"),
             At::In if ahead == "in" => self.word("in", At::Class),
             At::In => wrong(format!("`in` and a class belong here, not `{ahead}`")),
@@ -166,6 +175,10 @@ impl Shape {
             }
             _ => Ok(None),
         }
+    }
+
+    fn may_have_priority(&self) -> bool {
+        self.clause.is_none() && !self.revision && self.slots.last() == Some(&Slot::RuleName)
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {

@@ -10,6 +10,7 @@ mod interpreter;
 mod joins;
 mod limits;
 mod order;
+mod priority;
 mod revisions;
 mod support;
 mod unknown;
