@@ -1,4 +1,4 @@
-//! The grammar of `rule` and `revise`, as rhai's custom syntax asks for it: token by token.
+//! The grammar of `rule`, `revise` and `on`, as rhai's custom syntax asks for it: token by token.
 
 use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
 
@@ -42,6 +42,7 @@ impl Quantifier {
 pub(crate) enum Slot {
     RuleName,
     RevisionName,
+    ReactionName,
     Priority,
     Variable(Quantifier),
     Class,
@@ -85,6 +86,7 @@ pub(crate) struct Shape {
     pub(crate) slots: Vec<Slot>,
     at: At,
     revision: bool,
+    reaction: bool,
     clause: Option<Quantifier>,
 }
 
@@ -95,7 +97,7 @@ type Next = Result<Option<ImmutableString>, ParseError>;
 
 /// Teaches an engine the rule syntax.
 pub(crate) fn register(engine: &mut Engine) {
-    for key in ["rule", "revise"] {
+    for key in ["rule", "revise", "on"] {
         engine.register_custom_syntax_with_state_raw(
             key,
             move |_, ahead, state| {
@@ -103,6 +105,7 @@ pub(crate) fn register(engine: &mut Engine) {
                     slots: vec![],
                     at: At::Name,
                     revision: key == "revise",
+                    reaction: key == "on",
                     clause: None,
                 });
                 let next = shape.next(ahead);
@@ -126,6 +129,7 @@ impl Shape {
         }
         match self.at {
             At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
+            At::Name if self.reaction => self.input(Slot::ReactionName, At::Clause, "$string$"),
             At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
             At::Clause if ahead == "priority" && self.may_have_priority() => {
                 self.word("priority", At::Priority)
@@ -146,6 +150,9 @@ impl Shape {
             At::By => self.input(Slot::By, At::Options { by: true, condition: false }, "$expr$"),
             At::Where => self.input(Slot::Where, At::Options { by: true, condition: true }, "$expr$"),
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
+            At::AfterThen if ahead == "else" && self.reaction => {
+                wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
+            }
             At::AfterThen if ahead == "else" => self.word("else", At::Else),
             At::Else => self.input(Slot::Else, At::End, "$block$"),
             At::Target => self.input(Slot::Target, At::TargetBy, "$expr$"),
@@ -167,18 +174,18 @@ impl Shape {
     /// next item is read as part of the same expression.
     fn item(&mut self, ahead: &str) -> Next {
         match ahead {
-            "rule" | "revise" if self.revision => {
-                self.revision = ahead == "revise";
+            "rule" | "revise" | "on" if self.revision => {
+                (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
                 self.clause = None;
-                let word = if self.revision { "revise" } else { "rule" };
-                self.word(word, At::Name)
+                let words = ["rule", "revise", "on"];
+                words.into_iter().find(|word| *word == ahead).map_or(Ok(None), |word| self.word(word, At::Name))
             }
             _ => Ok(None),
         }
     }
 
     fn may_have_priority(&self) -> bool {
-        self.clause.is_none() && !self.revision && self.slots.last() == Some(&Slot::RuleName)
+        self.clause.is_none() && !self.revision && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
