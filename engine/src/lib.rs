@@ -39,6 +39,9 @@
 //!     least y in CLASS by NUMBER [where CONDITION] the one with the least value (most: the greatest)
 //!     some  z in CLASS [where CONDITION]           the first that passes
 //!     none  w in CLASS [where CONDITION]           only if there is no such object
+//!     all   v in CLASS [where CONDITION] have CONDITION   only if all that pass the first pass the second
+//!     count N of u in CLASS [where CONDITION]      N is how many pass
+//!     sum   N of u in CLASS by NUMBER [where CONDITION]   N is the sum over those that pass
 //!     then { x.property = VALUE; ... }
 //!     [else { ... }]
 //!
@@ -60,9 +63,12 @@
 //!   cycle is named.
 //! - **`least`** takes the least value and its object; of equal ones the first row. Objects whose value is unknown
 //!   are left out and counted ([`LeftOut`]).
+//! - **`count`** and **`sum`** give a number to the clauses after them and to the action, 0 where nothing passes.
+//!   It is unknown where an unknown leaves open whether an object passes, or what it adds; `all` is not met then,
+//!   unless other objects decide.
 //! - **`else`** runs once for each binding of the clauses before for which a `least`, `most` or `some` finds no
-//!   object or a `none` finds one. It may use the variables bound before that clause; properties of the others are
-//!   unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
+//!   object, a `none` finds one, or an `all` is not met. It may use the variables bound before that clause;
+//!   properties of the others are unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
 //! - **`revise`** changes a number, told or concluded. Each level starts from what the level below gave, and within a
 //!   `revise` the property that it sets is read as the level below left it; everyone else reads the last level. A
 //!   level has one operator (`+` and `-` are one). `each` contributes for every binding, `some` once; contributions

@@ -8,6 +8,7 @@ pub(crate) mod lane;
 pub(crate) mod matching;
 pub(crate) mod output;
 pub(crate) mod search;
+mod tally;
 
 use std::cell::{Cell, RefCell};
 use std::time::Instant;

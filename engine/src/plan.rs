@@ -61,6 +61,7 @@ pub(crate) fn plan(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(rule, kinds, symbols);
     let clauses = clause::clauses(&mut lowering);
+    lowering.enter(None);
     let effect = match &rule.action {
         Action::Conclude { then, otherwise } => Effect::Conclude {
             then: action::action(&mut lowering, then),

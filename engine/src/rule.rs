@@ -88,6 +88,10 @@ pub(crate) struct Clause {
     pub(crate) class_position: Position,
     pub(crate) by: Option<Expr>,
     pub(crate) condition: Option<Expr>,
+    /// What `all` asks of each object that passes.
+    pub(crate) have: Option<Expr>,
+    /// The name of the number that `count` and `sum` give.
+    pub(crate) number: Option<(String, Position)>,
 }
 
 /// What a rule does with what its clauses bind.

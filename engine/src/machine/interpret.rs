@@ -4,6 +4,7 @@ use rhai::{Dynamic, EvalAltResult, ImmutableString, Map, Scope};
 
 use super::Machine;
 use super::evaluate::Batch;
+use super::lane::Rows;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
@@ -83,6 +84,10 @@ impl Machine<'_> {
         }
         for (name, variable, number) in &fragment.bare {
             scope.push_dynamic(name.as_str(), column(*variable, *number)?);
+        }
+        for (name, clause) in &fragment.numbers {
+            let Rows::Numbers(numbers) = &batch.frame.rows[*clause] else { return None };
+            scope.push_constant_dynamic(name.as_str(), self.dynamic(Cell::number(numbers.at(index)))?);
         }
         for (name, object) in &fragment.objects {
             let mut map = Map::new();

@@ -3,7 +3,7 @@
 use super::action::Slots;
 use super::evaluate::Batch;
 use super::index::Index;
-use super::lane::{Frame, NO_ROW, Rows};
+use super::lane::{Frame, Lane, NO_ROW, Rows};
 use super::output::{Failure, Output, Skipped};
 use super::{BATCH, Machine, Stopped};
 use crate::diagnostic::{Code, Diagnostic};
@@ -19,6 +19,8 @@ pub(crate) const MAX_FIRINGS: u32 = 20_000_000;
 /// The objects of a clause's class that may be bound, and how to find them.
 pub(crate) struct Candidates {
     pub(crate) rows: Vec<u32>,
+    /// Rows of which it is not known whether they may be bound, where that counts.
+    pub(crate) undecided: Vec<u32>,
     /// Whether `rows` is 0, 1, 2, ...
     pub(crate) all: bool,
     pub(crate) index: Option<Index>,
@@ -82,7 +84,10 @@ impl<'s> Search<'s> {
         for (number, (clause, &size)) in self.plan.clauses.iter().zip(sizes).enumerate() {
             let mut rows: Vec<u32> = (0..size as u32).collect();
             let mut unknown = 0;
-            if let Some(own) = &clause.own {
+            let mut undecided = vec![];
+            if clause.whole.is_some() {
+                (rows, undecided) = self.decided(number, clause, rows)?;
+            } else if let Some(own) = &clause.own {
                 rows = self.keep(number, &rows, |machine, batch, keep| {
                     let truths = machine.evaluate(own, batch).truths();
                     (0..batch.frame.len).for_each(|index| {
@@ -119,13 +124,13 @@ impl<'s> Search<'s> {
                     clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
                 Index::new(&columns, rows.iter().copied())
             });
-            self.candidates.push(Candidates { rows, all, index });
+            self.candidates.push(Candidates { rows, undecided, all, index });
         }
         Ok(())
     }
 
     /// The rows for which `test` pushes true; it sees them batch by batch, bound to one variable.
-    fn keep(
+    pub(super) fn keep(
         &self,
         variable: usize,
         rows: &[u32],
@@ -152,6 +157,15 @@ impl<'s> Search<'s> {
         if clause.quantifier == Quantifier::Each {
             return self.each(number, clause, &frame);
         }
+        if clause.quantifier.counts() {
+            let numbers = self.tally(number, clause, &frame)?.numbers(clause.quantifier);
+            let mut next = frame;
+            next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
+            return self.advance(number + 1, next);
+        }
+        if clause.quantifier == Quantifier::All {
+            return self.all(number, clause, frame);
+        }
         let found = self.witnesses(number, clause, &frame)?;
         let wanted = clause.quantifier != Quantifier::None;
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
@@ -173,6 +187,22 @@ impl<'s> Search<'s> {
             Rows::Unbound
         };
         self.advance(number + 1, next)
+    }
+
+    /// Goes on with the bindings of which it is known that all objects have what is asked.
+    fn all(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
+        let tally = self.tally(number, clause, &frame)?;
+        let met = |index: &u32| tally.holds(*index as usize) == Truth::True;
+        let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
+        if !failing.is_empty() {
+            let undecided = failing.iter().map(|&index| tally.undecided(index as usize));
+            self.fail(number, &frame.select(&failing), undecided)?;
+        }
+        match passing.len() {
+            0 => Ok(()),
+            all if all == frame.len => self.advance(number + 1, frame),
+            _ => self.advance(number + 1, frame.select(&passing)),
+        }
     }
 
     /// Every candidate that passes, for every binding.

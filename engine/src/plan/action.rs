@@ -220,7 +220,7 @@ fn written(steps: &[Step], slots: &mut Vec<usize>) {
 /// The whole action as a script. It gives types only when it runs.
 fn interpreted(lowering: &mut Lowering, block: &StmtBlock) -> Result<ActionPlan, Stop> {
     let rule = lowering.rule;
-    let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
+    let variables = lowering.variables();
     let mut names = Names::default();
     names.block(block, &Patterns(&variables));
     let statements = vec![Stmt::Block(Box::new(block.clone()))];

@@ -14,6 +14,8 @@ pub(crate) struct Names {
     pub(crate) sets: BTreeMap<Use, Position>,
     /// Variables that are neither of a clause nor declared here: name, place.
     pub(crate) free: Vec<(String, Position)>,
+    /// Numbers that clauses give, as they are used.
+    pub(crate) numbers: BTreeMap<String, Position>,
     /// Objects used whole, which rules cannot do.
     pub(crate) whole: Vec<(String, Position)>,
     /// `x.p += e` and the like.

@@ -249,6 +249,7 @@ fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i6
 
 fn clauses(item: &Item) -> Vec<Clause> {
     let mut clauses: Vec<Clause> = vec![];
+    let mut number = None;
     for (slot, input) in &item.inputs {
         match (slot, input) {
             (Slot::Variable(quantifier), Expr::Variable(variable, _, position)) => clauses.push(Clause {
@@ -259,24 +260,27 @@ fn clauses(item: &Item) -> Vec<Clause> {
                 class_position: Position::NONE,
                 by: None,
                 condition: None,
+                have: None,
+                number: number.take(),
             }),
+            (Slot::Number, Expr::Variable(name, _, position)) => {
+                number = Some((name.1.to_string(), *position));
+            }
             (Slot::Class, Expr::Variable(class, _, position)) => {
                 if let Some(clause) = clauses.last_mut() {
                     clause.class = class.1.to_string();
                     clause.class_position = *position;
                 }
             }
-            (Slot::By, by) => {
-                clauses.iter_mut().last().into_iter().for_each(|clause| clause.by = Some((*by).clone()));
+            (slot, expr) => {
+                let Some(clause) = clauses.last_mut() else { continue };
+                match slot {
+                    Slot::By => clause.by = Some((*expr).clone()),
+                    Slot::Where => clause.condition = Some((*expr).clone()),
+                    Slot::Have => clause.have = Some((*expr).clone()),
+                    _ => {}
+                }
             }
-            (Slot::Where, condition) => {
-                clauses
-                    .iter_mut()
-                    .last()
-                    .into_iter()
-                    .for_each(|clause| clause.condition = Some((*condition).clone()));
-            }
-            _ => {}
         }
     }
     clauses

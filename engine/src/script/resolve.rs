@@ -9,7 +9,7 @@ use super::names::{Names, Patterns, Use};
 use super::reaction;
 use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, PropertyName, Rule};
+use crate::rule::{Action, Clause, PropertyName, Rule};
 use crate::suggest::nearest;
 
 /// Most clauses of a rule: sets of variables are the bits of a word.
@@ -49,24 +49,32 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
 /// All names in a rule's parts, each with the variables that it may speak of.
 fn names(rule: &Rule, variables: &[String]) -> Names {
     let mut names = Names::default();
+    // A variable that is not in scope has no name.
+    let mut scope: Vec<String> = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
-        let patterns = Patterns(&variables[..=index]);
+        scope.push(variables[index].clone());
+        let patterns = Patterns(&scope);
         if let Some(by) = &clause.by {
             let mut of_object = Names::default();
             of_object.expression(by, &patterns, Some(index));
-            of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));
+            of_object.reads.retain(|(_, property), place| {
+                let number = number_named(rule, index, property);
+                if number {
+                    names.numbers.insert(property.clone(), *place);
+                }
+                !number && !rule.file.constants.contains_key(property)
+            });
             merge(&mut names, of_object);
         }
-        if let Some(condition) = &clause.condition {
+        for condition in clause.condition.iter().chain(&clause.have) {
             names.expression(condition, &patterns, None);
         }
+        numbers(rule, index, &mut names);
+        if !clause.quantifier.binds() {
+            scope[index].clear();
+        }
     }
-    let bound = |clause: &crate::rule::Clause| match clause.quantifier {
-        Quantifier::None => String::new(),
-        _ => clause.variable.clone(),
-    };
-    let bound: Vec<String> = rule.clauses.iter().map(bound).collect();
-    let patterns = Patterns(&bound);
+    let patterns = Patterns(&scope);
     match &rule.action {
         Action::Conclude { then, otherwise } => {
             names.block(then, &patterns);
@@ -80,7 +88,22 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
             names.sets.insert(target.clone(), *position);
         }
     }
+    numbers(rule, rule.clauses.len(), &mut names);
     names
+}
+
+/// Whether one of the first clauses gives a number of this name.
+fn number_named(rule: &Rule, clauses: usize, name: &str) -> bool {
+    let named = |clause: &Clause| clause.number.as_ref().is_some_and(|(number, _)| number == name);
+    rule.clauses[..clauses].iter().any(named)
+}
+
+/// Takes the numbers that the first clauses give from the free names.
+fn numbers(rule: &Rule, clauses: usize, names: &mut Names) {
+    let (given, free) =
+        std::mem::take(&mut names.free).into_iter().partition(|(name, _)| number_named(rule, clauses, name));
+    names.free = free;
+    names.numbers.extend::<Vec<_>>(given);
 }
 
 fn merge(into: &mut Names, from: Names) {
@@ -100,9 +123,19 @@ fn complaint(rule: &Rule, code: Code, position: Position, message: String) -> Di
 fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {
     let mut problems = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
-        if variables[..index].contains(&clause.variable) {
-            let message = format!("the variable `{}` is bound twice", clause.variable);
-            problems.push(complaint(rule, Code::Syntax, clause.position, message));
+        let numbers = || rule.clauses[..index].iter().filter_map(|clause| clause.number.as_ref());
+        let bound = |clause: &Clause, name: &String| clause.quantifier.binds() && clause.variable == *name;
+        let taken = |name: &String| {
+            rule.clauses[..index].iter().any(|clause| bound(clause, name))
+                || numbers().any(|(number, _)| number == name)
+        };
+        let own = clause.number.as_ref().filter(|(number, _)| taken(number) || *number == clause.variable);
+        let twice = own
+            .or(Some(&(clause.variable.clone(), clause.position)).filter(|(name, _)| taken(name)))
+            .cloned();
+        if let Some((name, position)) = twice {
+            let message = format!("the variable `{name}` is bound twice");
+            problems.push(complaint(rule, Code::Syntax, position, message));
         }
     }
     if variables.len() > MAX_CLAUSES {
@@ -115,17 +148,27 @@ fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {
 fn variable_complaints(rule: &Rule, variables: &[String], names: &Names) -> Vec<Diagnostic> {
     let constants = &rule.file.constants;
     let unbound = |name: &str| {
-        rule.clauses.iter().any(|clause| clause.quantifier == Quantifier::None && clause.variable == *name)
+        let clause = rule.clauses.iter().find(|clause| clause.variable == *name)?;
+        match clause.quantifier {
+            Quantifier::None => Some(format!("`none {name}` binds nothing: there is no such object")),
+            Quantifier::All => Some(format!("`all {name}` binds nothing: it speaks of all of them")),
+            Quantifier::Count | Quantifier::Sum => {
+                let (number, _) = clause.number.as_ref()?;
+                let word = clause.quantifier.word();
+                Some(format!("`{word} {number} of {name}` gives the number `{number}`, not an object"))
+            }
+            _ => None,
+        }
     };
     let mut problems = vec![];
     for (name, position) in names.free.iter().filter(|(name, _)| !constants.contains_key(name)) {
-        let candidates = variables.iter().chain(constants.keys()).map(String::as_str);
+        let numbers = rule.clauses.iter().filter_map(|clause| clause.number.as_ref()).map(|(name, _)| name);
+        let candidates = variables.iter().chain(numbers).chain(constants.keys()).map(String::as_str);
         let message = format!("nothing here is called `{name}`");
         let problem = complaint(rule, Code::UnknownVariable, *position, message);
-        problems.push(if unbound(name) {
-            problem.help(format!("`none {name}` binds nothing: there is no such object"))
-        } else {
-            problem.did_you_mean(nearest(name, candidates))
+        problems.push(match unbound(name) {
+            Some(help) => problem.help(help),
+            None => problem.did_you_mean(nearest(name, candidates)),
         });
     }
     problems

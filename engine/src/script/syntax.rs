@@ -12,6 +12,12 @@ pub(crate) enum Quantifier {
     Most,
     Some,
     None,
+    /// How many objects pass: binds a number.
+    Count,
+    /// The sum of a number over the objects that pass: binds a number.
+    Sum,
+    /// Whether something holds of all objects that pass.
+    All,
 }
 
 impl Quantifier {
@@ -22,6 +28,9 @@ impl Quantifier {
             "most" => Self::Most,
             "some" => Self::Some,
             "none" => Self::None,
+            "count" => Self::Count,
+            "sum" => Self::Sum,
+            "all" => Self::All,
             _ => return None,
         })
     }
@@ -33,7 +42,24 @@ impl Quantifier {
             Self::Most => "most",
             Self::Some => "some",
             Self::None => "none",
+            Self::Count => "count",
+            Self::Sum => "sum",
+            Self::All => "all",
         }
+    }
+
+    /// Whether later clauses and the action may speak of the object.
+    pub(crate) const fn binds(self) -> bool {
+        matches!(self, Self::Each | Self::Least | Self::Most | Self::Some)
+    }
+
+    /// Whether it gives a number.
+    pub(crate) const fn counts(self) -> bool {
+        matches!(self, Self::Count | Self::Sum)
+    }
+
+    const fn ranks(self) -> bool {
+        matches!(self, Self::Least | Self::Most | Self::Sum)
     }
 }
 
@@ -44,10 +70,12 @@ pub(crate) enum Slot {
     RevisionName,
     ReactionName,
     Priority,
+    Number,
     Variable(Quantifier),
     Class,
     Where,
     By,
+    Have,
     Then,
     Else,
     Target,
@@ -62,12 +90,15 @@ enum At {
     Name,
     Priority,
     Clause,
+    Number(Quantifier),
+    Of(Quantifier),
     Variable(Quantifier),
     In,
     Class,
     Options { by: bool, condition: bool },
     By,
     Where,
+    Have,
     Then,
     AfterThen,
     Else,
@@ -88,6 +119,7 @@ pub(crate) struct Shape {
     revision: bool,
     reaction: bool,
     clause: Option<Quantifier>,
+    needs_have: bool,
 }
 
 /// How rhai shows the end of the file.
@@ -107,6 +139,7 @@ pub(crate) fn register(engine: &mut Engine) {
                     revision: key == "revise",
                     reaction: key == "on",
                     clause: None,
+                    needs_have: false,
                 });
                 let next = shape.next(ahead);
                 *state = Dynamic::from(shape);
@@ -139,6 +172,13 @@ impl Shape {
             }
             At::Clause => self.clause(ahead),
             At::Priority => self.input(Slot::Priority, At::Clause, "$expr$"),
+            At::Number(quantifier) => self.input(Slot::Number, At::Of(quantifier), "$ident$"),
+            At::Of(quantifier) if ahead == "of" => self.word("of", At::Variable(quantifier)),
+            At::Of(quantifier) => wrong(format!(
+                "`of` and a variable belong here, as in `{} n of door in DOORS`, not {}",
+                quantifier.word(),
+                found(ahead)
+            )),
             At::Variable(quantifier) => self.input(Slot::Variable(quantifier), At::In, "$ident$"),
             At::In if ahead == "in" => self.word("in", At::Class),
             At::In => wrong(format!("`in` and a class belong here, not `{ahead}`")),
@@ -149,6 +189,7 @@ impl Shape {
             At::Options { by, condition } => self.options(ahead, by, condition),
             At::By => self.input(Slot::By, At::Options { by: true, condition: false }, "$expr$"),
             At::Where => self.input(Slot::Where, At::Options { by: true, condition: true }, "$expr$"),
+            At::Have => self.input(Slot::Have, At::Options { by: true, condition: true }, "$expr$"),
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
             At::AfterThen if ahead == "else" && self.reaction => {
                 wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
@@ -189,15 +230,29 @@ impl Shape {
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
-        let ranked = matches!(self.clause, Some(Quantifier::Least | Quantifier::Most));
+        let ranked = self.clause.is_some_and(Quantifier::ranks);
         match ahead {
+            "have" if self.needs_have => {
+                self.needs_have = false;
+                self.word("have", At::Have)
+            }
             "by" if ranked && !by => self.word("by", At::By),
+            "where" if ranked && !by && self.clause == Some(Quantifier::Sum) => {
+                wrong("what to add up belongs before `where`, as in `by weight where ...`".into())
+            }
             "where" if ranked && !by => {
                 wrong("what to compare belongs before `where`, as in `by hardness where ...`".into())
             }
             "where" if !condition => self.word("where", At::Where),
+            _ if ranked && !by && self.clause == Some(Quantifier::Sum) => {
+                wrong("`sum` needs `by` and what to add up, as in `by weight`".into())
+            }
             _ if ranked && !by => {
                 wrong("`least` and `most` need `by` and what to compare, as in `by hardness`".into())
+            }
+            _ if self.needs_have => {
+                let example = "`all door in DOORS have door.closed`";
+                wrong(format!("`all` needs `have` and what must be true of each, as in {example}"))
             }
             _ => self.clause(ahead),
         }
@@ -209,7 +264,9 @@ impl Shape {
                 return wrong(format!("the first clause says `each`, not `{ahead}`"));
             }
             self.clause = Some(quantifier);
-            return self.word(quantifier.word(), At::Variable(quantifier));
+            self.needs_have = quantifier == Quantifier::All;
+            let at = if quantifier.counts() { At::Number(quantifier) } else { At::Variable(quantifier) };
+            return self.word(quantifier.word(), at);
         }
         let (end, at) = if self.revision { ("set", At::Target) } else { ("then", At::Then) };
         if ahead == end && self.clause.is_some() {
@@ -218,10 +275,9 @@ impl Shape {
         if self.clause.is_none() {
             return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`"));
         }
-        let words = ["each", "least", "most", "some", "none", "where", "by", end];
+        let words = ["each", "least", "most", "some", "none", "count", "sum", "all", "where", "by", end];
         let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
-        let found = if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") };
-        wrong(format!("another clause or `{end}` belongs here, not {found}{meant}"))
+        wrong(format!("another clause or `{end}` belongs here, not {}{meant}", found(ahead)))
     }
 
     #[allow(clippy::unnecessary_wraps)] // it is the answer itself
@@ -236,6 +292,10 @@ impl Shape {
         self.at = at;
         Ok(Some(word.into()))
     }
+}
+
+fn found(ahead: &str) -> String {
+    if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") }
 }
 
 fn wrong(message: String) -> Next {

@@ -11,6 +11,7 @@ mod joins;
 mod limits;
 mod order;
 mod priority;
+mod quantifiers;
 mod revisions;
 mod support;
 mod unknown;
