@@ -43,13 +43,17 @@ pub enum Code {
     Evaluation,
     /// A rule took longer, or did more, than it may.
     Deadline,
+    /// Reactions without an end.
+    Loop,
+    /// A rule that reacts has more matches than are kept.
+    Matches,
     /// The engine itself failed.
     Panic,
 }
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -66,6 +70,8 @@ impl Code {
         Self::Conflict,
         Self::Evaluation,
         Self::Deadline,
+        Self::Loop,
+        Self::Matches,
         Self::Panic,
     ];
 
@@ -88,6 +94,8 @@ impl Code {
             Self::Conflict => "rule/conflict",
             Self::Evaluation => "rule/evaluation",
             Self::Deadline => "rule/deadline",
+            Self::Loop => "rule/loop",
+            Self::Matches => "rule/matches",
             Self::Panic => "rule/panic",
         }
     }

@@ -6,6 +6,7 @@ pub(crate) mod clause;
 pub(crate) mod fragment;
 pub(crate) mod lower;
 pub(crate) mod node;
+pub(crate) mod reaction;
 
 use std::cell::RefCell;
 
@@ -68,6 +69,8 @@ pub(crate) fn plan(
             then: action::action(&mut lowering, then),
             otherwise: otherwise.as_ref().map(|block| action::action(&mut lowering, block)),
         },
+        // Reactions have plans of their own; as a rule they conclude nothing.
+        Action::React(_) => Effect::Conclude { then: ActionPlan::default(), otherwise: None },
         Action::Revise { target, amount, position, .. } => {
             action::check_revised(&mut lowering, target, *position);
             Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }

@@ -99,6 +99,34 @@ pub(crate) struct Clause {
 pub(crate) enum Action {
     Conclude { then: Box<StmtBlock>, otherwise: Option<Box<StmtBlock>> },
     Revise { target: (usize, String), operator: Operator, amount: Expr, level: i64, position: Position },
+    React(Box<Reaction>),
+}
+
+/// What an `on` rule does. Its body runs in the interpreter; what can be seen of it without running is listed.
+#[derive(Clone, Debug)]
+pub(crate) struct Reaction {
+    pub(crate) body: StmtBlock,
+    /// For each variable the properties that the rule reads, in its clauses or in its body.
+    pub(crate) reads: BTreeSet<(usize, String)>,
+    pub(crate) tells: Vec<Telling>,
+    pub(crate) sets: Vec<Setting>,
+}
+
+/// `tell("CLASS", #{ property: value })`
+#[derive(Clone, Debug)]
+pub(crate) struct Telling {
+    pub(crate) class: String,
+    pub(crate) position: Position,
+    pub(crate) properties: Vec<(String, Position, Expr)>,
+}
+
+/// `variable.property = value`; the value is `None` of `+=` and the like.
+#[derive(Clone, Debug)]
+pub(crate) struct Setting {
+    pub(crate) variable: usize,
+    pub(crate) property: String,
+    pub(crate) position: Position,
+    pub(crate) value: Option<Expr>,
 }
 
 /// What all rules of a file share.
@@ -188,10 +216,23 @@ impl Rule {
         Some(PropertyName::new(&self.clauses[*clause].class, property))
     }
 
+    /// Whether it is an `on` rule: one that reacts and tells, rather than concludes.
+    pub const fn reacts(&self) -> bool {
+        matches!(self.action, Action::React(_))
+    }
+
+    /// What the rule does once it is carried out; `None` for one that concludes or revises.
+    pub(crate) const fn reaction(&self) -> Option<&Reaction> {
+        match &self.action {
+            Action::React(reaction) => Some(reaction),
+            Action::Conclude { .. } | Action::Revise { .. } => None,
+        }
+    }
+
     /// The level of a revision; `None` for a rule that concludes.
     pub const fn level(&self) -> Option<i64> {
         match &self.action {
-            Action::Conclude { .. } => None,
+            Action::Conclude { .. } | Action::React(_) => None,
             Action::Revise { level, .. } => Some(*level),
         }
     }

@@ -8,6 +8,7 @@ use super::lane::Rows;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
+use crate::script::failure::failure;
 use crate::script::interpreter::start_run;
 use crate::value::Cell;
 
@@ -65,23 +66,11 @@ impl Machine<'_> {
 
     fn failed(&self, fragment: &Fragment, error: &EvalAltResult) {
         self.troubles.set(self.troubles.get() + 1);
-        let cause = error.unwrap_inner();
-        let limit =
-            matches!(cause, EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_));
+        let (problem, limit) = failure(self.rule, fragment.position, error);
         if limit {
             self.stopped.set(true);
         }
-        let position = error.position();
-        let position = if position.is_none() { fragment.position } else { position };
-        let place = self.rule.file.source.place(position);
-        let code = if limit { Code::Deadline } else { Code::Evaluation };
-        let reason = match cause {
-            EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
-            EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
-            _ => error.to_string(),
-        };
-        let message = format!("rule \"{}\": {reason}", self.rule.name);
-        self.trouble.borrow_mut().get_or_insert_with(|| Diagnostic::error(code, &place, message));
+        self.trouble.borrow_mut().get_or_insert(problem);
     }
 
     fn scope<'s>(&self, fragment: &'s Fragment, batch: Batch, index: usize) -> Option<Scope<'s>> {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt, StmtBlock};
 
 use super::names::property_of;
+use super::reaction::reaction;
 use super::resolve::resolve;
 use super::source::{MAX_FILE_BYTES, SourceFile};
 use super::syntax::{Quantifier, Shape, Slot};
@@ -101,7 +102,7 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
                 Diagnostic::error(
                     Code::Statement,
                     &source.place(other.position()),
-                    "a rule file holds rules, revisions, functions and constants, nothing that runs by itself",
+                    "a rule file holds rules, revisions, reactions, functions and constants, nothing that runs by itself",
                 )
                 .label("not one of them"),
             ),
@@ -141,7 +142,7 @@ fn items(custom: &CustomExpr) -> Vec<Item<'_>> {
     let mut items: Vec<Item> = vec![];
     for (&slot, input) in shape.slots.iter().zip(&custom.inputs) {
         match slot {
-            Slot::RuleName | Slot::RevisionName => items.push(Item { inputs: vec![(slot, input)] }),
+            Slot::RuleName | Slot::RevisionName | Slot::ReactionName => items.push(Item { inputs: vec![(slot, input)] }),
             _ => items.iter_mut().last().into_iter().for_each(|item| item.inputs.push((slot, input))),
         }
     }
@@ -155,7 +156,11 @@ fn item_texts(source: &SourceFile, items: &[Item]) -> Vec<(usize, usize)> {
         .iter()
         .map(|item| {
             let name = item.name().map_or(0, |(_, position)| source.place(position).span.0);
-            let word = if item.inputs[0].0 == Slot::RuleName { "rule" } else { "revise" };
+            let word = match item.inputs[0].0 {
+                Slot::RuleName => "rule",
+                Slot::ReactionName => "on",
+                _ => "revise",
+            };
             text[..name].rfind(word).unwrap_or(name)
         })
         .collect();
@@ -321,6 +326,9 @@ fn action(
     };
     let input = |wanted: Slot| item.inputs.iter().find(|(slot, _)| *slot == wanted).map(|(_, input)| *input);
     if let Some(then) = block(Slot::Then) {
+        if item.inputs[0].0 == Slot::ReactionName {
+            return Some(reaction(then, clauses));
+        }
         return Some(Action::Conclude { then, otherwise: block(Slot::Else) });
     }
     if input(Slot::Hypothesis).is_some() {

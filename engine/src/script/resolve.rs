@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rhai::Position;
 
 use super::names::{Names, Patterns, Use};
+use super::reaction;
 use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, PropertyName, Rule};
@@ -26,6 +27,11 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
     let reads = names.reads.iter().map(|(used, position)| (place(used), *position)).collect();
     let sets = names.sets.iter().map(|(used, position)| (place(used), *position)).collect();
     (rule.reads, rule.sets) = (reads, sets);
+    if let Action::React(reaction) = &mut rule.action {
+        reaction.reads = names.reads.keys().cloned().collect();
+        // What it tells are facts; nothing is concluded.
+        rule.sets.clear();
+    }
     if !names.nested.is_empty() {
         let inside = |position: &Position| {
             complaint(rule, Code::Syntax, *position, "a rule cannot stand inside another".to_owned())
@@ -35,6 +41,7 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
     }
     problems.extend(variable_complaints(rule, &variables, &names));
     problems.extend(use_complaints(rule, &names));
+    problems.extend(reaction::forget_complaints(rule));
     problems.extend(call_complaints(rule, &names, known));
     names.free.iter().any(|(name, _)| file.constants.contains_key(name))
         || names.calls.iter().any(|(name, count, _)| file.function_names.contains(&(name.clone(), *count)))
@@ -76,6 +83,7 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
                 names.block(block, &patterns);
             }
         }
+        Action::React(reaction) => names.block(&reaction.body, &patterns),
         Action::Revise { target, amount, position, .. } => {
             names.expression(amount, &patterns, None);
             names.sets.insert(target.clone(), *position);
@@ -181,7 +189,8 @@ fn use_complaints(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
         let message = format!("`{name}` is an object; name one of its properties, as in `{name}.width`");
         problems.push(complaint(rule, Code::Type, *position, message));
     }
-    for (name, position) in &names.updates {
+    let concludes = !matches!(rule.action, Action::React(_));
+    for (name, position) in names.updates.iter().filter(|_| concludes) {
         let message = format!("`{name}` is concluded once, with `=`");
         let problem = complaint(rule, Code::Assignment, *position, message);
         problems.push(problem.help("a `revise` changes what others concluded"));
@@ -196,8 +205,15 @@ fn use_complaints(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
 fn call_complaints(rule: &Rule, names: &Names, known: &BTreeSet<String>) -> Vec<Diagnostic> {
     let own = &rule.file.function_names;
     let mut problems = vec![];
+    if matches!(rule.action, Action::React(_)) {
+        problems.extend(reaction::taken_names(&rule.file, rule.position));
+    }
     for (name, count, position) in &names.calls {
         if own.contains(&(name.clone(), *count)) || known.contains(name) {
+            continue;
+        }
+        if let Some(complaint) = reaction::complaint(rule, (name, *count, *position)) {
+            problems.extend(complaint);
             continue;
         }
         let candidates = own.iter().map(|(name, _)| name).chain(known).map(String::as_str);

@@ -1,4 +1,4 @@
-//! The grammar of `rule` and `revise`, as rhai's custom syntax asks for it: token by token.
+//! The grammar of `rule`, `revise` and `on`, as rhai's custom syntax asks for it: token by token.
 
 use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
 
@@ -68,6 +68,7 @@ impl Quantifier {
 pub(crate) enum Slot {
     RuleName,
     RevisionName,
+    ReactionName,
     Priority,
     Number,
     Variable(Quantifier),
@@ -119,6 +120,7 @@ pub(crate) struct Shape {
     pub(crate) slots: Vec<Slot>,
     at: At,
     revision: bool,
+    reaction: bool,
     clause: Option<Quantifier>,
     needs_have: bool,
 }
@@ -130,7 +132,7 @@ type Next = Result<Option<ImmutableString>, ParseError>;
 
 /// Teaches an engine the rule syntax.
 pub(crate) fn register(engine: &mut Engine) {
-    for key in ["rule", "revise"] {
+    for key in ["rule", "revise", "on"] {
         engine.register_custom_syntax_with_state_raw(
             key,
             move |_, ahead, state| {
@@ -138,6 +140,7 @@ pub(crate) fn register(engine: &mut Engine) {
                     slots: vec![],
                     at: At::Name,
                     revision: key == "revise",
+                    reaction: key == "on",
                     clause: None,
                     needs_have: false,
                 });
@@ -162,6 +165,7 @@ impl Shape {
         }
         match self.at {
             At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
+            At::Name if self.reaction => self.input(Slot::ReactionName, At::Clause, "$string$"),
             At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
             At::Clause if ahead == "priority" && self.may_have_priority() => {
                 self.word("priority", At::Priority)
@@ -192,6 +196,9 @@ impl Shape {
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
             At::Hypothesis => self.input(Slot::Hypothesis, At::AfterHypothesis, "$expr$"),
             At::AfterHypothesis if ahead == "then" => self.word("then", At::Then),
+            At::AfterThen if ahead == "else" && self.reaction => {
+                wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
+            }
             At::AfterThen if ahead == "else" => self.word("else", At::Else),
             At::Else => self.input(Slot::Else, At::End, "$block$"),
             At::Target => self.input(Slot::Target, At::TargetBy, "$expr$"),
@@ -214,18 +221,18 @@ impl Shape {
     fn item(&mut self, ahead: &str) -> Next {
         let in_block = matches!(self.slots.last(), Some(Slot::Then | Slot::Else));
         match ahead {
-            "rule" | "revise" if !in_block => {
-                self.revision = ahead == "revise";
+            "rule" | "revise" | "on" if !in_block => {
+                (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
                 self.clause = None;
-                let word = if self.revision { "revise" } else { "rule" };
-                self.word(word, At::Name)
+                let words = ["rule", "revise", "on"];
+                words.into_iter().find(|word| *word == ahead).map_or(Ok(None), |word| self.word(word, At::Name))
             }
             _ => Ok(None),
         }
     }
 
     fn may_have_priority(&self) -> bool {
-        self.clause.is_none() && !self.revision && self.slots.last() == Some(&Slot::RuleName)
+        self.clause.is_none() && !self.revision && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
