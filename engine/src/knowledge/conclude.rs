@@ -14,7 +14,7 @@ use crate::machine::Machine;
 use crate::machine::output::Output;
 use crate::machine::search::search;
 use crate::order::Step;
-use crate::plan::{Kind, Kinds, plan};
+use crate::plan::{Key, Kind, Kinds, plan};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::script::interpreter::runner;
@@ -226,6 +226,13 @@ impl Kinds for Known<'_> {
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
         self.base.held.get(&name.class)?.table.column(&name.property).map(crate::column::Column::kind)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.base.held.get(class).map_or(Key::Unsaid, |held| {
+            let table = &held.table;
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
     }
 
     fn properties(&self, class: &str) -> Vec<String> {

@@ -92,6 +92,7 @@ impl<'s> Search<'s> {
                     self.output.given(name).kind = Some(Type::Truth);
                 }
             }
+            Effect::Default { name, kind, .. } => self.output.given(name).kind = *kind,
             Effect::Revise { .. } => {
                 for name in self.machine.rule.sets.keys() {
                     self.output.given(name).kind = Some(Type::Number);
@@ -194,6 +195,16 @@ impl<'s> Search<'s> {
             let mut next = frame;
             next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
             return self.advance(number + 1, next);
+        }
+        if clause.quantifier == Quantifier::Link {
+            let rows = match self.candidates[number].index {
+                Some(_) => self.groups(number, clause, &frame),
+                None => vec![&[][..]; frame.len],
+            };
+            let first = rows.into_iter().map(|rows| rows.first().copied().unwrap_or(NO_ROW)).collect();
+            let mut next = frame;
+            next.rows[number] = Rows::Each(first);
+            return self.filtered(number, clause, next);
         }
         if clause.quantifier == Quantifier::All {
             return self.all(number, clause, frame);
@@ -337,6 +348,17 @@ impl<'s> Search<'s> {
             Effect::Conclude { then, .. } => {
                 self.prove(frame);
                 self.conclude(then, frame)
+            }
+            Effect::Default { name, value, .. } => {
+                let first = self.record(frame)?;
+                let values = self.machine.evaluate(value, Batch { frame, slots: &[], mask: None });
+                let given = self.output.given(name);
+                for index in 0..frame.len {
+                    given.rows.push(frame.rows[0].at(index));
+                    given.firings.push(first + index as u32);
+                    given.cells.push(values.cell(index));
+                }
+                Ok(())
             }
             Effect::Revise { variable, amount, .. } => {
                 let first = self.record(frame)?;

@@ -65,12 +65,10 @@ pub(super) fn complaint(
         let help = "a rule sets a property, as in `door.closed = true`, and takes it back by itself";
         return Some(Some(Diagnostic::error(Code::Assignment, &place(), message).help(help)));
     }
-    (arguments == wanted)
-        .then_some(None)
-        .or_else(|| {
-            let message = format!("`{name}` takes {wanted} values here, as in `{example}`");
-            Some(Some(Diagnostic::error(Code::Syntax, &place(), message)))
-        })
+    (arguments == wanted).then_some(None).or_else(|| {
+        let message = format!("`{name}` takes {wanted} values here, as in `{example}`");
+        Some(Some(Diagnostic::error(Code::Syntax, &place(), message)))
+    })
 }
 
 /// What is wrong with the objects that are forgotten: only what a clause binds can be.
