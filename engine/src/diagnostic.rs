@@ -33,6 +33,8 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A declaration that cannot be, or that a rule does not keep to.
+    Declaration,
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis,
     /// Two operators at one level of revision.
@@ -53,7 +55,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -65,6 +67,7 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Declaration,
         Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
@@ -89,6 +92,7 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Declaration => "rule/declaration",
             Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod conflicts;
+mod declarations;
 mod doors;
 mod explanation;
 mod hypotheses;
