@@ -59,6 +59,7 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     problems.sort_by_key(|&(index, _)| index);
     let mut all: Vec<Diagnostic> =
         declared.into_iter().chain(problems.into_iter().flat_map(|(_, wrong)| wrong)).collect();
+    all.extend(base.warnings.iter().cloned());
     // What is wrong with a class's condition shows in every rule over the class; it is said once.
     let mut said = BTreeSet::new();
     all.retain(|problem| said.insert((problem.file.clone(), problem.span, problem.message.clone())));

@@ -35,6 +35,14 @@ pub enum Code {
     Cycle,
     /// A declaration that cannot be, or that a rule does not keep to.
     Declaration,
+    /// A table that does not read as one.
+    Table,
+    /// Rows of a table that match the same.
+    Overlap,
+    /// Inputs without a row.
+    Gap,
+    /// A row, or a rule, that never counts.
+    Unreachable,
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis,
     /// Two operators at one level of revision.
@@ -55,7 +63,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 24] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -68,6 +76,10 @@ impl Code {
         Self::Assignment,
         Self::Cycle,
         Self::Declaration,
+        Self::Table,
+        Self::Overlap,
+        Self::Gap,
+        Self::Unreachable,
         Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
@@ -93,6 +105,10 @@ impl Code {
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
             Self::Declaration => "rule/declaration",
+            Self::Table => "rule/table",
+            Self::Overlap => "rule/overlap",
+            Self::Gap => "rule/gap",
+            Self::Unreachable => "rule/unreachable",
             Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",

@@ -50,6 +50,12 @@
 //!     clauses as above
 //!     set x.property by OPERATOR NUMBER [level N]  * + - max min; the level is 0 if not given
 //!
+//! table "NAME" HIT [priority N]                    unique, any, first, priority [VALUES], collect sum|min|max|count
+//!     clauses as above
+//!     given [ VALUE, ... ]
+//!     set   [ x.property, ... ]
+//!     rows  [ [ CELL, ..., VALUE, ... ], ... ]     3, "z", any, ["a", "b"], not("z"), below(3), between(1, 3), ...
+//!
 //! class LOW_DOORS of DOORS where CONDITION         the objects of DOORS that pass; a class may be of such a class
 //! property DOORS.width from table, rule, default 2, ask "How wide is door {door}?"
 //! property DOORS.room names ROOMS[.key]            then `door.room.height` reads through it
@@ -74,6 +80,11 @@
 //! - **`hypothesis`** is a property of the first clause's object: true where all clauses are met, false where one
 //!   is not, unknown where that is undecided. Several rules may prove one hypothesis: it is true if one proves it,
 //!   false if all refute it. Nothing else sets it.
+//! - A **table** concludes like a rule. Of its rows count: of `unique` and `any` the one that matches, of `first`
+//!   the first, of `priority` the one whose first output ranks first, of `collect` all together. `between(a, b)`
+//!   and `a..b` are from a up to, but not, b. What is unknown makes the outputs unknown, unless no row that could
+//!   match looks at it. Rows of `unique` that overlap and rows of `any` that overlap and differ are errors; rows
+//!   never reached, and inputs without a row, are warnings with an example.
 //! - A **class by condition** may stand wherever a class stands. Bare names in its condition are properties of the
 //!   object. What is declared of its properties counts before what is declared of the class that it is of.
 //! - **Sources** are asked in their order. A default looks at told properties only.
@@ -116,6 +127,7 @@ mod conclusions;
 mod declared;
 mod diagnostic;
 mod knowledge;
+mod lint;
 mod machine;
 mod order;
 mod plan;
@@ -125,6 +137,7 @@ mod schema;
 mod script;
 mod suggest;
 mod symbols;
+mod table;
 mod value;
 
 pub use changes::{Changes, ClassChanges};

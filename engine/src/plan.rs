@@ -8,6 +8,7 @@ mod link;
 pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;
+mod table;
 pub(crate) mod uses;
 
 use std::cell::RefCell;
@@ -97,6 +98,9 @@ pub(crate) fn plan(
         Action::React(_) => Effect::Conclude { then: ActionPlan::default(), otherwise: None },
         Action::Default { property, value, position } => {
             action::default(&mut lowering, property, value.as_ref(), *position)
+        }
+        Action::Table(table) => {
+            Effect::Conclude { then: table::action(&mut lowering, table), otherwise: None }
         }
         Action::Revise { target, amount, position, .. } => {
             action::check_revised(&mut lowering, target, *position);

@@ -9,6 +9,7 @@ use rhai::{Expr, Module, Position, Shared, StmtBlock};
 use crate::declared::Condition;
 use crate::script::source::SourceFile;
 use crate::script::syntax::Quantifier;
+use crate::table::Table;
 use crate::value::Cell;
 
 /// A property of a class, as rules name it: `DOORS.hardness`.
@@ -145,6 +146,7 @@ pub(crate) enum Action {
         position: Position,
     },
     React(Box<Reaction>),
+    Table(Box<Table>),
     /// What a property of the only clause's object is if nothing else gives it a value.
     Default {
         property: String,
@@ -276,14 +278,16 @@ impl Rule {
     pub(crate) const fn reaction(&self) -> Option<&Reaction> {
         match &self.action {
             Action::React(reaction) => Some(reaction),
-            Action::Conclude { .. } | Action::Revise { .. } | Action::Default { .. } => None,
+            Action::Conclude { .. } | Action::Revise { .. } | Action::Table(_) | Action::Default { .. } => {
+                None
+            }
         }
     }
 
     /// The level of a revision; `None` for a rule that concludes.
     pub const fn level(&self) -> Option<i64> {
         match &self.action {
-            Action::Conclude { .. } | Action::React(_) | Action::Default { .. } => None,
+            Action::Conclude { .. } | Action::React(_) | Action::Table(_) | Action::Default { .. } => None,
             Action::Revise { level, .. } => Some(*level),
         }
     }

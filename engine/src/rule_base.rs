@@ -9,7 +9,8 @@ use rhai::Position;
 
 use crate::declared::Declarations;
 use crate::declared::build::{against_rules, declarations};
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::lint::lint;
 use crate::order::{Step, order};
 use crate::rule::{Action, Operator, PropertyName, Rule};
 use crate::schema::Schema;
@@ -27,6 +28,8 @@ pub struct RuleBase {
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
     pub(crate) declared: Declarations,
+    /// What was found that is not wrong.
+    pub(crate) warnings: Vec<Diagnostic>,
 }
 
 impl RuleBase {
@@ -44,6 +47,9 @@ impl RuleBase {
         problems.extend(operators(&rules));
         problems.extend(hypotheses(&rules));
         problems.extend(against_rules(&declared, &rules));
+        let (wrong, warnings): (Vec<_>, Vec<_>) =
+            lint(&rules).into_iter().partition(|found| found.severity == Severity::Error);
+        problems.extend(wrong);
         if !problems.is_empty() {
             // As the author reads; stable, so that what is said of one place keeps its order.
             let number = |file: &str| files.iter().position(|source| source.name() == file);
@@ -53,7 +59,7 @@ impl RuleBase {
         rules.extend(defaults(&declared));
         let order = order(&rules, &declared).map_err(Diagnostics)?;
         static COMPILED: AtomicU64 = AtomicU64::new(1);
-        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared })
+        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
     }
 
     /// The rules, in the order of the files.
@@ -66,7 +72,7 @@ impl RuleBase {
         &self.declared
     }
 
-    /// Names and types against the classes that there are; empty if all is well.
+    /// Names and types against the classes that there are, and warnings; empty if all is well.
     pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
         on_deep_stack(|| crate::check::check(self, schema))
     }

@@ -256,7 +256,7 @@ fn complaints(expr: &Expr, file: &FileScope, known: &BTreeSet<String>) -> Vec<Di
 pub(crate) fn against_rules(declared: &Declarations, rules: &[Rule]) -> Vec<Diagnostic> {
     let mut problems = vec![];
     for rule in rules {
-        if !matches!(rule.action, Action::Conclude { .. }) {
+        if !matches!(rule.action, Action::Conclude { .. } | Action::Table(_)) {
             continue;
         }
         for (name, position) in &rule.sets {

@@ -149,7 +149,7 @@ fn step(
     Ok(())
 }
 
-fn slot(lowering: &mut Lowering) -> usize {
+pub(super) fn slot(lowering: &mut Lowering) -> usize {
     lowering.slots += 1;
     lowering.slots - 1
 }

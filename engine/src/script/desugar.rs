@@ -104,7 +104,7 @@ impl Links<'_> {
         match &mut action {
             Action::Conclude { then, otherwise } => {
                 block_mut(then, &mut |expr| self.node(rule, expr));
-                for block in otherwise {
+                if let Some(block) = otherwise {
                     block_mut(block, &mut |expr| self.node(rule, expr));
                 }
             }
@@ -116,6 +116,14 @@ impl Links<'_> {
                 }
                 for setting in &mut reaction.sets {
                     setting.value.iter_mut().for_each(|value| self.expr(rule, value));
+                }
+            }
+            Action::Table(table) => {
+                for (input, _) in &mut table.given {
+                    self.expr(rule, input);
+                }
+                for output in table.rows.iter_mut().flat_map(|row| &mut row.outputs) {
+                    self.expr(rule, output);
                 }
             }
             Action::Default { .. } => {}
@@ -205,6 +213,9 @@ fn shift(action: &mut Action, at: usize) {
         Action::Revise { target, .. } if target.0 >= at => target.0 += 1,
         Action::React(reaction) => {
             reaction.sets.iter_mut().filter(|set| set.variable >= at).for_each(|set| set.variable += 1);
+        }
+        Action::Table(table) => {
+            table.set.iter_mut().filter(|(clause, ..)| *clause >= at).for_each(|(clause, ..)| *clause += 1);
         }
         _ => {}
     }

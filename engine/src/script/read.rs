@@ -3,6 +3,7 @@
 mod declared;
 mod item;
 mod rule;
+mod table;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -81,8 +82,7 @@ pub(crate) fn read(source: &SourceFile, reader: &Engine) -> Read {
         match item.word() {
             Word::Class => read.classes.extend(declared::class(item, text, &file)),
             Word::Property => read.properties.extend(declared::property(item, text, &file)),
-            Word::Table => {}
-            Word::Rule | Word::Revise | Word::On => {
+            Word::Rule | Word::Revise | Word::On | Word::Table => {
                 let rule = rule::rule(item, &file, &mut problems);
                 let outside = Arc::clone(&outside);
                 read.drafts.extend(rule.map(|rule| Draft { rule, text, outside }));

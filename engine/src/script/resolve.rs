@@ -89,8 +89,17 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
             names.expression(amount, &patterns, None);
             names.sets.insert(target.clone(), *position);
         }
+        Action::Table(table) => {
+            let outputs = table.rows.iter().flat_map(|row| &row.outputs);
+            for expr in table.given.iter().map(|(input, _)| input).chain(outputs) {
+                names.expression(expr, &patterns, None);
+            }
+            for (clause, property, position) in &table.set {
+                names.sets.insert((*clause, property.clone()), *position);
+            }
+        }
         Action::Default { value, .. } => {
-            for value in value {
+            if let Some(value) = value {
                 let mut of_object = Names::default();
                 of_object.expression(value, &Patterns(&[]), Some(0));
                 of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));

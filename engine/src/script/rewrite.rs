@@ -54,8 +54,9 @@ fn stmt_mut(stmt: &mut Stmt, change: Change) {
         Stmt::Assignment(assignment) => expr_mut(&mut assignment.1.rhs, change),
         Stmt::FnCall(call, _) => call.args.iter_mut().for_each(|argument| expr_mut(argument, change)),
         Stmt::Block(block) => block_mut(block, change),
-        Stmt::Expr(expr) => expr_mut(expr, change),
-        Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => expr_mut(expr, change),
+        Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => {
+            expr_mut(expr, change)
+        }
         _ => {}
     }
 }

@@ -17,5 +17,6 @@ mod priority;
 mod quantifiers;
 mod revisions;
 mod support;
+mod tables;
 mod unknown;
 mod wrong_files;

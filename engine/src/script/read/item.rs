@@ -68,20 +68,34 @@ pub(super) fn item_texts(source: &SourceFile, items: &[Item]) -> Vec<(usize, usi
         })
         .collect();
     let next = starts.iter().skip(1).copied().chain(std::iter::once(text.len()));
-    let end = |item: &Item, next: usize| match item.inputs.last() {
+    let end = |item: &Item, start: usize, next: usize| match item.inputs.last() {
         Some((Slot::Then | Slot::Else, Expr::Stmt(block))) => {
             (source.place(block.end_position()).span.0 + 1).min(next)
         }
-        _ => next,
+        _ => start_of_others(text, start, next),
     };
     starts
         .iter()
         .zip(next)
         .zip(items)
         .map(|((&start, next), item)| {
-            (start, start + without_trailing_comments(&text[start..end(item, next)]))
+            (start, start + without_trailing_comments(&text[start..end(item, start, next)]))
         })
         .collect()
+}
+
+/// Where, in a stretch of text that begins with an item, functions and constants of the file follow.
+fn start_of_others(text: &str, start: usize, end: usize) -> usize {
+    let other =
+        |line: &str| ["fn ", "const ", "private "].iter().any(|word| line.trim_start().starts_with(word));
+    let mut at = start;
+    for line in text[start..end].split_inclusive('\n') {
+        if other(line) {
+            return at;
+        }
+        at += line.len();
+    }
+    end
 }
 
 /// Length of the text without the blank lines and comments at its end.

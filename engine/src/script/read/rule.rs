@@ -6,6 +6,7 @@ use std::sync::Arc;
 use rhai::{Expr, Position, StmtBlock};
 
 use super::item::Item;
+use super::table::table;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, FileScope, Operator, Rule};
 use crate::script::names::property_of;
@@ -117,6 +118,9 @@ fn action(
             _ => None,
         })
     };
+    if item.word() == Word::Table {
+        return table(item, clauses, file, problems);
+    }
     if let Some(then) = block(Slot::Then) {
         if item.word() == Word::On {
             return Some(reaction(then, clauses));
