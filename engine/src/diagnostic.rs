@@ -43,11 +43,15 @@ pub enum Code {
     Deadline,
     /// The engine itself failed.
     Panic,
+    /// A file of rule tests does not read as tests.
+    TestSyntax,
+    /// A rule test does not hold.
+    TestFailed,
 }
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -64,6 +68,8 @@ impl Code {
         Self::Evaluation,
         Self::Deadline,
         Self::Panic,
+        Self::TestSyntax,
+        Self::TestFailed,
     ];
 
     /// The name that users and programs see.
@@ -85,6 +91,8 @@ impl Code {
             Self::Evaluation => "rule/evaluation",
             Self::Deadline => "rule/deadline",
             Self::Panic => "rule/panic",
+            Self::TestSyntax => "test/syntax",
+            Self::TestFailed => "test/failed",
         }
     }
 }

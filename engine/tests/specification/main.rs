@@ -11,6 +11,7 @@ mod joins;
 mod limits;
 mod order;
 mod revisions;
+mod rule_tests;
 mod support;
 mod unknown;
 mod wrong_files;
