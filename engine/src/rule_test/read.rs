@@ -146,10 +146,8 @@ impl Reader<'_> {
 
     fn object(&mut self, entry: &Entry<'_>) -> Option<Object> {
         let table = self.free_table(entry, "an object")?;
-        let cell = |(property, entry): (Located<String>, &Entry<'_>)| {
-            self.value(entry).map(|value| (property, Located { value, span: entry.span() }))
-        };
-        let cells = in_order(table).into_iter().filter_map(cell).collect();
+        let cells =
+            in_order(table).into_iter().map(|(property, entry)| (property, self.value(entry))).collect();
         Some(Object { cells, place: Located { value: (), span: entry.span() } })
     }
 
@@ -163,10 +161,7 @@ impl Reader<'_> {
                 let properties = self.free_table(entry, &format!("{} {}", class.value, key.value));
                 for (property, entry) in properties.map_or(vec![], in_order) {
                     let (class, key) = (class.clone(), key.clone());
-                    if let Some(value) = self.value(entry) {
-                        let value = Located { value, span: entry.span() };
-                        facts.push(Fact { class, key, property, value });
-                    }
+                    facts.push(Fact { class, key, property, value: self.value(entry) });
                 }
             }
         }

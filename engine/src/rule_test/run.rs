@@ -169,6 +169,7 @@ impl Run<'_> {
     }
 }
 
+#[allow(clippy::float_cmp)] // infinite numbers have no distance
 fn is_as_expected(expected: Option<&Value>, found: Option<&Value>, tolerance: f64) -> bool {
     match (expected, found) {
         (Some(Value::Number(expected)), Some(Value::Number(found))) => {

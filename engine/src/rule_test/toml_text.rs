@@ -87,19 +87,20 @@ impl Reader<'_> {
     }
 
     /// A value of a property; `{ unknown = true }` is `None`.
-    pub(super) fn value(&mut self, entry: &Entry<'_>) -> Option<Option<Value>> {
-        match entry.get_ref() {
-            DeValue::String(text) => Some(Some(Value::from(&**text))),
-            DeValue::Boolean(truth) => Some(Some(Value::from(*truth))),
-            DeValue::Table(table) if is_unknown(table) => Some(None),
-            other => match number(other) {
-                Some(number) => Some(Some(number).filter(|number| !number.is_nan()).map(Value::from)),
-                None => {
+    pub(super) fn value(&mut self, entry: &Entry<'_>) -> Located<Option<Value>> {
+        let value = match entry.get_ref() {
+            DeValue::String(text) => Some(Value::from(&**text)),
+            DeValue::Boolean(truth) => Some(Value::from(*truth)),
+            DeValue::Table(table) if is_unknown(table) => None,
+            other => {
+                let found = number(other);
+                if found.is_none() {
                     self.wrong_kind(entry, "a value", "a number, a text, true, false or { unknown = true }");
-                    None
                 }
-            },
-        }
+                found.filter(|number| !number.is_nan()).map(Value::from)
+            }
+        };
+        Located { value, span: entry.span() }
     }
 
     /// A number that is not negative.
