@@ -10,6 +10,7 @@ mod route;
 mod sql;
 mod test;
 mod tune;
+mod watch;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -42,6 +43,8 @@ pub enum Verb {
     Check(CheckArgs),
     /// Run the tests of the site's rules
     Test(TestArgs),
+    /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
+    Watch(WatchArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
@@ -171,6 +174,14 @@ pub struct TestArgs {
     pub site: SiteArgs,
 }
 
+/// `adit watch`.
+#[derive(Args, Debug)]
+pub struct WatchArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+}
+
 /// `adit sql`.
 #[derive(Args, Debug)]
 pub struct SqlArgs {
@@ -259,6 +270,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Tune(args) => tune::tune(args).map(|()| 0),
         Verb::Check(args) => doctor::check(args).map(|sound| u8::from(!sound)),
         Verb::Test(args) => test::run(args).map(|passed| u8::from(!passed)),
+        Verb::Watch(args) => watch::run(args).map(|()| 0),
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::History(args) => tune::history(args).map(|()| 0),
@@ -293,6 +305,7 @@ impl Verb {
             Self::Tune(args) => args.site.json,
             Self::Check(args) => args.site.json,
             Self::Test(args) => args.site.json,
+            Self::Watch(args) => args.site.json,
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
             Self::History(args) => args.site.json,

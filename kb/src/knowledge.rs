@@ -119,6 +119,15 @@ impl KnowledgeBase {
         &self.database
     }
 
+    /// The files that a build reads, `site.toml` first.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.site.files();
+        if let Some(folder) = rules::folder(&self.site, self.rules.as_deref()) {
+            files.extend(rules::files(folder));
+        }
+        files
+    }
+
     /// Map, facts, rules, routes: into the site's database, all or nothing.
     pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
         self.build_at(&self.database, progress)

@@ -42,6 +42,7 @@ mod store;
 mod suggest;
 mod tables;
 mod trees;
+pub mod watch;
 mod weights;
 
 pub use answer::{Answer, Status};

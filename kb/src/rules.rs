@@ -44,13 +44,19 @@ pub fn folder<'a>(site: &'a Site, instead: Option<&'a Path>) -> Option<&'a Path>
     instead.or(site.rules.as_deref())
 }
 
+/// The files of a rule base in a folder of the user's, and of its tests.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let of = |folder: &Path, extension| listed(folder, extension).unwrap_or_default();
+    [of(folder, "rhai"), of(&folder.join(TESTS), "toml")].concat()
+}
+
 fn shipped_files(folder: &str, extension: &str) -> Vec<SourceFile> {
     let files = shipped::files::<shipped::Rules>(folder).into_iter();
     let named = |(name, text)| SourceFile::new(format!("rules/{folder}/{name}"), text);
     files.filter(|(name, _)| name.ends_with(extension)).map(named).collect()
 }
 
-fn folder_files(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
+fn listed(folder: &Path, extension: &str) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| Error::io("read the rule base", folder, &error))?;
     let mut paths: Vec<PathBuf> = Vec::new();
     for entry in entries {
@@ -60,6 +66,10 @@ fn folder_files(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
         }
     }
     paths.sort();
+    Ok(paths)
+}
+
+fn folder_files(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
     let read = |path: PathBuf| match fs::read_to_string(&path) {
         Ok(text) => {
             // editors of Windows begin a file with a byte order mark, which is no part of its text
@@ -68,5 +78,5 @@ fn folder_files(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
         }
         Err(error) => Err(Error::io("read", &path, &error)),
     };
-    paths.into_iter().map(read).collect()
+    listed(folder, extension)?.into_iter().map(read).collect()
 }
