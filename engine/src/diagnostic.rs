@@ -33,6 +33,8 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A hypothesis that is concluded in another way too, or is not the first object's.
+    Hypothesis,
     /// Two operators at one level of revision.
     Operator,
     /// Two rules set one property of one object to different values.
@@ -41,6 +43,10 @@ pub enum Code {
     Evaluation,
     /// A rule took longer, or did more, than it may.
     Deadline,
+    /// Reactions without an end.
+    Loop,
+    /// A rule that reacts has more matches than are kept.
+    Matches,
     /// The engine itself failed.
     Panic,
     /// A file of rule tests does not read as tests.
@@ -51,7 +57,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 21] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -63,10 +69,13 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
         Self::Evaluation,
         Self::Deadline,
+        Self::Loop,
+        Self::Matches,
         Self::Panic,
         Self::TestSyntax,
         Self::TestFailed,
@@ -86,10 +95,13 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
             Self::Evaluation => "rule/evaluation",
             Self::Deadline => "rule/deadline",
+            Self::Loop => "rule/loop",
+            Self::Matches => "rule/matches",
             Self::Panic => "rule/panic",
             Self::TestSyntax => "test/syntax",
             Self::TestFailed => "test/failed",

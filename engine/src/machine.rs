@@ -1,13 +1,16 @@
 //! Runs plans over batches of bindings: one pass over a batch for each node, no dispatch for each row.
 
 pub(crate) mod action;
+pub(crate) mod candidates;
 pub(crate) mod evaluate;
+mod hypothesis;
 pub(crate) mod index;
 pub(crate) mod interpret;
 pub(crate) mod lane;
 pub(crate) mod matching;
 pub(crate) mod output;
 pub(crate) mod search;
+mod tally;
 
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
