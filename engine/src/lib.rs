@@ -108,6 +108,7 @@ mod knowledge;
 mod machine;
 mod order;
 mod plan;
+mod rejection;
 mod rule;
 mod rule_base;
 mod rule_test;
@@ -126,6 +127,7 @@ pub use conclusions::{
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::facts::FactError;
+pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};
 pub use rule_base::RuleBase;
 pub use rule_test::{RuleTests, TestFailure, TestOutcome};

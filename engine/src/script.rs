@@ -9,3 +9,4 @@ pub(crate) mod read;
 mod resolve;
 pub(crate) mod source;
 pub(crate) mod syntax;
+pub(crate) mod wording;

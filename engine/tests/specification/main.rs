@@ -18,4 +18,5 @@ mod revisions;
 mod rule_tests;
 mod support;
 mod unknown;
+mod why_not;
 mod wrong_files;
