@@ -59,11 +59,15 @@ pub enum Code {
     Matches,
     /// The engine itself failed.
     Panic,
+    /// A file of rule tests does not read as tests.
+    TestSyntax,
+    /// A rule test does not hold.
+    TestFailed,
 }
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 26] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -88,6 +92,8 @@ impl Code {
         Self::Loop,
         Self::Matches,
         Self::Panic,
+        Self::TestSyntax,
+        Self::TestFailed,
     ];
 
     /// The name that users and programs see.
@@ -117,6 +123,8 @@ impl Code {
             Self::Loop => "rule/loop",
             Self::Matches => "rule/matches",
             Self::Panic => "rule/panic",
+            Self::TestSyntax => "test/syntax",
+            Self::TestFailed => "test/failed",
         }
     }
 }

@@ -14,6 +14,7 @@ mod pending;
 mod report;
 mod revise;
 mod why;
+mod why_not;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;

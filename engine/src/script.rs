@@ -11,3 +11,4 @@ pub(crate) mod resolve;
 mod rewrite;
 pub(crate) mod source;
 pub(crate) mod syntax;
+pub(crate) mod wording;

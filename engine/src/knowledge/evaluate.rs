@@ -129,9 +129,9 @@ pub(super) fn below(rule: &Rule, name: &PropertyName) -> Option<i64> {
 }
 
 /// The properties that there are when a rule is planned.
-struct Known<'k> {
-    base: &'k KnowledgeBase,
-    rule: &'k Rule,
+pub(super) struct Known<'k> {
+    pub(super) base: &'k KnowledgeBase,
+    pub(super) rule: &'k Rule,
 }
 
 impl Kinds for Known<'_> {
