@@ -89,4 +89,39 @@ impl Column {
         }
         true
     }
+
+    /// Whether both hold the same values, to the bit.
+    pub(crate) fn same(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.kind() == other.kind() && self.differing(other).next().is_none()
+    }
+
+    /// The rows in which two columns of one length and type differ.
+    pub(crate) fn differing<'c>(&'c self, other: &'c Self) -> Box<dyn Iterator<Item = u32> + 'c> {
+        fn rows<'c, T: Copy>(
+            a: &'c [T],
+            b: &'c [T],
+            same: impl Fn(T, T) -> bool + 'c,
+        ) -> Box<dyn Iterator<Item = u32> + 'c> {
+            let pairs = a.iter().zip(b).zip(0..);
+            Box::new(pairs.filter(move |((a, b), _)| !same(**a, **b)).map(|(_, row)| row))
+        }
+        match (self, other) {
+            (Self::Numbers(a), Self::Numbers(b)) => rows(a, b, |a, b| Cell::number(a).same(Cell::number(b))),
+            (Self::Texts(a), Self::Texts(b)) => rows(a, b, |a, b| a == b),
+            (Self::Truths(a), Self::Truths(b)) => rows(a, b, |a, b| a == b),
+            _ => Box::new(0..self.len() as u32),
+        }
+    }
+
+    /// The column after rows moved (`None`: they stayed); new rows are unknown.
+    pub(crate) fn moved(&self, moved: Option<&[Option<u32>]>, len: usize) -> Self {
+        let mut column = Self::unknown(self.kind(), len);
+        for from in 0..self.len() {
+            let to = moved.map_or(Some(from as u32), |moved| moved.get(from).copied().flatten());
+            if let Some(to) = to.filter(|&to| (to as usize) < len) {
+                column.set(to as usize, self.cell(from));
+            }
+        }
+        column
+    }
 }

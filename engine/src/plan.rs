@@ -6,6 +6,7 @@ pub(crate) mod clause;
 pub(crate) mod fragment;
 pub(crate) mod lower;
 pub(crate) mod node;
+pub(crate) mod uses;
 
 use std::cell::RefCell;
 
@@ -72,4 +73,21 @@ pub(crate) fn plan(
     };
     let (columns, problems) = lowering.finish();
     if problems.is_empty() { Ok(Plan { clauses, effect, columns }) } else { Err(problems) }
+}
+
+impl Plan {
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        let clause = |clause: &ClausePlan| {
+            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by);
+            nodes.chain(clause.joins.iter().map(|join| &join.key)).any(Node::interprets)
+        };
+        let effect = match &self.effect {
+            Effect::Conclude { then, otherwise } => {
+                then.interprets() || otherwise.as_ref().is_some_and(ActionPlan::interprets)
+            }
+            Effect::Revise { amount, .. } => amount.interprets(),
+        };
+        effect || self.clauses.iter().any(clause)
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use rhai::Position;
@@ -17,6 +18,8 @@ use crate::script::source::SourceFile;
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
 pub struct RuleBase {
+    /// Tells one compilation from another.
+    pub(crate) id: u64,
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
 }
@@ -38,7 +41,8 @@ impl RuleBase {
             return Err(Diagnostics(problems));
         }
         let order = order(&rules).map_err(Diagnostics)?;
-        Ok(Self { rules, order })
+        static COMPILED: AtomicU64 = AtomicU64::new(1);
+        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order })
     }
 
     /// The rules, in the order of the files.

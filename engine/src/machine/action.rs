@@ -22,11 +22,11 @@ pub(crate) enum Written {
 }
 
 impl Written {
-    pub(crate) fn at(&self, index: usize) -> bool {
+    pub(crate) fn extend(&self, out: &mut Vec<bool>, len: usize) {
         match self {
-            Self::Nowhere => false,
-            Self::Everywhere => true,
-            Self::Where(mask) => mask[index],
+            Self::Nowhere => out.resize(out.len() + len, false),
+            Self::Everywhere => out.resize(out.len() + len, true),
+            Self::Where(mask) => out.extend_from_slice(&mask[..len]),
         }
     }
 }

@@ -37,6 +37,14 @@ impl<T: Copy> Lane<'_, T> {
         }
     }
 
+    /// Adds the values of a batch to those of others.
+    pub(crate) fn extend(&self, out: &mut Vec<T>, len: usize) {
+        match self {
+            Self::Same(value) => out.resize(out.len() + len, *value),
+            Self::Each(values) => out.extend_from_slice(&values[..len]),
+        }
+    }
+
     pub(crate) fn into_static(self) -> Lane<'static, T> {
         match self {
             Self::Same(value) => Lane::Same(value),
@@ -197,6 +205,15 @@ impl Rows {
             Self::From(first) => first + index as u32,
             Self::Same(row) => *row,
             Self::Each(rows) => rows[index],
+        }
+    }
+
+    pub(crate) fn extend(&self, out: &mut Vec<u32>, len: usize) {
+        match self {
+            Self::Unbound => out.resize(out.len() + len, NO_ROW),
+            Self::From(first) => out.extend(*first..*first + len as u32),
+            Self::Same(row) => out.resize(out.len() + len, *row),
+            Self::Each(rows) => out.extend_from_slice(&rows[..len]),
         }
     }
 

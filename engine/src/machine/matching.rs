@@ -61,7 +61,7 @@ impl Search<'_> {
         frame: &Frame,
     ) -> Result<Found, Stopped> {
         let mut found = Found::new(clause, frame.len);
-        let candidates = &self.candidates[number];
+        let candidates = self.candidates(number);
         if candidates.index.is_some() {
             self.by_index(number, clause, frame, &mut found)?;
         } else if candidates.rows.len() <= frame.len {
@@ -130,7 +130,7 @@ impl Search<'_> {
         found: &mut Found,
     ) -> Result<(), Stopped> {
         let mut tried = frame.clone();
-        for &row in &self.candidates[number].rows {
+        for &row in &self.candidates(number).rows {
             self.machine.tick()?;
             tried.rows[number] = Rows::Same(row);
             let (truths, values) = self.tried(clause, &tried);
@@ -152,7 +152,7 @@ impl Search<'_> {
         frame: &Frame,
         found: &mut Found,
     ) -> Result<(), Stopped> {
-        let candidates = &self.candidates[number];
+        let candidates = self.candidates(number);
         for binding in 0..frame.len {
             for (nth, chunk) in candidates.rows.chunks(BATCH).enumerate() {
                 self.machine.tick()?;

@@ -6,6 +6,7 @@
 mod conflicts;
 mod doors;
 mod explanation;
+mod incremental;
 mod interpreter;
 mod joins;
 mod limits;

@@ -1,0 +1,86 @@
+//! The objects of a clause's class that may be bound, and how to find them.
+
+use super::evaluate::Batch;
+use super::index::Index;
+use super::lane::{Frame, Rows};
+use super::{BATCH, Machine, Stopped};
+use crate::plan::Plan;
+use crate::script::syntax::Quantifier;
+use crate::value::Truth;
+
+/// What of a clause holds for every binding of the clauses before it.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidates {
+    /// Those that pass what is asked of them alone: the best first, where they are compared by themselves alone.
+    pub(crate) rows: Vec<u32>,
+    /// Whether `rows` is 0, 1, 2, ...
+    pub(crate) all: bool,
+    pub(crate) index: Option<Index>,
+    /// Objects that are none, since what is asked of them is unknown.
+    pub(crate) left_out: usize,
+}
+
+impl Candidates {
+    /// The candidates of a clause whose class has `size` objects.
+    pub(crate) fn of(machine: &Machine, plan: &Plan, number: usize, size: usize) -> Result<Self, Stopped> {
+        let clause = &plan.clauses[number];
+        let mut rows: Vec<u32> = (0..size as u32).collect();
+        let mut left_out = 0;
+        if let Some(own) = &clause.own {
+            rows = keep(machine, plan, number, &rows, |batch, keep| {
+                let truths = machine.evaluate(own, batch).truths();
+                (0..batch.frame.len).for_each(|index| {
+                    let truth = truths.at(index);
+                    left_out += usize::from(truth == Truth::Unknown);
+                    keep.push(truth == Truth::True);
+                });
+            })?;
+        }
+        if let (Some(by), true) = (&clause.by, clause.by_own) {
+            let mut values: Vec<f64> = vec![];
+            rows = keep(machine, plan, number, &rows, |batch, keep| {
+                let numbers = machine.evaluate(by, batch).numbers();
+                for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
+                    keep.push(!number.is_nan());
+                    left_out += usize::from(number.is_nan());
+                    values.extend(Some(number).filter(|number| !number.is_nan()));
+                }
+            })?;
+            let mut ranked: Vec<(f64, u32)> = values.into_iter().zip(rows).collect();
+            // Stable: equal values stay in the order of the table. Minus zero equals zero.
+            match clause.quantifier {
+                Quantifier::Most => ranked.sort_by(|a, b| (b.0 + 0.0).total_cmp(&(a.0 + 0.0))),
+                _ => ranked.sort_by(|a, b| (a.0 + 0.0).total_cmp(&(b.0 + 0.0))),
+            }
+            rows = ranked.into_iter().map(|(_, row)| row).collect();
+        }
+        let all = rows.iter().zip(0..).all(|(&row, nth)| row == nth);
+        let index = (!clause.joins.is_empty()).then(|| {
+            let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
+            Index::new(&columns, &rows)
+        });
+        Ok(Self { rows, all, index, left_out })
+    }
+}
+
+/// The rows for which `test` pushes true; it sees them batch by batch, bound to one variable.
+fn keep(
+    machine: &Machine,
+    plan: &Plan,
+    variable: usize,
+    rows: &[u32],
+    mut test: impl FnMut(Batch, &mut Vec<bool>),
+) -> Result<Vec<u32>, Stopped> {
+    let mut kept = vec![];
+    let mut flags = vec![];
+    for chunk in rows.chunks(BATCH) {
+        machine.tick()?;
+        let mut bound = vec![Rows::Unbound; plan.clauses.len()];
+        bound[variable] = Rows::Each(chunk.to_vec());
+        let frame = Frame { len: chunk.len(), rows: bound };
+        flags.clear();
+        test(Batch { frame: &frame, slots: &[], mask: None }, &mut flags);
+        kept.extend(chunk.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(&row, _)| row));
+    }
+    Ok(kept)
+}
