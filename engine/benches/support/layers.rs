@@ -67,7 +67,10 @@ pub fn told(layers: &Layers) -> KnowledgeBase {
         Class::new("ROBOTS", &["robot", "state"])
             .texts("robot", all.clone().map(|_| Some("robot")))
             .texts("state", all.clone().map(|row| Some(state(row))))
-            .texts("action", all.clone().map(|row| Some(STATES.get(row).map_or("NO-ACTION", |state| state.1))))
+            .texts(
+                "action",
+                all.clone().map(|row| Some(STATES.get(row).map_or("NO-ACTION", |state| state.1))),
+            )
             .numbers("hardness", all.map(|row| Some(STATES.get(row).map_or(10000.0, |state| state.2)))),
         Class::new("CHANGES", &["robot", "from_state", "to_state"])
             .texts("robot", CHANGES.map(|_| Some("robot")))
