@@ -33,6 +33,8 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A hypothesis that is concluded in another way too, or is not the first object's.
+    Hypothesis,
     /// Two operators at one level of revision.
     Operator,
     /// Two rules set one property of one object to different values.
@@ -41,13 +43,17 @@ pub enum Code {
     Evaluation,
     /// A rule took longer, or did more, than it may.
     Deadline,
+    /// Reactions without an end.
+    Loop,
+    /// A rule that reacts has more matches than are kept.
+    Matches,
     /// The engine itself failed.
     Panic,
 }
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 19] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -59,10 +65,13 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
         Self::Evaluation,
         Self::Deadline,
+        Self::Loop,
+        Self::Matches,
         Self::Panic,
     ];
 
@@ -80,10 +89,13 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
             Self::Evaluation => "rule/evaluation",
             Self::Deadline => "rule/deadline",
+            Self::Loop => "rule/loop",
+            Self::Matches => "rule/matches",
             Self::Panic => "rule/panic",
         }
     }

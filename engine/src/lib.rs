@@ -34,11 +34,15 @@
 //! # Rules
 //!
 //! ```text
-//! rule "NAME"
+//! rule "NAME" [priority N]
 //!     each  x in CLASS [where CONDITION]           for every object that passes
 //!     least y in CLASS by NUMBER [where CONDITION] the one with the least value (most: the greatest)
 //!     some  z in CLASS [where CONDITION]           the first that passes
 //!     none  w in CLASS [where CONDITION]           only if there is no such object
+//!     all   v in CLASS [where CONDITION] have CONDITION   only if all that pass the first pass the second
+//!     count N of u in CLASS [where CONDITION]      N is how many pass
+//!     sum   N of u in CLASS by NUMBER [where CONDITION]   N is the sum over those that pass
+//!     [hypothesis x.property]                      `then` may be left out after it
 //!     then { x.property = VALUE; ... }
 //!     [else { ... }]
 //!
@@ -54,15 +58,21 @@
 //!
 //! - A **rule concludes**. It is pure, and the order of rules and of rows never counts, but for ties. A property
 //!   has one value: two rules, or two bindings of one rule, that say different things make a [`Conflict`], and the
-//!   value is unknown. Within one action a later assignment replaces an earlier one. A told value stands before a
+//!   value is unknown; the greater `priority` is heard before. Within one action a later assignment replaces an earlier one. A told value stands before a
 //!   concluded one.
 //! - **Rules are ordered** by what they read and set. Rules that need each other's conclusions are refused, and the
 //!   cycle is named.
 //! - **`least`** takes the least value and its object; of equal ones the first row. Objects whose value is unknown
 //!   are left out and counted ([`LeftOut`]).
+//! - **`count`** and **`sum`** give a number to the clauses after them and to the action, 0 where nothing passes.
+//!   It is unknown where an unknown leaves open whether an object passes, or what it adds; `all` is not met then,
+//!   unless other objects decide.
+//! - **`hypothesis`** is a property of the first clause's object: true where all clauses are met, false where one
+//!   is not, unknown where that is undecided. Several rules may prove one hypothesis: it is true if one proves it,
+//!   false if all refute it. Nothing else sets it.
 //! - **`else`** runs once for each binding of the clauses before for which a `least`, `most` or `some` finds no
-//!   object or a `none` finds one. It may use the variables bound before that clause; properties of the others are
-//!   unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
+//!   object, a `none` finds one, or an `all` is not met. It may use the variables bound before that clause;
+//!   properties of the others are unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
 //! - **`revise`** changes a number, told or concluded. Each level starts from what the level below gave, and within a
 //!   `revise` the property that it sets is read as the level below left it; everyone else reads the last level. A
 //!   level has one operator (`+` and `-` are one). `each` contributes for every binding, `some` once; contributions

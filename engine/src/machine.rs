@@ -3,12 +3,14 @@
 pub(crate) mod action;
 pub(crate) mod candidates;
 pub(crate) mod evaluate;
+mod hypothesis;
 pub(crate) mod index;
 pub(crate) mod interpret;
 pub(crate) mod lane;
 pub(crate) mod matching;
 pub(crate) mod output;
 pub(crate) mod search;
+mod tally;
 
 use std::cell::{Cell, RefCell};
 use std::time::Instant;

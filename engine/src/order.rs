@@ -20,7 +20,8 @@ pub(crate) enum Step {
 pub(crate) fn order(rules: &[Rule]) -> Result<Vec<Step>, Vec<Diagnostic>> {
     let levels = levels(rules);
     let mut needs: BTreeMap<Step, BTreeSet<Step>> = BTreeMap::new();
-    for (index, rule) in rules.iter().enumerate() {
+    // Rules that react are no part of an inference: they run after it.
+    for (index, rule) in rules.iter().enumerate().filter(|(_, rule)| !rule.reacts()) {
         let own = rule.level().map(|level| (rule.sets.keys().next(), level));
         let inputs = needs.entry(Step::Rule(index)).or_default();
         for read in rule.reads.keys() {

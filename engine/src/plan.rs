@@ -6,6 +6,7 @@ pub(crate) mod clause;
 pub(crate) mod fragment;
 pub(crate) mod lower;
 pub(crate) mod node;
+pub(crate) mod reaction;
 pub(crate) mod uses;
 
 use std::cell::RefCell;
@@ -49,6 +50,8 @@ pub(crate) enum Effect {
 pub(crate) struct Plan {
     pub(crate) clauses: Vec<ClausePlan>,
     pub(crate) effect: Effect,
+    /// The truth value that the rule gives to each object of its first clause.
+    pub(crate) hypothesis: Option<PropertyName>,
     /// The columns that the nodes name by number.
     pub(crate) columns: Vec<PropertyName>,
 }
@@ -61,25 +64,29 @@ pub(crate) fn plan(
 ) -> Result<Plan, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(rule, kinds, symbols);
     let clauses = clause::clauses(&mut lowering);
+    lowering.enter(None);
     let effect = match &rule.action {
         Action::Conclude { then, otherwise } => Effect::Conclude {
             then: action::action(&mut lowering, then),
             otherwise: otherwise.as_ref().map(|block| action::action(&mut lowering, block)),
         },
+        // Reactions have plans of their own; as a rule they conclude nothing.
+        Action::React(_) => Effect::Conclude { then: ActionPlan::default(), otherwise: None },
         Action::Revise { target, amount, position, .. } => {
             action::check_revised(&mut lowering, target, *position);
             Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
         }
     };
+    let hypothesis = action::hypothesis(&mut lowering);
     let (columns, problems) = lowering.finish();
-    if problems.is_empty() { Ok(Plan { clauses, effect, columns }) } else { Err(problems) }
+    if problems.is_empty() { Ok(Plan { clauses, effect, hypothesis, columns }) } else { Err(problems) }
 }
 
 impl Plan {
     /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         let clause = |clause: &ClausePlan| {
-            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by);
+            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have);
             nodes.chain(clause.joins.iter().map(|join| &join.key)).any(Node::interprets)
         };
         let effect = match &self.effect {

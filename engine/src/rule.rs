@@ -88,6 +88,10 @@ pub(crate) struct Clause {
     pub(crate) class_position: Position,
     pub(crate) by: Option<Expr>,
     pub(crate) condition: Option<Expr>,
+    /// What `all` asks of each object that passes.
+    pub(crate) have: Option<Expr>,
+    /// The name of the number that `count` and `sum` give.
+    pub(crate) number: Option<(String, Position)>,
 }
 
 /// What a rule does with what its clauses bind.
@@ -95,6 +99,34 @@ pub(crate) struct Clause {
 pub(crate) enum Action {
     Conclude { then: Box<StmtBlock>, otherwise: Option<Box<StmtBlock>> },
     Revise { target: (usize, String), operator: Operator, amount: Expr, level: i64, position: Position },
+    React(Box<Reaction>),
+}
+
+/// What an `on` rule does. Its body runs in the interpreter; what can be seen of it without running is listed.
+#[derive(Clone, Debug)]
+pub(crate) struct Reaction {
+    pub(crate) body: StmtBlock,
+    /// For each variable the properties that the rule reads, in its clauses or in its body.
+    pub(crate) reads: BTreeSet<(usize, String)>,
+    pub(crate) tells: Vec<Telling>,
+    pub(crate) sets: Vec<Setting>,
+}
+
+/// `tell("CLASS", #{ property: value })`
+#[derive(Clone, Debug)]
+pub(crate) struct Telling {
+    pub(crate) class: String,
+    pub(crate) position: Position,
+    pub(crate) properties: Vec<(String, Position, Expr)>,
+}
+
+/// `variable.property = value`; the value is `None` of `+=` and the like.
+#[derive(Clone, Debug)]
+pub(crate) struct Setting {
+    pub(crate) variable: usize,
+    pub(crate) property: String,
+    pub(crate) position: Position,
+    pub(crate) value: Option<Expr>,
 }
 
 /// What all rules of a file share.
@@ -120,10 +152,13 @@ pub struct Rule {
     pub(crate) position: Position,
     pub(crate) line: usize,
     pub(crate) version: String,
+    pub(crate) priority: i64,
     pub(crate) clauses: Vec<Clause>,
     pub(crate) action: Action,
     pub(crate) reads: BTreeMap<PropertyName, Position>,
     pub(crate) sets: BTreeMap<PropertyName, Position>,
+    /// What it proves or refutes of each object of its first clause: clause, property, place.
+    pub(crate) hypothesis: Option<(usize, String, Position)>,
     pub(crate) file: Arc<FileScope>,
 }
 
@@ -148,6 +183,12 @@ impl Rule {
         &self.version
     }
 
+    /// Which rule is heard where several conclude one property of one object: the greatest with a known value.
+    /// 0 if not given.
+    pub const fn priority(&self) -> i64 {
+        self.priority
+    }
+
     /// The classes that its clauses range over, in their order.
     pub fn classes(&self) -> impl Iterator<Item = &str> {
         self.clauses.iter().map(|clause| clause.class.as_str())
@@ -168,10 +209,30 @@ impl Rule {
         self.sets.keys()
     }
 
+    /// The property that is true for an object of the first clause where all clauses are met, false where one is
+    /// not, and unknown where that is undecided.
+    pub fn hypothesis(&self) -> Option<PropertyName> {
+        let (clause, property, _) = self.hypothesis.as_ref()?;
+        Some(PropertyName::new(&self.clauses[*clause].class, property))
+    }
+
+    /// Whether it is an `on` rule: one that reacts and tells, rather than concludes.
+    pub const fn reacts(&self) -> bool {
+        matches!(self.action, Action::React(_))
+    }
+
+    /// What the rule does once it is carried out; `None` for one that concludes or revises.
+    pub(crate) const fn reaction(&self) -> Option<&Reaction> {
+        match &self.action {
+            Action::React(reaction) => Some(reaction),
+            Action::Conclude { .. } | Action::Revise { .. } => None,
+        }
+    }
+
     /// The level of a revision; `None` for a rule that concludes.
     pub const fn level(&self) -> Option<i64> {
         match &self.action {
-            Action::Conclude { .. } => None,
+            Action::Conclude { .. } | Action::React(_) => None,
             Action::Revise { level, .. } => Some(*level),
         }
     }

@@ -37,6 +37,7 @@ impl RuleBase {
         };
         problems.extend(duplicates(&rules));
         problems.extend(operators(&rules));
+        problems.extend(hypotheses(&rules));
         if !problems.is_empty() {
             return Err(Diagnostics(problems));
         }
@@ -53,6 +54,11 @@ impl RuleBase {
     /// Names and types against the classes that there are; empty if all is well.
     pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
         on_deep_stack(|| crate::check::check(self, schema))
+    }
+
+    /// The properties that are hypotheses: true if one rule proves them, false if all refute them.
+    pub fn hypotheses(&self) -> BTreeSet<PropertyName> {
+        self.rules.iter().filter_map(Rule::hypothesis).collect()
     }
 
     /// The properties that rules conclude or revise, sorted.
@@ -99,6 +105,25 @@ fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
             );
         } else {
             seen.insert(rule.name(), rule);
+        }
+    }
+    problems
+}
+
+/// A hypothesis is one everywhere: its values come together by "or".
+fn hypotheses(rules: &[Rule]) -> Vec<Diagnostic> {
+    let provers = rules.iter().rev().filter_map(|rule| Some((rule.hypothesis()?, rule)));
+    let proved: BTreeMap<PropertyName, &Rule> = provers.collect();
+    let mut problems = vec![];
+    for rule in rules {
+        let own = rule.hypothesis();
+        for (name, position) in rule.sets.iter().filter(|(name, _)| own.as_ref() != Some(name)) {
+            let Some(prover) = proved.get(name) else { continue };
+            let message = format!("{name} is a hypothesis of rule \"{}\", and is set here", prover.name);
+            problems.push(
+                Diagnostic::error(Code::Hypothesis, &rule.file.source.place(*position), message)
+                    .help("a property is a hypothesis of all rules that conclude it, or of none"),
+            );
         }
     }
     problems

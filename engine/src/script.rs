@@ -1,7 +1,10 @@
 //! Rule files: how they are read, and the interpreter behind them.
 
+pub(crate) mod failure;
 pub(crate) mod interpreter;
 pub(crate) mod names;
+mod reaction;
+pub(crate) mod reactor;
 pub(crate) mod read;
 mod resolve;
 pub(crate) mod source;

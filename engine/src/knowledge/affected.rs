@@ -116,12 +116,15 @@ impl KnowledgeBase {
             return Dirty::None;
         }
         let clause = &planned.plan.clauses[number];
-        let asks = matches!(
-            clause.quantifier,
-            Quantifier::Least | Quantifier::Most | Quantifier::Some | Quantifier::None
-        );
         let few = |dirty: &Dirty| !matches!(dirty, Dirty::All);
-        if memory.shape != Shape::Single || !asks || !few(&change.read) || !few(&change.matching) {
+        // A hypothesis hangs on all that is unknown, too.
+        let proves = planned.plan.hypothesis.is_some();
+        if memory.shape != Shape::Single
+            || !clause.quantifier.names()
+            || proves
+            || !few(&change.read)
+            || !few(&change.matching)
+        {
             return Dirty::All;
         }
         let size = self.len(&rule.clauses[number].class).unwrap_or(0);

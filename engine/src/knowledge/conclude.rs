@@ -75,7 +75,7 @@ impl KnowledgeBase {
 
     /// Whether a rule needs the deep stack that the interpreter asks for.
     fn interprets(&self) -> bool {
-        self.network.nodes.iter().any(|node| node.planned.as_ref().is_none_or(|planned| planned.interprets))
+        self.network.nodes.iter().any(|node| node.planned.as_ref().is_some_and(|planned| planned.interprets))
     }
 
     /// Takes in what was told.

@@ -95,7 +95,7 @@ impl KnowledgeBase {
         }
         let len = memory.statuses.len() as u32;
         let drivers = match (memory.shape, drivers) {
-            (Shape::Whole, _) => Drivers::Whole,
+            (Shape::Whole, _) => Drivers::Whole(self.len(&rule.clauses[0].class).unwrap_or(0) as u32),
             (_, Dirty::Rows(rows)) => Drivers::Rows(rows),
             _ => Drivers::Range(0, len),
         };

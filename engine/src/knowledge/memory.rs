@@ -269,9 +269,6 @@ impl Memory {
                 given.values.set(row as usize, Cell::Unknown);
             }
         }
-        for (to, from) in self.witnesses.iter_mut().zip(&output.failed).skip(1) {
-            output.failures.iter().zip(from).for_each(|(failure, &row)| to[failure.row as usize] = row);
-        }
         for (firing, &row) in output.witnesses[0].iter().enumerate() {
             for (to, from) in self.witnesses.iter_mut().zip(&output.witnesses).skip(1) {
                 to[row as usize] = from[firing];
@@ -280,6 +277,9 @@ impl Memory {
                 to.written[row as usize] = from.written[firing];
                 to.values.set(row as usize, from.values.cell(firing));
             }
+        }
+        for (to, from) in self.witnesses.iter_mut().zip(&output.failed).skip(1) {
+            output.failures.iter().zip(from).for_each(|(failure, &row)| to[failure.row as usize] = row);
         }
         let mut touched = vec![];
         for (at, before) in before.into_iter().enumerate() {
@@ -404,10 +404,12 @@ impl Memory {
         self.inverse.iter_mut().for_each(|inverse| *inverse = None);
     }
 
-    /// Whether it can follow when objects of a class come, go or move. Ties hang on the order of rows.
+    /// Whether it can follow when objects of a class come, go or move. Ties hang on the order of rows, and numbers
+    /// on objects that no firing names.
     pub(crate) fn follows(&self, rule: &Rule, class: &str, keeps_order: bool) -> bool {
-        let bound = rule.clauses.iter().skip(1).any(|clause| clause.class == class);
-        self.shape == Shape::Single && (keeps_order || !bound)
+        let of_class = || rule.clauses.iter().skip(1).filter(|clause| clause.class == class);
+        let named = of_class().all(|clause| clause.quantifier.names() && rule.hypothesis.is_none());
+        self.shape == Shape::Single && named && (keeps_order || of_class().next().is_none())
     }
 
     /// The objects of the first clause that nobody asked for yet.

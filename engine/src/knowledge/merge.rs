@@ -210,6 +210,9 @@ impl KnowledgeBase {
         if told != Cell::Unknown {
             return (told, Source::Told);
         }
+        if derived.hypothesis {
+            return self.proved(name, derived, row);
+        }
         let mut chosen = (Cell::Unknown, Source::Nobody);
         let mut priority = None;
         for writer in &derived.writers {
@@ -228,6 +231,24 @@ impl KnowledgeBase {
                     priority = Some(writer.priority);
                 } else if chosen.0 != cell {
                     return (Cell::Unknown, Source::Dispute);
+                }
+            }
+        }
+        chosen
+    }
+
+    /// A hypothesis: true if one rule proves it, false if all refute it.
+    fn proved(&self, name: &PropertyName, derived: &Derived, row: u32) -> (Cell, Source) {
+        let mut chosen = (Cell::Unknown, Source::Nobody);
+        for writer in &derived.writers {
+            for (cell, firing) in self.claims(name, writer.rule, row) {
+                let source = Source::Rule { rule: writer.rule, firing };
+                match (cell, chosen) {
+                    (Cell::Truth(true), _) => return (cell, source),
+                    (_, (_, Source::Nobody)) | (Cell::Unknown, (Cell::Truth(false), _)) => {
+                        chosen = (cell, source);
+                    }
+                    _ => {}
                 }
             }
         }

@@ -159,7 +159,7 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
     for (number, rule) in base.rules.iter().enumerate().filter(|(_, rule)| rule.sets.contains_key(name)) {
         match rule.level() {
             Some(level) => levels.entry(level).or_default().push(number),
-            None => writers.push(Writer { rule: number, priority: 0 }),
+            None => writers.push(Writer { rule: number, priority: rule.priority }),
         }
     }
     writers.sort_by_key(|writer| (-writer.priority, writer.rule));
@@ -170,7 +170,7 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
         writers,
         pending: vec![Dirty::All; levels.len() + 1],
         levels,
-        hypothesis: false,
+        hypothesis: base.hypotheses().contains(name),
         stages,
         disputes: BTreeSet::new(),
         complete: false,

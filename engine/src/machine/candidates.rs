@@ -16,6 +16,8 @@ pub(crate) struct Candidates {
     /// Whether `rows` is 0, 1, 2, ...
     pub(crate) all: bool,
     pub(crate) index: Option<Index>,
+    /// Rows of which an unknown leaves open whether they may be bound, where that counts.
+    pub(crate) undecided: Vec<u32>,
     /// Objects that are none, since what is asked of them is unknown.
     pub(crate) left_out: usize,
 }
@@ -25,8 +27,14 @@ impl Candidates {
     pub(crate) fn of(machine: &Machine, plan: &Plan, number: usize, size: usize) -> Result<Self, Stopped> {
         let clause = &plan.clauses[number];
         let mut rows: Vec<u32> = (0..size as u32).collect();
+        let mut undecided = vec![];
         let mut left_out = 0;
-        if let Some(own) = &clause.own {
+        if clause.whole.is_some() {
+            (rows, undecided) = decided(machine, plan, number, rows)?;
+            if clause.quantifier.binds() {
+                left_out += undecided.len();
+            }
+        } else if let Some(own) = &clause.own {
             rows = keep(machine, plan, number, &rows, |batch, keep| {
                 let truths = machine.evaluate(own, batch).truths();
                 (0..batch.frame.len).for_each(|index| {
@@ -38,6 +46,7 @@ impl Candidates {
         }
         if let (Some(by), true) = (&clause.by, clause.by_own) {
             let mut values: Vec<f64> = vec![];
+            let before = rows.clone();
             rows = keep(machine, plan, number, &rows, |batch, keep| {
                 let numbers = machine.evaluate(by, batch).numbers();
                 for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
@@ -46,6 +55,10 @@ impl Candidates {
                     values.extend(Some(number).filter(|number| !number.is_nan()));
                 }
             })?;
+            if plan.hypothesis.is_some() {
+                let mut ranked = rows.iter().peekable();
+                undecided.extend(before.iter().filter(|&row| ranked.next_if_eq(&row).is_none()));
+            }
             let mut ranked: Vec<(f64, u32)> = values.into_iter().zip(rows).collect();
             // Stable: equal values stay in the order of the table. Minus zero equals zero.
             match clause.quantifier {
@@ -59,7 +72,13 @@ impl Candidates {
             let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
             Index::new(&columns, &rows)
         });
-        Ok(Self { rows, all, index, left_out })
+        Ok(Self { rows, all, index, undecided, left_out })
+    }
+
+    /// The rows that an unknown leaves open; all of them where the key to look for is unknown.
+    pub(super) fn perhaps(&self, unknown_key: bool) -> impl Iterator<Item = &u32> + Clone {
+        let all = if unknown_key { self.rows.as_slice() } else { &[] };
+        all.iter().chain(&self.undecided)
     }
 }
 
@@ -83,4 +102,35 @@ fn keep(
         kept.extend(chunk.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(&row, _)| row));
     }
     Ok(kept)
+}
+
+/// Parts the rows into those that pass what is asked of the object alone, with all columns of joins known, and those
+/// of which that is unknown.
+fn decided(
+    machine: &Machine,
+    plan: &Plan,
+    number: usize,
+    rows: Vec<u32>,
+) -> Result<(Vec<u32>, Vec<u32>), Stopped> {
+    let clause = &plan.clauses[number];
+    let mut truths = vec![Truth::True; rows.len()];
+    if let Some(own) = &clause.own {
+        truths.clear();
+        keep(machine, plan, number, &rows, |batch, keep| {
+            let lane = machine.evaluate(own, batch).truths();
+            truths.extend((0..batch.frame.len).map(|index| lane.at(index)));
+            keep.resize(batch.frame.len, false);
+        })?;
+    }
+    let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
+    let (mut passing, mut undecided) = (vec![], vec![]);
+    for (row, truth) in rows.into_iter().zip(truths) {
+        let known = columns.iter().all(|column| !column.is_unknown(row as usize));
+        match truth {
+            Truth::False => {}
+            Truth::True if known => passing.push(row),
+            _ => undecided.push(row),
+        }
+    }
+    Ok((passing, undecided))
 }

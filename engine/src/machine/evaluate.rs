@@ -31,6 +31,10 @@ impl Machine<'_> {
             Node::Property { variable, column } => {
                 gather(self.columns[*column], &batch.frame.rows[*variable], batch.frame.len)
             }
+            Node::Aggregate(clause) => match &batch.frame.rows[*clause] {
+                Rows::Numbers(numbers) => Values::Numbers(numbers.clone()),
+                _ => Values::UNKNOWN.narrow(Type::Number),
+            },
             Node::Local(slot) => batch.slots[*slot].clone(),
             Node::Arithmetic(operator, a, b) => {
                 let (a, b) = (self.evaluate(a, batch).numbers(), self.evaluate(b, batch).numbers());
@@ -169,7 +173,7 @@ fn gather<'b>(column: &'b Column, rows: &Rows, len: usize) -> Values<'b> {
 
 fn gather_lane<'b, T: Copy>(values: &'b [T], rows: &Rows, len: usize, unknown: T) -> Lane<'b, T> {
     match rows {
-        Rows::Unbound => Lane::Same(unknown),
+        Rows::Unbound | Rows::Numbers(_) => Lane::Same(unknown),
         Rows::Same(row) => Lane::Same(values.get(*row as usize).copied().unwrap_or(unknown)),
         Rows::From(first) => Lane::Each(Cow::Borrowed(&values[*first as usize..*first as usize + len])),
         Rows::Each(rows) => {

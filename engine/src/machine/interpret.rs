@@ -4,9 +4,11 @@ use rhai::{Dynamic, EvalAltResult, ImmutableString, Map, Scope};
 
 use super::Machine;
 use super::evaluate::Batch;
+use super::lane::Rows;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
+use crate::script::failure::failure;
 use crate::script::interpreter::start_run;
 use crate::value::Cell;
 
@@ -64,23 +66,11 @@ impl Machine<'_> {
 
     fn failed(&self, fragment: &Fragment, error: &EvalAltResult) {
         self.troubles.set(self.troubles.get() + 1);
-        let cause = error.unwrap_inner();
-        let limit =
-            matches!(cause, EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_));
+        let (problem, limit) = failure(self.rule, fragment.position, error);
         if limit {
             self.stopped.set(true);
         }
-        let position = error.position();
-        let position = if position.is_none() { fragment.position } else { position };
-        let place = self.rule.file.source.place(position);
-        let code = if limit { Code::Deadline } else { Code::Evaluation };
-        let reason = match cause {
-            EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
-            EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
-            _ => error.to_string(),
-        };
-        let message = format!("rule \"{}\": {reason}", self.rule.name);
-        self.trouble.borrow_mut().get_or_insert_with(|| Diagnostic::error(code, &place, message));
+        self.trouble.borrow_mut().get_or_insert(problem);
     }
 
     fn scope<'s>(&self, fragment: &'s Fragment, batch: Batch, index: usize) -> Option<Scope<'s>> {
@@ -94,6 +84,10 @@ impl Machine<'_> {
         }
         for (name, variable, number) in &fragment.bare {
             scope.push_dynamic(name.as_str(), column(*variable, *number)?);
+        }
+        for (name, clause) in &fragment.numbers {
+            let Rows::Numbers(numbers) = &batch.frame.rows[*clause] else { return None };
+            scope.push_constant_dynamic(name.as_str(), self.dynamic(Cell::number(numbers.at(index)))?);
         }
         for (name, object) in &fragment.objects {
             let mut map = Map::new();

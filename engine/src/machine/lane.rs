@@ -193,6 +193,8 @@ pub(crate) enum Rows {
     /// One row for the whole batch.
     Same(u32),
     Each(Vec<u32>),
+    /// No rows: the number that a clause of `count` or `sum` gives.
+    Numbers(Lane<'static, f64>),
 }
 
 /// Stands where a variable is bound to no row.
@@ -201,7 +203,7 @@ pub(crate) const NO_ROW: u32 = u32::MAX;
 impl Rows {
     pub(crate) fn at(&self, index: usize) -> u32 {
         match self {
-            Self::Unbound => NO_ROW,
+            Self::Unbound | Self::Numbers(_) => NO_ROW,
             Self::From(first) => first + index as u32,
             Self::Same(row) => *row,
             Self::Each(rows) => rows[index],
@@ -210,7 +212,7 @@ impl Rows {
 
     pub(crate) fn extend(&self, out: &mut Vec<u32>, len: usize) {
         match self {
-            Self::Unbound => out.resize(out.len() + len, NO_ROW),
+            Self::Unbound | Self::Numbers(_) => out.resize(out.len() + len, NO_ROW),
             Self::From(first) => out.extend(*first..*first + len as u32),
             Self::Same(row) => out.resize(out.len() + len, *row),
             Self::Each(rows) => out.extend_from_slice(&rows[..len]),
@@ -223,6 +225,10 @@ impl Rows {
             Self::Same(row) => Self::Same(*row),
             Self::From(first) => Self::Each(chosen.iter().map(|&index| first + index).collect()),
             Self::Each(rows) => Self::Each(chosen.iter().map(|&index| rows[index as usize]).collect()),
+            Self::Numbers(Lane::Same(number)) => Self::Numbers(Lane::Same(*number)),
+            Self::Numbers(Lane::Each(numbers)) => {
+                Self::Numbers(Lane::Each(chosen.iter().map(|&index| numbers[index as usize]).collect()))
+            }
         }
     }
 }
@@ -244,6 +250,7 @@ impl Frame {
     pub(crate) fn repeat(&self, index: usize, len: usize) -> Self {
         let rows = self.rows.iter().map(|rows| match rows {
             Rows::Unbound => Rows::Unbound,
+            Rows::Numbers(numbers) => Rows::Numbers(Lane::Same(numbers.at(index))),
             bound => Rows::Same(bound.at(index)),
         });
         Self { len, rows: rows.collect() }

@@ -3,7 +3,8 @@
 use super::action::Slots;
 use super::candidates::Candidates;
 use super::evaluate::Batch;
-use super::lane::{Frame, Lane, NO_ROW, Rows};
+use super::hypothesis::Verdicts;
+use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
 use super::output::{Failure, Output, Status};
 use super::{BATCH, Machine, Stopped};
 use crate::diagnostic::{Code, Diagnostic};
@@ -23,8 +24,8 @@ pub(crate) enum Drivers<'d> {
     /// Rows from and up to.
     Range(u32, u32),
     Rows(&'d [u32]),
-    /// The first clause binds one object, or none.
-    Whole,
+    /// The first clause binds one object, or none, of so many.
+    Whole(u32),
 }
 
 /// The evaluation of one rule.
@@ -32,7 +33,8 @@ pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
     pub(crate) candidates: &'s [Option<Candidates>],
-    output: Output,
+    pub(super) verdicts: Verdicts,
+    pub(super) output: Output,
 }
 
 /// Evaluates a rule for some of the objects of its first clause; `candidates` has an entry for each clause, of which
@@ -43,7 +45,8 @@ pub(crate) fn search(
     candidates: &[Option<Candidates>],
     drivers: Drivers,
 ) -> Output {
-    let mut search = Search { machine, plan, candidates, output: Output::default() };
+    let mut search =
+        Search { machine, plan, candidates, verdicts: Verdicts::default(), output: Output::default() };
     search.output.witnesses = vec![vec![]; plan.clauses.len()];
     search.output.failed = vec![vec![]; plan.clauses.len()];
     search.expect();
@@ -76,7 +79,11 @@ impl<'s> Search<'s> {
     fn start(&mut self, drivers: Drivers) -> Result<(), Stopped> {
         let unbound = || vec![Rows::Unbound; self.plan.clauses.len()];
         match drivers {
-            Drivers::Whole => self.advance(0, Frame { len: 1, rows: unbound() })?,
+            Drivers::Whole(objects) => {
+                self.advance(0, Frame { len: 1, rows: unbound() })?;
+                self.verdicts.leave_open(self.candidates(0).undecided.iter().copied());
+                self.settle(0..objects)?;
+            }
             Drivers::Range(from, to) => {
                 for first in (from..to).step_by(BATCH) {
                     let len = (to - first).min(BATCH as u32) as usize;
@@ -84,6 +91,7 @@ impl<'s> Search<'s> {
                     frame.rows[0] = Rows::From(first);
                     self.drive(frame)?;
                 }
+                self.settle(from..to)?;
             }
             Drivers::Rows(rows) => {
                 for chunk in rows.chunks(BATCH) {
@@ -91,6 +99,7 @@ impl<'s> Search<'s> {
                     frame.rows[0] = Rows::Each(chunk.to_vec());
                     self.drive(frame)?;
                 }
+                self.settle(rows.iter().copied())?;
             }
         }
         Ok(())
@@ -107,7 +116,9 @@ impl<'s> Search<'s> {
         };
         let passing = self.passing(&truths, frame.len);
         for index in (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown) {
-            self.output.left_out.push(frame.rows[0].at(index));
+            let row = frame.rows[0].at(index);
+            self.output.left_out.push(row);
+            self.verdicts.leave_open(std::iter::once(row));
         }
         if passing.is_empty() {
             return Ok(());
@@ -126,7 +137,17 @@ impl<'s> Search<'s> {
         let plan = self.plan;
         let Some(clause) = plan.clauses.get(number) else { return self.fire(&frame) };
         if clause.quantifier == Quantifier::Each {
-            return self.each(number, clause, &frame);
+            self.each(number, clause, &frame)?;
+            return self.doubt(number, clause, &frame);
+        }
+        if clause.quantifier.counts() {
+            let numbers = self.tally(number, clause, &frame)?.numbers(clause.quantifier);
+            let mut next = frame;
+            next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
+            return self.advance(number + 1, next);
+        }
+        if clause.quantifier == Quantifier::All {
+            return self.all(number, clause, frame);
         }
         let found = self.witnesses(number, clause, &frame)?;
         let wanted = clause.quantifier != Quantifier::None;
@@ -135,7 +156,11 @@ impl<'s> Search<'s> {
         if !failing.is_empty() {
             let of = |index: &u32| (found.rows[*index as usize], found.unknown[*index as usize]);
             let found: Vec<(u32, u32)> = failing.iter().map(of).collect();
-            self.fail(number, frame.select(&failing), &found)?;
+            let failed = frame.select(&failing);
+            if wanted {
+                self.doubt(number, clause, &failed)?;
+            }
+            self.fail(number, failed, &found)?;
         }
         if passing.is_empty() {
             return Ok(());
@@ -147,6 +172,23 @@ impl<'s> Search<'s> {
             Rows::Unbound
         };
         self.advance(number + 1, next)
+    }
+
+    /// Goes on with the bindings of which it is known that all objects have what is asked.
+    fn all(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
+        let tally = self.tally(number, clause, &frame)?;
+        let met = |index: &u32| tally.holds(*index as usize) == Truth::True;
+        let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
+        if !failing.is_empty() {
+            let found: Vec<(u32, u32)> =
+                failing.iter().map(|&index| (NO_ROW, tally.undecided(index as usize))).collect();
+            self.fail(number, frame.select(&failing), &found)?;
+        }
+        match passing.len() {
+            0 => Ok(()),
+            all if all == frame.len => self.advance(number + 1, frame),
+            _ => self.advance(number + 1, frame.select(&passing)),
+        }
     }
 
     /// Every candidate that passes, for every binding.
@@ -202,6 +244,10 @@ impl<'s> Search<'s> {
     fn filtered(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
         let Some(test) = &clause.test else { return self.advance(number + 1, frame) };
         let truths = self.machine.evaluate(test, Batch { frame: &frame, slots: &[], mask: None }).truths();
+        if self.plan.hypothesis.is_some() {
+            let unknown = (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown);
+            self.verdicts.leave_open(unknown.map(|index| frame.rows[0].at(index)));
+        }
         let passing = self.passing(&truths, frame.len);
         if passing.is_empty() {
             return Ok(());
@@ -220,7 +266,8 @@ impl<'s> Search<'s> {
 
     /// The candidates of a clause, which are made before a search.
     pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
-        static NONE: Candidates = Candidates { rows: vec![], all: false, index: None, left_out: 0 };
+        static NONE: Candidates =
+            Candidates { rows: vec![], all: false, index: None, undecided: vec![], left_out: 0 };
         self.candidates.get(number).and_then(Option::as_ref).unwrap_or(&NONE)
     }
 
@@ -230,7 +277,9 @@ impl<'s> Search<'s> {
         // A `none` that found one is decided, whatever else is unknown.
         let undecided = |(row, unknown): &(u32, u32)| *row == NO_ROW && *unknown > 0;
         for (index, &(_, unknown)) in found.iter().enumerate().filter(|(_, found)| undecided(found)) {
-            self.output.undecided.push((frame.rows[0].at(index), unknown));
+            let row = frame.rows[0].at(index);
+            self.output.undecided.push((row, unknown));
+            self.verdicts.leave_open(std::iter::once(row));
         }
         if plan.clauses[number].quantifier == Quantifier::None {
             frame.rows[number] = Rows::Each(found.iter().map(|&(row, _)| row).collect());
@@ -249,7 +298,10 @@ impl<'s> Search<'s> {
     fn fire(&mut self, frame: &Frame) -> Result<(), Stopped> {
         let plan = self.plan;
         match &plan.effect {
-            Effect::Conclude { then, .. } => self.conclude(then, frame, Status::THEN),
+            Effect::Conclude { then, .. } => {
+                self.prove(frame);
+                self.conclude(then, frame, Status::THEN)
+            }
             Effect::Revise { amount, .. } => {
                 self.record(frame, Status::THEN)?;
                 let amounts = self.machine.evaluate(amount, Batch { frame, slots: &[], mask: None });
@@ -265,7 +317,13 @@ impl<'s> Search<'s> {
     fn conclude(&mut self, action: &ActionPlan, frame: &Frame, status: Status) -> Result<(), Stopped> {
         self.record(frame, status)?;
         let Slots { values, written } = self.machine.act(action, frame);
+        let proves = (status == Status::THEN).then_some(self.plan.hypothesis.as_ref()).flatten();
         for given in &mut self.output.given {
+            if Some(&given.name) == proves && given.variable == 0 {
+                given.values.extend(&Values::Truths(Lane::Same(Truth::True)), frame.len);
+                given.written.resize(given.values.len(), true);
+                continue;
+            }
             let of = |target: &&Target| target.variable == given.variable && target.name == given.name;
             match action.targets.iter().find(of) {
                 Some(target) => {
@@ -283,7 +341,7 @@ impl<'s> Search<'s> {
     }
 
     /// Keeps what the bindings rest on.
-    fn record(&mut self, frame: &Frame, status: Status) -> Result<(), Stopped> {
+    pub(super) fn record(&mut self, frame: &Frame, status: Status) -> Result<(), Stopped> {
         if self.output.firings > MAX_FIRINGS {
             return Err(Stopped);
         }
@@ -314,6 +372,7 @@ impl Plan {
                         None => out.push((&target.name, target.variable, target.kind)),
                     }
                 }
+                out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
             }
             Effect::Revise { variable, .. } => {
                 out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));

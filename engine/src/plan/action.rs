@@ -236,7 +236,7 @@ fn written(steps: &[Step], slots: &mut Vec<usize>) {
 /// The whole action as a script. It gives types only when it runs.
 fn interpreted(lowering: &mut Lowering, block: &StmtBlock) -> Result<ActionPlan, Stop> {
     let rule = lowering.rule;
-    let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
+    let variables = lowering.variables();
     let mut names = Names::default();
     names.block(block, &Patterns(&variables));
     let statements = vec![Stmt::Block(Box::new(block.clone()))];
@@ -264,5 +264,19 @@ pub(crate) fn check_revised(
     {
         let message = format!("a revision changes numbers; `{name}.{property}` holds {}", kind.plural());
         lowering.problem(Code::Type, position, message);
+    }
+}
+
+/// A hypothesis needs a property that holds truth values.
+pub(crate) fn hypothesis(lowering: &mut Lowering) -> Option<PropertyName> {
+    let name = lowering.rule.hypothesis()?;
+    let (_, _, position) = lowering.rule.hypothesis.as_ref()?;
+    match lowering.kinds.declared(&name) {
+        Some(kind) if kind != Type::Truth => {
+            let message = format!("a hypothesis is true or false; {name} holds {}", kind.plural());
+            lowering.problem(Code::Type, *position, message);
+            None
+        }
+        _ => Some(name),
     }
 }

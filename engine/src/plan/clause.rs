@@ -22,14 +22,19 @@ pub(crate) struct ClausePlan {
     /// The part of `where` that looks at others too.
     pub(crate) test: Option<Node>,
     pub(crate) by: Option<Node>,
-    /// Whether `by` looks at this clause's object alone.
+    /// Whether `by` looks at this clause's object alone. Never of `sum`, where `by` does not rank.
     pub(crate) by_own: bool,
+    /// All of `where`, for clauses that must know which objects are undecided.
+    pub(crate) whole: Option<Node>,
+    /// What must be true of each object that passes `all`.
+    pub(crate) have: Option<Node>,
 }
 
 pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
     let rule = lowering.rule;
     let mut plans = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
+        lowering.enter(Some(index));
         let by = clause.by.as_ref().map(|by| {
             lowering.own = Some(index);
             let node = lowering.wanted(by, Type::Number);
@@ -37,13 +42,19 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             node
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
+        let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
+        let undecided_counts =
+            clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
         let mut plan = ClausePlan {
             quantifier: clause.quantifier,
             joins: vec![],
             own: None,
             test: None,
-            by_own: by.as_ref().is_none_or(|by| by.variables() & !(1 << index) == 0),
+            by_own: clause.quantifier != Quantifier::Sum
+                && by.as_ref().is_none_or(|by| by.variables() & !(1 << index) == 0),
             by,
+            whole: condition.clone().filter(|_| undecided_counts),
+            have,
         };
         split(condition, index, &mut plan);
         plans.push(plan);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rhai::{AST, Dynamic, Position};
 
 /// A script and what it needs to run: the properties and variables that it names.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Fragment {
     pub(crate) script: AST,
     pub(crate) position: Position,
@@ -13,6 +13,8 @@ pub(crate) struct Fragment {
     pub(crate) objects: BTreeMap<String, Object>,
     /// Bare properties of the variable just bound, as in `by f(hardness)`.
     pub(crate) bare: Vec<(String, usize, usize)>,
+    /// Numbers that clauses of `count` and `sum` give: name, number of the clause.
+    pub(crate) numbers: Vec<(String, usize)>,
     /// Constants of the file.
     pub(crate) constants: Vec<(String, Dynamic)>,
     /// All `let` variables in scope, oldest first (the script counts them from the end): name, slot, and
@@ -21,7 +23,7 @@ pub(crate) struct Fragment {
 }
 
 /// A pattern variable as a script sees it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Object {
     pub(crate) variable: usize,
     pub(crate) properties: Vec<(String, Source)>,
@@ -39,6 +41,7 @@ impl Fragment {
     /// The pattern variables that it looks at, as bits.
     pub(crate) fn variables(&self) -> u64 {
         let objects = self.objects.values().fold(0, |bits, object| bits | 1 << object.variable);
+        let objects = self.numbers.iter().fold(objects, |bits, (_, clause)| bits | 1 << clause);
         self.bare.iter().fold(objects, |bits, (_, variable, _)| bits | 1 << variable)
     }
 }

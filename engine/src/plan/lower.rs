@@ -9,7 +9,7 @@ use super::fragment::{Fragment, Object, Source};
 use super::node::{Comparison, Node};
 use super::{Kind, Kinds};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Constant, PropertyName, Rule};
+use crate::rule::{Clause, Constant, PropertyName, Rule};
 use crate::script::names::{Names, Patterns, property_of};
 use crate::suggest::nearest;
 use crate::symbols::{Symbol, Symbols};
@@ -42,7 +42,7 @@ pub(crate) struct Lowering<'r> {
     symbols: &'r RefCell<Symbols>,
     columns: Vec<PropertyName>,
     problems: Vec<Diagnostic>,
-    /// Pattern variables by the number of their clause.
+    /// Pattern variables by the number of their clause; nameless where they are not in scope.
     variables: Vec<String>,
     /// The variable whose properties may stand bare.
     pub(crate) own: Option<usize>,
@@ -54,14 +54,13 @@ pub(crate) struct Lowering<'r> {
 
 impl<'r> Lowering<'r> {
     pub(crate) fn new(rule: &'r Rule, kinds: &'r dyn Kinds, symbols: &'r RefCell<Symbols>) -> Self {
-        let variables = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
         Self {
             rule,
             kinds,
             symbols,
             columns: vec![],
             problems: vec![],
-            variables,
+            variables: vec![],
             own: None,
             locals: vec![],
             slots: 0,
@@ -71,6 +70,20 @@ impl<'r> Lowering<'r> {
 
     pub(crate) fn finish(self) -> (Vec<PropertyName>, Vec<Diagnostic>) {
         (self.columns, self.problems)
+    }
+
+    /// From here on, expressions speak in this clause (`None`: after all of them).
+    pub(crate) fn enter(&mut self, clause: Option<usize>) {
+        let clauses = &self.rule.clauses[..clause.map_or(self.rule.clauses.len(), |clause| clause + 1)];
+        let in_scope = |(index, of): (usize, &Clause)| {
+            if of.quantifier.binds() || clause == Some(index) { of.variable.clone() } else { String::new() }
+        };
+        self.variables = clauses.iter().enumerate().map(in_scope).collect();
+    }
+
+    /// The names of the variables in scope.
+    pub(crate) fn variables(&self) -> Vec<String> {
+        self.variables.clone()
     }
 
     pub(crate) fn variable(&self, name: &str) -> Option<usize> {
@@ -194,6 +207,9 @@ impl<'r> Lowering<'r> {
     fn bare(&mut self, name: &str, position: Position) -> Result<Typed, Stop> {
         if let Some(local) = self.locals.iter().rev().find(|local| local.name == name) {
             return Ok((Node::Local(local.slot), local.kind));
+        }
+        if let Some((clause, _)) = self.numbers().find(|(_, number)| *number == name) {
+            return Ok((Node::Aggregate(clause), Some(Type::Number)));
         }
         if let Some(constant) = self.rule.file.constants.get(name) {
             return Ok(match constant {
@@ -351,12 +367,27 @@ impl<'r> Lowering<'r> {
             .iter()
             .map(|local| (local.name.clone(), local.slot, free.contains(local.name.as_str())))
             .collect();
+        let own = |name: &str| self.own.is_some_and(|own| names.reads.contains_key(&(own, name.to_owned())));
+        let numbers = self
+            .numbers()
+            .filter(|(_, name)| free.contains(name) || own(name))
+            .map(|(clause, name)| (name.to_owned(), clause))
+            .collect();
         let script = AST::new(statements, self.rule.file.functions.clone());
-        Ok(Fragment { script, position, objects, bare, constants, locals })
+        Ok(Fragment { script, position, objects, bare, numbers, constants, locals })
+    }
+
+    /// The numbers that clauses give.
+    fn numbers(&self) -> impl Iterator<Item = (usize, &'r str)> {
+        let rule = self.rule;
+        let number = |(clause, of): (usize, &'r Clause)| Some((clause, of.number.as_ref()?.0.as_str()));
+        rule.clauses.iter().enumerate().filter_map(number)
     }
 
     fn is_given(&self, name: &str) -> bool {
-        self.rule.file.constants.contains_key(name) || self.locals.iter().any(|local| local.name == name)
+        self.numbers().any(|(_, number)| number == name)
+            || self.rule.file.constants.contains_key(name)
+            || self.locals.iter().any(|local| local.name == name)
     }
 }
 

@@ -40,7 +40,7 @@ pub(crate) enum Comparison {
 }
 
 /// A lowered expression. Unknown goes in and comes out everywhere; "and", "or" and "not" are Kleene's.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Node {
     Unknown,
     Number(f64),
@@ -51,6 +51,8 @@ pub(crate) enum Node {
         variable: usize,
         column: usize,
     },
+    /// The number that a clause of `count` or `sum` gives.
+    Aggregate(usize),
     /// What a `let`, or a property set before, holds.
     Local(usize),
     Arithmetic(Arithmetic, Box<Self>, Box<Self>),
@@ -76,7 +78,7 @@ impl Node {
     pub(crate) fn variables(&self) -> u64 {
         match self {
             Self::Unknown | Self::Number(_) | Self::Text(_) | Self::Truth(_) | Self::Local(_) => 0,
-            Self::Property { variable, .. } => 1 << variable,
+            Self::Property { variable, .. } | Self::Aggregate(variable) => 1 << variable,
             Self::Arithmetic(_, a, b)
             | Self::Compare(_, a, b)
             | Self::Concat(a, b)

@@ -26,7 +26,7 @@ impl Uses {
                 found.push((number, join.column));
                 properties(&join.key, &mut found);
             }
-            for node in clause.own.iter().chain(&clause.test).chain(&clause.by) {
+            for node in clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have) {
                 properties(node, &mut found);
             }
             let own = found.iter().filter(|(variable, _)| *variable == number);
@@ -80,7 +80,12 @@ fn of_fragment(fragment: &Fragment, found: &mut Vec<(usize, usize)>) {
 
 fn properties(node: &Node, found: &mut Vec<(usize, usize)>) {
     match node {
-        Node::Unknown | Node::Number(_) | Node::Text(_) | Node::Truth(_) | Node::Local(_) => {}
+        Node::Unknown
+        | Node::Number(_)
+        | Node::Text(_)
+        | Node::Truth(_)
+        | Node::Local(_)
+        | Node::Aggregate(_) => {}
         Node::Property { variable, column } => found.push((*variable, *column)),
         Node::Arithmetic(_, a, b) | Node::Compare(_, a, b) | Node::Concat(a, b) | Node::Coalesce(a, b) => {
             properties(a, found);

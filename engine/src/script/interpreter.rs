@@ -93,7 +93,7 @@ pub(crate) fn function_names() -> &'static BTreeSet<String> {
     })
 }
 
-fn bare() -> Engine {
+pub(super) fn bare() -> Engine {
     let mut engine = Engine::new_raw();
     CorePackage::new().register_into_engine(&mut engine);
     LogicPackage::new().register_into_engine(&mut engine);
@@ -181,11 +181,23 @@ pub struct Limits {
     pub rule: Duration,
     /// All rules of one inference.
     pub inference: Duration,
+    /// One run of reactions, with the inferences between them.
+    pub reactions: Duration,
+    /// Firings of one run of reactions.
+    pub firings: usize,
+    /// Matches of all rules that react, kept at once; some 200 bytes each.
+    pub matches: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { rule: Duration::from_secs(10), inference: Duration::from_mins(1) }
+        Self {
+            rule: Duration::from_secs(10),
+            inference: Duration::from_mins(1),
+            reactions: Duration::from_mins(1),
+            firings: 10_000,
+            matches: 1_000_000,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use rhai::{ASTNode, Expr, Position, Stmt, StmtBlock};
+use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 
 /// A property of a pattern variable: its clause, and the property's name.
 pub(crate) type Use = (usize, String);
@@ -14,6 +14,8 @@ pub(crate) struct Names {
     pub(crate) sets: BTreeMap<Use, Position>,
     /// Variables that are neither of a clause nor declared here: name, place.
     pub(crate) free: Vec<(String, Position)>,
+    /// Numbers that clauses give, as they are used.
+    pub(crate) numbers: BTreeMap<String, Position>,
     /// Objects used whole, which rules cannot do.
     pub(crate) whole: Vec<(String, Position)>,
     /// `x.p += e` and the like.
@@ -79,6 +81,7 @@ impl Names {
                 }
                 Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => {
                     self.calls.push((call.name.to_string(), call.args.len(), *position));
+                    done.extend(forgotten(call));
                 }
                 Some(ASTNode::Expr(expr)) => self.node(expr, patterns, declared, &mut done, None, certain),
                 _ => {}
@@ -143,6 +146,7 @@ impl Names {
             }
             Expr::FnCall(call, position) if !call.is_operator_call() => {
                 self.calls.push((call.name.to_string(), call.args.len(), *position));
+                done.extend(forgotten(call));
             }
             Expr::MethodCall(call, position) => {
                 self.calls.push((call.name.to_string(), call.args.len() + 1, *position));
@@ -168,6 +172,14 @@ fn leading_property(expr: &Expr) -> Option<(&str, Position)> {
     match expr {
         Expr::Property(property, position) => Some((&property.2, *position)),
         Expr::Dot(dot, ..) | Expr::Index(dot, ..) => leading_property(&dot.lhs),
+        _ => None,
+    }
+}
+
+/// `forget(x)` is the one place where an object stands whole.
+fn forgotten(call: &FnCallExpr) -> Option<*const Expr> {
+    match &*call.args {
+        [object @ Expr::Variable(..)] if call.name == "forget" => Some(&raw const *object),
         _ => None,
     }
 }

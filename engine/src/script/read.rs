@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt};
+use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt, StmtBlock};
 
 use super::names::property_of;
+use super::reaction::reaction;
 use super::resolve::resolve;
 use super::source::{MAX_FILE_BYTES, SourceFile};
-use super::syntax::{Shape, Slot};
+use super::syntax::{Quantifier, Shape, Slot};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, Constant, FileScope, Operator, Rule};
 use crate::value::Cell;
@@ -101,7 +102,7 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
                 Diagnostic::error(
                     Code::Statement,
                     &source.place(other.position()),
-                    "a rule file holds rules, revisions, functions and constants, nothing that runs by itself",
+                    "a rule file holds rules, revisions, reactions, functions and constants, nothing that runs by itself",
                 )
                 .label("not one of them"),
             ),
@@ -141,7 +142,9 @@ fn items(custom: &CustomExpr) -> Vec<Item<'_>> {
     let mut items: Vec<Item> = vec![];
     for (&slot, input) in shape.slots.iter().zip(&custom.inputs) {
         match slot {
-            Slot::RuleName | Slot::RevisionName => items.push(Item { inputs: vec![(slot, input)] }),
+            Slot::RuleName | Slot::RevisionName | Slot::ReactionName => {
+                items.push(Item { inputs: vec![(slot, input)] })
+            }
             _ => items.iter_mut().last().into_iter().for_each(|item| item.inputs.push((slot, input))),
         }
     }
@@ -155,7 +158,11 @@ fn item_texts(source: &SourceFile, items: &[Item]) -> Vec<(usize, usize)> {
         .iter()
         .map(|item| {
             let name = item.name().map_or(0, |(_, position)| source.place(position).span.0);
-            let word = if item.inputs[0].0 == Slot::RuleName { "rule" } else { "revise" };
+            let word = match item.inputs[0].0 {
+                Slot::RuleName => "rule",
+                Slot::ReactionName => "on",
+                _ => "revise",
+            };
             text[..name].rfind(word).unwrap_or(name)
         })
         .collect();
@@ -210,15 +217,19 @@ fn rule(
     let (name, position) = item.name()?;
     let clauses = clauses(item);
     let action = action(item, &clauses, file, problems)?;
+    let priority = priority(item, file, problems);
+    let hypothesis = hypothesis(item, &clauses, file, problems);
     let mut rule = Rule {
         name: name.to_owned(),
         position,
         line: file.source.place(position).line,
         version: String::new(),
+        priority,
         clauses,
         action,
         reads: BTreeMap::new(),
         sets: BTreeMap::new(),
+        hypothesis,
         file: Arc::clone(file),
     };
     let shared = resolve(&mut rule, known, problems);
@@ -226,8 +237,47 @@ fn rule(
     Some(rule)
 }
 
+fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i64 {
+    let given = item.inputs.iter().find(|(slot, _)| *slot == Slot::Priority);
+    match given {
+        None => 0,
+        Some((_, Expr::IntegerConstant(priority, _))) => *priority,
+        Some((_, other)) => {
+            let place = file.source.place(other.start_position());
+            let message = "a priority is a whole number, as in `priority 10` or `priority -1`";
+            problems.push(Diagnostic::error(Code::Syntax, &place, message));
+            0
+        }
+    }
+}
+
+fn hypothesis(
+    item: &Item,
+    clauses: &[Clause],
+    file: &FileScope,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<(usize, String, Position)> {
+    let (_, given) = item.inputs.iter().find(|(slot, _)| *slot == Slot::Hypothesis)?;
+    let first = clauses.first()?;
+    match property_of(given) {
+        Some((variable, property, position))
+            if variable == first.variable && first.quantifier == Quantifier::Each =>
+        {
+            Some((0, property.to_owned(), position))
+        }
+        _ => {
+            let place = file.source.place(given.start_position());
+            let message = "a hypothesis is a property of the object of the rule's first `each`";
+            let help = format!("as in `hypothesis {}.reachable`", first.variable);
+            problems.push(Diagnostic::error(Code::Hypothesis, &place, message).help(help));
+            None
+        }
+    }
+}
+
 fn clauses(item: &Item) -> Vec<Clause> {
     let mut clauses: Vec<Clause> = vec![];
+    let mut number = None;
     for (slot, input) in &item.inputs {
         match (slot, input) {
             (Slot::Variable(quantifier), Expr::Variable(variable, _, position)) => clauses.push(Clause {
@@ -238,24 +288,27 @@ fn clauses(item: &Item) -> Vec<Clause> {
                 class_position: Position::NONE,
                 by: None,
                 condition: None,
+                have: None,
+                number: number.take(),
             }),
+            (Slot::Number, Expr::Variable(name, _, position)) => {
+                number = Some((name.1.to_string(), *position));
+            }
             (Slot::Class, Expr::Variable(class, _, position)) => {
                 if let Some(clause) = clauses.last_mut() {
                     clause.class = class.1.to_string();
                     clause.class_position = *position;
                 }
             }
-            (Slot::By, by) => {
-                clauses.iter_mut().last().into_iter().for_each(|clause| clause.by = Some((*by).clone()));
+            (slot, expr) => {
+                let Some(clause) = clauses.last_mut() else { continue };
+                match slot {
+                    Slot::By => clause.by = Some((*expr).clone()),
+                    Slot::Where => clause.condition = Some((*expr).clone()),
+                    Slot::Have => clause.have = Some((*expr).clone()),
+                    _ => {}
+                }
             }
-            (Slot::Where, condition) => {
-                clauses
-                    .iter_mut()
-                    .last()
-                    .into_iter()
-                    .for_each(|clause| clause.condition = Some((*condition).clone()));
-            }
-            _ => {}
         }
     }
     clauses
@@ -275,7 +328,13 @@ fn action(
     };
     let input = |wanted: Slot| item.inputs.iter().find(|(slot, _)| *slot == wanted).map(|(_, input)| *input);
     if let Some(then) = block(Slot::Then) {
+        if item.inputs[0].0 == Slot::ReactionName {
+            return Some(reaction(then, clauses));
+        }
         return Some(Action::Conclude { then, otherwise: block(Slot::Else) });
+    }
+    if input(Slot::Hypothesis).is_some() {
+        return Some(Action::Conclude { then: Box::new(StmtBlock::NONE), otherwise: None });
     }
     let target = input(Slot::Target)?;
     let Some((index, property, position)) = property_of(target).and_then(|(variable, property, position)| {

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use rhai::Position;
 
 use super::names::{Names, Patterns, Use};
+use super::reaction;
 use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, PropertyName, Rule};
+use crate::rule::{Action, Clause, PropertyName, Rule};
 use crate::suggest::nearest;
 
 /// Most clauses of a rule: sets of variables are the bits of a word.
@@ -20,11 +21,17 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
     let file = Arc::clone(&rule.file);
     let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
     problems.extend(clause_complaints(rule, &variables));
-    let names = names(rule, &variables);
+    let mut names = names(rule, &variables);
+    problems.extend(hypothesis(rule, &mut names));
     let place = |(index, property): &Use| PropertyName::new(&rule.clauses[*index].class, property);
     let reads = names.reads.iter().map(|(used, position)| (place(used), *position)).collect();
     let sets = names.sets.iter().map(|(used, position)| (place(used), *position)).collect();
     (rule.reads, rule.sets) = (reads, sets);
+    if let Action::React(reaction) = &mut rule.action {
+        reaction.reads = names.reads.keys().cloned().collect();
+        // What it tells are facts; nothing is concluded.
+        rule.sets.clear();
+    }
     if !names.nested.is_empty() {
         let inside = |position: &Position| {
             complaint(rule, Code::Syntax, *position, "a rule cannot stand inside another".to_owned())
@@ -34,6 +41,7 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
     }
     problems.extend(variable_complaints(rule, &variables, &names));
     problems.extend(use_complaints(rule, &names));
+    problems.extend(reaction::forget_complaints(rule));
     problems.extend(call_complaints(rule, &names, known));
     names.free.iter().any(|(name, _)| file.constants.contains_key(name))
         || names.calls.iter().any(|(name, count, _)| file.function_names.contains(&(name.clone(), *count)))
@@ -42,24 +50,32 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
 /// All names in a rule's parts, each with the variables that it may speak of.
 fn names(rule: &Rule, variables: &[String]) -> Names {
     let mut names = Names::default();
+    // A variable that is not in scope has no name.
+    let mut scope: Vec<String> = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
-        let patterns = Patterns(&variables[..=index]);
+        scope.push(variables[index].clone());
+        let patterns = Patterns(&scope);
         if let Some(by) = &clause.by {
             let mut of_object = Names::default();
             of_object.expression(by, &patterns, Some(index));
-            of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));
+            of_object.reads.retain(|(_, property), place| {
+                let number = number_named(rule, index, property);
+                if number {
+                    names.numbers.insert(property.clone(), *place);
+                }
+                !number && !rule.file.constants.contains_key(property)
+            });
             merge(&mut names, of_object);
         }
-        if let Some(condition) = &clause.condition {
+        for condition in clause.condition.iter().chain(&clause.have) {
             names.expression(condition, &patterns, None);
         }
+        numbers(rule, index, &mut names);
+        if !clause.quantifier.binds() {
+            scope[index].clear();
+        }
     }
-    let bound = |clause: &crate::rule::Clause| match clause.quantifier {
-        Quantifier::None => String::new(),
-        _ => clause.variable.clone(),
-    };
-    let bound: Vec<String> = rule.clauses.iter().map(bound).collect();
-    let patterns = Patterns(&bound);
+    let patterns = Patterns(&scope);
     match &rule.action {
         Action::Conclude { then, otherwise } => {
             names.block(then, &patterns);
@@ -67,12 +83,36 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
                 names.block(block, &patterns);
             }
         }
+        Action::React(reaction) => names.block(&reaction.body, &patterns),
         Action::Revise { target, amount, position, .. } => {
             names.expression(amount, &patterns, None);
             names.sets.insert(target.clone(), *position);
         }
     }
+    numbers(rule, rule.clauses.len(), &mut names);
     names
+}
+
+/// A hypothesis is set too, and by nothing else in its rule.
+fn hypothesis(rule: &Rule, names: &mut Names) -> Option<Diagnostic> {
+    let (clause, property, position) = rule.hypothesis.as_ref()?;
+    let twice = names.sets.insert((*clause, property.clone()), *position)?;
+    let message = format!("the hypothesis `{property}` cannot be set by the action too");
+    Some(complaint(rule, Code::Hypothesis, twice, message))
+}
+
+/// Whether one of the first clauses gives a number of this name.
+fn number_named(rule: &Rule, clauses: usize, name: &str) -> bool {
+    let named = |clause: &Clause| clause.number.as_ref().is_some_and(|(number, _)| number == name);
+    rule.clauses[..clauses].iter().any(named)
+}
+
+/// Takes the numbers that the first clauses give from the free names.
+fn numbers(rule: &Rule, clauses: usize, names: &mut Names) {
+    let (given, free) =
+        std::mem::take(&mut names.free).into_iter().partition(|(name, _)| number_named(rule, clauses, name));
+    names.free = free;
+    names.numbers.extend::<Vec<_>>(given);
 }
 
 fn merge(into: &mut Names, from: Names) {
@@ -92,9 +132,19 @@ fn complaint(rule: &Rule, code: Code, position: Position, message: String) -> Di
 fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {
     let mut problems = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
-        if variables[..index].contains(&clause.variable) {
-            let message = format!("the variable `{}` is bound twice", clause.variable);
-            problems.push(complaint(rule, Code::Syntax, clause.position, message));
+        let numbers = || rule.clauses[..index].iter().filter_map(|clause| clause.number.as_ref());
+        let bound = |clause: &Clause, name: &String| clause.quantifier.binds() && clause.variable == *name;
+        let taken = |name: &String| {
+            rule.clauses[..index].iter().any(|clause| bound(clause, name))
+                || numbers().any(|(number, _)| number == name)
+        };
+        let own = clause.number.as_ref().filter(|(number, _)| taken(number) || *number == clause.variable);
+        let twice = own
+            .or(Some(&(clause.variable.clone(), clause.position)).filter(|(name, _)| taken(name)))
+            .cloned();
+        if let Some((name, position)) = twice {
+            let message = format!("the variable `{name}` is bound twice");
+            problems.push(complaint(rule, Code::Syntax, position, message));
         }
     }
     if variables.len() > MAX_CLAUSES {
@@ -107,17 +157,27 @@ fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {
 fn variable_complaints(rule: &Rule, variables: &[String], names: &Names) -> Vec<Diagnostic> {
     let constants = &rule.file.constants;
     let unbound = |name: &str| {
-        rule.clauses.iter().any(|clause| clause.quantifier == Quantifier::None && clause.variable == *name)
+        let clause = rule.clauses.iter().find(|clause| clause.variable == *name)?;
+        match clause.quantifier {
+            Quantifier::None => Some(format!("`none {name}` binds nothing: there is no such object")),
+            Quantifier::All => Some(format!("`all {name}` binds nothing: it speaks of all of them")),
+            Quantifier::Count | Quantifier::Sum => {
+                let (number, _) = clause.number.as_ref()?;
+                let word = clause.quantifier.word();
+                Some(format!("`{word} {number} of {name}` gives the number `{number}`, not an object"))
+            }
+            _ => None,
+        }
     };
     let mut problems = vec![];
     for (name, position) in names.free.iter().filter(|(name, _)| !constants.contains_key(name)) {
-        let candidates = variables.iter().chain(constants.keys()).map(String::as_str);
+        let numbers = rule.clauses.iter().filter_map(|clause| clause.number.as_ref()).map(|(name, _)| name);
+        let candidates = variables.iter().chain(numbers).chain(constants.keys()).map(String::as_str);
         let message = format!("nothing here is called `{name}`");
         let problem = complaint(rule, Code::UnknownVariable, *position, message);
-        problems.push(if unbound(name) {
-            problem.help(format!("`none {name}` binds nothing: there is no such object"))
-        } else {
-            problem.did_you_mean(nearest(name, candidates))
+        problems.push(match unbound(name) {
+            Some(help) => problem.help(help),
+            None => problem.did_you_mean(nearest(name, candidates)),
         });
     }
     problems
@@ -129,7 +189,8 @@ fn use_complaints(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
         let message = format!("`{name}` is an object; name one of its properties, as in `{name}.width`");
         problems.push(complaint(rule, Code::Type, *position, message));
     }
-    for (name, position) in &names.updates {
+    let concludes = !matches!(rule.action, Action::React(_));
+    for (name, position) in names.updates.iter().filter(|_| concludes) {
         let message = format!("`{name}` is concluded once, with `=`");
         let problem = complaint(rule, Code::Assignment, *position, message);
         problems.push(problem.help("a `revise` changes what others concluded"));
@@ -144,8 +205,15 @@ fn use_complaints(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
 fn call_complaints(rule: &Rule, names: &Names, known: &BTreeSet<String>) -> Vec<Diagnostic> {
     let own = &rule.file.function_names;
     let mut problems = vec![];
+    if matches!(rule.action, Action::React(_)) {
+        problems.extend(reaction::taken_names(&rule.file, rule.position));
+    }
     for (name, count, position) in &names.calls {
         if own.contains(&(name.clone(), *count)) || known.contains(name) {
+            continue;
+        }
+        if let Some(complaint) = reaction::complaint(rule, (name, *count, *position)) {
+            problems.extend(complaint);
             continue;
         }
         let candidates = own.iter().map(|(name, _)| name).chain(known).map(String::as_str);

@@ -1,4 +1,4 @@
-//! The grammar of `rule` and `revise`, as rhai's custom syntax asks for it: token by token.
+//! The grammar of `rule`, `revise` and `on`, as rhai's custom syntax asks for it: token by token.
 
 use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
 
@@ -12,6 +12,12 @@ pub(crate) enum Quantifier {
     Most,
     Some,
     None,
+    /// How many objects pass: binds a number.
+    Count,
+    /// The sum of a number over the objects that pass: binds a number.
+    Sum,
+    /// Whether something holds of all objects that pass.
+    All,
 }
 
 impl Quantifier {
@@ -22,6 +28,9 @@ impl Quantifier {
             "most" => Self::Most,
             "some" => Self::Some,
             "none" => Self::None,
+            "count" => Self::Count,
+            "sum" => Self::Sum,
+            "all" => Self::All,
             _ => return None,
         })
     }
@@ -33,7 +42,29 @@ impl Quantifier {
             Self::Most => "most",
             Self::Some => "some",
             Self::None => "none",
+            Self::Count => "count",
+            Self::Sum => "sum",
+            Self::All => "all",
         }
+    }
+
+    /// Whether later clauses and the action may speak of the object.
+    pub(crate) const fn binds(self) -> bool {
+        matches!(self, Self::Each | Self::Least | Self::Most | Self::Some)
+    }
+
+    /// Whether a firing names the one object that decides.
+    pub(crate) const fn names(self) -> bool {
+        matches!(self, Self::Least | Self::Most | Self::Some | Self::None)
+    }
+
+    /// Whether it gives a number.
+    pub(crate) const fn counts(self) -> bool {
+        matches!(self, Self::Count | Self::Sum)
+    }
+
+    const fn ranks(self) -> bool {
+        matches!(self, Self::Least | Self::Most | Self::Sum)
     }
 }
 
@@ -42,10 +73,15 @@ impl Quantifier {
 pub(crate) enum Slot {
     RuleName,
     RevisionName,
+    ReactionName,
+    Priority,
+    Number,
     Variable(Quantifier),
     Class,
     Where,
     By,
+    Have,
+    Hypothesis,
     Then,
     Else,
     Target,
@@ -58,13 +94,19 @@ pub(crate) enum Slot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum At {
     Name,
+    Priority,
     Clause,
+    Number(Quantifier),
+    Of(Quantifier),
     Variable(Quantifier),
     In,
     Class,
     Options { by: bool, condition: bool },
     By,
     Where,
+    Have,
+    Hypothesis,
+    AfterHypothesis,
     Then,
     AfterThen,
     Else,
@@ -83,7 +125,9 @@ pub(crate) struct Shape {
     pub(crate) slots: Vec<Slot>,
     at: At,
     revision: bool,
+    reaction: bool,
     clause: Option<Quantifier>,
+    needs_have: bool,
 }
 
 /// How rhai shows the end of the file.
@@ -93,7 +137,7 @@ type Next = Result<Option<ImmutableString>, ParseError>;
 
 /// Teaches an engine the rule syntax.
 pub(crate) fn register(engine: &mut Engine) {
-    for key in ["rule", "revise"] {
+    for key in ["rule", "revise", "on"] {
         engine.register_custom_syntax_with_state_raw(
             key,
             move |_, ahead, state| {
@@ -101,7 +145,9 @@ pub(crate) fn register(engine: &mut Engine) {
                     slots: vec![],
                     at: At::Name,
                     revision: key == "revise",
+                    reaction: key == "on",
                     clause: None,
+                    needs_have: false,
                 });
                 let next = shape.next(ahead);
                 *state = Dynamic::from(shape);
@@ -124,8 +170,23 @@ impl Shape {
         }
         match self.at {
             At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
+            At::Name if self.reaction => self.input(Slot::ReactionName, At::Clause, "$string$"),
             At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
+            At::Clause if ahead == "priority" && self.may_have_priority() => {
+                self.word("priority", At::Priority)
+            }
+            At::Clause if ahead == "priority" && self.revision && self.clause.is_none() => {
+                wrong("a revision has a level, not a priority: `level 3` at its end".into())
+            }
             At::Clause => self.clause(ahead),
+            At::Priority => self.input(Slot::Priority, At::Clause, "$expr$"),
+            At::Number(quantifier) => self.input(Slot::Number, At::Of(quantifier), "$ident$"),
+            At::Of(quantifier) if ahead == "of" => self.word("of", At::Variable(quantifier)),
+            At::Of(quantifier) => wrong(format!(
+                "`of` and a variable belong here, as in `{} n of door in DOORS`, not {}",
+                quantifier.word(),
+                found(ahead)
+            )),
             At::Variable(quantifier) => self.input(Slot::Variable(quantifier), At::In, "$ident$"),
             At::In if ahead == "in" => self.word("in", At::Class),
             At::In => wrong(format!("`in` and a class belong here, not `{ahead}`")),
@@ -136,7 +197,13 @@ impl Shape {
             At::Options { by, condition } => self.options(ahead, by, condition),
             At::By => self.input(Slot::By, At::Options { by: true, condition: false }, "$expr$"),
             At::Where => self.input(Slot::Where, At::Options { by: true, condition: true }, "$expr$"),
+            At::Have => self.input(Slot::Have, At::Options { by: true, condition: true }, "$expr$"),
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
+            At::Hypothesis => self.input(Slot::Hypothesis, At::AfterHypothesis, "$expr$"),
+            At::AfterHypothesis if ahead == "then" => self.word("then", At::Then),
+            At::AfterThen if ahead == "else" && self.reaction => {
+                wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
+            }
             At::AfterThen if ahead == "else" => self.word("else", At::Else),
             At::Else => self.input(Slot::Else, At::End, "$block$"),
             At::Target => self.input(Slot::Target, At::TargetBy, "$expr$"),
@@ -150,34 +217,58 @@ impl Shape {
             At::Amount => self.input(Slot::Amount, At::AfterAmount, "$expr$"),
             At::AfterAmount if ahead == "level" => self.word("level", At::Level),
             At::Level => self.input(Slot::Level, At::End, "$int$"),
-            At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
+            At::AfterHypothesis | At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
         }
     }
 
-    /// A `revise` does not end in a block, and rhai would ask for a semicolon before the next item; so the
-    /// next item is read as part of the same expression.
+    /// Where an item does not end in a block, rhai would ask for a semicolon before the next item; so the next
+    /// item is read as part of the same expression.
     fn item(&mut self, ahead: &str) -> Next {
+        let in_block = matches!(self.slots.last(), Some(Slot::Then | Slot::Else));
         match ahead {
-            "rule" | "revise" if self.revision => {
-                self.revision = ahead == "revise";
+            "rule" | "revise" | "on" if !in_block => {
+                (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
                 self.clause = None;
-                let word = if self.revision { "revise" } else { "rule" };
-                self.word(word, At::Name)
+                let words = ["rule", "revise", "on"];
+                words
+                    .into_iter()
+                    .find(|word| *word == ahead)
+                    .map_or(Ok(None), |word| self.word(word, At::Name))
             }
             _ => Ok(None),
         }
     }
 
+    fn may_have_priority(&self) -> bool {
+        self.clause.is_none()
+            && !self.revision
+            && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
+    }
+
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
-        let ranked = matches!(self.clause, Some(Quantifier::Least | Quantifier::Most));
+        let ranked = self.clause.is_some_and(Quantifier::ranks);
         match ahead {
+            "have" if self.needs_have => {
+                self.needs_have = false;
+                self.word("have", At::Have)
+            }
             "by" if ranked && !by => self.word("by", At::By),
+            "where" if ranked && !by && self.clause == Some(Quantifier::Sum) => {
+                wrong("what to add up belongs before `where`, as in `by weight where ...`".into())
+            }
             "where" if ranked && !by => {
                 wrong("what to compare belongs before `where`, as in `by hardness where ...`".into())
             }
             "where" if !condition => self.word("where", At::Where),
+            _ if ranked && !by && self.clause == Some(Quantifier::Sum) => {
+                wrong("`sum` needs `by` and what to add up, as in `by weight`".into())
+            }
             _ if ranked && !by => {
                 wrong("`least` and `most` need `by` and what to compare, as in `by hardness`".into())
+            }
+            _ if self.needs_have => {
+                let example = "`all door in DOORS have door.closed`";
+                wrong(format!("`all` needs `have` and what must be true of each, as in {example}"))
             }
             _ => self.clause(ahead),
         }
@@ -189,19 +280,36 @@ impl Shape {
                 return wrong(format!("the first clause says `each`, not `{ahead}`"));
             }
             self.clause = Some(quantifier);
-            return self.word(quantifier.word(), At::Variable(quantifier));
+            self.needs_have = quantifier == Quantifier::All;
+            let at = if quantifier.counts() { At::Number(quantifier) } else { At::Variable(quantifier) };
+            return self.word(quantifier.word(), at);
         }
         let (end, at) = if self.revision { ("set", At::Target) } else { ("then", At::Then) };
         if ahead == end && self.clause.is_some() {
             return self.word(end, at);
         }
+        if ahead == "hypothesis" && self.clause.is_some() && !self.revision {
+            return self.word("hypothesis", At::Hypothesis);
+        }
         if self.clause.is_none() {
             return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`"));
         }
-        let words = ["each", "least", "most", "some", "none", "where", "by", end];
+        let words = [
+            "each",
+            "least",
+            "most",
+            "some",
+            "none",
+            "count",
+            "sum",
+            "all",
+            "where",
+            "by",
+            "hypothesis",
+            end,
+        ];
         let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
-        let found = if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") };
-        wrong(format!("another clause or `{end}` belongs here, not {found}{meant}"))
+        wrong(format!("another clause or `{end}` belongs here, not {}{meant}", found(ahead)))
     }
 
     #[allow(clippy::unnecessary_wraps)] // it is the answer itself
@@ -216,6 +324,10 @@ impl Shape {
         self.at = at;
         Ok(Some(word.into()))
     }
+}
+
+fn found(ahead: &str) -> String {
+    if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") }
 }
 
 fn wrong(message: String) -> Next {

@@ -4,7 +4,7 @@ use adit_engine::{Class, Conclusions, KnowledgeBase, RuleBase, Schema, SourceFil
 use proptest::prelude::*;
 
 /// Rules to choose from. T and U have a key, numbers x and y, a text s and a truth b, any of which may be unknown.
-const RULES: [&str; 22] = [
+const RULES: [&str; 30] = [
     "rule \"own\" each t in T where t.x > 0 then { t.twice = t.x * 2; t.name = t.s + \"!\"; }",
     "rule \"least\" each t in T least u in U by x where u.y < t.x then { t.least = u.x + t.y; t.who = u.s; }",
     "rule \"least of two\" each t in T least u in U by x where u.y < t.x && u.x <= t.y then { t.two = u.y; } else { t.two = -1; }",
@@ -26,6 +26,14 @@ const RULES: [&str; 22] = [
     "revise \"up\" each t in T some u in U where u.s == t.s set t.z by * u.x",
     "revise \"more\" each t in T each u in U where u.y == t.y set t.z by + u.x + 0.1 level 2",
     "rule \"reads z\" each t in T where t.z > 1 then { t.zz = t.z * 3; }",
+    "rule \"counted\" each t in T count n of u in U where u.s == t.s && u.y > 0 then { t.count = n; }",
+    "rule \"summed\" each t in T sum load of u in U by y where u.x > t.x least v in U by x where v.y < load then { t.load = load + v.x; }",
+    "rule \"all of them\" each t in T all u in U where u.s == t.s have u.b then { t.all = true; } else { t.all = false; }",
+    "rule \"proved\" each t in T some u in U where u.s == t.s && u.x > t.x hypothesis t.good",
+    "rule \"proved too\" each t in T where t.b each u in U where u.y > t.y hypothesis t.good then { t.extra = t.x; }",
+    "rule \"good\" each t in T where t.good then { t.better = t.x + 1; }",
+    "rule \"exception\" priority 3 each t in T some u in U where u.s == t.s && u.b then { t.both = 7; t.z = u.x; }",
+    "rule \"counts z\" each u in U count n of t in T where t.zz > u.x then { u.n = n; }",
     "fn f(a, b) { if a > b { a } else { b + 1 } }\nrule \"script\" each t in T some u in U where u.s == t.s then { t.f = f(t.x, u.x); }",
 ];
 

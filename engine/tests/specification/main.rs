@@ -6,11 +6,14 @@
 mod conflicts;
 mod doors;
 mod explanation;
+mod hypotheses;
 mod incremental;
 mod interpreter;
 mod joins;
 mod limits;
 mod order;
+mod priority;
+mod quantifiers;
 mod revisions;
 mod support;
 mod unknown;

@@ -1,0 +1,117 @@
+//! The action of an `on` rule: what it tells, as far as that can be seen without running it.
+
+use std::collections::BTreeSet;
+
+use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
+
+use super::names::property_of;
+use super::syntax::Quantifier;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::rule::{Action, Clause, FileScope, Reaction, Rule, Setting, Telling};
+use crate::suggest::nearest;
+
+pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
+    let (mut tells, mut sets) = (vec![], vec![]);
+    for stmt in body.statements() {
+        stmt.walk(&mut vec![], &mut |path| {
+            match path.last() {
+                Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
+                    let sides = &assignment.1;
+                    if let Some((variable, property, position)) = property_of(&sides.lhs)
+                        && let Some(variable) = clauses.iter().position(|clause| clause.variable == variable)
+                    {
+                        let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
+                        sets.push(Setting { variable, property: property.to_owned(), position, value });
+                    }
+                }
+                Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) => {
+                    tells.extend(telling(call));
+                }
+                _ => {}
+            }
+            true
+        });
+    }
+    Action::React(Box::new(Reaction { body: *body, reads: BTreeSet::new(), tells, sets }))
+}
+
+fn telling(call: &FnCallExpr) -> Option<Telling> {
+    let (Expr::StringConstant(class, position), rest) = call.args.split_first()? else { return None };
+    if call.name != "tell" {
+        return None;
+    }
+    let properties = match rest {
+        [Expr::Map(map, _)] => {
+            map.0.iter().map(|(name, value)| (name.name.to_string(), name.pos, value.clone())).collect()
+        }
+        _ => vec![],
+    };
+    Some(Telling { class: class.to_string(), position: *position, properties })
+}
+
+/// Complaints about a call of `tell` or `forget`; `None` if the call is of another function.
+pub(super) fn complaint(
+    rule: &Rule,
+    (name, arguments, position): (&str, usize, Position),
+) -> Option<Option<Diagnostic>> {
+    let (wanted, example) = match name {
+        "tell" => (2, "tell(\"CLOSURES\", #{ door: report.door })"),
+        "forget" => (1, "forget(report)"),
+        _ => return None,
+    };
+    let place = || rule.file.source.place(position);
+    if !matches!(rule.action, Action::React(_)) {
+        let message = format!("`{name}` belongs to `on`: rules conclude, and `on` tells");
+        let help = "a rule sets a property, as in `door.closed = true`, and takes it back by itself";
+        return Some(Some(Diagnostic::error(Code::Assignment, &place(), message).help(help)));
+    }
+    (arguments == wanted).then_some(None).or_else(|| {
+        let message = format!("`{name}` takes {wanted} values here, as in `{example}`");
+        Some(Some(Diagnostic::error(Code::Syntax, &place(), message)))
+    })
+}
+
+/// What is wrong with the objects that are forgotten: only what a clause binds can be.
+pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
+    let Action::React(reaction) = &rule.action else { return vec![] };
+    let mut problems = vec![];
+    let mut look = |call: &FnCallExpr| {
+        if call.name != "forget" || call.args.len() != 1 {
+            return;
+        }
+        let object = &call.args[0];
+        let place = rule.file.source.place(object.start_position());
+        let message = "`forget` takes one of the rule's objects by its variable, as in `forget(report)`";
+        let problem = Diagnostic::error(Code::Assignment, &place, message);
+        let Expr::Variable(variable, ..) = object else { return problems.push(problem) };
+        let name = variable.1.as_str();
+        match rule.clauses.iter().find(|clause| clause.variable == name) {
+            Some(clause) if clause.quantifier == Quantifier::None => {
+                problems.push(problem.help(format!("`none {name}` binds nothing: there is no such object")));
+            }
+            Some(_) => {}
+            None => {
+                let variables = rule.clauses.iter().map(|clause| clause.variable.as_str());
+                problems.push(problem.did_you_mean(nearest(name, variables)));
+            }
+        }
+    };
+    for stmt in reaction.body.statements() {
+        stmt.walk(&mut vec![], &mut |path| {
+            if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) =
+                path.last()
+            {
+                look(call);
+            }
+            true
+        });
+    }
+    problems
+}
+
+/// `tell` and `forget` are the engine's own.
+pub(super) fn taken_names(file: &FileScope, position: Position) -> Option<Diagnostic> {
+    let taken = file.function_names.iter().find(|(name, _)| matches!(name.as_str(), "tell" | "forget"))?;
+    let message = format!("this file has a function `{}` of its own, which hides the engine's", taken.0);
+    Some(Diagnostic::error(Code::DuplicateName, &file.source.place(position), message).help("rename it"))
+}
