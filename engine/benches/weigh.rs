@@ -9,7 +9,7 @@ mod edits;
 #[path = "support/layers.rs"]
 mod layers;
 
-use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile};
+use adit_engine::{Class, KnowledgeBase};
 use divan::{Bencher, black_box};
 use doors::{Door, Facts, TABLE_6, compiled, concluded, expected, states, told, weigh};
 use edits::{Case, cases};
@@ -98,7 +98,7 @@ fn edit_and_back(bencher: Bencher, name: &str) {
 /// 50,000 rooms, 200,000 doors, two joins on equality for each door.
 #[divan::bench(max_time = 5)]
 fn join_200_000_doors_with_50_000_rooms(bencher: Bencher) {
-    let rules = rules(
+    let rules = compiled(
         r#"rule "sum" each door in DOORS
            some from in ROOMS where from.room == door.room1
            some to in ROOMS where to.room == door.room2
@@ -111,7 +111,8 @@ fn join_200_000_doors_with_50_000_rooms(bencher: Bencher) {
         let hardness = (0..rooms).map(|n| Some(n as f64));
         let class = Class::new("ROOMS", &["room"]).texts("room", (0..rooms).map(room));
         base.assert(class.numbers("hardness", hardness)).expect("rooms are named");
-        let class = numbered(Class::new("DOORS", &["door"]), "door", doors)
+        let class = Class::new("DOORS", &["door"])
+            .numbers("door", (0..doors).map(|n| Some(n as f64)))
             .texts("room1", (0..doors).map(|n| room(n * 7)))
             .texts("room2", (0..doors).map(|n| room(n * 11 + 3)));
         base.assert(class).expect("doors are numbered");
