@@ -25,6 +25,8 @@ pub(crate) struct Derived {
     pub(crate) stages: Vec<Column>,
     /// What has to be brought together anew, for each stage.
     pub(crate) pending: Vec<Dirty>,
+    /// Whether the stages hold nothing yet, so that whatever comes counts as changed.
+    pub(crate) fresh: bool,
     /// Rows on which rules disagree.
     pub(crate) disputes: BTreeSet<u32>,
     /// Whether every rule that gives it was evaluated.

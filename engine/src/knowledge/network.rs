@@ -172,6 +172,7 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
         levels,
         hypothesis: base.hypotheses().contains(name),
         stages,
+        fresh: false,
         disputes: BTreeSet::new(),
         complete: false,
     }

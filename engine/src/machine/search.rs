@@ -151,6 +151,11 @@ impl<'s> Search<'s> {
         }
         let found = self.witnesses(number, clause, &frame)?;
         let wanted = clause.quantifier != Quantifier::None;
+        if wanted && !found.rows.contains(&NO_ROW) {
+            let mut next = frame;
+            next.rows[number] = Rows::Each(found.rows);
+            return self.advance(number + 1, next);
+        }
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
@@ -266,8 +271,14 @@ impl<'s> Search<'s> {
 
     /// The candidates of a clause, which are made before a search.
     pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
-        static NONE: Candidates =
-            Candidates { rows: vec![], all: false, index: None, undecided: vec![], left_out: 0 };
+        static NONE: Candidates = Candidates {
+            rows: vec![],
+            all: false,
+            index: None,
+            undecided: vec![],
+            thresholds: vec![],
+            left_out: 0,
+        };
         self.candidates.get(number).and_then(Option::as_ref).unwrap_or(&NONE)
     }
 
