@@ -44,9 +44,9 @@ impl RuleBase {
         problems.extend(operators(&rules));
         problems.extend(hypotheses(&rules));
         problems.extend(against_rules(&declared, &rules));
-        let (wrong, warnings): (Vec<_>, Vec<_>) =
-            lint(&rules).into_iter().partition(|found| found.severity == Severity::Error);
-        problems.extend(wrong);
+        problems.extend(lint(&rules));
+        let (mut problems, warnings): (Vec<_>, Vec<_>) =
+            problems.into_iter().partition(|found| found.severity == Severity::Error);
         if !problems.is_empty() {
             // As the author reads; stable, so that what is said of one place keeps its order.
             let number = |file: &str| files.iter().position(|source| source.name() == file);
