@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
 use crate::plan::{Effect, Key, Kind, Kinds, plan};
-use crate::rule::{PropertyName, Rule};
+use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
 use crate::suggest::nearest;
@@ -32,6 +32,10 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     for step in &base.order {
         let Step::Rule(index) = step else { continue };
         let rule = &base.rules[*index];
+        if matches!(rule.action, Action::Default { .. }) {
+            // It is checked with the other declarations.
+            continue;
+        }
         let wrong = unknown_classes(rule, base, schema);
         if !wrong.is_empty() || !rule.clauses.iter().all(|clause| schema.has(&clause.class)) {
             problems.push((*index, wrong));

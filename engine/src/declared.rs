@@ -54,6 +54,18 @@ impl Declarations {
         self.links.get(property).map(|link| link.class.as_str())
     }
 
+    /// Whether rules are heard before the table, as no declaration means otherwise.
+    pub(crate) fn rules_first(&self, property: &PropertyName) -> bool {
+        let place = |declaration: &Declaration, of: &Source| {
+            declaration.sources.iter().position(|source| source == of).unwrap_or(usize::MAX)
+        };
+        self.properties.get(property).is_some_and(|declared| {
+            declared
+                .iter()
+                .any(|declaration| place(declaration, &Source::Rule) < place(declaration, &Source::Table))
+        })
+    }
+
     /// The properties that may have a value though nobody tells or concludes it.
     pub(crate) fn supplied(&self) -> impl Iterator<Item = &PropertyName> {
         let supplies = |source: &Source| matches!(source, Source::Default(_) | Source::Ask(_));

@@ -1,6 +1,7 @@
 //! Runs plans over batches of bindings: one pass over a batch for each node, no dispatch for each row.
 
 pub(crate) mod action;
+pub(crate) mod candidates;
 pub(crate) mod evaluate;
 mod hypothesis;
 pub(crate) mod index;

@@ -9,6 +9,7 @@ pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;
 mod table;
+pub(crate) mod uses;
 
 use std::cell::RefCell;
 
@@ -109,4 +110,22 @@ pub(crate) fn plan(
     let hypothesis = action::hypothesis(&mut lowering);
     let (columns, problems) = lowering.finish();
     if problems.is_empty() { Ok(Plan { clauses, effect, hypothesis, columns }) } else { Err(problems) }
+}
+
+impl Plan {
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        let clause = |clause: &ClausePlan| {
+            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have);
+            nodes.chain(clause.joins.iter().map(|join| &join.key)).any(Node::interprets)
+        };
+        let effect = match &self.effect {
+            Effect::Conclude { then, otherwise } => {
+                then.interprets() || otherwise.as_ref().is_some_and(ActionPlan::interprets)
+            }
+            Effect::Revise { amount, .. } => amount.interprets(),
+            Effect::Default { value, .. } => value.interprets(),
+        };
+        effect || self.clauses.iter().any(clause)
+    }
 }

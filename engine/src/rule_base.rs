@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use rhai::Position;
@@ -22,6 +23,8 @@ use crate::script::source::SourceFile;
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
 pub struct RuleBase {
+    /// Tells one compilation from another.
+    pub(crate) id: u64,
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
     pub(crate) declared: Declarations,
@@ -30,10 +33,11 @@ pub struct RuleBase {
 }
 
 impl RuleBase {
-    /// Reads rule files. Each file is read up to its first error of syntax, and all files are reported.
+    /// Reads rule files. All files are reported; after an error of syntax a file is read on from its next item, for
+    /// more such errors only.
     pub fn compile(files: &[SourceFile]) -> Result<Self, Diagnostics> {
         let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(files))).ok());
-        let Some((rules, declared, mut problems)) = outcome else {
+        let Some((mut rules, declared, mut problems)) = outcome else {
             let place = files.first().map(|file| file.place(Position::START));
             let message = "reading the rule files failed inside the engine";
             return Err(Diagnostics(
@@ -53,8 +57,10 @@ impl RuleBase {
             problems.sort_by_key(|problem| (number(&problem.file), problem.span.0));
             return Err(Diagnostics(problems));
         }
+        rules.extend(defaults(&declared));
         let order = order(&rules, &declared).map_err(Diagnostics)?;
-        Ok(Self { rules, order, declared, warnings })
+        static COMPILED: AtomicU64 = AtomicU64::new(1);
+        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
     }
 
     /// The rules, in the order of the files.
@@ -81,6 +87,24 @@ impl RuleBase {
     pub fn concluded(&self) -> BTreeSet<&PropertyName> {
         self.rules.iter().flat_map(|rule| rule.sets.keys()).collect()
     }
+}
+
+/// A declared default is heard after every rule, that of the most special class first.
+fn defaults(declared: &Declarations) -> Vec<Rule> {
+    let mut rules = vec![];
+    for (name, declarations) in &declared.properties {
+        for (rank, declaration) in (0..).zip(declarations.iter().rev()) {
+            let Action::Default { value: Some(_), position, .. } = declaration.rule.action else { continue };
+            let mut rule = declaration.rule.clone();
+            rule.priority = i64::MIN + rank;
+            rule.sets.insert(name.clone(), position);
+            let sources = declaration.sources.iter().map(|source| format!("{source:?}"));
+            let signature: Vec<String> = sources.chain([format!("{:?}", rule.action)]).collect();
+            rule.version = version(signature.iter().map(String::as_str));
+            rules.push(rule);
+        }
+    }
+    rules
 }
 
 /// Runs on a thread with a stack for the deepest rule that is allowed.

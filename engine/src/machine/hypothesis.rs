@@ -1,34 +1,26 @@
 //! What a rule says of each object of its first clause: proved, refuted, or undecided.
 
+use std::collections::HashSet;
+
 use super::evaluate::Batch;
 use super::lane::{Frame, Rows};
+use super::output::Status;
 use super::search::Search;
 use super::tally::pairs;
 use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::value::{Cell, Truth};
 
-/// For each object of the first clause; empty where the rule has no hypothesis.
+/// What came up for the objects of the first clause.
 #[derive(Debug, Default)]
-pub(super) struct Verdicts(Vec<Truth>);
+pub(super) struct Verdicts {
+    proved: HashSet<u32>,
+    open: HashSet<u32>,
+}
 
 impl Verdicts {
-    /// Refuted until something else comes up; `open` are the rows of which the first clause is undecided.
-    pub(super) fn start(&mut self, objects: usize, open: &[u32]) {
-        self.0 = vec![Truth::False; objects];
-        self.leave_open(open.iter().copied());
-    }
-
     pub(super) fn leave_open(&mut self, rows: impl Iterator<Item = u32>) {
-        self.raise(rows, Truth::Unknown);
-    }
-
-    fn raise(&mut self, rows: impl Iterator<Item = u32>, truth: Truth) {
-        for row in rows {
-            if let Some(verdict) = self.0.get_mut(row as usize) {
-                *verdict = truth.max(*verdict);
-            }
-        }
+        self.open.extend(rows);
     }
 }
 
@@ -39,7 +31,7 @@ impl Search<'_> {
             return Ok(());
         }
         let mut open: Vec<u32> = vec![];
-        let candidates = &self.candidates[number];
+        let candidates = self.candidates(number);
         let unknown_key = self.unknown_keys(clause, frame);
         let mut pairs = pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
         loop {
@@ -67,36 +59,36 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The bindings met all clauses; their firing is the next.
+    /// The bindings met all clauses.
     pub(super) fn prove(&mut self, frame: &Frame) {
-        let Some(name) = &self.plan.hypothesis else { return };
-        let first = self.output.firings;
-        let rows = &frame.rows[0];
-        let given = self.output.given(name);
-        for index in 0..frame.len {
-            given.rows.push(rows.at(index));
-            given.firings.push(first + index as u32);
-            given.cells.push(Cell::Truth(true));
+        if self.plan.hypothesis.is_some() {
+            self.verdicts.proved.extend((0..frame.len).map(|index| frame.rows[0].at(index)));
         }
-        self.verdicts.raise((0..frame.len).map(|index| rows.at(index)), Truth::True);
     }
 
-    /// Says what is refuted, and what is undecided.
-    pub(super) fn settle(&mut self) -> Result<(), Stopped> {
-        let Some(name) = &self.plan.hypothesis else { return Ok(()) };
-        let verdicts = std::mem::take(&mut self.verdicts).0;
-        let open: Vec<u32> =
-            (0..verdicts.len() as u32).filter(|&row| verdicts[row as usize] != Truth::True).collect();
-        for chunk in open.chunks(BATCH) {
+    /// Says of the objects that were looked at what is refuted, and what is undecided.
+    pub(super) fn settle(&mut self, looked_at: impl Iterator<Item = u32>) -> Result<(), Stopped> {
+        if self.plan.hypothesis.is_none() {
+            return Ok(());
+        }
+        let Verdicts { proved, open } = std::mem::take(&mut self.verdicts);
+        let others: Vec<u32> = looked_at.filter(|row| !proved.contains(row)).collect();
+        for chunk in others.chunks(BATCH) {
             let mut rows = vec![Rows::Unbound; self.plan.clauses.len()];
             rows[0] = Rows::Each(chunk.to_vec());
-            let first = self.record(&Frame { len: chunk.len(), rows })?;
-            let given = self.output.given(name);
-            for (firing, &row) in (first..).zip(chunk) {
-                let refuted = verdicts[row as usize] == Truth::False;
-                given.rows.push(row);
-                given.firings.push(firing);
-                given.cells.push(if refuted { Cell::Truth(false) } else { Cell::Unknown });
+            self.record(&Frame { len: chunk.len(), rows }, Status::SILENT)?;
+            for given in &mut self.output.given {
+                if Some(&given.name) == self.plan.hypothesis.as_ref() {
+                    for row in chunk {
+                        let refuted = !open.contains(row);
+                        given.values.push(if refuted { Cell::Truth(false) } else { Cell::Unknown });
+                        given.written.push(true);
+                    }
+                } else {
+                    let len = given.values.len() + chunk.len();
+                    given.values.resize(len);
+                    given.written.resize(len, false);
+                }
             }
         }
         Ok(())

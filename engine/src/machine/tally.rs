@@ -60,40 +60,10 @@ impl Tally {
 }
 
 impl Search<'_> {
-    /// Parts the rows into those that pass what is asked of the object alone, with all columns of joins known,
-    /// and those of which that is unknown.
-    pub(super) fn decided(
-        &self,
-        number: usize,
-        clause: &ClausePlan,
-        rows: Vec<u32>,
-    ) -> Result<(Vec<u32>, Vec<u32>), Stopped> {
-        let mut truths = vec![Truth::True; rows.len()];
-        if let Some(own) = &clause.own {
-            truths.clear();
-            self.keep(number, &rows, |machine, batch, keep| {
-                let lane = machine.evaluate(own, batch).truths();
-                truths.extend((0..batch.frame.len).map(|index| lane.at(index)));
-                keep.resize(batch.frame.len, false);
-            })?;
-        }
-        let columns: Vec<_> = clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
-        let (mut passing, mut undecided) = (vec![], vec![]);
-        for (row, truth) in rows.into_iter().zip(truths) {
-            let known = columns.iter().all(|column| !column.is_unknown(row as usize));
-            match truth {
-                Truth::False => {}
-                Truth::True if known => passing.push(row),
-                _ => undecided.push(row),
-            }
-        }
-        Ok((passing, undecided))
-    }
-
     /// Goes through the candidates of each binding, the undecided ones too.
     pub(super) fn tally(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Tally, Stopped> {
         let mut tally = Tally::new(frame.len);
-        let candidates = &self.candidates[number];
+        let candidates = self.candidates(number);
         if candidates.index.is_none() {
             let pairs = pairs(frame, |_| candidates.rows.iter());
             self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;

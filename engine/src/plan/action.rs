@@ -40,6 +40,22 @@ pub(crate) struct ActionPlan {
     pub(crate) targets: Vec<Target>,
 }
 
+impl ActionPlan {
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        fn any(steps: &[Step]) -> bool {
+            steps.iter().any(|step| match step {
+                Step::Put { value, .. } => value.interprets(),
+                Step::If { condition, then, otherwise, .. } => {
+                    condition.interprets() || any(then) || any(otherwise)
+                }
+                Step::Interpret(_) => true,
+            })
+        }
+        any(&self.steps)
+    }
+}
+
 pub(crate) fn action(lowering: &mut Lowering, block: &StmtBlock) -> ActionPlan {
     let mut plan = ActionPlan::default();
     reset(lowering);

@@ -14,6 +14,14 @@ pub(crate) struct Join {
     pub(crate) key: Node,
 }
 
+/// A comparison that has the candidate on its left side alone, and the variables before it on its right.
+#[derive(Debug)]
+pub(crate) struct Threshold {
+    pub(crate) comparison: Comparison,
+    pub(crate) candidate: Node,
+    pub(crate) binding: Node,
+}
+
 /// A clause ready to run.
 #[derive(Debug)]
 pub(crate) struct ClausePlan {
@@ -30,6 +38,8 @@ pub(crate) struct ClausePlan {
     pub(crate) whole: Option<Node>,
     /// What must be true of each object that passes `all`.
     pub(crate) have: Option<Node>,
+    /// `test`, where it is such comparisons and nothing else.
+    pub(crate) thresholds: Vec<Threshold>,
 }
 
 pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
@@ -59,6 +69,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             by,
             whole: condition.clone().filter(|_| undecided_counts),
             have,
+            thresholds: vec![],
         };
         if let Some(link) = &clause.link {
             // A link's condition looks at the object before, which is bound; it is tested after the link.
@@ -67,6 +78,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
         } else {
             split(condition, index, &mut plan);
         }
+        plan.thresholds = plan.test.as_ref().and_then(|test| thresholds(test, index)).unwrap_or_default();
         plans.push(plan);
     }
     plans
@@ -128,4 +140,23 @@ fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
 
 fn all(mut parts: Vec<Node>) -> Option<Node> {
     if parts.len() > 1 { Some(Node::And(parts)) } else { parts.pop() }
+}
+
+fn thresholds(test: &Node, index: usize) -> Option<Vec<Threshold>> {
+    let parts = if let Node::And(parts) = test { parts.as_slice() } else { std::slice::from_ref(test) };
+    parts.iter().map(|part| threshold(part, index)).collect()
+}
+
+fn threshold(part: &Node, index: usize) -> Option<Threshold> {
+    let Node::Compare(comparison, a, b) = part else { return None };
+    let alone = |node: &Node| node.variables() == 1 << index && !node.interprets();
+    let apart = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
+    let (comparison, candidate, binding) = if alone(a) && apart(b) {
+        (*comparison, a, b)
+    } else if alone(b) && apart(a) {
+        (comparison.turned(), b, a)
+    } else {
+        return None;
+    };
+    Some(Threshold { comparison, candidate: (**candidate).clone(), binding: (**binding).clone() })
 }

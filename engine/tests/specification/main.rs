@@ -8,6 +8,7 @@ mod declarations;
 mod doors;
 mod explanation;
 mod hypotheses;
+mod incremental;
 mod interpreter;
 mod joins;
 mod limits;

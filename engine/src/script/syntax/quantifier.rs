@@ -52,6 +52,11 @@ impl Quantifier {
         matches!(self, Self::Each | Self::Least | Self::Most | Self::Some | Self::Link)
     }
 
+    /// Whether a firing names the one object that decides.
+    pub(crate) const fn names(self) -> bool {
+        matches!(self, Self::Least | Self::Most | Self::Some | Self::None | Self::Link)
+    }
+
     /// Whether it gives a number.
     pub(crate) const fn counts(self) -> bool {
         matches!(self, Self::Count | Self::Sum)
