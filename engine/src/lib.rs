@@ -157,6 +157,7 @@ pub use conclusions::{
 pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
+pub use knowledge::ask::{Answer, Question};
 pub use knowledge::facts::FactError;
 pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};

@@ -38,10 +38,13 @@ impl KnowledgeBase {
         let len = derived.stages[0].len();
         let pending = std::mem::take(&mut derived.pending[0]).settle(len);
         self.index(name, &derived.writers.iter().map(|writer| writer.rule).collect::<Vec<_>>());
+        let kind = derived.stages[0].kind();
         let changed = match pending {
             Dirty::All => self.merge_all(name, &mut derived),
             pending => self.merge_rows(name, &mut derived, &pending.rows(len)),
         };
+        // Who reads it was planned for another type.
+        self.network.recheck |= derived.stages[0].kind() != kind;
         let changed = changed.settle(len);
         let of = derived.stages.len();
         run.changed(name, (0, of), &changed);
