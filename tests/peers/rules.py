@@ -60,7 +60,7 @@ def read(path):
         elif who == "ours":
             own(size, line)
         else:
-            agenda.append((who, line))
+            agenda.append(line)
 
 
 def least(size, what):
@@ -191,8 +191,8 @@ weighting(sizes)
 editing(max((size for size, *_ in edits), default=None))
 holding(sizes)
 if agenda:
-    print("\nAgenda (reported, not judged)")
-    for who, line in agenda:
-        print(f"  {who}: {line}")
+    print("\nReactions, ours alone: reported, not judged")
+    for line in agenda:
+        print(f"  {line}")
 judge(sizes)
 sys.exit(failed)

@@ -2,8 +2,8 @@
 # tests/peers/rules.sh [WORK]: the rule engine beside CLIPS 6.4 and compiled Rust on the same doors, in turns, in one
 # run; exit status 1 if a figure of the verdict is missed by more than noise. WORK is a folder for what is made.
 # ADIT_SHARED says where the peers are if not in ../shared. Needs python3 with venv, and pip for clipspy 1.0.6.
-# RUNS=5 and SIZES="1000 10000" for another number of turns and for less. CLIPS takes 3 GB and 3 minutes for a million doors: with
-# more than 100,000 it runs once, and edits are not measured.
+# RUNS=5 and SIZES="1000 10000" for another number of turns and for less. CLIPS takes 3 GB and 3 minutes for a
+# million doors: with more than 100,000 it runs once, and edits are not measured.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 peers=$(readlink -m "${ADIT_SHARED:-../shared}/peers/rules")
@@ -24,9 +24,6 @@ rustc --edition 2021 -C opt-level=3 --crate-type rlib --crate-name adit_rule_bas
 rustc --edition 2021 -C opt-level=3 -C lto=fat -C codegen-units=1 \
     --extern adit_rule_baselines="$work/libadit_rule_baselines.rlib" -o "$work/native" "$peers/rust/src/bin/native.rs"
 cargo build --quiet --release -p adit-engine --example weigh_file
-for agenda in manners waltz; do
-    [ ! -e "engine/examples/$agenda.rs" ] || cargo build --quiet --release -p adit-engine --example "$agenda"
-done
 ours=$target/release/examples/weigh_file
 edited=100000
 
@@ -43,8 +40,12 @@ clips() { "$work/venv/bin/python" "$peers/bench_clips64.py" weigh_tms.clp "$1" "
         echo "## ours $n"; "$ours" memory "$work/doors_$n.csv"
         [ "$n" -gt "$edited" ] || "$ours" edits "$work/doors_$n.csv" 9
     done
-    for agenda in manners waltz; do
-        [ ! -x "$target/release/examples/$agenda" ] || { echo "## $agenda 0"; "$target/release/examples/$agenda"; }
+    echo "## agenda 0"
+    for program in "manners 16" "manners 32" "manners 64" "waltz 12" "waltz 25"; do
+        read -r name size <<< "$program"
+        [ -e "engine/examples/$name.rs" ] || continue
+        cargo build --quiet --release -p adit-engine --example "$name"
+        echo "$name $("$target/release/examples/$name" "$size" 2>&1 | tail -1)"
     done
 } > "$work/log"
 python3 tests/peers/rules.py "$work/log"
