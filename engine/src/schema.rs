@@ -8,6 +8,7 @@ use crate::value::Type;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Schema {
     classes: BTreeMap<String, BTreeMap<String, Type>>,
+    keys: BTreeMap<String, Vec<String>>,
 }
 
 impl Schema {
@@ -17,6 +18,18 @@ impl Schema {
         let class = self.classes.entry(name.to_owned()).or_default();
         class.extend(properties.iter().map(|&(property, kind)| (property.to_owned(), kind)));
         self
+    }
+
+    /// Says what tells the objects of a class apart.
+    #[must_use]
+    pub fn key(mut self, class: &str, key: &[&str]) -> Self {
+        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
+        self
+    }
+
+    /// What tells the objects of a class apart, if that was said.
+    pub fn key_of(&self, class: &str) -> Option<&[String]> {
+        self.keys.get(class).map(Vec::as_slice)
     }
 
     /// Adds one property.

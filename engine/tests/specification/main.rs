@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod conflicts;
+mod declarations;
 mod doors;
 mod explanation;
 mod hypotheses;
@@ -16,5 +17,6 @@ mod priority;
 mod quantifiers;
 mod revisions;
 mod support;
+mod tables;
 mod unknown;
 mod wrong_files;
