@@ -19,7 +19,8 @@ pub(crate) struct Index {
 
 impl Index {
     pub(crate) fn new(columns: &[&Column], rows: &[u32]) -> Self {
-        let mut index = Self { groups: columns.iter().map(|_| HashMap::default()).collect(), ..Self::default() };
+        let mut index =
+            Self { groups: columns.iter().map(|_| HashMap::default()).collect(), ..Self::default() };
         if let [column, ..] = columns {
             index.dense = dense(column, rows);
         }
@@ -32,7 +33,8 @@ impl Index {
                 let next = counts[nth];
                 group = match (&mut index.dense, nth) {
                     (Some(dense), 0) => {
-                        let Some(place) = whole(column.cell(row as usize)).and_then(|at| dense.get_mut(at)) else {
+                        let Some(place) = whole(column.cell(row as usize)).and_then(|at| dense.get_mut(at))
+                        else {
                             continue 'rows;
                         };
                         if *place == NO_GROUP {
