@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
-use crate::plan::{Effect, Kind, Kinds, plan};
-use crate::rule::{PropertyName, Rule};
+use crate::plan::{Effect, Key, Kind, Kinds, plan};
+use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
 use crate::suggest::nearest;
@@ -20,12 +20,24 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
         known.concluded.insert(name.clone(), None);
     }
     known.concluded.extend(base.hypotheses().into_iter().map(|name| (name, Some(Type::Truth))));
+    for name in base.declared.supplied() {
+        known.concluded.entry(name.clone()).or_default();
+    }
+    let (types, mut declared) = crate::declared::check::check(&base.declared, schema, &known);
+    declared.sort_by(|a, b| (&a.file, a.span).cmp(&(&b.file, b.span)));
+    for (name, kind) in types {
+        known.concluded.entry(name).or_default().get_or_insert(kind);
+    }
     let mut problems: Vec<(usize, Vec<Diagnostic>)> = vec![];
     for step in &base.order {
         let Step::Rule(index) = step else { continue };
         let rule = &base.rules[*index];
-        let wrong = unknown_classes(rule, schema);
-        if !wrong.is_empty() {
+        if matches!(rule.action, Action::Default { .. }) {
+            // It is checked with the other declarations.
+            continue;
+        }
+        let wrong = unknown_classes(rule, base, schema);
+        if !wrong.is_empty() || !rule.clauses.iter().all(|clause| schema.has(&clause.class)) {
             problems.push((*index, wrong));
             continue;
         }
@@ -45,18 +57,27 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     }
     // As the author reads: by the order of the files, not of the dependencies.
     problems.sort_by_key(|&(index, _)| index);
-    problems.into_iter().flat_map(|(_, wrong)| wrong).collect()
+    let mut all: Vec<Diagnostic> =
+        declared.into_iter().chain(problems.into_iter().flat_map(|(_, wrong)| wrong)).collect();
+    all.extend(base.warnings.iter().cloned());
+    // What is wrong with a class's condition shows in every rule over the class; it is said once.
+    let mut said = BTreeSet::new();
+    all.retain(|problem| said.insert((problem.file.clone(), problem.span, problem.message.clone())));
+    all
 }
 
-fn unknown_classes(rule: &Rule, schema: &Schema) -> Vec<Diagnostic> {
+fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     let mut named = BTreeSet::new();
+    let declared = || base.declared.subclasses().map(|(name, _)| name);
     rule.clauses
         .iter()
+        // What a declaration names is said there.
+        .filter(|clause| clause.link.is_none() && clause.conditions.is_empty())
         .filter(|clause| !schema.has(&clause.class) && named.insert(&clause.class))
         .map(|clause| {
             let place = rule.file.source.place(clause.class_position);
             Diagnostic::error(Code::UnknownClass, &place, format!("there is no class {}", clause.class))
-                .did_you_mean(nearest(&clause.class, schema.classes()))
+                .did_you_mean(nearest(&clause.class, schema.classes().chain(declared())))
         })
         .collect()
 }
@@ -79,6 +100,10 @@ impl Kinds for Declared<'_> {
     /// What an earlier rule gives, a later one has to give too.
     fn declared(&self, name: &PropertyName) -> Option<Type> {
         self.schema.kind(&name.class, &name.property).or_else(|| self.concluded.get(name).copied().flatten())
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.schema.key_of(class).map_or(Key::Unsaid, |key| Key::Properties(key.to_vec()))
     }
 
     fn properties(&self, class: &str) -> Vec<String> {

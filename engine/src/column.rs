@@ -92,24 +92,22 @@ impl Column {
 
     /// Whether both hold the same values, to the bit.
     pub(crate) fn same(&self, other: &Self) -> bool {
-        self.len() == other.len() && self.kind() == other.kind() && self.differing(other).next().is_none()
+        self.len() == other.len() && self.kind() == other.kind() && self.differing(other).is_empty()
     }
 
-    /// The rows in which two columns of one length and type differ.
-    pub(crate) fn differing<'c>(&'c self, other: &'c Self) -> Box<dyn Iterator<Item = u32> + 'c> {
-        fn rows<'c, T: Copy>(
-            a: &'c [T],
-            b: &'c [T],
-            same: impl Fn(T, T) -> bool + 'c,
-        ) -> Box<dyn Iterator<Item = u32> + 'c> {
+    /// The rows in which two columns of one length and type differ, ascending.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
+        fn rows<T: Copy>(a: &[T], b: &[T], same: impl Fn(T, T) -> bool) -> Vec<u32> {
             let pairs = a.iter().zip(b).zip(0..);
-            Box::new(pairs.filter(move |((a, b), _)| !same(**a, **b)).map(|(_, row)| row))
+            pairs.filter(|((a, b), _)| !same(**a, **b)).map(|(_, row)| row).collect()
         }
         match (self, other) {
-            (Self::Numbers(a), Self::Numbers(b)) => rows(a, b, |a, b| Cell::number(a).same(Cell::number(b))),
+            (Self::Numbers(a), Self::Numbers(b)) => {
+                rows(a, b, |a, b| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+            }
             (Self::Texts(a), Self::Texts(b)) => rows(a, b, |a, b| a == b),
             (Self::Truths(a), Self::Truths(b)) => rows(a, b, |a, b| a == b),
-            _ => Box::new(0..self.len() as u32),
+            _ => (0..self.len() as u32).collect(),
         }
     }
 

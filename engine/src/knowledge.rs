@@ -94,7 +94,8 @@ impl KnowledgeBase {
     pub fn schema(&self) -> Schema {
         let mut schema = Schema::default();
         for (name, Held { table, .. }) in &self.held {
-            schema = schema.class(name, &[]);
+            let key: Vec<&str> = table.key.iter().map(|&column| table.names[column].as_str()).collect();
+            schema = schema.class(name, &[]).key(name, &key);
             for (property, column) in table.names.iter().zip(&table.columns) {
                 schema.add(name, property, column.kind());
             }

@@ -21,24 +21,31 @@ impl Schema {
         self
     }
 
+    /// Says what tells the objects of a class apart.
+    #[must_use]
+    pub fn key(mut self, class: &str, key: &[&str]) -> Self {
+        self.set_key(class, key);
+        self
+    }
+
+    /// Says what tells the objects of a class apart.
+    pub fn set_key(&mut self, class: &str, key: &[&str]) {
+        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
+    }
+
+    /// What tells the objects of a class apart, if that was said.
+    pub fn key_of(&self, class: &str) -> Option<&[String]> {
+        self.keys.get(class).map(Vec::as_slice)
+    }
+
     /// Adds one property.
     pub fn add(&mut self, class: &str, property: &str, kind: Type) {
         self.classes.entry(class.to_owned()).or_default().insert(property.to_owned(), kind);
     }
 
-    /// Says by which properties the objects of a class are told apart.
-    pub fn set_key(&mut self, class: &str, key: &[&str]) {
-        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
-    }
-
     /// Says that `None` of a property is not unknown but this value, as [`Class::null_means`](crate::Class::null_means).
     pub fn set_null(&mut self, class: &str, property: &str, means: impl Into<Value>) {
         self.nulls.entry(class.to_owned()).or_default().insert(property.to_owned(), means.into());
-    }
-
-    /// The key of a class; `None` if it was not said.
-    pub fn key(&self, class: &str) -> Option<&[String]> {
-        self.keys.get(class).map(Vec::as_slice)
     }
 
     /// The properties of a class whose `None` is a value, with that value, sorted.

@@ -70,23 +70,20 @@ impl Memory {
     pub(crate) fn new(rule: &Rule, plan: &Plan, drivers: usize) -> Self {
         let shape = Shape::of(plan);
         let drivers = if shape == Shape::Whole { 1 } else { drivers };
-        let firings = if shape == Shape::Single { drivers } else { 0 };
-        let given = plan.targets(rule).into_iter().map(|(name, variable, kind)| {
-            let mut values = Buffer::new(kind);
-            values.resize(firings);
-            Given { name: name.clone(), variable, values, written: vec![false; firings] }
+        let given = plan.targets(rule).into_iter().map(|(name, variable, kind)| Given {
+            name: name.clone(),
+            variable,
+            values: Buffer::new(kind),
+            written: vec![],
         });
         let given: Vec<Given> = given.collect();
-        let rows = |number: usize| {
-            if number == 0 && shape == Shape::Single { vec![] } else { vec![NO_ROW; firings] }
-        };
         Self {
             shape,
             statuses: vec![Status::UNASKED; drivers],
             unasked: drivers,
             undecided: BTreeMap::new(),
             ways: vec![],
-            witnesses: (0..plan.clauses.len()).map(rows).collect(),
+            witnesses: vec![vec![]; plan.clauses.len()],
             inverse: given.iter().map(|_| None).collect(),
             given,
             candidates: plan.clauses.iter().map(|_| None).collect(),
@@ -110,7 +107,7 @@ impl Memory {
     /// The value that a firing gives, if it gives one.
     pub(crate) fn claim(&self, given: usize, firing: usize) -> Option<Cell> {
         let given = &self.given[given];
-        given.written[firing].then(|| given.values.cell(firing))
+        (given.written.get(firing) == Some(&true)).then(|| given.values.cell(firing))
     }
 
     /// Whether a firing sets the object with its own number.
@@ -125,7 +122,7 @@ impl Memory {
         }
         let variable = self.given[given].variable;
         let set: Vec<(u32, u32)> = (0..self.firings())
-            .filter(|&firing| self.given[given].written[firing])
+            .filter(|&firing| self.given[given].written.get(firing) == Some(&true))
             .map(|firing| (self.witness(variable, firing), firing as u32))
             .filter(|&(row, _)| (row as usize) < rows)
             .collect();
@@ -224,6 +221,16 @@ impl Memory {
         }
     }
 
+    /// Makes room for a firing of each object of the first clause.
+    fn make_room(&mut self) {
+        let len = self.statuses.len();
+        self.witnesses.iter_mut().skip(1).for_each(|column| column.resize(len, NO_ROW));
+        for given in &mut self.given {
+            given.values.resize(len);
+            given.written.resize(len, false);
+        }
+    }
+
     fn replace_all(&mut self, output: Output) {
         let len = self.statuses.len();
         let straight =
@@ -235,6 +242,7 @@ impl Memory {
             self.given = given;
             return;
         }
+        self.make_room();
         for (to, from) in self.witnesses.iter_mut().zip(&witnesses).skip(1) {
             to.fill(NO_ROW);
             drivers.iter().zip(from).for_each(|(&row, &witness)| to[row as usize] = witness);
@@ -255,6 +263,7 @@ impl Memory {
     }
 
     fn replace_some(&mut self, rows: &[u32], output: Output) -> Vec<Dirty> {
+        self.make_room();
         let variables: Vec<usize> = self.given.iter().map(|given| given.variable).collect();
         let state = |memory: &Self, at: usize, row: u32| {
             let set = memory.claim(at, row as usize);
@@ -354,6 +363,7 @@ impl Memory {
 
     /// Objects of the first clause's class moved; new ones wait to be asked for. Of [`Shape::Single`] only.
     pub(crate) fn move_drivers(&mut self, moved: Option<&[Option<u32>]>, len: usize) {
+        self.make_room();
         let to = |row: usize| moved.map_or(Some(row as u32), |moved| moved.get(row).copied().flatten());
         let before = std::mem::replace(&mut self.statuses, vec![Status::UNASKED; len]);
         for (from, &status) in before.iter().enumerate() {
@@ -392,6 +402,7 @@ impl Memory {
 
     /// Objects of a later clause's class moved; who rests on one that is gone is lost. Of [`Shape::Single`] only.
     pub(crate) fn move_witnesses(&mut self, clause: usize, moved: &[Option<u32>]) {
+        self.make_room();
         for (driver, witness) in
             self.witnesses[clause].iter_mut().enumerate().filter(|(_, row)| **row != NO_ROW)
         {

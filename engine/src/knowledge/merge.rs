@@ -1,7 +1,5 @@
 //! Brings together what was told of a property and what rules conclude.
 
-use std::collections::BTreeSet;
-
 use super::KnowledgeBase;
 use super::conclude::Run;
 use super::derived::Derived;
@@ -81,6 +79,7 @@ impl KnowledgeBase {
         if !fits {
             derived.stages = vec![Column::unknown(kind, held.table.len); derived.levels.len() + 1];
             derived.pending.fill(Dirty::All);
+            derived.fresh = true;
             for stage in 0..derived.stages.len() {
                 run.changed(name, (stage, derived.stages.len()), &Dirty::All);
             }
@@ -128,22 +127,29 @@ impl KnowledgeBase {
             derived.pending.iter_mut().skip(1).for_each(|pending| *pending = Dirty::All);
         }
         let before = std::mem::replace(&mut derived.stages[0], Column::unknown(Type::Number, 0));
-        let mut column = before.clone();
-        let mut disputes = BTreeSet::new();
-        if let Some(straight) = self.straight(name, derived, &before) {
-            column = straight;
-        } else {
-            for row in 0..column.len() as u32 {
-                let (cell, source) = self.resolve(name, derived, row, column.kind());
-                column.set(row as usize, cell);
-                if source == Source::Dispute {
-                    disputes.insert(row);
-                }
+        let fresh = std::mem::take(&mut derived.fresh) || kind.is_some();
+        let straight = self.straight(name, derived, &before).cloned();
+        derived.disputes.clear();
+        let (column, changed) = match straight {
+            Some(column) if fresh => (column, Dirty::All),
+            Some(column) => {
+                let differing = Dirty::Rows(before.differing(&column));
+                (column, differing)
             }
-        }
-        let changed =
-            if kind.is_some() { Dirty::All } else { Dirty::Rows(before.differing(&column).collect()) };
-        (derived.stages[0], derived.disputes) = (column, disputes);
+            None => {
+                let mut column = Column::unknown(before.kind(), before.len());
+                for row in 0..column.len() as u32 {
+                    let (cell, source) = self.resolve(name, derived, row, column.kind());
+                    column.set(row as usize, cell);
+                    if source == Source::Dispute {
+                        derived.disputes.insert(row);
+                    }
+                }
+                let differing = if fresh { Dirty::All } else { Dirty::Rows(before.differing(&column)) };
+                (column, differing)
+            }
+        };
+        derived.stages[0] = column;
         changed
     }
 
@@ -156,7 +162,7 @@ impl KnowledgeBase {
     }
 
     /// The whole column where one rule alone gives it, object by object.
-    fn straight(&self, name: &PropertyName, derived: &Derived, before: &Column) -> Option<Column> {
+    fn straight(&self, name: &PropertyName, derived: &Derived, before: &Column) -> Option<&Column> {
         let [writer] = derived.writers.as_slice() else { return None };
         if self.held.get(&name.class)?.table.column(&name.property).is_some() {
             return None;
@@ -170,7 +176,7 @@ impl KnowledgeBase {
                     && column.kind() == before.kind()
                     && column.len() == before.len() =>
             {
-                Some(column.clone())
+                Some(column)
             }
             _ => None,
         }
@@ -207,12 +213,21 @@ impl KnowledgeBase {
     ) -> (Cell, Source) {
         let told = self.held.get(&name.class).and_then(|held| held.table.column(&name.property));
         let told = told.map_or(Cell::Unknown, |column| column.cell(row as usize));
-        if told != Cell::Unknown {
+        if told != Cell::Unknown && !derived.rules_first {
             return (told, Source::Told);
         }
         if derived.hypothesis {
             return self.proved(name, derived, row);
         }
+        let concluded = self.concluded(name, derived, row, kind);
+        if concluded.0 == Cell::Unknown && concluded.1 != Source::Dispute && told != Cell::Unknown {
+            return (told, Source::Told);
+        }
+        concluded
+    }
+
+    /// What rules conclude of one object.
+    fn concluded(&self, name: &PropertyName, derived: &Derived, row: u32, kind: Type) -> (Cell, Source) {
         let mut chosen = (Cell::Unknown, Source::Nobody);
         let mut priority = None;
         for writer in &derived.writers {

@@ -102,7 +102,8 @@ impl KnowledgeBase {
             let mut rows = vec![];
             if let Some(memory) = &node.memory {
                 for given in memory.given.iter().filter(|given| given.name == name) {
-                    let firings = (0..memory.firings()).filter(|&firing| given.written[firing]);
+                    let firings =
+                        (0..memory.firings()).filter(|&firing| given.written.get(firing) == Some(&true));
                     rows.extend(firings.map(|firing| memory.witness(given.variable, firing)));
                 }
             }

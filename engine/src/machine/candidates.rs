@@ -2,9 +2,10 @@
 
 use super::evaluate::Batch;
 use super::index::Index;
-use super::lane::{Frame, Rows};
+use super::lane::{Frame, Rows, Values};
 use super::{BATCH, Machine, Stopped};
 use crate::plan::Plan;
+use crate::plan::clause::Threshold;
 use crate::script::syntax::Quantifier;
 use crate::value::Truth;
 
@@ -18,6 +19,8 @@ pub(crate) struct Candidates {
     pub(crate) index: Option<Index>,
     /// Rows of which an unknown leaves open whether they may be bound, where that counts.
     pub(crate) undecided: Vec<u32>,
+    /// For each threshold of the clause the value of each of `rows`, where they are few and all are numbers.
+    pub(crate) thresholds: Vec<Vec<f64>>,
     /// Objects that are none, since what is asked of them is unknown.
     pub(crate) left_out: usize,
 }
@@ -72,7 +75,8 @@ impl Candidates {
             let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
             Index::new(&columns, &rows)
         });
-        Ok(Self { rows, all, index, undecided, left_out })
+        let thresholds = thresholds(machine, plan, number, &rows);
+        Ok(Self { rows, all, index, undecided, thresholds, left_out })
     }
 
     /// The rows that an unknown leaves open; all of them where the key to look for is unknown.
@@ -133,4 +137,25 @@ fn decided(
         }
     }
     Ok((passing, undecided))
+}
+
+/// Up to so many candidates are compared one after the other, each with a whole batch.
+const FEW: usize = 64;
+
+fn thresholds(machine: &Machine, plan: &Plan, number: usize, rows: &[u32]) -> Vec<Vec<f64>> {
+    let clause = &plan.clauses[number];
+    if rows.len() > FEW || !clause.joins.is_empty() || !clause.by_own {
+        return vec![];
+    }
+    let mut bound = vec![Rows::Unbound; plan.clauses.len()];
+    bound[number] = Rows::Each(rows.to_vec());
+    let frame = Frame { len: rows.len(), rows: bound };
+    let numbers = |threshold: &Threshold| {
+        let batch = Batch { frame: &frame, slots: &[], mask: None };
+        match machine.evaluate(&threshold.candidate, batch) {
+            Values::Numbers(lane) => Some((0..frame.len).map(|at| lane.at(at)).collect()),
+            _ => None,
+        }
+    };
+    clause.thresholds.iter().map(numbers).collect::<Option<_>>().unwrap_or_default()
 }

@@ -146,11 +146,26 @@ impl<'s> Search<'s> {
             next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
             return self.advance(number + 1, next);
         }
+        if clause.quantifier == Quantifier::Link {
+            let rows = match self.candidates(number).index {
+                Some(_) => self.groups(number, clause, &frame),
+                None => vec![&[][..]; frame.len],
+            };
+            let first = rows.into_iter().map(|rows| rows.first().copied().unwrap_or(NO_ROW)).collect();
+            let mut next = frame;
+            next.rows[number] = Rows::Each(first);
+            return self.filtered(number, clause, next);
+        }
         if clause.quantifier == Quantifier::All {
             return self.all(number, clause, frame);
         }
         let found = self.witnesses(number, clause, &frame)?;
         let wanted = clause.quantifier != Quantifier::None;
+        if wanted && !found.rows.contains(&NO_ROW) {
+            let mut next = frame;
+            next.rows[number] = Rows::Each(found.rows);
+            return self.advance(number + 1, next);
+        }
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
@@ -266,8 +281,14 @@ impl<'s> Search<'s> {
 
     /// The candidates of a clause, which are made before a search.
     pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
-        static NONE: Candidates =
-            Candidates { rows: vec![], all: false, index: None, undecided: vec![], left_out: 0 };
+        static NONE: Candidates = Candidates {
+            rows: vec![],
+            all: false,
+            index: None,
+            undecided: vec![],
+            thresholds: vec![],
+            left_out: 0,
+        };
         self.candidates.get(number).and_then(Option::as_ref).unwrap_or(&NONE)
     }
 
@@ -301,6 +322,15 @@ impl<'s> Search<'s> {
             Effect::Conclude { then, .. } => {
                 self.prove(frame);
                 self.conclude(then, frame, Status::THEN)
+            }
+            Effect::Default { value, .. } => {
+                self.record(frame, Status::THEN)?;
+                let values = self.machine.evaluate(value, Batch { frame, slots: &[], mask: None });
+                for given in &mut self.output.given {
+                    given.values.extend(&values, frame.len);
+                    given.written.resize(given.values.len(), true);
+                }
+                Ok(())
             }
             Effect::Revise { amount, .. } => {
                 self.record(frame, Status::THEN)?;
@@ -374,6 +404,7 @@ impl Plan {
                 }
                 out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
             }
+            Effect::Default { name, kind, .. } => out.push((name, 0, *kind)),
             Effect::Revise { variable, .. } => {
                 out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));
             }

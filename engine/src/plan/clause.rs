@@ -1,5 +1,7 @@
 //! Clauses made ready: what an index answers, what is tested once for the class, what for each binding.
 
+use std::sync::Arc;
+
 use super::lower::Lowering;
 use super::node::{Comparison, Node};
 use crate::script::syntax::Quantifier;
@@ -10,6 +12,14 @@ use crate::value::Type;
 pub(crate) struct Join {
     pub(crate) column: usize,
     pub(crate) key: Node,
+}
+
+/// A comparison that has the candidate on its left side alone, and the variables before it on its right.
+#[derive(Debug)]
+pub(crate) struct Threshold {
+    pub(crate) comparison: Comparison,
+    pub(crate) candidate: Node,
+    pub(crate) binding: Node,
 }
 
 /// A clause ready to run.
@@ -28,6 +38,8 @@ pub(crate) struct ClausePlan {
     pub(crate) whole: Option<Node>,
     /// What must be true of each object that passes `all`.
     pub(crate) have: Option<Node>,
+    /// `test`, where it is such comparisons and nothing else.
+    pub(crate) thresholds: Vec<Threshold>,
 }
 
 pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
@@ -35,6 +47,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
     let mut plans = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
         lowering.enter(Some(index));
+        let of_class = of_class(lowering, index);
         let by = clause.by.as_ref().map(|by| {
             lowering.own = Some(index);
             let node = lowering.wanted(by, Type::Number);
@@ -42,6 +55,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             node
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
+        let condition = all(of_class.into_iter().chain(condition).flat_map(parts).collect());
         let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
         let undecided_counts =
             clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
@@ -55,21 +69,49 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             by,
             whole: condition.clone().filter(|_| undecided_counts),
             have,
+            thresholds: vec![],
         };
-        split(condition, index, &mut plan);
+        if let Some(link) = &clause.link {
+            // A link's condition looks at the object before, which is bound; it is tested after the link.
+            plan.joins.extend(super::link::join(lowering, index, link));
+            plan.test = condition;
+        } else {
+            split(condition, index, &mut plan);
+        }
+        plan.thresholds = plan.test.as_ref().and_then(|test| thresholds(test, index)).unwrap_or_default();
         plans.push(plan);
     }
     plans
 }
 
+/// What makes the clause's object one of the class that the rule names.
+pub(crate) fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
+    let rule = lowering.rule;
+    let own_file = Arc::clone(&lowering.file);
+    lowering.own = Some(index);
+    let conditions = rule.clauses[index].conditions.iter();
+    let nodes = conditions
+        .map(|condition| {
+            lowering.file = Arc::clone(&condition.file);
+            lowering.wanted(&condition.expr, Type::Truth)
+        })
+        .collect();
+    lowering.own = None;
+    lowering.file = own_file;
+    nodes
+}
+
+fn parts(condition: Node) -> Vec<Node> {
+    match condition {
+        Node::And(parts) => parts,
+        other => vec![other],
+    }
+}
+
 fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
-    let parts = match condition {
-        None => return,
-        Some(Node::And(parts)) => parts,
-        Some(other) => vec![other],
-    };
+    let Some(condition) = condition else { return };
     let (mut own, mut test) = (vec![], vec![]);
-    for part in parts {
+    for part in parts(condition) {
         match part {
             part if part.variables() & !(1 << index) == 0 => own.push(part),
             Node::Compare(Comparison::Equal, a, b) => match join(*a, *b, index) {
@@ -98,4 +140,23 @@ fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
 
 fn all(mut parts: Vec<Node>) -> Option<Node> {
     if parts.len() > 1 { Some(Node::And(parts)) } else { parts.pop() }
+}
+
+fn thresholds(test: &Node, index: usize) -> Option<Vec<Threshold>> {
+    let parts = if let Node::And(parts) = test { parts.as_slice() } else { std::slice::from_ref(test) };
+    parts.iter().map(|part| threshold(part, index)).collect()
+}
+
+fn threshold(part: &Node, index: usize) -> Option<Threshold> {
+    let Node::Compare(comparison, a, b) = part else { return None };
+    let alone = |node: &Node| node.variables() == 1 << index && !node.interprets();
+    let apart = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
+    let (comparison, candidate, binding) = if alone(a) && apart(b) {
+        (*comparison, a, b)
+    } else if alone(b) && apart(a) {
+        (comparison.turned(), b, a)
+    } else {
+        return None;
+    };
+    Some(Threshold { comparison, candidate: (**candidate).clone(), binding: (**binding).clone() })
 }

@@ -41,6 +41,7 @@ impl Uses {
                 }
             }
             Effect::Revise { amount, .. } => properties(amount, &mut found),
+            Effect::Default { value, .. } => properties(value, &mut found),
         }
         uses.add(&found);
         uses

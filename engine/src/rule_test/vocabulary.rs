@@ -81,7 +81,7 @@ impl<'s> Vocabulary<'s> {
 
     fn key<'f>(&'f self, file: &'f TestFile, class: &str) -> &'f [String] {
         let own = file.keys.get(class).map(|key| key.value.as_slice());
-        own.or_else(|| self.schema.key(class)).unwrap_or_default()
+        own.or_else(|| self.schema.key_of(class)).unwrap_or_default()
     }
 
     /// Learns the types of what a file's tests give, and looks at every name.

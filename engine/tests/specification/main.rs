@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod conflicts;
+mod declarations;
 mod doors;
 mod explanation;
 mod hypotheses;
@@ -17,6 +18,7 @@ mod quantifiers;
 mod revisions;
 mod rule_tests;
 mod support;
+mod tables;
 mod unknown;
 mod why_not;
 mod wrong_files;
