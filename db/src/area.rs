@@ -74,6 +74,27 @@ pub async fn replace(
     Ok(())
 }
 
+struct Openness<'a>(&'a Area);
+
+impl Record for Openness<'_> {
+    const TABLE: &'static str = "areas";
+    const COLUMNS: &'static [&'static str] = &["area", "open", "open_rule", "open_witness"];
+
+    fn bind(&self, values: &mut Values) {
+        values.integer(self.0.area);
+        values.truth(self.0.open.value);
+        self.0.open.bind_reason(values);
+    }
+}
+
+/// Says anew of these prime areas whether they are open, and why.
+pub async fn put_open(
+    connection: &mut SqliteConnection,
+    areas: impl IntoIterator<Item = &Area>,
+) -> Result<u64> {
+    bulk::update::<1, _>(connection, areas.into_iter().map(Openness)).await
+}
+
 /// All prime areas, by number.
 pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Area>> {
     let rows = sqlx::query(
@@ -95,6 +116,11 @@ impl Tx<'_> {
     /// All prime areas, by number.
     pub fn areas(&mut self) -> Result<Vec<Area>> {
         self.run(read)
+    }
+
+    /// Says anew of these prime areas whether they are open, and why; how many.
+    pub fn put_open_areas<'a>(&mut self, areas: impl IntoIterator<Item = &'a Area>) -> Result<u64> {
+        self.run(async |connection| put_open(connection, areas).await)
     }
 
     /// Replaces the strips by those between these edges (metres, ascending), and the prime areas by these.

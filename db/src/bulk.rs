@@ -80,8 +80,24 @@ pub(crate) async fn insert<R: Record>(
     connection: &mut SqliteConnection,
     rows: impl IntoIterator<Item = R>,
 ) -> Result<u64> {
+    write(connection, rows, insertion::<R>).await
+}
+
+/// Sets the columns of rows that are there; how many were given. The first `KEYS` columns say which row it is.
+pub(crate) async fn update<const KEYS: usize, R: Record>(
+    connection: &mut SqliteConnection,
+    rows: impl IntoIterator<Item = R>,
+) -> Result<u64> {
+    write(connection, rows, change::<KEYS, R>).await
+}
+
+async fn write<R: Record>(
+    connection: &mut SqliteConnection,
+    rows: impl IntoIterator<Item = R>,
+    statement: fn(usize) -> Arc<str>,
+) -> Result<u64> {
     let most = VALUES / R::COLUMNS.len();
-    let full = statement::<R>(most);
+    let full = statement(most);
     let mut rows = rows.into_iter();
     let mut written = 0;
     loop {
@@ -90,7 +106,7 @@ pub(crate) async fn insert<R: Record>(
         if count == 0 {
             return Ok(written);
         }
-        let sql = if count == most { Arc::clone(&full) } else { statement::<R>(count) };
+        let sql = if count == most { Arc::clone(&full) } else { statement(count) };
         send::<R>(connection, sql, values).await?;
         written += count as u64;
     }
@@ -108,7 +124,21 @@ async fn send<R: Record>(connection: &mut SqliteConnection, sql: Arc<str>, value
     Ok(())
 }
 
-fn statement<R: Record>(rows: usize) -> Arc<str> {
+fn insertion<R: Record>(rows: usize) -> Arc<str> {
+    format!("INSERT INTO {} ({}) {}", R::TABLE, R::COLUMNS.join(","), values::<R>(rows)).into()
+}
+
+fn change<const KEYS: usize, R: Record>(rows: usize) -> Arc<str> {
+    let table = R::TABLE;
+    let columns: Vec<(usize, &str)> = (1..).zip(R::COLUMNS.iter().copied()).collect();
+    let (keys, rest) = columns.split_at(KEYS);
+    let set: Vec<String> = rest.iter().map(|(at, name)| format!("{name} = v.column{at}")).collect();
+    let found: Vec<String> = keys.iter().map(|(at, name)| format!("{table}.{name} = v.column{at}")).collect();
+    let (set, found) = (set.join(", "), found.join(" AND "));
+    format!("UPDATE {table} SET {set} FROM ({}) AS v WHERE {found}", values::<R>(rows)).into()
+}
+
+fn values<R: Record>(rows: usize) -> String {
     let row = format!("({})", vec!["?"; R::COLUMNS.len()].join(","));
-    format!("INSERT INTO {} ({}) VALUES {}", R::TABLE, R::COLUMNS.join(","), vec![row; rows].join(",")).into()
+    format!("VALUES {}", vec![row; rows].join(","))
 }

@@ -125,6 +125,44 @@ pub async fn rules(connection: &mut SqliteConnection) -> Result<Vec<Rule>> {
     Ok(rules)
 }
 
+/// All witnesses, by number.
+pub async fn witnesses(connection: &mut SqliteConnection) -> Result<Vec<Witness>> {
+    let rows = sqlx::query("SELECT witness, facts FROM witnesses ORDER BY witness");
+    let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<Witness> {
+        Ok(Witness { witness: row.try_get(0)?, facts: row.try_get(1)? })
+    };
+    Ok(rows.fetch_all(connection).await?.iter().map(read).collect::<sqlx::Result<_>>()?)
+}
+
+/// Takes some witnesses away, by number, and adds others.
+pub async fn change_witnesses(
+    connection: &mut SqliteConnection,
+    gone: &[i64],
+    new: &[Witness],
+) -> Result<()> {
+    for witness in gone {
+        let query = sqlx::query("DELETE FROM witnesses WHERE witness = ?").bind(witness);
+        query.execute(&mut *connection).await?;
+    }
+    bulk::insert(connection, new).await?;
+    Ok(())
+}
+
+/// Takes some values of classes that have no table of ours away, and adds others. A value that changed is among both.
+pub async fn change_derivations(
+    connection: &mut SqliteConnection,
+    gone: &[&Derivation],
+    new: &[&Derivation],
+) -> Result<()> {
+    for derivation in gone {
+        let sql = "DELETE FROM derivations WHERE class = ? AND key = ? AND property = ?".to_owned();
+        let key = [Cell::from(&*derivation.class), derivation.key.clone(), Cell::from(&*derivation.property)];
+        dynamic::execute(connection, sql, &key).await?;
+    }
+    bulk::insert(connection, new.iter().copied()).await?;
+    Ok(())
+}
+
 /// Replaces all rules and witnesses by these.
 pub async fn replace_rules(
     connection: &mut SqliteConnection,
@@ -172,6 +210,22 @@ impl Tx<'_> {
     /// All rules, by number.
     pub fn rules(&mut self) -> Result<Vec<Rule>> {
         self.run(rules)
+    }
+
+    /// All witnesses, by number.
+    pub fn witnesses(&mut self) -> Result<Vec<Witness>> {
+        self.run(witnesses)
+    }
+
+    /// Takes some witnesses away, by number, and adds others.
+    pub fn change_witnesses(&mut self, gone: &[i64], new: &[Witness]) -> Result<()> {
+        self.run(async |connection| change_witnesses(connection, gone, new).await)
+    }
+
+    /// Takes some values of classes that have no table of ours away, and adds others. A value that changed is among
+    /// both.
+    pub fn change_derivations(&mut self, gone: &[&Derivation], new: &[&Derivation]) -> Result<()> {
+        self.run(async |connection| change_derivations(connection, gone, new).await)
     }
 
     /// Replaces all rules and witnesses by these.

@@ -6,7 +6,7 @@ use sqlx::{Row, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
 use crate::dynamic;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::reason::Derived;
 use crate::stale::in_bulk;
 use crate::transaction::Tx;
@@ -189,36 +189,42 @@ pub async fn reweigh(connection: &mut SqliteConnection, weights: &[DoorWeight]) 
         })
     };
     let changed: Vec<&DoorWeight> = weights.iter().filter(differs).collect();
-    in_bulk(connection, "doors", async |connection| {
-        for weight in &changed {
-            update(connection, weight).await?;
-        }
-        Ok(())
-    })
-    .await?;
+    put_weights(connection, changed.iter().copied()).await?;
     Ok(changed.len())
 }
 
-async fn update(connection: &mut SqliteConnection, weight: &DoorWeight) -> Result<()> {
-    let query = sqlx::query(
-        "UPDATE doors SET hardness = ?, hardness_rule = ?, hardness_witness = ?, action = ?, action_rule = ?,
-         action_witness = ?, passable = ?, passable_rule = ?, passable_witness = ? WHERE door = ?",
-    );
-    query
-        .bind(weight.hardness.value)
-        .bind(weight.hardness.rule)
-        .bind(weight.hardness.witness)
-        .bind(weight.action.value.as_deref())
-        .bind(weight.action.rule)
-        .bind(weight.action.witness)
-        .bind(weight.passable.value)
-        .bind(weight.passable.rule)
-        .bind(weight.passable.witness)
-        .bind(weight.door)
-        .execute(connection)
-        .await
-        .map_err(|e| Error::from(e).refusing(format!("doors.{}", weight.door)))?;
-    Ok(())
+/// Gives these doors new weights, whatever they were.
+pub async fn put_weights(
+    connection: &mut SqliteConnection,
+    weights: impl IntoIterator<Item = &DoorWeight>,
+) -> Result<u64> {
+    in_bulk(connection, "doors", async |connection| bulk::update::<1, _>(connection, weights).await).await
+}
+
+impl Record for &DoorWeight {
+    const TABLE: &'static str = "doors";
+    const COLUMNS: &'static [&'static str] = &[
+        "door",
+        "hardness",
+        "hardness_rule",
+        "hardness_witness",
+        "action",
+        "action_rule",
+        "action_witness",
+        "passable",
+        "passable_rule",
+        "passable_witness",
+    ];
+
+    fn bind(&self, values: &mut Values) {
+        values.integer(self.door);
+        values.real(self.hardness.value);
+        self.hardness.bind_reason(values);
+        values.text(self.action.value.as_deref());
+        self.action.bind_reason(values);
+        values.truth(self.passable.value);
+        self.passable.bind_reason(values);
+    }
 }
 
 impl Tx<'_> {
@@ -235,5 +241,10 @@ impl Tx<'_> {
     /// Gives doors new weights; how many rows differed and were written.
     pub fn reweigh_doors(&mut self, weights: &[DoorWeight]) -> Result<usize> {
         self.run(async |connection| reweigh(connection, weights).await)
+    }
+
+    /// Gives these doors new weights, whatever they were; how many.
+    pub fn put_door_weights<'w>(&mut self, weights: impl IntoIterator<Item = &'w DoorWeight>) -> Result<u64> {
+        self.run(async |connection| put_weights(connection, weights).await)
     }
 }

@@ -118,33 +118,30 @@ pub async fn reweigh(connection: &mut SqliteConnection, weights: &[RoomWeight]) 
             .is_ok_and(|at| known[at].hardness != weight.hardness || known[at].action != weight.action)
     };
     let changed: Vec<&RoomWeight> = weights.iter().filter(differs).collect();
-    in_bulk(connection, "rooms", async |connection| {
-        for weight in &changed {
-            update(connection, weight).await?;
-        }
-        Ok(())
-    })
-    .await?;
+    put_weights(connection, changed.iter().copied()).await?;
     Ok(changed.len())
 }
 
-async fn update(connection: &mut SqliteConnection, weight: &RoomWeight) -> Result<()> {
-    let query = sqlx::query(
-        "UPDATE rooms SET hardness = ?, hardness_rule = ?, hardness_witness = ?, action = ?, action_rule = ?,
-         action_witness = ? WHERE room = ?",
-    );
-    query
-        .bind(weight.hardness.value)
-        .bind(weight.hardness.rule)
-        .bind(weight.hardness.witness)
-        .bind(weight.action.value.as_deref())
-        .bind(weight.action.rule)
-        .bind(weight.action.witness)
-        .bind(weight.room)
-        .execute(connection)
-        .await
-        .map_err(|e| crate::Error::from(e).refusing(format!("rooms.{}", weight.room)))?;
-    Ok(())
+/// Gives these rooms new weights, whatever they were.
+pub async fn put_weights(
+    connection: &mut SqliteConnection,
+    weights: impl IntoIterator<Item = &RoomWeight>,
+) -> Result<u64> {
+    in_bulk(connection, "rooms", async |connection| bulk::update::<1, _>(connection, weights).await).await
+}
+
+impl Record for &RoomWeight {
+    const TABLE: &'static str = "rooms";
+    const COLUMNS: &'static [&'static str] =
+        &["room", "hardness", "hardness_rule", "hardness_witness", "action", "action_rule", "action_witness"];
+
+    fn bind(&self, values: &mut Values) {
+        values.integer(self.room);
+        values.real(self.hardness.value);
+        self.hardness.bind_reason(values);
+        values.text(self.action.value.as_deref());
+        self.action.bind_reason(values);
+    }
 }
 
 impl Tx<'_> {
@@ -161,5 +158,10 @@ impl Tx<'_> {
     /// Gives rooms new weights; how many rows differed and were written.
     pub fn reweigh_rooms(&mut self, weights: &[RoomWeight]) -> Result<usize> {
         self.run(async |connection| reweigh(connection, weights).await)
+    }
+
+    /// Gives these rooms new weights, whatever they were; how many.
+    pub fn put_room_weights<'w>(&mut self, weights: impl IntoIterator<Item = &'w RoomWeight>) -> Result<u64> {
+        self.run(async |connection| put_weights(connection, weights).await)
     }
 }

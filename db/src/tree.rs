@@ -133,6 +133,62 @@ pub async fn put(
     bulk::insert(connection, rows.into_iter().map(|row| Rooted { tree, row })).await
 }
 
+/// A row that differs from what is stored in how far it is from the start, and in nothing else.
+struct Further {
+    tree: i64,
+    node: i64,
+    reach: f64,
+}
+
+impl Record for Further {
+    const TABLE: &'static str = "tree_rows";
+    const COLUMNS: &'static [&'static str] = &["tree", "node", "reach"];
+
+    fn bind(&self, values: &mut Values) {
+        values.integer(self.tree);
+        values.integer(self.node);
+        values.real(self.reach);
+    }
+}
+
+/// What changed in one tree.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TreeChange {
+    /// Nodes that are no longer reached, ascending.
+    pub gone: Vec<i64>,
+    /// Rows of nodes that were not reached before, by node.
+    pub new: Vec<TreeRow>,
+    /// Rows of which only `reach` changed, as node and reach, by node.
+    pub further: Vec<(i64, f64)>,
+    /// Rows that changed otherwise, by node.
+    pub changed: Vec<TreeRow>,
+}
+
+impl TreeChange {
+    /// How many rows changed.
+    pub fn len(&self) -> usize {
+        self.gone.len() + self.new.len() + self.further.len() + self.changed.len()
+    }
+
+    /// Whether nothing changed.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Writes the rows of a tree that changed.
+pub async fn change(connection: &mut SqliteConnection, tree: i64, rows: &TreeChange) -> Result<()> {
+    for node in &rows.gone {
+        let query = sqlx::query("DELETE FROM tree_rows WHERE tree = ? AND node = ?").bind(tree).bind(node);
+        query.execute(&mut *connection).await?;
+    }
+    bulk::insert(connection, rows.new.iter().map(|&row| Rooted { tree, row })).await?;
+    let further = rows.further.iter().map(|&(node, reach)| Further { tree, node, reach });
+    bulk::update::<2, _>(connection, further).await?;
+    bulk::update::<2, _>(connection, rows.changed.iter().map(|&row| Rooted { tree, row })).await?;
+    Ok(())
+}
+
 /// Replaces all starts by these.
 pub async fn replace_starts(connection: &mut SqliteConnection, starts: &[Start]) -> Result<()> {
     sqlx::query("DELETE FROM starts").execute(&mut *connection).await?;
@@ -163,6 +219,11 @@ impl Tx<'_> {
     pub fn put_trees(&mut self, rows: impl IntoIterator<Item = (i64, TreeRow)>) -> Result<u64> {
         let rooted = rows.into_iter().map(|(tree, row)| Rooted { tree, row });
         self.run(async |connection| bulk::insert(connection, rooted).await)
+    }
+
+    /// Writes the rows of a tree that changed.
+    pub fn change_tree(&mut self, tree: i64, rows: &TreeChange) -> Result<()> {
+        self.run(async |connection| change(connection, tree, rows).await)
     }
 
     /// Replaces all starts by these.

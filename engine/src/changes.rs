@@ -9,6 +9,9 @@ pub struct Changes {
     pub classes: BTreeMap<String, ClassChanges>,
     /// Rules that were evaluated, in that order, with the number of objects of their first clause.
     pub evaluated: Vec<(String, usize)>,
+    /// For each concluded property, by class, the rows for which a rule was evaluated anew, ascending: its reason
+    /// may be another, though the value is the same. Among them are all rows whose reason changed.
+    pub reasons: BTreeMap<String, BTreeMap<String, Vec<u32>>>,
 }
 
 /// What changed in one class.
@@ -27,6 +30,11 @@ impl Changes {
     /// Whether nothing changed.
     pub fn is_empty(&self) -> bool {
         self.classes.is_empty()
+    }
+
+    /// Rows of the objects whose reason for a property may be another than before.
+    pub fn reasons(&self, class: &str, property: &str) -> &[u32] {
+        self.reasons.get(class).and_then(|class| class.get(property)).map_or(&[], Vec::as_slice)
     }
 
     /// Rows of the objects whose value of a property changed; those of new objects are not among them.

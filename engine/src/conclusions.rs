@@ -208,6 +208,15 @@ impl fmt::Display for Justification {
     }
 }
 
+/// What one concluded value rests on, as numbers: cheap for many rows.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Grounds {
+    /// The rule's number in its rule base, from 0.
+    pub rule: usize,
+    /// For each variable of the rule but the first the row of its object; `None` where it is bound to none.
+    pub witnesses: Vec<Option<u32>>,
+}
+
 /// For each object of a class the rule behind one of its properties, as numbers: cheap for a whole column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Justifications {

@@ -151,8 +151,8 @@ mod value;
 pub use changes::{Changes, ClassChanges};
 pub use class::{Class, ClassError};
 pub use conclusions::{
-    Conclusions, Conflict, Gap, Justification, Justifications, LeftOut, Origin, Reason, Revision, Support,
-    Waiting, Witness,
+    Conclusions, Conflict, Gap, Grounds, Justification, Justifications, LeftOut, Origin, Reason, Revision,
+    Support, Waiting, Witness,
 };
 pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};

@@ -27,13 +27,30 @@ pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
 
 /// A text that is equal where everything is that a derivation starts from.
 pub fn basis(site: &Site, world: &World, rules: &RuleBase, told: &Facts) -> String {
-    let mut hasher = DefaultHasher::new();
-    (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
-    for rule in rules.rules() {
-        (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);
+    Basis::new(site, world, rules).with(told)
+}
+
+/// What a derivation starts from besides the tables: the costly part of [`basis`], for many edits.
+#[derive(Clone)]
+pub struct Basis(DefaultHasher);
+
+impl Basis {
+    /// Of a site as its files are now.
+    pub fn new(site: &Site, world: &World, rules: &RuleBase) -> Self {
+        let mut hasher = DefaultHasher::new();
+        (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
+        for rule in rules.rules() {
+            (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);
+        }
+        Self(hasher)
     }
-    for (class, table) in told {
-        (class, content(std::slice::from_ref(table))).hash(&mut hasher);
+
+    /// The whole basis, with these tables.
+    pub fn with(&self, told: &Facts) -> String {
+        let mut hasher = self.0.clone();
+        for (class, table) in told {
+            (class, content(std::slice::from_ref(table))).hash(&mut hasher);
+        }
+        format!("{:016x}", hasher.finish())
     }
-    format!("{:016x}", hasher.finish())
 }

@@ -20,6 +20,7 @@ use crate::derive::{Derived, Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
+use crate::grounds::Numbering;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Silent};
 use crate::report::{Before, PlaceCosts, Report, Routes};
@@ -107,6 +108,10 @@ impl KnowledgeBase {
     pub fn reseeding(mut self, reseed: bool) -> Self {
         self.reseed = reseed;
         self
+    }
+
+    pub(crate) fn planners(&self) -> &[Box<dyn Planner>] {
+        &self.planners
     }
 
     /// The site.
@@ -202,7 +207,7 @@ impl KnowledgeBase {
         Ok(problems)
     }
 
-    fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
+    pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
         progress.stage("map");
         Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
@@ -228,7 +233,7 @@ impl KnowledgeBase {
             progress,
         )?;
         derived.stages.insert(0, inputs.stage.clone());
-        let made = Tables::new(&derived, &inputs.rules)?;
+        let made = Tables::new(&derived, &inputs.rules, &mut Numbering::new(&before.witnesses))?;
 
         progress.stage("database");
         let began = Instant::now();
@@ -264,7 +269,7 @@ impl KnowledgeBase {
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
-    fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Facts> {
+    pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Facts> {
         let mut told = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
@@ -340,7 +345,7 @@ impl KnowledgeBase {
         Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
     }
 
-    fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {
+    pub(crate) fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {
         let mut robots: Vec<String> = tx.states()?.into_iter().map(|state| state.robot).collect();
         robots.dedup();
         if robots.len() > 1 && self.site.rooms != Rooms::ByState {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_db::Tx;
+use adit_db::conclusion::Witness;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::tree::{Start, TreeRow};
@@ -24,12 +25,15 @@ pub struct Before {
     pub doors: Vec<Door>,
     /// The starts that routes were kept from.
     pub starts: Vec<Start>,
+    /// What rules chose.
+    pub witnesses: Vec<Witness>,
 }
 
 impl Before {
     /// Reads it.
     pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
-        Ok(Self { rooms: tx.rooms()?, doors: tx.doors()?, starts: tx.starts()? })
+        let (rooms, doors) = (tx.rooms()?, tx.doors()?);
+        Ok(Self { rooms, doors, starts: tx.starts()?, witnesses: tx.witnesses()? })
     }
 
     fn door(&self, key: i64) -> Option<&Door> {

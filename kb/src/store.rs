@@ -14,6 +14,7 @@ use adit_planners::world::World;
 
 use crate::derive::{Derived, Memory, content};
 use crate::error::Result;
+use crate::grounds::{Numbering, Reason, Reasons};
 use crate::report::Before;
 use crate::weights::check_hardness;
 use crate::{classes, rows, tables};
@@ -59,90 +60,8 @@ fn fingerprint_key(planner: &str) -> String {
     format!("planner.{planner}")
 }
 
-/// Numbers of the rules, and the reasons behind values, as the database keeps them.
-struct Reasons<'a> {
-    knowledge: &'a Inference,
-    rules: &'a RuleBase,
-    witnesses: Vec<Witness>,
-    known: BTreeMap<String, i64>,
-}
-
-impl Reasons<'_> {
-    /// For each object the rule behind a property and its witness.
-    fn of(&mut self, class: &str, property: &str) -> Vec<(Option<i64>, Option<i64>)> {
-        let Some(found) = self.knowledge.justifications(class, property) else { return Vec::new() };
-        let mut reasons: Vec<(Option<i64>, Option<i64>)> = vec![(None, None); found.of_row.len()];
-        let mut revisions: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-        for (rule, rows) in self.knowledge.revised(self.rules, class, property) {
-            for row in rows {
-                let by = revisions.entry(row as usize).or_default();
-                if by.last() != Some(&rule.name()) {
-                    by.push(rule.name());
-                }
-            }
-        }
-        for (writer, (name, _)) in found.rules.iter().enumerate() {
-            let Some(number) = self.rules.rules().iter().position(|rule| rule.name() == name) else {
-                continue;
-            };
-            let rule = &self.rules.rules()[number];
-            // the object itself is the first witness: the row says that already
-            let choices: Vec<(&str, &str, Vec<Option<u32>>)> = rule
-                .variables()
-                .skip(1)
-                .filter_map(|(variable, class_of)| {
-                    let rows = self.knowledge.witness_rows(rule, class, property, variable)?;
-                    Some((variable, class_of, rows))
-                })
-                .collect();
-            for (row, by) in found.of_row.iter().enumerate() {
-                if *by == Some(writer as u32) {
-                    let facts = facts(self.knowledge, &choices, revisions.get(&row), row);
-                    let witness = facts.map(|facts| number_of(&mut self.known, &mut self.witnesses, facts));
-                    reasons[row] = (Some(number as i64 + 1), witness);
-                }
-            }
-        }
-        reasons
-    }
-}
-
-/// What a rule chose for an object, and which rules revised the value after it.
-fn facts(
-    knowledge: &Inference,
-    choices: &[(&str, &str, Vec<Option<u32>>)],
-    revised_by: Option<&Vec<&str>>,
-    row: usize,
-) -> Option<String> {
-    let mut chosen: serde_json::Map<String, serde_json::Value> = choices
-        .iter()
-        .filter_map(|(variable, class, rows)| {
-            let key = knowledge.key(class, rows.get(row).copied().flatten()? as usize)?;
-            Some(((*variable).to_owned(), format!("{class} {key}").into()))
-        })
-        .collect();
-    if let Some(rules) = revised_by {
-        chosen.insert("revised by".to_owned(), serde_json::json!(rules));
-    }
-    (!chosen.is_empty()).then(|| serde_json::Value::Object(chosen).to_string())
-}
-
-fn number_of(known: &mut BTreeMap<String, i64>, witnesses: &mut Vec<Witness>, facts: String) -> i64 {
-    if let Some(number) = known.get(&facts) {
-        return *number;
-    }
-    let witness = witnesses.len() as i64 + 1;
-    witnesses.push(Witness { witness, facts: facts.clone() });
-    known.insert(facts, witness);
-    witness
-}
-
 /// Values of a property with their reasons, one an object.
-fn reasoned<T>(
-    values: Option<Vec<Option<T>>>,
-    reasons: &[(Option<i64>, Option<i64>)],
-    len: usize,
-) -> Vec<Reasoned<T>> {
+fn reasoned<T>(values: Option<Vec<Option<T>>>, reasons: &[Reason], len: usize) -> Vec<Reasoned<T>> {
     let mut values = values.unwrap_or_default().into_iter();
     (0..len)
         .map(|row| {
@@ -158,19 +77,24 @@ pub struct Tables {
     pub rooms: Vec<Room>,
     /// Doors with their weights.
     pub doors: Vec<Door>,
-    areas: Vec<adit_db::area::Area>,
+    /// Prime areas.
+    pub areas: Vec<adit_db::area::Area>,
     strips: [Vec<f64>; 2],
     rules: Vec<Rule>,
     witnesses: Vec<Witness>,
-    derivations: Vec<Derivation>,
+    /// What rules concluded about anything else.
+    pub derivations: Vec<Derivation>,
 }
 
 impl Tables {
     /// The tables of what was derived.
-    pub fn new(derived: &Derived, rules: &RuleBase) -> Result<Self> {
+    ///
+    /// # Arguments
+    /// `numbering` has the numbers of witnesses that are taken.
+    pub fn new(derived: &Derived, rules: &RuleBase, numbering: &mut Numbering) -> Result<Self> {
         let knowledge = &derived.knowledge;
         let facts = |class: &str| derived.facts.get(class).cloned().unwrap_or_default();
-        let mut reasons = Reasons { knowledge, rules, witnesses: Vec::new(), known: BTreeMap::new() };
+        let mut reasons = Reasons::new(knowledge, rules, numbering);
         let (mut rooms, mut doors) = (rows::rooms(&facts("ROOMS"))?, rows::doors(&facts("DOORS"))?);
         let mut areas = Vec::new();
         let mut strips = [Vec::new(), Vec::new()];
@@ -208,8 +132,27 @@ impl Tables {
             (door.hardness, door.action, door.passable) = (hardness, action, passable);
         }
         let derivations = derivations(knowledge, rules, &mut reasons);
-        let witnesses = reasons.witnesses;
-        Ok(Self { rooms, doors, areas, strips, rules: rule_rows(rules), witnesses, derivations })
+        let rules = rule_rows(rules);
+        let mut made = Self { rooms, doors, areas, strips, rules, witnesses: Vec::new(), derivations };
+        let uses = made.uses();
+        made.witnesses = numbering.witnesses(|number| uses.contains_key(&number));
+        Ok(made)
+    }
+
+    /// How many values rest on each witness.
+    pub fn uses(&self) -> BTreeMap<i64, usize> {
+        let rooms = self.rooms.iter().flat_map(|room| [room.hardness.witness, room.action.witness]);
+        let doors = self
+            .doors
+            .iter()
+            .flat_map(|door| [door.hardness.witness, door.action.witness, door.passable.witness]);
+        let areas = self.areas.iter().map(|area| area.open.witness);
+        let others = self.derivations.iter().map(|derivation| derivation.witness);
+        let mut uses = BTreeMap::new();
+        for witness in rooms.chain(doors).chain(areas).chain(others).flatten() {
+            *uses.entry(witness).or_default() += 1;
+        }
+        uses
     }
 
     /// Writes all of it in place of what was there.
@@ -254,7 +197,7 @@ fn rule_rows(rules: &RuleBase) -> Vec<Rule> {
 }
 
 /// Columns of these classes have tables of their own.
-const TABLED: [(&str, &str); 6] = [
+pub const TABLED: [(&str, &str); 6] = [
     ("PRIME_AREAS", "open"),
     ("ROOMS", "hardness"),
     ("ROOMS", "action"),
@@ -271,7 +214,19 @@ fn derivations(knowledge: &Inference, rules: &RuleBase, reasons: &mut Reasons<'_
         if TABLED.contains(&(class, property)) {
             continue;
         }
-        let Some(column) = classes::column(knowledge, class, property) else { continue };
+        found.extend(derivations_of(knowledge, reasons, (class, property)));
+    }
+    found
+}
+
+/// Values that rules concluded of one property that has no table of ours.
+pub fn derivations_of(
+    knowledge: &Inference,
+    reasons: &mut Reasons<'_>,
+    (class, property): (&str, &str),
+) -> Vec<Derivation> {
+    let mut found = Vec::new();
+    if let Some(column) = classes::column(knowledge, class, property) {
         for (row, (rule, witness)) in reasons.of(class, property).into_iter().enumerate() {
             let (Some(rule), Some(key)) = (rule, knowledge.key(class, row)) else { continue };
             found.push(Derivation {

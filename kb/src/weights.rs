@@ -1,6 +1,6 @@
 //! What rules say of rooms and doors, checked before it is kept: a hardness is a number that a sum can take.
 
-use adit_engine::KnowledgeBase as Inference;
+use adit_engine::{KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
 use crate::classes;
@@ -27,15 +27,42 @@ pub fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -
     };
     let wrong = |value: &Option<f64>| value.is_some_and(|value| !(0.0..=LARGEST).contains(&value));
     let Some(row) = values.iter().position(wrong) else { return Ok(()) };
+    Err(refusal(knowledge, class, (row, values[row]), name))
+}
+
+/// Checks the hardness of the objects in these rows, of a class that was checked before.
+pub fn check_rows(
+    knowledge: &Inference,
+    class: &str,
+    rows: &[u32],
+    name: impl Fn(usize) -> String,
+) -> Result<()> {
+    for &row in rows {
+        let row = row as usize;
+        if let Some(Value::Number(value)) = knowledge.value_at(class, row, "hardness")
+            && !(0.0..=LARGEST).contains(&value)
+        {
+            return Err(refusal(knowledge, class, (row, Some(value)), name));
+        }
+    }
+    Ok(())
+}
+
+fn refusal(
+    knowledge: &Inference,
+    class: &str,
+    (row, value): (usize, Option<f64>),
+    name: impl Fn(usize) -> String,
+) -> Error {
     let by = knowledge.justifications(class, "hardness").and_then(|found| {
         let rule = found.of_row.get(row).copied().flatten()?;
         found.rules.get(rule as usize).map(|(rule, _)| format!("rule \"{rule}\""))
     });
     let by = by.unwrap_or_else(|| rules(knowledge, class));
-    let found = values[row].map_or_else(String::new, number);
+    let found = value.map_or_else(String::new, number);
     let message = format!("{by} gives {} the hardness {found}", name(row));
     let help = "a hardness is finite and not negative; revisions count, too".to_owned();
-    Err(Error::said("rule/hardness", message, Some(help)))
+    Error::said("rule/hardness", message, Some(help))
 }
 
 /// The rules that give a class its hardness.

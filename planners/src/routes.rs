@@ -9,6 +9,7 @@
 //! an arrival is superfluous if walking over from another one costs no more.
 
 mod blocked;
+mod compact;
 mod crossing;
 mod search;
 mod tree;
@@ -18,6 +19,7 @@ use petgraph::graph::{DiGraph, NodeIndex};
 use crate::geometry::{Point, Rect};
 
 pub use blocked::{Blockage, blockage};
+pub use compact::{CompactGraph, CompactTree, NONE};
 pub use tree::{Arrival, Tree};
 
 /// A room as the search sees it.

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
+use super::KnowledgeBase;
 use super::ask::Asked;
 use super::dirty::Dirty;
+use super::memory::{Memory, Shape};
 use super::pending::Pending;
-use super::{KnowledgeBase, memory::Memory};
 use crate::changes::{Changes, ClassChanges};
 use crate::conclusions::Conclusions;
 use crate::order::Step;
@@ -24,6 +25,8 @@ pub(super) struct Run<'b> {
     /// Classes in which anything changed.
     pub(super) touched: BTreeSet<String>,
     pub(super) evaluated: Vec<(usize, usize)>,
+    /// For each concluded property the rows whose reason may have changed.
+    pub(super) reasons: BTreeMap<PropertyName, Dirty>,
     /// Whether classes, properties or rules came or went.
     pub(super) recheck: bool,
     /// Of the objects that nobody asked for yet those that are asked for now; `None` is all.
@@ -39,6 +42,7 @@ impl<'b> Run<'b> {
             deltas: BTreeMap::new(),
             touched: BTreeSet::new(),
             evaluated: vec![],
+            reasons: BTreeMap::new(),
             recheck: false,
             asked: None,
         }
@@ -52,6 +56,9 @@ impl<'b> Run<'b> {
             own.iter_mut().zip(&stages).for_each(|(own, stage)| own.join(stage));
         }
         self.evaluated.extend(later.evaluated);
+        for (name, rows) in later.reasons {
+            self.reasons.entry(name).or_default().join(&rows);
+        }
     }
 
     /// The rows of a property that changed, as a rule sees it that revises at this level.
@@ -154,7 +161,10 @@ impl KnowledgeBase {
             for (property, rows) in &pending.changed {
                 let name = PropertyName::new(&class, property);
                 match self.derived.get_mut(&name) {
-                    Some(derived) => derived.pending[0].join(rows),
+                    Some(derived) => {
+                        derived.pending[0].join(rows);
+                        run.reasons.entry(name).or_default().join(rows);
+                    }
                     None => run.changed(&name, (0, 1), &rows.clone().settle(usize::MAX)),
                 }
             }
@@ -210,6 +220,13 @@ impl KnowledgeBase {
             let touched = memory.replace(&dirty, output);
             for (given, touched) in memory.given.iter().zip(touched) {
                 self.pend(&given.name, rule.level(), &touched);
+                let reasons = run.reasons.entry(given.name.clone()).or_default();
+                match memory.shape {
+                    // What a firing rests on may change though it sets the same value.
+                    Shape::Single if given.variable == 0 => reasons.join(&dirty),
+                    Shape::Single => reasons.join(&Dirty::All),
+                    Shape::Many | Shape::Whole => reasons.join(&touched),
+                }
             }
         }
         let node = &mut self.network.nodes[index];
@@ -280,6 +297,14 @@ impl KnowledgeBase {
             rows.retain(|row| class.added.binary_search(row).is_err());
             if !rows.is_empty() {
                 class.changed.insert(name.property.clone(), rows);
+            }
+        }
+        for (name, rows) in &run.reasons {
+            let Some(len) = self.len(&name.class) else { continue };
+            let mut rows = rows.clone().settle(len).rows(len);
+            rows.retain(|&row| (row as usize) < len);
+            if !rows.is_empty() {
+                changes.reasons.entry(name.class.clone()).or_default().insert(name.property.clone(), rows);
             }
         }
         changes.classes.retain(|_, class| *class != ClassChanges::default());

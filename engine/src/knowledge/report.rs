@@ -51,6 +51,20 @@ impl KnowledgeBase {
         report
     }
 
+    /// What failed in the last inference: rules that were stopped, and values of another type than their
+    /// property's. The errors of [`conclude`](Self::conclude) without its report on all objects.
+    pub fn problems(&self, base: &RuleBase) -> Vec<Diagnostic> {
+        let mut problems = vec![];
+        for node in &self.network.nodes {
+            problems.extend(node.problems.iter().cloned());
+            problems.extend(node.memory.as_ref().and_then(|memory| memory.problem.clone()));
+        }
+        for (name, derived) in self.derived.iter().filter(|(_, derived)| !derived.stages.is_empty()) {
+            problems.extend(self.mistyped(base, name, derived));
+        }
+        problems
+    }
+
     /// Where a rule stands in the order of evaluation.
     #[allow(clippy::unused_self)] // it reads as a question to the knowledge base
     fn place(&self, base: &RuleBase, rule: &str) -> usize {

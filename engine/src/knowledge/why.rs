@@ -3,7 +3,7 @@
 use super::KnowledgeBase;
 use super::derived::Derived;
 use super::merge::Source;
-use crate::conclusions::{Justification, Justifications, Origin, Revision, Support, Witness};
+use crate::conclusions::{Grounds, Justification, Justifications, Origin, Revision, Support, Witness};
 use crate::machine::lane::NO_ROW;
 use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
@@ -89,6 +89,25 @@ impl KnowledgeBase {
             _ => None,
         };
         Some((0..derived.stages[0].len() as u32).map(witness).collect())
+    }
+
+    /// For a property that rules conclude: for each of these rows the number of its rule in the rule base, and the
+    /// rows that the variables after the first stand for; `None` where the value was told or is unknown.
+    pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> Vec<Option<Grounds>> {
+        let name = PropertyName::new(class, property);
+        let Some(derived) = self.derived.get(&name).filter(|derived| !derived.stages.is_empty()) else {
+            return vec![None; rows.len()];
+        };
+        let grounds = |&row: &u32| match self.source(&name, derived, row) {
+            Source::Rule { rule, firing } if !derived.stages[0].is_unknown(row as usize) => {
+                let memory = self.network.nodes.get(rule)?.memory.as_ref()?;
+                let clauses = 1..memory.witnesses.len();
+                let bound = |clause| Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW);
+                Some(Grounds { rule, witnesses: clauses.map(bound).collect() })
+            }
+            _ => None,
+        };
+        rows.iter().map(grounds).collect()
     }
 
     /// For a property that rules revise: each such rule with the rows that it revises.

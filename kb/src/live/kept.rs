@@ -1,0 +1,233 @@
+//! What is kept of rooms, doors and other conclusions, and what differs from it after an edit.
+
+use std::collections::BTreeMap;
+
+use adit_db::area::Area;
+use adit_db::conclusion::{Derivation, Witness};
+use adit_db::door::DoorWeight;
+use adit_db::room::RoomWeight;
+use adit_db::{Derived as Reasoned, Tx};
+use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
+
+use super::routes::KeptRoutes;
+use crate::error::Result;
+use crate::grounds::{Numbering, Reason, Reasons};
+use crate::store::{TABLED, derivations_of};
+
+/// Conclusions beside those of rooms and doors, and how many values rest on each witness.
+pub struct Kept {
+    areas: Vec<Area>,
+    derivations: Vec<Derivation>,
+    uses: BTreeMap<i64, usize>,
+}
+
+/// Rows that an edit changes.
+#[derive(Default)]
+pub struct Written {
+    /// Rooms by index, with what rules now say.
+    pub rooms: Vec<(usize, RoomWeight)>,
+    /// Doors by index, with what rules now say.
+    pub doors: Vec<(usize, DoorWeight)>,
+    areas: Vec<(usize, Area)>,
+    derivations: Option<Vec<Derivation>>,
+    gone: Vec<Derivation>,
+    new: Vec<Derivation>,
+    witnesses_gone: Vec<i64>,
+    witnesses_new: Vec<i64>,
+    uses: BTreeMap<i64, usize>,
+}
+
+impl Kept {
+    /// What a build left.
+    pub fn new(areas: Vec<Area>, derivations: Vec<Derivation>, uses: BTreeMap<i64, usize>) -> Self {
+        Self { areas, derivations, uses }
+    }
+
+    /// What differs after an update. Reasons are numbered in the order in which a build numbers them.
+    pub fn differences(
+        &self,
+        knowledge: &Inference,
+        rules: &RuleBase,
+        changes: &Changes,
+        numbering: &mut Numbering,
+        routes: &KeptRoutes,
+    ) -> Written {
+        let graph = routes.graph();
+        let mut look = Look { knowledge, changes, reasons: Reasons::new(knowledge, rules, numbering) };
+        let mut uses = Uses(self.uses.clone());
+        let mut areas: BTreeMap<usize, Area> = BTreeMap::new();
+        look.at(("PRIME_AREAS", "open"), truth, |row, open| {
+            areas.insert(row, Area { open, ..self.areas[row].clone() });
+        });
+        areas.retain(|row, area| self.areas[*row] != *area);
+        for (row, area) in &areas {
+            uses.change(self.areas[*row].open.witness, area.open.witness);
+        }
+        let mut rooms: BTreeMap<usize, RoomWeight> = BTreeMap::new();
+        let room = |row: usize| {
+            let room = &graph.rooms[row];
+            RoomWeight { room: room.room, hardness: room.hardness.clone(), action: room.action.clone() }
+        };
+        look.at(("ROOMS", "hardness"), number, |row, to| {
+            rooms.entry(row).or_insert_with(|| room(row)).hardness = to;
+        });
+        look.at(("ROOMS", "action"), text, |row, to| {
+            rooms.entry(row).or_insert_with(|| room(row)).action = to;
+        });
+        rooms.retain(|row, weight| *weight != room(*row));
+        for (row, weight) in &rooms {
+            uses.change(graph.rooms[*row].hardness.witness, weight.hardness.witness);
+            uses.change(graph.rooms[*row].action.witness, weight.action.witness);
+        }
+        let mut doors: BTreeMap<usize, DoorWeight> = BTreeMap::new();
+        let door = |row: usize| {
+            let door = &graph.doors[row];
+            let (hardness, action) = (door.hardness.clone(), door.action.clone());
+            DoorWeight { door: door.door, hardness, action, passable: door.passable.clone() }
+        };
+        look.at(("DOORS", "hardness"), number, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).hardness = to;
+        });
+        look.at(("DOORS", "action"), text, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).action = to;
+        });
+        look.at(("DOORS", "passable"), truth, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).passable = to;
+        });
+        doors.retain(|row, weight| *weight != door(*row));
+        for (row, weight) in &doors {
+            let before = &graph.doors[*row];
+            uses.change(before.hardness.witness, weight.hardness.witness);
+            uses.change(before.action.witness, weight.action.witness);
+            uses.change(before.passable.witness, weight.passable.witness);
+        }
+        let derivations = self.derivations(rules, &mut look);
+        let mut written = Written {
+            rooms: rooms.into_iter().collect(),
+            doors: doors.into_iter().collect(),
+            areas: areas.into_iter().collect(),
+            ..Written::default()
+        };
+        if let Some(now) = derivations {
+            written.gone = self.derivations.iter().filter(|old| !now.contains(old)).cloned().collect();
+            written.new = now.iter().filter(|new| !self.derivations.contains(new)).cloned().collect();
+            written.gone.iter().for_each(|old| uses.change(old.witness, None));
+            written.new.iter().for_each(|new| uses.change(None, new.witness));
+            written.derivations = Some(now);
+        }
+        uses.0.retain(|_, uses| *uses > 0);
+        let fresh = |number: &&i64| !self.uses.contains_key(*number);
+        written.witnesses_new = uses.0.keys().filter(fresh).copied().collect();
+        written.witnesses_gone =
+            self.uses.keys().filter(|number| !uses.0.contains_key(*number)).copied().collect();
+        written.uses = uses.0;
+        written
+    }
+
+    /// All derivations as they are now; `None` where none can have changed.
+    fn derivations(&self, rules: &RuleBase, look: &mut Look<'_>) -> Option<Vec<Derivation>> {
+        let mut now = None;
+        for name in rules.concluded() {
+            let (class, property) = (name.class.as_str(), name.property.as_str());
+            if TABLED.contains(&(class, property)) || !look.may_differ(class, property) {
+                continue;
+            }
+            let now = now.get_or_insert_with(|| self.derivations.clone());
+            let of = class.to_lowercase();
+            now.retain(|derivation| derivation.class != of || derivation.property != property);
+            now.extend(derivations_of(look.knowledge, &mut look.reasons, (class, property)));
+        }
+        now
+    }
+
+    /// Makes what was written what is kept.
+    pub fn accept(&mut self, written: Written, numbering: &mut Numbering) {
+        for (row, area) in written.areas {
+            self.areas[row] = area;
+        }
+        if let Some(derivations) = written.derivations {
+            self.derivations = derivations;
+        }
+        self.uses = written.uses;
+        let witnesses = numbering.witnesses(|number| self.uses.contains_key(&number));
+        *numbering = Numbering::new(&witnesses);
+    }
+}
+
+impl Written {
+    /// Writes the rows.
+    pub fn write(&self, tx: &mut Tx<'_>, numbering: &Numbering) -> Result<()> {
+        let new: Vec<Witness> = numbering.witnesses(|number| self.witnesses_new.contains(&number));
+        tx.change_witnesses(&self.witnesses_gone, &new)?;
+        tx.put_open_areas(self.areas.iter().map(|(_, area)| area))?;
+        if !self.rooms.is_empty() {
+            tx.put_room_weights(self.rooms.iter().map(|(_, weight)| weight))?;
+        }
+        if !self.doors.is_empty() {
+            tx.put_door_weights(self.doors.iter().map(|(_, weight)| weight))?;
+        }
+        let gone: Vec<&Derivation> = self.gone.iter().collect();
+        tx.change_derivations(&gone, &self.new.iter().collect::<Vec<_>>())?;
+        Ok(())
+    }
+}
+
+/// How many values rest on each witness.
+struct Uses(BTreeMap<i64, usize>);
+
+impl Uses {
+    fn change(&mut self, from: Option<i64>, to: Option<i64>) {
+        if let Some(to) = to {
+            *self.0.entry(to).or_default() += 1;
+        }
+        if let Some(uses) = from.and_then(|from| self.0.get_mut(&from)) {
+            *uses = uses.saturating_sub(1);
+        }
+    }
+}
+
+/// Looks at values that may differ.
+struct Look<'a> {
+    knowledge: &'a Inference,
+    changes: &'a Changes,
+    reasons: Reasons<'a>,
+}
+
+impl Look<'_> {
+    fn at<T>(
+        &mut self,
+        (class, property): (&str, &str),
+        value: fn(Value) -> Option<T>,
+        mut found: impl FnMut(usize, Reasoned<T>),
+    ) {
+        let mut rows = self.changes.rows(class, property).to_vec();
+        rows.extend(self.changes.reasons(class, property));
+        rows.sort_unstable();
+        rows.dedup();
+        let reasons: Vec<Reason> = self.reasons.of_rows(class, property, &rows);
+        for (row, (rule, witness)) in rows.into_iter().zip(reasons) {
+            let row = row as usize;
+            let value = self.knowledge.value_at(class, row, property).and_then(value);
+            found(row, Reasoned { value, rule, witness });
+        }
+    }
+
+    fn may_differ(&self, class: &str, property: &str) -> bool {
+        let moved = |class: &adit_engine::ClassChanges| class.moved.is_some() || !class.added.is_empty();
+        !self.changes.rows(class, property).is_empty()
+            || !self.changes.reasons(class, property).is_empty()
+            || self.changes.classes.get(class).is_some_and(moved)
+    }
+}
+
+fn number(value: Value) -> Option<f64> {
+    if let Value::Number(number) = value { Some(number) } else { None }
+}
+
+fn text(value: Value) -> Option<String> {
+    if let Value::Text(text) = value { Some(text.to_string()) } else { None }
+}
+
+fn truth(value: Value) -> Option<bool> {
+    if let Value::Truth(truth) = value { Some(truth) } else { None }
+}
