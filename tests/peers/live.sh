@@ -1,0 +1,25 @@
+#!/bin/bash
+# tests/peers/live.sh [WORK]: edits of one state's hardness on the graph of 100,000 rooms held in memory, the routes of
+# one start renewed and committed. WORK is a folder for what is made. ADIT_SHARED says where the peers are if not in
+# ../shared. Needs python3 with numpy and scipy for the graph. ROOMS=10000 for less.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+peers=$(readlink -m "${ADIT_SHARED:-../shared}/peers")
+if [ ! -f "$peers/rules/gen_doors.py" ]; then
+    echo "SKIPPED: $peers is missing, so there is no graph" >&2
+    exit 0
+fi
+target=${CARGO_TARGET_DIR:-target}
+work=${1:-$target/peers-live}
+rooms=${ROOMS:-100000}
+mkdir -p "$work/site"
+[ -f "$work/$rooms/doors.u32" ] || python3 "$peers/routing/gen.py" "$work" "$rooms"
+doors=$(($(stat -c %s "$work/$rooms/doors.u32") / 20))
+[ -f "$work/doors_$doors.csv" ] || python3 "$peers/rules/gen_doors.py" "$doors" "$work"
+cp kb/sites/paper/{map,robots}.toml "$work/site"
+printf 'name = "live"\nmap = "map.toml"\nrobots = "robots.toml"\nrooms = "paper"\nstarts = ["r0"]\n' > "$work/site/site.toml"
+rm -f "$work/site/site.db"
+cargo build --quiet --release -p adit --example live
+"$target/release/examples/live" "$work/site" "$work/$rooms/doors.u32" "$work/doors_$doors.csv" \
+    LIE-FACE-DOWN=9 LIE-FACE-DOWN=8 LIE-FACE-DOWN=7 LIE-FACE-DOWN=8 LIE-FACE-DOWN=8.5 LIE-FACE-DOWN=8 LIE-FACE-DOWN=12 \
+    LIE-FACE-DOWN=8 IMPOSSIBLE=9000 IMPOSSIBLE=10000

@@ -1,0 +1,109 @@
+//! A site held in memory writes what a plain edit writes.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use std::process::Command;
+
+use adit::edit::Edit;
+use adit::{KnowledgeBase, Live, Silent};
+use adit_db::history::Author;
+use adit_tests::{Ran, TestSite};
+
+fn author() -> Author {
+    Author { who: "test".to_owned(), why: String::new() }
+}
+
+fn set(state: &str, column: &str, value: &str) -> Edit {
+    Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value.to_owned())
+}
+
+/// Every row of every table, but for the times in the history.
+fn content(site: &TestSite) -> Vec<String> {
+    let dump =
+        Command::new("sqlite3").arg("-readonly").arg(site.path().join("site.db")).arg(".dump").output();
+    let dump = Ran::new(&dump.unwrap()).expecting(0).stdout;
+    let rows = dump.lines().filter(|line| line.starts_with("INSERT INTO"));
+    let mut rows: Vec<String> =
+        rows.filter(|line| !line.starts_with("INSERT INTO history")).map(str::to_owned).collect();
+    rows.extend(site.sqlite3("SELECT id, table_name, key, column_name, old, new, who, why FROM history"));
+    rows
+}
+
+/// Does the same edits in memory and as a plain edit does, and compares the databases after each.
+fn same_after(example: &str, edits: &[Edit]) {
+    let (plain, held) = (TestSite::example(example).built(), TestSite::example(example).built());
+    let site = KnowledgeBase::open(plain.path()).unwrap();
+    let mut live = Live::open(KnowledgeBase::open(held.path()).unwrap()).unwrap();
+    for edit in edits {
+        let expected = site.edit(edit, &author(), false, &Silent);
+        let found = live.edit(edit, &author());
+        match (expected, found) {
+            (Ok((_, report)), Ok(outcome)) => {
+                assert_eq!(outcome.generation, report.generation, "{edit:?}");
+                assert!(outcome.doors >= report.doors.changed, "{edit:?}: {outcome:?}");
+            }
+            (Err(expected), Err(found)) => assert_eq!(found.to_string(), expected.to_string()),
+            (expected, found) => panic!("{edit:?}: plain {expected:?}, held {found:?}"),
+        }
+        let (expected, found) = (content(&plain), content(&held));
+        let differ: Vec<_> = expected.iter().filter(|row| !found.contains(row)).take(5).collect();
+        let more: Vec<_> = found.iter().filter(|row| !expected.contains(row)).take(5).collect();
+        assert!(differ.is_empty() && more.is_empty(), "{example}, {edit:?}:\n{differ:#?}\nfound:\n{more:#?}");
+        assert_eq!(found.len(), expected.len(), "{example}, {edit:?}");
+    }
+}
+
+#[test]
+fn values_that_go_up_and_down_in_the_papers_example() {
+    same_after(
+        "paper",
+        &[
+            set("SQUAT", "hardness", "3"),
+            set("SQUAT", "hardness", "3"),
+            set("LIE-FACE-DOWN", "hardness", "2.5"),
+            set("LIE-FACE-DOWN", "hardness", "9"),
+            set("SIDE-STAND", "hardness", "0.5"),
+            set("SQUAT", "action", "HOP"),
+            Edit::Undo(None),
+            set("SIDE-STAND", "hardness", "-2"),
+            set("SQUAT", "hardness", "soft"),
+            set("IMPOSSIBLE", "hardness", "500"),
+            Edit::Undo(None),
+        ],
+    );
+}
+
+#[test]
+fn dimensions_and_states_that_planners_look_at() {
+    let new = [("action", "ROLL"), ("height", "3"), ("width", "2"), ("hardness", "6")];
+    let cells = new.map(|(column, value)| (column.to_owned(), value.to_owned())).to_vec();
+    same_after(
+        "paper",
+        &[
+            set("SQUAT", "height", "16"),
+            Edit::Add("robots".to_owned(), "ROLL".to_owned(), cells),
+            set("ROLL", "hardness", "1.5"),
+            Edit::Remove("robots".to_owned(), "ROLL".to_owned()),
+            set("STAND", "width", "4"),
+        ],
+    );
+}
+
+#[test]
+fn rooms_by_state() {
+    same_after(
+        "hospital",
+        &[set("SQUAT", "hardness", "9"), set("SQUAT", "hardness", "2"), set("SQUAT", "hardness", "4")],
+    );
+}
+
+#[test]
+fn an_edit_by_another_program_is_seen() {
+    let site = TestSite::example("paper").built();
+    let mut live = Live::open(KnowledgeBase::open(site.path()).unwrap()).unwrap();
+    site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
+    let outcome = live.edit(&set("LIE-FACE-DOWN", "hardness", "2.5"), &author()).unwrap();
+    assert!(outcome.anew);
+    assert!(!live.edit(&set("LIE-FACE-DOWN", "hardness", "8"), &author()).unwrap().anew);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
+}
