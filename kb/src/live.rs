@@ -245,7 +245,7 @@ impl Memory {
         let wanted = site.site().starts.as_ref();
         let Some(routes) = self.routes.renew(&written, &robots, wanted)? else { return Err(Stop::Anew) };
         clock.lap("search");
-        self.routes.write(tx, &routes)?;
+        KeptRoutes::write(tx, &routes)?;
         let same = written.rooms.is_empty() && written.doors.is_empty();
         let generation = generation::renew(tx, same, &self.basis.with(&told))?;
         tx.mark_fresh()?;

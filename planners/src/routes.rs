@@ -11,6 +11,7 @@
 mod blocked;
 mod compact;
 mod crossing;
+mod lazy;
 mod search;
 mod tree;
 
@@ -20,6 +21,7 @@ use crate::geometry::{Point, Rect};
 
 pub use blocked::{Blockage, blockage};
 pub use compact::{CompactGraph, CompactTree, NONE};
+pub use lazy::LazyRoute;
 pub use tree::{Arrival, Tree};
 
 /// A room as the search sees it.

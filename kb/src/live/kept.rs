@@ -197,7 +197,7 @@ impl Look<'_> {
     fn at<T>(
         &mut self,
         (class, property): (&str, &str),
-        value: fn(Value) -> Option<T>,
+        value: fn(&Value) -> Option<T>,
         mut found: impl FnMut(usize, Reasoned<T>),
     ) {
         let mut rows = self.changes.rows(class, property).to_vec();
@@ -207,7 +207,7 @@ impl Look<'_> {
         let reasons: Vec<Reason> = self.reasons.of_rows(class, property, &rows);
         for (row, (rule, witness)) in rows.into_iter().zip(reasons) {
             let row = row as usize;
-            let value = self.knowledge.value_at(class, row, property).and_then(value);
+            let value = self.knowledge.value_at(class, row, property).as_ref().and_then(value);
             found(row, Reasoned { value, rule, witness });
         }
     }
@@ -220,14 +220,14 @@ impl Look<'_> {
     }
 }
 
-fn number(value: Value) -> Option<f64> {
-    if let Value::Number(number) = value { Some(number) } else { None }
+fn number(value: &Value) -> Option<f64> {
+    if let Value::Number(number) = value { Some(*number) } else { None }
 }
 
-fn text(value: Value) -> Option<String> {
+fn text(value: &Value) -> Option<String> {
     if let Value::Text(text) = value { Some(text.to_string()) } else { None }
 }
 
-fn truth(value: Value) -> Option<bool> {
-    if let Value::Truth(truth) = value { Some(truth) } else { None }
+fn truth(value: &Value) -> Option<bool> {
+    if let Value::Truth(truth) = value { Some(*truth) } else { None }
 }

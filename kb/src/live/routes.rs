@@ -47,25 +47,19 @@ impl Renewed {
 impl KeptRoutes {
     /// Takes the graph of a built site, and its trees.
     pub fn read(tx: &mut Tx<'_>, graph: SiteGraph, plan: Plan) -> Result<Self> {
-        let trees = match CompactGraph::new(graph.graph()) {
-            Some(compact) => {
-                let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
-                let place =
-                    |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
-                let places = plan
-                    .roots
-                    .iter()
-                    .map(|(robot, _)| (0..graph.places.len()).map(|index| place(robot, index)).collect())
-                    .collect();
-                Trees::OnDoors { graph: compact, trees, places }
+        let trees = if let Some(compact) = CompactGraph::new(graph.graph()) {
+            let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
+            let place = |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
+            let places =
+                |(robot, _): &(String, _)| (0..graph.places.len()).map(|index| place(robot, index)).collect();
+            let places = plan.roots.iter().map(places).collect();
+            Trees::OnDoors { graph: compact, trees, places }
+        } else {
+            let mut rows = Vec::new();
+            for tree in 1..=plan.roots.len() as i64 {
+                rows.push(tx.tree_rows(tree)?);
             }
-            None => {
-                let mut rows = Vec::new();
-                for tree in 1..=plan.roots.len() as i64 {
-                    rows.push(tx.tree_rows(tree)?);
-                }
-                Trees::Rows(rows)
-            }
+            Trees::Rows(rows)
         };
         Ok(Self { graph, plan, trees })
     }
@@ -133,7 +127,7 @@ impl KeptRoutes {
     }
 
     /// Writes the rows that differ.
-    pub fn write(&self, tx: &mut Tx<'_>, renewed: &Renewed) -> Result<()> {
+    pub fn write(tx: &mut Tx<'_>, renewed: &Renewed) -> Result<()> {
         for (tree, change) in (1..).zip(&renewed.changes) {
             if !change.is_empty() {
                 tx.change_tree(tree, change)?;

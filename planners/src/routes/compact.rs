@@ -1,6 +1,6 @@
 //! The search where all hardness lies on the doors, on flat arrays that are kept between edits and weighed in place.
 
-use std::cmp::Reverse;
+use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use super::{RouteGraph, Walking};
@@ -64,6 +64,19 @@ impl CompactGraph {
         Some(Self { begins, leaving, weights, keys })
     }
 
+    pub(super) fn rooms(&self) -> usize {
+        self.begins.len() - 1
+    }
+
+    pub(super) fn doors(&self) -> usize {
+        self.keys.len()
+    }
+
+    /// The doors out of a room: the next room and the door, by index.
+    pub(super) fn leaving(&self, room: usize) -> &[(u32, u32)] {
+        &self.leaving[self.begins[room] as usize..self.begins[room + 1] as usize]
+    }
+
     /// Gives a door, by index, another weight; `None` shuts it. What it was.
     pub fn reweigh(&mut self, door: usize, weight: Option<f64>) -> Option<f64> {
         let weight = weight.unwrap_or(f64::INFINITY);
@@ -72,7 +85,7 @@ impl CompactGraph {
 
     /// The least cost of every room from these, as [`RouteGraph::tree`] finds it.
     pub fn tree(&self, starts: &[usize]) -> CompactTree {
-        let rooms = self.begins.len() - 1;
+        let rooms = self.rooms();
         let mut tree = CompactTree {
             costs: vec![f64::INFINITY; rooms],
             before: vec![NONE; rooms],
@@ -95,13 +108,16 @@ impl CompactGraph {
                 continue;
             }
             let cost = tree.costs[room];
-            let doors = self.begins[room] as usize..self.begins[room + 1] as usize;
-            for &(next, door) in &self.leaving[doors] {
+            for &(next, door) in self.leaving(room) {
                 let (to, arrival) = (next as usize, cost + self.weights[door as usize]);
                 let key = self.keys[door as usize];
                 let known = tree.costs[to];
-                let is_better = arrival < known
-                    || arrival == known && tree.doors[to] != NONE && key < self.keys[tree.doors[to] as usize];
+                let is_lower = || tree.doors[to] != NONE && key < self.keys[tree.doors[to] as usize];
+                let is_better = match arrival.total_cmp(&known) {
+                    Ordering::Less => true,
+                    Ordering::Equal => is_lower(),
+                    Ordering::Greater => false,
+                };
                 if !settled[to] && arrival.is_finite() && is_better {
                     tree.costs[to] = arrival;
                     tree.before[to] = room as u32;
