@@ -1,10 +1,14 @@
 //! The knowledge base: what was told, what rules concluded, and why.
 
+mod body;
 mod conclude;
 mod derived;
 pub(crate) mod facts;
 mod gaps;
 mod merge;
+mod react;
+mod replay;
+mod undo;
 mod update;
 mod why;
 
@@ -12,6 +16,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::agenda::Agenda;
+use crate::changes::Changes;
 use crate::class::{Class, ClassError, Table, value};
 use crate::column::Column;
 use crate::rule::PropertyName;
@@ -40,6 +46,10 @@ pub struct KnowledgeBase {
     done: BTreeMap<String, Done>,
     clock: u64,
     last: update::Snapshot,
+    agenda: Agenda,
+    /// What changed since the host last asked.
+    unreported: Changes,
+    generation: u64,
     limits: Limits,
 }
 
@@ -57,9 +67,13 @@ impl KnowledgeBase {
     /// Adds a class, or replaces it.
     pub fn assert(&mut self, class: Class) -> Result<(), ClassError> {
         let table = Table::new(class, self.symbols.get_mut())?;
+        self.hold(table);
+        Ok(())
+    }
+
+    fn hold(&mut self, table: Table) {
         let stamp = self.tick();
         self.held.insert(table.name.clone(), Held { table, stamp });
-        Ok(())
     }
 
     /// Takes a class away, and what rests on it.

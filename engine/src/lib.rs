@@ -94,6 +94,7 @@
 //! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
 //! | never | `eval`, `import`, `sleep`, printing |
 
+mod agenda;
 mod changes;
 mod check;
 mod class;
@@ -104,12 +105,14 @@ mod knowledge;
 mod machine;
 mod order;
 mod plan;
+mod reactions;
 mod rule;
 mod rule_base;
 mod schema;
 mod script;
 mod suggest;
 mod symbols;
+mod told;
 mod value;
 
 pub use changes::{Changes, ClassChanges};
@@ -121,6 +124,7 @@ pub use conclusions::{
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::facts::FactError;
+pub use reactions::{Activation, Firing, Reactions, Told};
 pub use rule::{Operator, PropertyName, Rule};
 pub use rule_base::RuleBase;
 pub use schema::Schema;

@@ -17,6 +17,19 @@ pub(super) type Snapshot = BTreeMap<String, Values>;
 impl KnowledgeBase {
     /// Makes everything right that follows from what was told since, and tells what changed since the last update.
     pub fn update(&mut self, rules: &RuleBase) -> Changes {
+        self.follow(rules);
+        std::mem::take(&mut self.unreported)
+    }
+
+    /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
+    pub(super) fn follow(&mut self, rules: &RuleBase) {
+        let changes = self.renew(rules);
+        self.agenda.note(&changes);
+        self.unreported.absorb(changes);
+    }
+
+    /// What changed since it was last called.
+    pub(super) fn renew(&mut self, rules: &RuleBase) -> Changes {
         let conclusions = self.conclude(rules);
         let now = self.snapshot(rules);
         let before = std::mem::replace(&mut self.last, now);

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 
 use super::names::property_of;
-use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, FileScope, Reaction, Rule, Setting, Telling};
 use crate::suggest::nearest;
@@ -18,7 +17,9 @@ pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
                 Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
                     let sides = &assignment.1;
                     if let Some((variable, property, position)) = property_of(&sides.lhs)
-                        && let Some(variable) = clauses.iter().position(|clause| clause.variable == variable)
+                        && let Some(variable) = clauses
+                            .iter()
+                            .position(|clause| clause.quantifier.binds() && clause.variable == variable)
                     {
                         let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
                         sets.push(Setting { variable, property: property.to_owned(), position, value });
@@ -87,15 +88,10 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
         let problem = Diagnostic::error(Code::Assignment, &place, message);
         let Expr::Variable(variable, ..) = object else { return problems.push(problem) };
         let name = variable.1.as_str();
-        match rule.clauses.iter().find(|clause| clause.variable == name) {
-            Some(clause) if clause.quantifier == Quantifier::None => {
-                problems.push(problem.help(format!("`none {name}` binds nothing: there is no such object")));
-            }
-            Some(_) => {}
-            None => {
-                let variables = rule.clauses.iter().map(|clause| clause.variable.as_str());
-                problems.push(problem.did_you_mean(nearest(name, variables)));
-            }
+        let bound = || rule.clauses.iter().filter(|clause| clause.quantifier.binds());
+        if bound().all(|clause| clause.variable != name) {
+            let variables = bound().map(|clause| clause.variable.as_str());
+            problems.push(problem.did_you_mean(nearest(name, variables)));
         }
     };
     for stmt in reaction.body.statements() {

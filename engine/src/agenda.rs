@@ -1,0 +1,419 @@
+//! The agenda: which rules that react may be carried out, for which objects, and in which order.
+//!
+//! Matches are kept and follow what changes (TREAT: Miranker 1987): a search begins at each object that is new or
+//! has other values, matches that held it are dropped, and what `none`, `least` and the like decide is decided anew
+//! for the matches that such an object matters to.
+
+mod conflict_set;
+mod evaluate;
+mod index;
+mod program;
+pub(crate) mod script;
+mod search;
+pub(crate) mod world;
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::time::Instant;
+
+use rhai::Engine;
+
+use crate::changes::Changes;
+use crate::diagnostic::Diagnostic;
+use crate::plan::fragment::Fragment;
+use crate::plan::reaction::reaction;
+use crate::plan::{Kind, Kinds};
+use crate::rule::Rule;
+use crate::rule_base::RuleBase;
+use crate::symbols::Symbols;
+pub(crate) use conflict_set::Binding;
+use conflict_set::ConflictSet;
+pub(crate) use evaluate::Bound;
+use evaluate::Evaluator;
+use program::{Program, Visit};
+use script::Scripts;
+pub(crate) use search::Halt;
+use search::Search;
+use world::{Difference, Facts, World};
+
+/// The matches of all rules that react.
+#[derive(Debug, Default)]
+pub(crate) struct Agenda {
+    pub(crate) world: World,
+    /// The rules in the order of the agenda.
+    rules: Vec<Reacting>,
+    /// Whether matching was left halfway.
+    stale: bool,
+}
+
+/// A rule that reacts, with its matches.
+#[derive(Debug)]
+struct Reacting {
+    /// Its number in the rule base.
+    rule: usize,
+    made_for: MadeFor,
+    /// `None` while it waits for a class or property, or is wrong.
+    program: Option<Program>,
+    set: ConflictSet,
+}
+
+/// What a program depends on but the values of properties.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct MadeFor {
+    name: String,
+    version: String,
+    /// The kinds of what it reads; `None` while something is not there.
+    kinds: Option<Vec<Kind>>,
+}
+
+/// What matching needs from outside.
+pub(crate) struct Outside<'o> {
+    pub(crate) rules: &'o RuleBase,
+    pub(crate) facts: &'o dyn Facts,
+    pub(crate) kinds: Box<dyn Kinds + 'o>,
+    pub(crate) symbols: &'o RefCell<Symbols>,
+    pub(crate) runner: &'o Engine,
+    pub(crate) deadline: Instant,
+    /// Most matches that are kept.
+    pub(crate) matches: usize,
+    /// By rule: what is wrong with it, or failed in a condition.
+    pub(crate) troubles: RefCell<BTreeMap<usize, Vec<Diagnostic>>>,
+}
+
+/// A state of the agenda that it can go back to.
+#[derive(Debug)]
+pub(crate) struct Checkpoint(Vec<Arc<Vec<u32>>>);
+
+/// Matching was stopped in a rule.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stopped {
+    pub(crate) rule: usize,
+    pub(crate) halt: Halt,
+}
+
+impl Agenda {
+    /// Notes what an inference, or a reaction, changed.
+    pub(crate) fn note(&mut self, changes: &Changes) {
+        for (class, changes) in &changes.classes {
+            self.world.note(class, changes);
+        }
+    }
+
+    /// Makes the matches right. With `check`, also where rules or the types of properties are others than before.
+    pub(crate) fn follow(&mut self, outside: &Outside, check: bool) -> Result<(), Stopped> {
+        let wanted = if check { Some(wanted(outside)) } else { None };
+        let as_wanted = |wanted: &Vec<(usize, MadeFor)>| {
+            wanted.len() == self.rules.len()
+                && wanted.iter().zip(&self.rules).all(|((rule, made_for), reacting)| {
+                    *rule == reacting.rule && *made_for == reacting.made_for
+                })
+        };
+        if self.stale || self.world.scrambled || self.world.is_sparse() || !wanted.iter().all(as_wanted) {
+            return self.rebuild(outside, wanted.unwrap_or_else(|| self::wanted(outside)));
+        }
+        let differences = self.world.fetch(outside.facts);
+        let done = self.follow_each(outside, &differences);
+        self.world.settle();
+        self.stale |= done.is_err();
+        done
+    }
+
+    /// The first activation that waits, of a rule that is not among the skipped.
+    pub(crate) fn next(&self, skipped: &BTreeSet<usize>) -> Option<(usize, Binding)> {
+        self.rules
+            .iter()
+            .filter(|reacting| !skipped.contains(&reacting.rule))
+            .find_map(|reacting| Some((reacting.rule, Arc::clone(reacting.set.open().next()?))))
+    }
+
+    /// All activations that wait, in order.
+    pub(crate) fn open(&self) -> impl Iterator<Item = (usize, &Binding)> {
+        self.rules.iter().flat_map(|reacting| reacting.set.open().map(|binding| (reacting.rule, binding)))
+    }
+
+    /// Marks an activation as carried out.
+    pub(crate) fn carry_out(&mut self, rule: usize, binding: &Binding) {
+        for reacting in self.rules.iter_mut().filter(|reacting| reacting.rule == rule) {
+            reacting.set.carry_out(binding);
+        }
+    }
+
+    /// The body of a rule, the columns that it names by number, and the numbers that its clauses give.
+    pub(crate) fn body(
+        &self,
+        outside: &Outside,
+        rule: usize,
+        binding: &Binding,
+    ) -> Option<(&Fragment, &[usize], Bound)> {
+        let program = self.rules.iter().find(|reacting| reacting.rule == rule)?.program.as_ref()?;
+        let scripts = scripts(outside, rule);
+        let mut search = searching(outside, &self.world, program, &scripts);
+        let mut bound = search.unbound();
+        bound.ids.copy_from_slice(binding);
+        for step in program.full.steps.iter().filter(|step| step.visit == Visit::Decide) {
+            if program.clauses[step.clause].quantifier.counts() {
+                search.decide(step, &mut bound).ok()?;
+            }
+        }
+        Some((&program.body, &program.columns, bound))
+    }
+
+    /// The class that a clause of a rule ranges over, by number.
+    pub(crate) fn class_of(&self, rule: usize, clause: usize) -> Option<usize> {
+        let program = self.rules.iter().find(|reacting| reacting.rule == rule)?.program.as_ref()?;
+        Some(program.clauses.get(clause)?.class)
+    }
+
+    /// Where [`Agenda::go_back`] can go back to.
+    pub(crate) fn checkpoint(&mut self) -> Checkpoint {
+        self.rules.iter_mut().for_each(|reacting| reacting.set.checkpoint());
+        Checkpoint(self.world.classes.iter().map(|objects| Arc::clone(&objects.ids)).collect())
+    }
+
+    /// Forgets what was carried out since, once the objects are again those of the checkpoint.
+    pub(crate) fn go_back(&mut self, checkpoint: Checkpoint) {
+        for reacting in &mut self.rules {
+            let fired = reacting.set.fired_before();
+            reacting.set = ConflictSet::new(reacting.set.variables());
+            fired.iter().for_each(|binding| reacting.set.insert(binding, true));
+        }
+        self.world.go_back(checkpoint.0);
+        self.stale = true;
+    }
+}
+
+/// The rules that react in the order of the agenda, with what their programs depend on.
+fn wanted(outside: &Outside) -> Vec<(usize, MadeFor)> {
+    let made_for = |rule: &Rule| {
+        let there = rule.classes().all(|class| outside.facts.has(class));
+        let kinds: Vec<Kind> = rule.reads.keys().map(|name| outside.kinds.kind(name)).collect();
+        MadeFor {
+            name: rule.name.clone(),
+            version: rule.version.clone(),
+            kinds: (there && !kinds.contains(&Kind::Missing)).then_some(kinds),
+        }
+    };
+    let reacting = outside.rules.rules.iter().enumerate().filter(|(_, rule)| rule.reacts());
+    let mut wanted: Vec<_> = reacting.map(|(number, rule)| (number, made_for(rule))).collect();
+    // Stable: equal priorities stay in the order of the files.
+    wanted.sort_by_key(|&(number, _)| std::cmp::Reverse(outside.rules.rules[number].priority));
+    wanted
+}
+
+fn scripts<'o>(outside: &Outside<'o>, rule: usize) -> Scripts<'o> {
+    Scripts {
+        rule: &outside.rules.rules[rule],
+        runner: outside.runner,
+        deadline: outside.deadline,
+        trouble: RefCell::default(),
+    }
+}
+
+fn searching<'s>(
+    outside: &Outside<'s>,
+    world: &'s World,
+    program: &'s Program,
+    scripts: &'s Scripts<'s>,
+) -> Search<'s> {
+    let evaluator = Evaluator { world, columns: &program.columns, symbols: outside.symbols, scripts };
+    Search { evaluator, program, deadline: outside.deadline, looked_at: 0, lenient: None }
+}
+
+impl Outside<'_> {
+    fn trouble(&self, rule: usize, problem: Diagnostic) {
+        let mut troubles = self.troubles.borrow_mut();
+        let known = troubles.entry(rule).or_default();
+        if known.iter().all(|other| (other.code, other.span) != (problem.code, problem.span)) {
+            known.push(problem);
+        }
+    }
+}
+
+impl Agenda {
+    /// All matches from scratch. What was carried out stays carried out, if nothing that it rests on has changed.
+    fn rebuild(&mut self, outside: &Outside, wanted: Vec<(usize, MadeFor)>) -> Result<(), Stopped> {
+        let mut fired = self.carried_out(outside);
+        self.world = World::default();
+        self.rules.clear();
+        self.stale = true;
+        for (rule, made_for) in wanted {
+            let program = made_for.kinds.is_some().then(|| self.program(outside, rule)).flatten();
+            let set = ConflictSet::new(program.as_ref().map_or(0, |program| program.clauses.len()));
+            self.rules.push(Reacting { rule, made_for, program, set });
+        }
+        let mut stopped = Ok(());
+        for at in 0..self.rules.len() {
+            let others = self.others(at);
+            let Reacting { rule, made_for, program, set } = &mut self.rules[at];
+            let Some(program) = program else { continue };
+            let fired = fired.remove(&(made_for.name.clone(), made_for.version.clone())).unwrap_or_default();
+            if stopped.is_err() {
+                // Matches are left out, but not what was carried out.
+                fired.iter().for_each(|binding| set.insert(binding, true));
+                continue;
+            }
+            let scripts = scripts(outside, *rule);
+            let mut search = searching(outside, &self.world, program, &scripts);
+            let done = search.all(&mut |bound| {
+                set.insert(&bound.ids, fired.contains(&bound.ids));
+                within(outside, set, others)
+            });
+            let rule = *rule;
+            scripts.trouble.take().into_iter().for_each(|problem| outside.trouble(rule, problem));
+            if let Err(halt) = done {
+                stopped = Err(Stopped { rule, halt });
+                *set = ConflictSet::new(set.variables());
+                fired.iter().for_each(|binding| set.insert(binding, true));
+            }
+        }
+        self.stale = stopped.is_err();
+        stopped
+    }
+
+    fn program(&mut self, outside: &Outside, number: usize) -> Option<Program> {
+        let rule = &outside.rules.rules[number];
+        let action = rule.reaction()?;
+        match reaction(rule, action, &*outside.kinds, outside.symbols) {
+            Ok(plan) => Some(Program::new(rule, action, plan, &mut self.world, outside.facts)),
+            Err(problems) => {
+                problems.into_iter().for_each(|problem| outside.trouble(number, problem));
+                None
+            }
+        }
+    }
+
+    /// What was carried out and still holds, by rule and rows.
+    fn carried_out(&mut self, outside: &Outside) -> BTreeMap<(String, String), BTreeSet<Vec<u32>>> {
+        let differences = self.world.fetch(outside.facts);
+        self.world.settle();
+        let mut rows: Vec<BTreeMap<u32, u32>> = vec![];
+        for objects in &self.world.classes {
+            rows.push(objects.ids.iter().copied().zip(0..).collect());
+        }
+        let mut all = BTreeMap::new();
+        for Reacting { made_for, program, set, .. } in &mut self.rules {
+            if let Some(program) = program {
+                drop_changed(program, set, &differences);
+                let row = |(clause, id): (&program::Clause, &u32)| {
+                    if clause.quantifier.binds() { rows[clause.class].get(id).copied() } else { Some(*id) }
+                };
+                let by_rows = |binding: &Binding| program.clauses.iter().zip(binding.iter()).map(row).collect();
+                let kept: BTreeSet<Vec<u32>> = set.fired().filter_map(by_rows).collect();
+                all.insert((made_for.name.clone(), made_for.version.clone()), kept);
+            }
+        }
+        all
+    }
+
+    /// How many matches all rules but one have.
+    fn others(&self, at: usize) -> usize {
+        self.rules.iter().enumerate().filter(|(nth, _)| *nth != at).map(|(_, reacting)| reacting.set.len()).sum()
+    }
+
+    fn follow_each(&mut self, outside: &Outside, differences: &[Difference]) -> Result<(), Stopped> {
+        if differences.iter().all(Difference::is_empty) {
+            return Ok(());
+        }
+        for at in 0..self.rules.len() {
+            let others = self.others(at);
+            let Reacting { rule, program, set, .. } = &mut self.rules[at];
+            let Some(program) = program else { continue };
+            drop_changed(program, set, differences);
+            let scripts = scripts(outside, *rule);
+            let mut search = searching(outside, &self.world, program, &scripts);
+            let done = decide_anew(&mut search, set, differences, outside, others)
+                .and_then(|()| seed(&mut search, set, differences, outside, others));
+            let rule = *rule;
+            scripts.trouble.take().into_iter().for_each(|problem| outside.trouble(rule, problem));
+            done.map_err(|halt| Stopped { rule, halt })?;
+        }
+        Ok(())
+    }
+}
+
+fn within(outside: &Outside, set: &ConflictSet, others: usize) -> Result<(), Halt> {
+    if set.len() + others > outside.matches { Err(Halt::Full) } else { Ok(()) }
+}
+
+/// Drops the matches that hold an object that is gone, or has other values of what the rule reads.
+fn drop_changed(program: &Program, set: &mut ConflictSet, differences: &[Difference]) {
+    for (variable, clause) in program.clauses.iter().enumerate() {
+        let difference = &differences[clause.class];
+        let removed = difference.removed.iter().map(|(id, _)| *id);
+        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
+        for id in removed.chain(changed.map(|(id, ..)| *id)) {
+            for binding in set.holding(variable, id) {
+                set.remove(&binding);
+            }
+        }
+    }
+}
+
+/// Decides clauses other than `each` anew for the matches that a new, changed or removed object matters to, as it
+/// is and as it was.
+fn decide_anew(
+    search: &mut Search,
+    set: &mut ConflictSet,
+    differences: &[Difference],
+    outside: &Outside,
+    others: usize,
+) -> Result<(), Halt> {
+    let program = search.program;
+    for (number, clause) in program.clauses.iter().enumerate() {
+        if clause.quantifier == crate::script::syntax::Quantifier::Each {
+            continue;
+        }
+        let difference = &differences[clause.class];
+        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
+        let mut matter: Vec<u32> = difference.added.clone();
+        matter.extend(changed.flat_map(|(id, _, before)| std::iter::once(*id).chain(*before)));
+        matter.extend(difference.removed.iter().filter_map(|(_, before)| *before));
+        let mut prefixes: BTreeMap<Vec<u32>, Bound> = BTreeMap::new();
+        for id in matter {
+            search.with(number, id, &mut |bound| {
+                prefixes.entry(bound.ids[..number].to_vec()).or_insert_with(|| bound.clone());
+                Ok(())
+            })?;
+        }
+        for (prefix, mut bound) in prefixes {
+            bound.ids[number] = crate::machine::lane::NO_ROW;
+            let mut fired = BTreeSet::new();
+            for binding in set.beginning(&prefix) {
+                if set.remove(&binding) == Some(true) {
+                    fired.insert(binding);
+                }
+            }
+            search.after(number, bound, &mut |bound| {
+                set.insert(&bound.ids, fired.contains(bound.ids.as_slice()));
+                within(outside, set, others)
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// Searches from each object that is new or has other values.
+fn seed(
+    search: &mut Search,
+    set: &mut ConflictSet,
+    differences: &[Difference],
+    outside: &Outside,
+    others: usize,
+) -> Result<(), Halt> {
+    let program = search.program;
+    for (number, clause) in program.clauses.iter().enumerate() {
+        if clause.quantifier != crate::script::syntax::Quantifier::Each {
+            continue;
+        }
+        let difference = &differences[clause.class];
+        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
+        for id in difference.added.iter().copied().chain(changed.map(|(id, ..)| *id)) {
+            search.with(number, id, &mut |bound| {
+                set.insert(&bound.ids, false);
+                within(outside, set, others)
+            })?;
+        }
+    }
+    Ok(())
+}
