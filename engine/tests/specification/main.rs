@@ -17,4 +17,5 @@ mod quantifiers;
 mod revisions;
 mod support;
 mod unknown;
+mod waltz;
 mod wrong_files;
