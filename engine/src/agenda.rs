@@ -132,6 +132,13 @@ impl Agenda {
         self.rules.iter().flat_map(|reacting| reacting.set.open().map(|binding| (reacting.rule, binding)))
     }
 
+    /// All matches of a rule, carried out or not.
+    #[cfg(test)]
+    pub(crate) fn all(&self, rule: usize) -> Vec<Binding> {
+        let reacting = self.rules.iter().filter(|reacting| reacting.rule == rule);
+        reacting.flat_map(|reacting| reacting.set.all().keys().cloned()).collect()
+    }
+
     /// Marks an activation as carried out.
     pub(crate) fn carry_out(&mut self, rule: usize, binding: &Binding) {
         for reacting in self.rules.iter_mut().filter(|reacting| reacting.rule == rule) {

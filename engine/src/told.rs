@@ -17,7 +17,7 @@ impl<'r> NamesTold<'r> {
     pub(crate) fn of(rules: &'r [Rule]) -> Self {
         let mut told = Self::default();
         for (rule, reaction) in rules.iter().filter_map(|rule| Some((rule, rule.reaction()?))) {
-            for telling in &reaction.tells {
+            for telling in reaction.tells.iter().chain(&rule.file.tells) {
                 told.classes.entry(&telling.class).or_insert((rule, telling.position));
                 for (property, position, _) in &telling.properties {
                     let name = PropertyName::new(&telling.class, property);

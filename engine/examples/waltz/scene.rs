@@ -117,25 +117,6 @@ pub fn picture(lines: &[Line], copies: usize, limits: Limits) -> Result<Knowledg
         class = class.texts(name, MEANINGS.map(|(_, labels)| Some(labels[nth])));
     }
     base.assert(class)?;
-    // The classes that functions of the file tell; what rules tell themselves is made by the engine.
-    let none = Vec::<Option<f64>>::new;
-    let texts = Vec::<Option<String>>::new;
-    base.assert(
-        Class::new("JUNCTIONS", &[])
-            .numbers("at", none())
-            .texts("kind", texts())
-            .numbers("a", none())
-            .numbers("b", none())
-            .numbers("c", none()),
-    )?;
-    base.assert(
-        Class::new("ARMS", &[])
-            .numbers("reading", none())
-            .numbers("at", none())
-            .numbers("to", none())
-            .texts("label", texts())
-            .texts("seen_from_there", texts()),
-    )?;
     base.assert(Class::new("PICTURE", &[]).texts("doing", [Some("edges")]))?;
     Ok(base)
 }

@@ -60,6 +60,8 @@ pub(crate) struct Step {
     pub(crate) clause: usize,
     pub(crate) visit: Visit,
     pub(crate) find: Option<Find>,
+    /// What a candidate must pass to meet a clause that is decided.
+    pub(crate) own: Vec<usize>,
     /// The conjuncts to test as soon as the clause is bound.
     pub(crate) tests: Vec<usize>,
 }
@@ -171,12 +173,10 @@ impl Program {
                 self.find(clause, bound, &usable, world)
             };
             let now = bound | 1 << clause;
-            let tests = match visit {
-                Visit::Given => vec![],
-                Visit::Decide => (0..self.conjuncts.len()).filter(|&nth| own(&self.conjuncts[nth])).collect(),
-                Visit::Each => due(bound, now),
-            };
-            steps.push(Step { clause, visit, find, tests });
+            let owns = |nth: &usize| visit == Visit::Decide && own(&self.conjuncts[*nth]);
+            let own = (0..self.conjuncts.len()).filter(owns).collect();
+            let tests = if visit == Visit::Given { vec![] } else { due(bound, now) };
+            steps.push(Step { clause, visit, find, own, tests });
             bound = now;
         }
         Path { first, steps }

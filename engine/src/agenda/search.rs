@@ -68,7 +68,7 @@ impl Search<'_> {
         match step.visit {
             Visit::Given => self.run(rest, bound, sink),
             Visit::Decide => {
-                if self.decide(step, bound)? {
+                if self.decide(step, bound)? && self.passes(&step.tests, bound) {
                     self.run(rest, bound, sink)?;
                 }
                 bound.ids[step.clause] = NO_ROW;
@@ -134,7 +134,7 @@ impl<'s> Search<'s> {
         for &id in self.candidates(step, bound, false).0 {
             self.tick()?;
             bound.ids[step.clause] = id;
-            if !self.passes(&step.tests, bound) {
+            if !self.passes(&step.own, bound) {
                 continue;
             }
             let Some(by) = &clause.by else {

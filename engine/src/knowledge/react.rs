@@ -274,3 +274,6 @@ fn endless(rules: &RuleBase, fired: &[usize], most: usize) -> Diagnostic {
     Diagnostic::error(Code::Loop, &rule.file.source.place(rule.position), message)
         .help("a reaction must make its own condition false in the end; nothing of this run was kept")
 }
+
+#[cfg(test)]
+mod tests;

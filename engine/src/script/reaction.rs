@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
+use rhai::{AST, ASTNode, Expr, FnCallExpr, Module, Position, Shared, Stmt, StmtBlock};
 
 use super::names::property_of;
 use crate::diagnostic::{Code, Diagnostic};
@@ -34,6 +34,19 @@ pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
         });
     }
     Action::React(Box::new(Reaction { body: *body, reads: BTreeSet::new(), tells, sets }))
+}
+
+/// What the functions of a file tell.
+pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
+    let mut tells = vec![];
+    AST::new(Vec::<Stmt>::new(), Shared::clone(functions)).walk(&mut |path| {
+        if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) = path.last()
+        {
+            tells.extend(telling(call));
+        }
+        true
+    });
+    tells
 }
 
 fn telling(call: &FnCallExpr) -> Option<Telling> {

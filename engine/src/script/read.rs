@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt};
 
 use super::names::property_of;
-use super::reaction::reaction;
+use super::reaction::{reaction, told_by_functions};
 use super::resolve::resolve;
 use super::source::{MAX_FILE_BYTES, SourceFile};
 use super::syntax::{Shape, Slot};
@@ -110,7 +110,9 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
     }
     let function_names =
         ast.iter_functions().map(|function| (function.name.to_owned(), function.params.len())).collect();
-    FileScope { source: source.clone(), constants, functions: ast.shared_lib().clone(), function_names }
+    let functions = ast.shared_lib().clone();
+    let tells = told_by_functions(&functions);
+    FileScope { source: source.clone(), constants, functions, function_names, tells }
 }
 
 fn constant(expr: &Expr) -> Option<Constant> {
