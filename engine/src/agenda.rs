@@ -6,8 +6,10 @@
 
 mod conflict_set;
 mod evaluate;
+mod follow;
 mod index;
 mod program;
+mod rebuild;
 pub(crate) mod script;
 mod search;
 pub(crate) mod world;
@@ -22,7 +24,6 @@ use rhai::Engine;
 use crate::changes::Changes;
 use crate::diagnostic::Diagnostic;
 use crate::plan::fragment::Fragment;
-use crate::plan::reaction::reaction;
 use crate::plan::{Kind, Kinds};
 use crate::rule::Rule;
 use crate::rule_base::RuleBase;
@@ -35,7 +36,7 @@ use program::{Program, Visit};
 use script::Scripts;
 pub(crate) use search::Halt;
 use search::Search;
-use world::{Difference, Facts, World};
+use world::{Facts, World};
 
 /// The matches of all rules that react.
 #[derive(Debug, Default)]
@@ -183,7 +184,9 @@ impl Agenda {
         for reacting in &mut self.rules {
             let fired = reacting.set.fired_before();
             reacting.set = ConflictSet::new(reacting.set.variables());
-            fired.iter().for_each(|binding| reacting.set.insert(binding, true));
+            for binding in &fired {
+                reacting.set.insert(binding, true);
+            }
         }
         self.world.go_back(checkpoint.0);
         self.stale = true;
@@ -227,6 +230,18 @@ fn searching<'s>(
     Search { evaluator, program, deadline: outside.deadline, looked_at: 0, lenient: None }
 }
 
+impl Agenda {
+    /// How many matches all rules but one have.
+    fn others(&self, at: usize) -> usize {
+        self.rules
+            .iter()
+            .enumerate()
+            .filter(|(nth, _)| *nth != at)
+            .map(|(_, reacting)| reacting.set.len())
+            .sum()
+    }
+}
+
 impl Outside<'_> {
     fn trouble(&self, rule: usize, problem: Diagnostic) {
         let mut troubles = self.troubles.borrow_mut();
@@ -237,190 +252,6 @@ impl Outside<'_> {
     }
 }
 
-impl Agenda {
-    /// All matches from scratch. What was carried out stays carried out, if nothing that it rests on has changed.
-    fn rebuild(&mut self, outside: &Outside, wanted: Vec<(usize, MadeFor)>) -> Result<(), Stopped> {
-        let mut fired = self.carried_out(outside);
-        self.world = World::default();
-        self.rules.clear();
-        self.stale = true;
-        for (rule, made_for) in wanted {
-            let program = made_for.kinds.is_some().then(|| self.program(outside, rule)).flatten();
-            let set = ConflictSet::new(program.as_ref().map_or(0, |program| program.clauses.len()));
-            self.rules.push(Reacting { rule, made_for, program, set });
-        }
-        let mut stopped = Ok(());
-        for at in 0..self.rules.len() {
-            let others = self.others(at);
-            let Reacting { rule, made_for, program, set } = &mut self.rules[at];
-            let Some(program) = program else { continue };
-            let fired = fired.remove(&(made_for.name.clone(), made_for.version.clone())).unwrap_or_default();
-            if stopped.is_err() {
-                // Matches are left out, but not what was carried out.
-                fired.iter().for_each(|binding| set.insert(binding, true));
-                continue;
-            }
-            let scripts = scripts(outside, *rule);
-            let mut search = searching(outside, &self.world, program, &scripts);
-            let done = search.all(&mut |bound| {
-                set.insert(&bound.ids, fired.contains(&bound.ids));
-                within(outside, set, others)
-            });
-            let rule = *rule;
-            scripts.trouble.take().into_iter().for_each(|problem| outside.trouble(rule, problem));
-            if let Err(halt) = done {
-                stopped = Err(Stopped { rule, halt });
-                *set = ConflictSet::new(set.variables());
-                fired.iter().for_each(|binding| set.insert(binding, true));
-            }
-        }
-        self.stale = stopped.is_err();
-        stopped
-    }
-
-    fn program(&mut self, outside: &Outside, number: usize) -> Option<Program> {
-        let rule = &outside.rules.rules[number];
-        let action = rule.reaction()?;
-        match reaction(rule, action, &*outside.kinds, outside.symbols) {
-            Ok(plan) => Some(Program::new(rule, action, plan, &mut self.world, outside.facts)),
-            Err(problems) => {
-                problems.into_iter().for_each(|problem| outside.trouble(number, problem));
-                None
-            }
-        }
-    }
-
-    /// What was carried out and still holds, by rule and rows.
-    fn carried_out(&mut self, outside: &Outside) -> BTreeMap<(String, String), BTreeSet<Vec<u32>>> {
-        let differences = self.world.fetch(outside.facts);
-        self.world.settle();
-        let mut rows: Vec<BTreeMap<u32, u32>> = vec![];
-        for objects in &self.world.classes {
-            rows.push(objects.ids.iter().copied().zip(0..).collect());
-        }
-        let mut all = BTreeMap::new();
-        for Reacting { made_for, program, set, .. } in &mut self.rules {
-            if let Some(program) = program {
-                drop_changed(program, set, &differences);
-                let row = |(clause, id): (&program::Clause, &u32)| {
-                    if clause.quantifier.binds() { rows[clause.class].get(id).copied() } else { Some(*id) }
-                };
-                let by_rows = |binding: &Binding| program.clauses.iter().zip(binding.iter()).map(row).collect();
-                let kept: BTreeSet<Vec<u32>> = set.fired().filter_map(by_rows).collect();
-                all.insert((made_for.name.clone(), made_for.version.clone()), kept);
-            }
-        }
-        all
-    }
-
-    /// How many matches all rules but one have.
-    fn others(&self, at: usize) -> usize {
-        self.rules.iter().enumerate().filter(|(nth, _)| *nth != at).map(|(_, reacting)| reacting.set.len()).sum()
-    }
-
-    fn follow_each(&mut self, outside: &Outside, differences: &[Difference]) -> Result<(), Stopped> {
-        if differences.iter().all(Difference::is_empty) {
-            return Ok(());
-        }
-        for at in 0..self.rules.len() {
-            let others = self.others(at);
-            let Reacting { rule, program, set, .. } = &mut self.rules[at];
-            let Some(program) = program else { continue };
-            drop_changed(program, set, differences);
-            let scripts = scripts(outside, *rule);
-            let mut search = searching(outside, &self.world, program, &scripts);
-            let done = decide_anew(&mut search, set, differences, outside, others)
-                .and_then(|()| seed(&mut search, set, differences, outside, others));
-            let rule = *rule;
-            scripts.trouble.take().into_iter().for_each(|problem| outside.trouble(rule, problem));
-            done.map_err(|halt| Stopped { rule, halt })?;
-        }
-        Ok(())
-    }
-}
-
 fn within(outside: &Outside, set: &ConflictSet, others: usize) -> Result<(), Halt> {
     if set.len() + others > outside.matches { Err(Halt::Full) } else { Ok(()) }
-}
-
-/// Drops the matches that hold an object that is gone, or has other values of what the rule reads.
-fn drop_changed(program: &Program, set: &mut ConflictSet, differences: &[Difference]) {
-    for (variable, clause) in program.clauses.iter().enumerate() {
-        let difference = &differences[clause.class];
-        let removed = difference.removed.iter().map(|(id, _)| *id);
-        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
-        for id in removed.chain(changed.map(|(id, ..)| *id)) {
-            for binding in set.holding(variable, id) {
-                set.remove(&binding);
-            }
-        }
-    }
-}
-
-/// Decides clauses other than `each` anew for the matches that a new, changed or removed object matters to, as it
-/// is and as it was.
-fn decide_anew(
-    search: &mut Search,
-    set: &mut ConflictSet,
-    differences: &[Difference],
-    outside: &Outside,
-    others: usize,
-) -> Result<(), Halt> {
-    let program = search.program;
-    for (number, clause) in program.clauses.iter().enumerate() {
-        if clause.quantifier == crate::script::syntax::Quantifier::Each {
-            continue;
-        }
-        let difference = &differences[clause.class];
-        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
-        let mut matter: Vec<u32> = difference.added.clone();
-        matter.extend(changed.flat_map(|(id, _, before)| std::iter::once(*id).chain(*before)));
-        matter.extend(difference.removed.iter().filter_map(|(_, before)| *before));
-        let mut prefixes: BTreeMap<Vec<u32>, Bound> = BTreeMap::new();
-        for id in matter {
-            search.with(number, id, &mut |bound| {
-                prefixes.entry(bound.ids[..number].to_vec()).or_insert_with(|| bound.clone());
-                Ok(())
-            })?;
-        }
-        for (prefix, mut bound) in prefixes {
-            bound.ids[number] = crate::machine::lane::NO_ROW;
-            let mut fired = BTreeSet::new();
-            for binding in set.beginning(&prefix) {
-                if set.remove(&binding) == Some(true) {
-                    fired.insert(binding);
-                }
-            }
-            search.after(number, bound, &mut |bound| {
-                set.insert(&bound.ids, fired.contains(bound.ids.as_slice()));
-                within(outside, set, others)
-            })?;
-        }
-    }
-    Ok(())
-}
-
-/// Searches from each object that is new or has other values.
-fn seed(
-    search: &mut Search,
-    set: &mut ConflictSet,
-    differences: &[Difference],
-    outside: &Outside,
-    others: usize,
-) -> Result<(), Halt> {
-    let program = search.program;
-    for (number, clause) in program.clauses.iter().enumerate() {
-        if clause.quantifier != crate::script::syntax::Quantifier::Each {
-            continue;
-        }
-        let difference = &differences[clause.class];
-        let changed = difference.changed.iter().filter(|(_, columns, _)| clause.reads_any(columns));
-        for id in difference.added.iter().copied().chain(changed.map(|(id, ..)| *id)) {
-            search.with(number, id, &mut |bound| {
-                set.insert(&bound.ids, false);
-                within(outside, set, others)
-            })?;
-        }
-    }
-    Ok(())
 }

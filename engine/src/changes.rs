@@ -48,6 +48,10 @@ impl Changes {
 
 impl ClassChanges {
     fn absorb(&mut self, next: Self) {
+        if *self == Self::default() {
+            *self = next;
+            return;
+        }
         if let Some(moved) = next.moved {
             let to = |row: u32| moved.get(row as usize).copied().flatten();
             let follow = |rows: &mut Vec<u32>| {

@@ -121,8 +121,7 @@ impl Kinds for Declared<'_> {
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        let concluded =
-            self.concluded.keys().chain(self.told.keys()).filter(|name| name.class == class);
+        let concluded = self.concluded.keys().chain(self.told.keys()).filter(|name| name.class == class);
         let concluded = concluded.map(|name| name.property.clone());
         self.schema.properties(class).map(str::to_owned).chain(concluded).collect()
     }

@@ -53,6 +53,13 @@ impl ConflictSet {
         self.all.insert(binding, fired);
     }
 
+    /// Adds bindings that were carried out.
+    pub(crate) fn restore(&mut self, fired: &BTreeSet<Vec<u32>>) {
+        for binding in fired {
+            self.insert(binding, true);
+        }
+    }
+
     /// Takes a binding out; whether it was carried out, if it was there.
     pub(crate) fn remove(&mut self, binding: &Binding) -> Option<bool> {
         let fired = self.all.remove(binding)?;

@@ -129,8 +129,7 @@ impl Program {
             conjuncts.extend(parts(plan, number));
         }
         let full = Path { first: vec![], steps: vec![] };
-        let mut program =
-            Self { clauses, conjuncts, columns, full, from: vec![], body: plan.body };
+        let mut program = Self { clauses, conjuncts, columns, full, from: vec![], body: plan.body };
         program.full = program.path(None, program.clauses.len(), world);
         program.from = (0..program.clauses.len())
             .map(|clause| {
@@ -167,11 +166,7 @@ impl Program {
             };
             let own = |conjunct: &Conjunct| conjunct.clause == clause;
             let usable = |conjunct: &Conjunct| if each { tested(conjunct) } else { own(conjunct) };
-            let find = if visit == Visit::Given {
-                None
-            } else {
-                self.find(clause, bound, &usable, world)
-            };
+            let find = if visit == Visit::Given { None } else { self.find(clause, bound, &usable, world) };
             let now = bound | 1 << clause;
             let owns = |nth: &usize| visit == Visit::Decide && own(&self.conjuncts[*nth]);
             let own = (0..self.conjuncts.len()).filter(owns).collect();
@@ -209,7 +204,8 @@ impl Program {
         if keys.is_empty() {
             return None;
         }
-        let index = world.index(self.clauses[clause].class, keys.iter().map(|&(column, ..)| column).collect());
+        let columns: Vec<usize> = keys.iter().map(|&(column, ..)| column).collect();
+        let index = world.index(self.clauses[clause].class, &columns);
         Some(Find { index, keys: keys.into_iter().map(|(_, nth, side)| (nth, side)).collect() })
     }
 

@@ -26,8 +26,7 @@ pub(crate) struct Scripts<'s> {
 impl Scripts<'_> {
     /// What a part gives: unknown where anything that it looks at is unknown.
     pub(crate) fn value(&self, fragment: &Fragment, evaluator: &Evaluator, bound: &Bound) -> Cell {
-        let stopped =
-            self.trouble.borrow().as_ref().is_some_and(|trouble| trouble.code == Code::Deadline);
+        let stopped = self.trouble.borrow().as_ref().is_some_and(|trouble| trouble.code == Code::Deadline);
         if stopped {
             return Cell::Unknown;
         }

@@ -95,11 +95,11 @@ impl World {
     }
 
     /// The number of the index over these columns of a class.
-    pub(crate) fn index(&mut self, class: usize, columns: Vec<usize>) -> usize {
+    pub(crate) fn index(&mut self, class: usize, columns: &[usize]) -> usize {
         if let Some(number) = self.indexes.iter().position(|index| index.columns == columns) {
             return number;
         }
-        let mut index = Index::new(columns.clone());
+        let mut index = Index::new(columns.to_vec());
         for &id in self.classes[class].ids.iter() {
             index.insert(id, columns.iter().map(|&column| self.columns[column][id as usize]));
         }
@@ -131,17 +131,7 @@ impl World {
         let Some(&number) = self.numbers.get(class) else { return };
         let objects = &mut self.classes[number];
         if let Some(moved) = &changes.moved {
-            let mut rows: Vec<(u32, u32)> = vec![];
-            for (&id, to) in Arc::clone(&objects.ids).iter().zip(moved) {
-                match to {
-                    Some(row) => rows.push((*row, id)),
-                    None => objects.gone(id),
-                }
-            }
-            self.scrambled |= !rows.is_sorted();
-            rows.sort_unstable();
-            self.scrambled |= rows.iter().zip(0..).any(|(&(row, _), nth)| row != nth);
-            objects.ids = Arc::new(rows.into_iter().map(|(_, id)| id).collect());
+            self.scrambled |= objects.move_to(moved);
         }
         for &row in &changes.added {
             let at = (row as usize).min(objects.ids.len());
@@ -153,9 +143,9 @@ impl World {
         for (property, rows) in &changes.changed {
             let named = |name: &PropertyName| name.class == class && name.property == *property;
             let Some(column) = self.names.iter().position(named) else { continue };
-            objects.changed.extend(
-                rows.iter().filter_map(|&row| Some((*objects.ids.get(row as usize)?, column))),
-            );
+            objects
+                .changed
+                .extend(rows.iter().filter_map(|&row| Some((*objects.ids.get(row as usize)?, column))));
         }
     }
 
@@ -273,6 +263,25 @@ impl Difference {
 }
 
 impl Objects {
+    /// Objects go to other rows; whether that changes their order.
+    fn move_to(&mut self, moved: &[Option<u32>]) -> bool {
+        let before = std::mem::take(&mut self.ids);
+        let mut ids = Vec::with_capacity(before.len());
+        let mut late: Vec<(u32, u32)> = vec![];
+        for (&id, to) in before.iter().zip(moved) {
+            match to {
+                None => self.gone(id),
+                Some(row) if late.is_empty() && *row as usize == ids.len() => ids.push(id),
+                Some(row) => late.push((*row, id)),
+            }
+        }
+        let scrambled = !late.is_empty();
+        late.sort_unstable();
+        ids.extend(late.into_iter().map(|(_, id)| id));
+        self.ids = Arc::new(ids);
+        scrambled
+    }
+
     fn gone(&mut self, id: u32) {
         if !self.added.remove(&id) {
             self.removed.insert(id);

@@ -33,7 +33,8 @@ pub(super) fn slips<'r>(
             continue;
         }
         let concluded = known.concluded.keys().filter(|other| other.class == name.class);
-        let read = base.rules.iter().flat_map(|rule| rule.reads.keys()).filter(|other| other.class == name.class);
+        let read =
+            base.rules.iter().flat_map(|rule| rule.reads.keys()).filter(|other| other.class == name.class);
         let others = known
             .schema
             .properties(&name.class)

@@ -99,7 +99,7 @@ impl KnowledgeBase {
         binding: &Binding,
         rows: &[Option<usize>],
         run: &Run,
-    ) -> Result<Vec<Edit>, Diagnostic> {
+    ) -> Result<Vec<Edit>, Box<Diagnostic>> {
         let rule = &run.rules.rules[number];
         let outside = self.outside(run);
         let Some((body, columns, bound)) = self.agenda.body(&outside, number, binding) else {
@@ -125,10 +125,11 @@ impl KnowledgeBase {
         });
         match done {
             Ok(Ok(_)) => {}
-            Ok(Err(error)) => return Err(failure(rule, body.position, &error).0),
+            Ok(Err(error)) => return Err(failure(rule, body.position, &error).0.into()),
             Err(_) => {
                 let message = format!("rule \"{}\" failed inside the engine", rule.name);
-                return Err(Diagnostic::error(Code::Panic, &rule.file.source.place(rule.position), message));
+                let place = rule.file.source.place(rule.position);
+                return Err(Diagnostic::error(Code::Panic, &place, message).into());
             }
         }
         let edits = writes.into_iter().filter_map(|write| edit(rule, body, rows, write).transpose());
@@ -163,13 +164,13 @@ fn edit(
     body: &Fragment,
     rows: &[Option<usize>],
     write: Write,
-) -> Result<Option<Edit>, Diagnostic> {
-    let value = |property: &str, value: &Dynamic| -> Result<Option<Value>, Diagnostic> {
+) -> Result<Option<Edit>, Box<Diagnostic>> {
+    let value = |property: &str, value: &Dynamic| -> Result<Option<Value>, Box<Diagnostic>> {
         plain(value).map_err(|kind| {
             let place = rule.file.source.place(body.position);
-            let message =
-                format!("rule \"{}\": `{property}` cannot hold a value of type {kind}", rule.name);
-            Diagnostic::error(Code::Evaluation, &place, message).help("nothing of this action was done")
+            let message = format!("rule \"{}\": `{property}` cannot hold a value of type {kind}", rule.name);
+            let problem = Diagnostic::error(Code::Evaluation, &place, message);
+            problem.help("nothing of this action was done").into()
         })
     };
     let object = |variable: usize| {

@@ -114,7 +114,7 @@ impl KnowledgeBase {
                 if problem.code == Code::Deadline {
                     run.skipped.insert(number);
                 }
-                run.failed(number, problem);
+                run.failed(number, *problem);
                 return None;
             }
         };
@@ -147,7 +147,9 @@ impl KnowledgeBase {
         };
         self.agenda = agenda;
         for (rule, problems) in troubles {
-            problems.into_iter().for_each(|problem| run.failed(rule, problem));
+            for problem in problems {
+                run.failed(rule, problem);
+            }
         }
         done
     }
@@ -190,7 +192,8 @@ impl KnowledgeBase {
             Halt::Full => {
                 let place = rule.file.source.place(rule.position);
                 let most = self.limits.matches;
-                let message = format!("rule \"{}\" has more matches than the {most} that are kept", rule.name);
+                let message =
+                    format!("rule \"{}\" has more matches than the {most} that are kept", rule.name);
                 let help = "an `each` more than is meant, or a `where` too few; nothing of this run was kept";
                 Diagnostic::error(Code::Matches, &place, message).help(help)
             }

@@ -50,11 +50,7 @@ impl KnowledgeBase {
     }
 
     /// Does all edits of one action, or none: values first, then objects that go, then new ones.
-    pub(super) fn act(
-        &mut self,
-        edits: &[Edit],
-        undo: &mut Undo,
-    ) -> Result<(Vec<Told>, Changes), FactError> {
+    pub(super) fn act(&mut self, edits: &[Edit], undo: &mut Undo) -> Result<(Vec<Told>, Changes), FactError> {
         let keep = undo.0.len();
         let mut told = vec![];
         let mut changes = Changes::default();

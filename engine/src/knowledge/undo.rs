@@ -39,8 +39,9 @@ impl KnowledgeBase {
         while undo.0.len() > keep {
             let Some((class, done)) = undo.0.pop() else { break };
             let held = &self.held;
-            let table =
-                tables.entry(class).or_insert_with_key(|class| held.get(class).map(|held| held.table.clone()));
+            let table = tables
+                .entry(class)
+                .or_insert_with_key(|class| held.get(class).map(|held| held.table.clone()));
             if let Done::Class = done {
                 *table = None;
             } else if let Some(table) = table {

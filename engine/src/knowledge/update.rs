@@ -33,8 +33,8 @@ impl KnowledgeBase {
         let conclusions = self.conclude(rules);
         let now = self.snapshot(rules);
         let before = std::mem::replace(&mut self.last, now);
-        let mut changes = Changes::default();
-        changes.evaluated = conclusions.evaluated.into_iter().map(|rule| (rule, 0)).collect();
+        let evaluated = conclusions.evaluated.into_iter().map(|rule| (rule, 0)).collect();
+        let mut changes = Changes { evaluated, ..Changes::default() };
         let classes: BTreeSet<&String> = before.keys().chain(self.last.keys()).collect();
         for class in classes {
             let none = Values::default();

@@ -144,7 +144,9 @@ fn items(custom: &CustomExpr) -> Vec<Item<'_>> {
     let mut items: Vec<Item> = vec![];
     for (&slot, input) in shape.slots.iter().zip(&custom.inputs) {
         match slot {
-            Slot::RuleName | Slot::RevisionName | Slot::ReactionName => items.push(Item { inputs: vec![(slot, input)] }),
+            Slot::RuleName | Slot::RevisionName | Slot::ReactionName => {
+                items.push(Item { inputs: vec![(slot, input)] });
+            }
             _ => items.iter_mut().last().into_iter().for_each(|item| item.inputs.push((slot, input))),
         }
     }
@@ -303,7 +305,7 @@ fn action(
     let input = |wanted: Slot| item.inputs.iter().find(|(slot, _)| *slot == wanted).map(|(_, input)| *input);
     if let Some(then) = block(Slot::Then) {
         if item.inputs[0].0 == Slot::ReactionName {
-            return Some(reaction(then, clauses));
+            return Some(reaction(*then, clauses));
         }
         return Some(Action::Conclude { then, otherwise: block(Slot::Else) });
     }

@@ -219,14 +219,19 @@ impl Shape {
                 (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
                 self.clause = None;
                 let words = ["rule", "revise", "on"];
-                words.into_iter().find(|word| *word == ahead).map_or(Ok(None), |word| self.word(word, At::Name))
+                words
+                    .into_iter()
+                    .find(|word| *word == ahead)
+                    .map_or(Ok(None), |word| self.word(word, At::Name))
             }
             _ => Ok(None),
         }
     }
 
     fn may_have_priority(&self) -> bool {
-        self.clause.is_none() && !self.revision && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
+        self.clause.is_none()
+            && !self.revision
+            && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {

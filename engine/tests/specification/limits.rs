@@ -7,7 +7,8 @@ use adit_engine::{Class, Code, KnowledgeBase, Limits, RuleBase, SourceFile};
 use crate::support::{rules, things};
 
 fn problems(text: &str) -> Vec<Code> {
-    let limits = Limits { rule: Duration::from_millis(300), inference: Duration::from_secs(2), ..Limits::default() };
+    let limits =
+        Limits { rule: Duration::from_millis(300), inference: Duration::from_secs(2), ..Limits::default() };
     let mut base = KnowledgeBase::with_limits(limits);
     base.assert(things("x", &[Some(1.0), Some(2.0)])).unwrap();
     let started = Instant::now();
@@ -62,7 +63,8 @@ fn code_from_elsewhere_is_refused_when_the_file_is_read() {
 #[test]
 fn a_million_million_matches_are_stopped() {
     let many = Class::new("MANY", &[]).numbers("n", (0..1_000_000).map(|n| Some(f64::from(n))));
-    let limits = Limits { rule: Duration::from_millis(200), inference: Duration::from_secs(2), ..Limits::default() };
+    let limits =
+        Limits { rule: Duration::from_millis(200), inference: Duration::from_secs(2), ..Limits::default() };
     let mut base = KnowledgeBase::with_limits(limits);
     base.assert(many).unwrap();
     let report = base

@@ -21,7 +21,9 @@ fn junctions(lines: &[Line]) -> BTreeMap<Point, (&'static str, Vec<Point>)> {
     let junction = |(at, mut arms): (Point, Vec<Point>)| {
         let angle = |to: &Point| f64::from(to.1 - at.1).atan2(f64::from(to.0 - at.0));
         arms.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        let gap = |nth: usize| (angle(&arms[(nth + 1) % arms.len()]) - angle(&arms[nth])).rem_euclid(std::f64::consts::TAU);
+        let gap = |nth: usize| {
+            (angle(&arms[(nth + 1) % arms.len()]) - angle(&arms[nth])).rem_euclid(std::f64::consts::TAU)
+        };
         let widest = (0..arms.len()).max_by(|&a, &b| gap(a).total_cmp(&gap(b))).unwrap();
         let turn = gap(widest) - std::f64::consts::PI;
         let kind = match arms.len() {

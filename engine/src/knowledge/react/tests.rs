@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use proptest::prelude::*;
 
 use super::*;
-use crate::agenda::Agenda;
 use crate::class::Class;
 use crate::script::source::SourceFile;
 use crate::value::Value;
@@ -64,7 +63,11 @@ fn change() -> impl Strategy<Value = Change> {
 const PROPERTIES: [&str; 3] = ["k", "x", "y"];
 
 fn value_of(property: usize, value: u8) -> Value {
-    if PROPERTIES[property] == "y" { ["p", "q", "pp", "r"][value as usize].into() } else { f64::from(value).into() }
+    if PROPERTIES[property] == "y" {
+        ["p", "q", "pp", "r"][value as usize].into()
+    } else {
+        f64::from(value).into()
+    }
 }
 
 fn class_of(class: bool) -> &'static str {
@@ -157,7 +160,8 @@ fn concluded(base: &mut KnowledgeBase, rules: &RuleBase) -> Vec<Vec<Vec<Option<u
     base.conclude(rules);
     let bound = |nth: usize| {
         let output = &base.done[&nth.to_string()].output;
-        let row = |rows: &Vec<u32>, firing: usize| Some(rows[firing] as usize).filter(|_| rows[firing] != NO_ROW);
+        let row =
+            |rows: &Vec<u32>, firing: usize| Some(rows[firing] as usize).filter(|_| rows[firing] != NO_ROW);
         let firing = |firing| output.witnesses.iter().map(|rows| row(rows, firing)).collect();
         let mut all: Vec<Vec<Option<usize>>> = (0..output.firings as usize).map(firing).collect();
         all.sort();
@@ -177,9 +181,11 @@ proptest! {
         let mut site = Site::new();
         site.kept(&on);
         for step in &steps {
-            step.iter().for_each(|change| site.change(change, &on));
+            for change in step {
+                site.change(change, &on);
+            }
             let kept = site.kept(&on);
-            let following = std::mem::replace(&mut site.base.agenda, Agenda::default());
+            let following = std::mem::take(&mut site.base.agenda);
             prop_assert_eq!(&kept, &site.kept(&on), "from scratch, after {:?}", step);
             site.base.agenda = following;
             prop_assert_eq!(&kept, &concluded(&mut site.told(), &rule), "as rules, after {:?}", step);
