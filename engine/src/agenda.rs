@@ -94,7 +94,12 @@ pub(crate) struct Stopped {
 }
 
 impl Agenda {
-    /// Notes what an inference, or a reaction, changed.
+    /// Whether there are rules that react.
+    pub(crate) const fn is_used(&self) -> bool {
+        !self.rules.is_empty()
+    }
+
+    /// Notes what an inference changed.
     pub(crate) fn note(&mut self, changes: &Changes) {
         for (class, changes) in &changes.classes {
             self.world.note(class, changes);

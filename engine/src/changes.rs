@@ -52,6 +52,12 @@ impl ClassChanges {
             *self = next;
             return;
         }
+        if next.moved.is_none() && next.added.first() == Some(&0) {
+            // The class was empty, or is another.
+            self.moved.iter_mut().flatten().for_each(|row| *row = None);
+            (self.added, self.changed) = (next.added, next.changed);
+            return;
+        }
         if let Some(moved) = next.moved {
             let to = |row: u32| moved.get(row as usize).copied().flatten();
             let follow = |rows: &mut Vec<u32>| {

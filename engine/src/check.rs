@@ -28,6 +28,7 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
         known.told.insert(name.clone(), None);
     }
     known.tell_kinds(base, &symbols);
+    known.concluded.extend(base.hypotheses().into_iter().map(|name| (name, Some(Type::Truth))));
     let mut problems: Vec<(usize, Vec<Diagnostic>)> = vec![];
     for step in &base.order {
         let Step::Rule(index) = step else { continue };

@@ -226,15 +226,9 @@ impl Table {
     fn check_keys(&self, symbols: &Symbols) -> Result<(), ClassError> {
         let mut seen = HashSet::with_capacity(self.len);
         for row in 0..self.len {
-            let mut parts = Vec::with_capacity(self.key.len());
-            for &column in &self.key {
-                parts.push(match self.columns[column].cell(row) {
-                    Cell::Unknown => return Err(ClassError::UnknownKey { class: self.name.clone(), row }),
-                    Cell::Number(number) => (number + 0.0).to_bits(),
-                    Cell::Text(symbol) => u64::from(symbol.id()),
-                    Cell::Truth(truth) => u64::from(truth),
-                });
-            }
+            let Some(parts) = self.key_bits(row) else {
+                return Err(ClassError::UnknownKey { class: self.name.clone(), row });
+            };
             if !self.key.is_empty() && !seen.insert(parts) {
                 return Err(ClassError::SameKey {
                     class: self.name.clone(),
@@ -243,6 +237,18 @@ impl Table {
             }
         }
         Ok(())
+    }
+
+    /// The key of a row as bits; `None` where a part of it is unknown.
+    pub(crate) fn key_bits(&self, row: usize) -> Option<Vec<u64>> {
+        let bits = |&column: &usize| match self.columns[column].cell(row) {
+            Cell::Unknown => None,
+            // Minus zero equals zero.
+            Cell::Number(number) => Some((number + 0.0).to_bits()),
+            Cell::Text(symbol) => Some(u64::from(symbol.id())),
+            Cell::Truth(truth) => Some(u64::from(truth)),
+        };
+        self.key.iter().map(bits).collect()
     }
 
     /// Whether an object with these cells may be added: its key is known, and no other has it.

@@ -99,4 +99,37 @@ impl Column {
         }
         true
     }
+
+    /// Whether both hold the same values, to the bit.
+    pub(crate) fn same(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.kind() == other.kind() && self.differing(other).is_empty()
+    }
+
+    /// The rows in which two columns of one length and type differ, ascending.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
+        fn rows<T: Copy>(a: &[T], b: &[T], same: impl Fn(T, T) -> bool) -> Vec<u32> {
+            let pairs = a.iter().zip(b).zip(0..);
+            pairs.filter(|((a, b), _)| !same(**a, **b)).map(|(_, row)| row).collect()
+        }
+        match (self, other) {
+            (Self::Numbers(a), Self::Numbers(b)) => {
+                rows(a, b, |a, b| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan()))
+            }
+            (Self::Texts(a), Self::Texts(b)) => rows(a, b, |a, b| a == b),
+            (Self::Truths(a), Self::Truths(b)) => rows(a, b, |a, b| a == b),
+            _ => (0..self.len() as u32).collect(),
+        }
+    }
+
+    /// The column after rows moved (`None`: they stayed); new rows are unknown.
+    pub(crate) fn moved(&self, moved: Option<&[Option<u32>]>, len: usize) -> Self {
+        let mut column = Self::unknown(self.kind(), len);
+        for from in 0..self.len() {
+            let to = moved.map_or(Some(from as u32), |moved| moved.get(from).copied().flatten());
+            if let Some(to) = to.filter(|&to| (to as usize) < len) {
+                column.set(to as usize, self.cell(from));
+            }
+        }
+        column
+    }
 }

@@ -33,6 +33,8 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A hypothesis that is concluded in another way too, or is not the first object's.
+    Hypothesis,
     /// Two operators at one level of revision.
     Operator,
     /// Two rules set one property of one object to different values.
@@ -51,7 +53,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -63,6 +65,7 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
         Self::Evaluation,
@@ -86,6 +89,7 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
             Self::Evaluation => "rule/evaluation",

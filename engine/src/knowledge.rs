@@ -1,15 +1,22 @@
 //! The knowledge base: what was told, what rules concluded, and why.
 
+mod affected;
 mod body;
 mod conclude;
 mod derived;
+mod difference;
+mod dirty;
+mod evaluate;
 pub(crate) mod facts;
-mod gaps;
+mod memory;
 mod merge;
+mod network;
+mod pending;
 mod react;
 mod replay;
+mod report;
+mod revise;
 mod undo;
-mod update;
 mod why;
 
 use std::cell::RefCell;
@@ -25,31 +32,33 @@ use crate::schema::Schema;
 use crate::script::interpreter::Limits;
 use crate::symbols::Symbols;
 use crate::value::{Cell, Value};
-use derived::{Derived, Done};
+use derived::Derived;
+use network::Network;
+use pending::Pending;
 
-/// A class as it was last asserted.
+/// A class as it was told, and what was told since the last inference.
 #[derive(Debug)]
 struct Held {
     table: Table,
-    stamp: u64,
+    pending: Pending,
 }
 
 /// Classes of objects with what is told and concluded of them.
 ///
-/// A value that was told stands before a concluded one. An asserted class replaces the one of its name, and
-/// everything that rests on it is concluded again by the next [`conclude`](Self::conclude).
+/// A value that was told stands before a concluded one. Facts are told class by class ([`assert`](Self::assert)), or
+/// one by one ([`tell`](Self::tell), [`add`](Self::add), [`remove`](Self::remove)); the next
+/// [`conclude`](Self::conclude) or [`update`](Self::update) makes everything right that follows from what changed, at
+/// a cost by what depends on it.
 #[derive(Debug, Default)]
 pub struct KnowledgeBase {
     symbols: RefCell<Symbols>,
     held: BTreeMap<String, Held>,
     derived: BTreeMap<PropertyName, Derived>,
-    done: BTreeMap<String, Done>,
-    clock: u64,
-    last: update::Snapshot,
     agenda: Agenda,
     /// What changed since the host last asked.
     unreported: Changes,
     generation: u64,
+    network: Network,
     limits: Limits,
 }
 
@@ -64,21 +73,35 @@ impl KnowledgeBase {
         Self { limits, ..Self::default() }
     }
 
-    /// Adds a class, or replaces it.
+    /// Adds a class, or replaces it: objects are told apart by their key, and only what differs counts as changed.
     pub fn assert(&mut self, class: Class) -> Result<(), ClassError> {
         let table = Table::new(class, self.symbols.get_mut())?;
         self.hold(table);
         Ok(())
     }
 
+    /// Takes a table as what is told of its class.
     fn hold(&mut self, table: Table) {
-        let stamp = self.tick();
-        self.held.insert(table.name.clone(), Held { table, stamp });
+        match self.held.get_mut(&table.name) {
+            Some(held) => {
+                let difference = difference::difference(&held.table, &table);
+                held.pending.join(difference);
+                self.network.recheck |= held.pending.anew;
+                held.table = table;
+            }
+            None => {
+                self.network.recheck = true;
+                self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
+            }
+        }
     }
 
     /// Takes a class away, and what rests on it.
     pub fn retract(&mut self, class: &str) {
-        self.held.remove(class);
+        if self.held.remove(class).is_some() {
+            self.network.retracted.insert(class.to_owned());
+            self.network.recheck = true;
+        }
     }
 
     /// The asserted classes with their properties.
@@ -116,7 +139,11 @@ impl KnowledgeBase {
 
     /// One value, told or concluded; `None` if it is unknown, or there is no such object or property.
     pub fn value(&self, class: &str, key: &str, property: &str) -> Option<Value> {
-        let row = self.row(class, key)?;
+        self.value_at(class, self.row(class, key)?, property)
+    }
+
+    /// As [`value`](Self::value), by the object's row from 0.
+    pub fn value_at(&self, class: &str, row: usize, property: &str) -> Option<Value> {
         let column = self.column(&PropertyName::new(class, property))?;
         value(column.cell(row), &self.symbols.borrow())
     }
@@ -152,24 +179,19 @@ impl KnowledgeBase {
 
     /// The column that hosts and rules see.
     fn column(&self, name: &PropertyName) -> Option<&Column> {
-        self.view(name, None).map(|(column, _)| column)
+        self.view(name, None)
     }
 
-    /// The column as revised by levels below the given one (`None`: by all), and its stamp.
-    fn view(&self, name: &PropertyName, below: Option<i64>) -> Option<(&Column, u64)> {
+    /// The column as revised by levels below the given one (`None`: by all).
+    fn view(&self, name: &PropertyName, below: Option<i64>) -> Option<&Column> {
         let held = self.held.get(&name.class)?;
         match self.derived.get(name) {
-            Some(derived) => Some(derived.view(below)),
-            None => held.table.column(&name.property).map(|column| (column, held.stamp)),
+            Some(derived) if !derived.stages.is_empty() => derived.stages.get(derived.stage(below)),
+            _ => held.table.column(&name.property),
         }
     }
 
     fn host_value(&self, cell: Cell) -> Option<Value> {
         value(cell, &self.symbols.borrow())
-    }
-
-    fn tick(&mut self) -> u64 {
-        self.clock += 1;
-        self.clock
     }
 }

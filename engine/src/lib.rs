@@ -42,6 +42,7 @@
 //!     all   v in CLASS [where CONDITION] have CONDITION   only if all that pass the first pass the second
 //!     count N of u in CLASS [where CONDITION]      N is how many pass
 //!     sum   N of u in CLASS by NUMBER [where CONDITION]   N is the sum over those that pass
+//!     [hypothesis x.property]                      `then` may be left out after it
 //!     then { x.property = VALUE; ... }
 //!     [else { ... }]
 //!
@@ -66,6 +67,9 @@
 //! - **`count`** and **`sum`** give a number to the clauses after them and to the action, 0 where nothing passes.
 //!   It is unknown where an unknown leaves open whether an object passes, or what it adds; `all` is not met then,
 //!   unless other objects decide.
+//! - **`hypothesis`** is a property of the first clause's object: true where all clauses are met, false where one
+//!   is not, unknown where that is undecided. Several rules may prove one hypothesis: it is true if one proves it,
+//!   false if all refute it. Nothing else sets it.
 //! - **`else`** runs once for each binding of the clauses before for which a `least`, `most` or `some` finds no
 //!   object, a `none` finds one, or an `all` is not met. It may use the variables bound before that clause;
 //!   properties of the others are unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.

@@ -1,7 +1,9 @@
 //! Runs plans over batches of bindings: one pass over a batch for each node, no dispatch for each row.
 
 pub(crate) mod action;
+pub(crate) mod candidates;
 pub(crate) mod evaluate;
+mod hypothesis;
 pub(crate) mod index;
 pub(crate) mod interpret;
 pub(crate) mod lane;

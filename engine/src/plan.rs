@@ -7,6 +7,7 @@ pub(crate) mod fragment;
 pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;
+pub(crate) mod uses;
 
 use std::cell::RefCell;
 
@@ -49,6 +50,8 @@ pub(crate) enum Effect {
 pub(crate) struct Plan {
     pub(crate) clauses: Vec<ClausePlan>,
     pub(crate) effect: Effect,
+    /// The truth value that the rule gives to each object of its first clause.
+    pub(crate) hypothesis: Option<PropertyName>,
     /// The columns that the nodes name by number.
     pub(crate) columns: Vec<PropertyName>,
 }
@@ -74,6 +77,24 @@ pub(crate) fn plan(
             Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
         }
     };
+    let hypothesis = action::hypothesis(&mut lowering);
     let (columns, problems) = lowering.finish();
-    if problems.is_empty() { Ok(Plan { clauses, effect, columns }) } else { Err(problems) }
+    if problems.is_empty() { Ok(Plan { clauses, effect, hypothesis, columns }) } else { Err(problems) }
+}
+
+impl Plan {
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        let clause = |clause: &ClausePlan| {
+            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have);
+            nodes.chain(clause.joins.iter().map(|join| &join.key)).any(Node::interprets)
+        };
+        let effect = match &self.effect {
+            Effect::Conclude { then, otherwise } => {
+                then.interprets() || otherwise.as_ref().is_some_and(ActionPlan::interprets)
+            }
+            Effect::Revise { amount, .. } => amount.interprets(),
+        };
+        effect || self.clauses.iter().any(clause)
+    }
 }

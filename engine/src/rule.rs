@@ -159,6 +159,8 @@ pub struct Rule {
     pub(crate) action: Action,
     pub(crate) reads: BTreeMap<PropertyName, Position>,
     pub(crate) sets: BTreeMap<PropertyName, Position>,
+    /// What it proves or refutes of each object of its first clause: clause, property, place.
+    pub(crate) hypothesis: Option<(usize, String, Position)>,
     pub(crate) file: Arc<FileScope>,
 }
 
@@ -207,6 +209,13 @@ impl Rule {
     /// The properties that it sets, sorted.
     pub fn sets(&self) -> impl Iterator<Item = &PropertyName> {
         self.sets.keys()
+    }
+
+    /// The property that is true for an object of the first clause where all clauses are met, false where one is
+    /// not, and unknown where that is undecided.
+    pub fn hypothesis(&self) -> Option<PropertyName> {
+        let (clause, property, _) = self.hypothesis.as_ref()?;
+        Some(PropertyName::new(&self.clauses[*clause].class, property))
     }
 
     /// Whether it is an `on` rule: one that reacts and tells, rather than concludes.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use rhai::Position;
@@ -17,6 +18,8 @@ use crate::script::source::SourceFile;
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
 pub struct RuleBase {
+    /// Tells one compilation from another.
+    pub(crate) id: u64,
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
 }
@@ -34,11 +37,13 @@ impl RuleBase {
         };
         problems.extend(duplicates(&rules));
         problems.extend(operators(&rules));
+        problems.extend(hypotheses(&rules));
         if !problems.is_empty() {
             return Err(Diagnostics(problems));
         }
         let order = order(&rules).map_err(Diagnostics)?;
-        Ok(Self { rules, order })
+        static COMPILED: AtomicU64 = AtomicU64::new(1);
+        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order })
     }
 
     /// The rules, in the order of the files.
@@ -49,6 +54,11 @@ impl RuleBase {
     /// Names and types against the classes that there are; empty if all is well.
     pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
         on_deep_stack(|| crate::check::check(self, schema))
+    }
+
+    /// The properties that are hypotheses: true if one rule proves them, false if all refute them.
+    pub fn hypotheses(&self) -> BTreeSet<PropertyName> {
+        self.rules.iter().filter_map(Rule::hypothesis).collect()
     }
 
     /// The properties that rules conclude or revise, sorted.
@@ -95,6 +105,25 @@ fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
             );
         } else {
             seen.insert(rule.name(), rule);
+        }
+    }
+    problems
+}
+
+/// A hypothesis is one everywhere: its values come together by "or".
+fn hypotheses(rules: &[Rule]) -> Vec<Diagnostic> {
+    let provers = rules.iter().rev().filter_map(|rule| Some((rule.hypothesis()?, rule)));
+    let proved: BTreeMap<PropertyName, &Rule> = provers.collect();
+    let mut problems = vec![];
+    for rule in rules {
+        let own = rule.hypothesis();
+        for (name, position) in rule.sets.iter().filter(|(name, _)| own.as_ref() != Some(name)) {
+            let Some(prover) = proved.get(name) else { continue };
+            let message = format!("{name} is a hypothesis of rule \"{}\", and is set here", prover.name);
+            problems.push(
+                Diagnostic::error(Code::Hypothesis, &rule.file.source.place(*position), message)
+                    .help("a property is a hypothesis of all rules that conclude it, or of none"),
+            );
         }
     }
     problems

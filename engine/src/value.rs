@@ -128,4 +128,12 @@ impl Cell {
     pub(crate) fn number(number: f64) -> Self {
         if number.is_nan() { Self::Unknown } else { Self::Number(number) }
     }
+
+    /// Equal to the bit: what a change is told by.
+    pub(crate) fn same(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
+            (a, b) => a == b,
+        }
+    }
 }

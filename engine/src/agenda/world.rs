@@ -133,6 +133,14 @@ impl World {
         if let Some(moved) = &changes.moved {
             self.scrambled |= objects.move_to(moved);
         }
+        if changes.moved.is_none()
+            && changes.added.first().is_some_and(|&row| (row as usize) < objects.ids.len())
+        {
+            // Nobody moved, but new ones stand where others were: the class is another.
+            for id in std::mem::take(Arc::make_mut(&mut objects.ids)) {
+                objects.gone(id);
+            }
+        }
         for &row in &changes.added {
             let at = (row as usize).min(objects.ids.len());
             self.scrambled |= at < objects.ids.len();

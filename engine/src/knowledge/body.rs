@@ -49,7 +49,7 @@ pub(crate) struct Tellable<'k> {
 impl Kinds for Tellable<'_> {
     fn kind(&self, name: &PropertyName) -> Kind {
         match self.base.view(name, None) {
-            Some((column, _)) => Kind::Holds(Some(column.kind())),
+            Some(column) => Kind::Holds(Some(column.kind())),
             None if self.told.properties.contains_key(name) => Kind::Holds(None),
             None => Kind::Missing,
         }
@@ -84,10 +84,10 @@ impl KnowledgeBase {
             let kinds = Tellable { base: self, told: &names };
             for (name, kind, _) in told(rule, reaction, &kinds, &self.symbols) {
                 let Some(kind) = kind.filter(|_| self.view(&name, None).is_none()) else { continue };
-                let Some(held) = self.held.get(&name.class) else { continue };
-                let mut table = held.table.clone();
-                table.widen(&name.property, kind);
-                self.hold(table);
+                if let Some(held) = self.held.get_mut(&name.class) {
+                    held.table.widen(&name.property, kind);
+                    self.network.recheck = true;
+                }
             }
         }
     }

@@ -1,106 +1,219 @@
-//! Inference: every rule whose facts are there, in the order of their dependencies, and only what has changed.
+//! Inference: what changed goes from facts to conclusions, rule by rule in the order of their dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use rhai::Engine;
-
-use super::KnowledgeBase;
-use super::derived::{Done, Made};
-use crate::conclusions::{Conclusions, Conflict, LeftOut, Waiting};
-use crate::diagnostic::{Code, Diagnostic};
-use crate::machine::Machine;
-use crate::machine::output::Output;
-use crate::machine::search::search;
+use super::dirty::Dirty;
+use super::pending::Pending;
+use super::{KnowledgeBase, memory::Memory};
+use crate::changes::{Changes, ClassChanges};
+use crate::conclusions::Conclusions;
 use crate::order::Step;
-use crate::plan::{Kind, Kinds, plan};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
-use crate::script::interpreter::runner;
-use crate::value::Type;
 
-/// Which concluded properties are complete so far.
-type Complete = BTreeMap<PropertyName, bool>;
+/// One inference on its way.
+pub(super) struct Run<'b> {
+    pub(super) base: &'b RuleBase,
+    pub(super) until: Instant,
+    /// What was told since the last inference.
+    pub(super) told: BTreeMap<String, Pending>,
+    /// For each property the rows that changed, stage by stage; one stage where no rule concludes it.
+    pub(super) deltas: BTreeMap<PropertyName, Vec<Dirty>>,
+    /// Classes in which anything changed.
+    pub(super) touched: BTreeSet<String>,
+    pub(super) evaluated: Vec<(usize, usize)>,
+    /// Whether classes, properties or rules came or went.
+    pub(super) recheck: bool,
+}
+
+impl Run<'_> {
+    /// The rows of a property that changed, as a rule sees it that revises at this level.
+    pub(super) fn delta(&self, name: &PropertyName, stage: usize) -> &Dirty {
+        const NONE: &Dirty = &Dirty::None;
+        let stages = self.deltas.get(name);
+        stages.and_then(|stages| stages.get(stage.min(stages.len() - 1))).unwrap_or(NONE)
+    }
+
+    /// Notes what changed in one of so many stages.
+    pub(super) fn changed(&mut self, name: &PropertyName, (stage, of): (usize, usize), rows: &Dirty) {
+        if rows.is_none() {
+            return;
+        }
+        self.touched.insert(name.class.clone());
+        let stages = self.deltas.entry(name.clone()).or_insert_with(|| vec![Dirty::None; of]);
+        stages[stage.min(of - 1)].join(rows);
+    }
+}
 
 impl KnowledgeBase {
-    /// Evaluates every rule whose classes are asserted and whose properties are asserted or concluded, and that
-    /// is new or rests on something new. What others concluded before is kept, and what rests on something
-    /// that is gone is taken back.
+    /// Evaluates every rule whose classes are asserted and whose properties are asserted or concluded, as far as
+    /// it is new or rests on something new, and reports on all of them. What others concluded before is kept, and
+    /// what rests on something that is gone is taken back.
     pub fn conclude(&mut self, rules: &RuleBase) -> Conclusions {
-        on_deep_stack(|| self.infer(rules))
+        let run = self.infer(rules);
+        let evaluated: Vec<String> =
+            run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
+        if self.agenda.is_used() {
+            let changes = self.changes(run);
+            self.agenda.note(&changes);
+        }
+        Conclusions { evaluated, ..self.report(rules) }
     }
 
-    fn infer(&mut self, base: &RuleBase) -> Conclusions {
-        let runner = runner();
-        let until = Instant::now() + self.limits.inference;
-        let mut report = Conclusions::default();
-        let mut complete = Complete::new();
-        self.forget(base);
-        for step in &base.order {
-            match step {
-                Step::Rule(index) => self.rule(&base.rules[*index], runner, until, &complete, &mut report),
-                Step::Merge(name) => {
-                    let done = self.merge(base, name);
-                    complete.insert(name.clone(), done);
-                }
-                Step::Level(name, level) => {
-                    let done = self.revise(base, name, *level);
-                    complete.entry(name.clone()).and_modify(|complete| *complete &= done);
+    /// As [`conclude`](Self::conclude), without the report on all rules and objects: it costs what depends on the
+    /// change, and tells what changed.
+    pub fn update(&mut self, rules: &RuleBase) -> Changes {
+        self.follow(rules);
+        std::mem::take(&mut self.unreported)
+    }
+
+    /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
+    pub(super) fn follow(&mut self, rules: &RuleBase) {
+        let changes = self.renew(rules);
+        self.agenda.note(&changes);
+        self.unreported.absorb(changes);
+    }
+
+    /// Makes everything right, and tells what changed since the last inference.
+    pub(super) fn renew(&mut self, rules: &RuleBase) -> Changes {
+        let run = self.infer(rules);
+        self.changes(run)
+    }
+
+    fn infer<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
+        let mut run = self.begin(base);
+        if run.recheck || self.interprets() {
+            on_deep_stack(|| self.advance(&mut run));
+        } else {
+            self.advance(&mut run);
+        }
+        run
+    }
+
+    /// Whether a rule needs the deep stack that the interpreter asks for.
+    fn interprets(&self) -> bool {
+        self.network.nodes.iter().any(|node| node.planned.as_ref().is_some_and(|planned| planned.interprets))
+    }
+
+    /// Takes in what was told.
+    fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
+        let gone = self.take_over(base);
+        let mut run = Run {
+            base,
+            until: Instant::now() + self.limits.inference,
+            told: BTreeMap::new(),
+            deltas: BTreeMap::new(),
+            touched: BTreeSet::new(),
+            evaluated: vec![],
+            recheck: std::mem::take(&mut self.network.recheck),
+        };
+        for name in gone {
+            run.changed(&name, (0, 1), &Dirty::All);
+        }
+        for class in std::mem::take(&mut self.network.retracted) {
+            self.forget(base, &class);
+            run.touched.insert(class);
+        }
+        let told: Vec<String> = self
+            .held
+            .iter()
+            .filter(|(_, held)| held.pending.is_something())
+            .map(|(class, _)| class.clone())
+            .collect();
+        for class in told {
+            run.touched.insert(class.clone());
+            if self.held[&class].pending.anew {
+                self.forget(base, &class);
+            } else if self.held[&class].pending.reshaped() {
+                self.reshape(base, &class);
+            }
+            let Some(held) = self.held.get_mut(&class) else { continue };
+            let pending = std::mem::take(&mut held.pending);
+            for (property, rows) in &pending.changed {
+                let name = PropertyName::new(&class, property);
+                match self.derived.get_mut(&name) {
+                    Some(derived) => derived.pending[0].join(rows),
+                    None => run.changed(&name, (0, 1), &rows.clone().settle(usize::MAX)),
                 }
             }
+            run.told.insert(class, pending);
         }
-        self.report(base, &complete, &mut report);
-        report
+        run
     }
 
-    /// Drops what rested on rules that are no longer there.
-    fn forget(&mut self, base: &RuleBase) {
-        let versions: BTreeMap<&str, &str> =
-            base.rules.iter().map(|rule| (rule.name(), rule.version())).collect();
-        self.done.retain(|name, done| versions.get(name.as_str()) == Some(&done.version.as_str()));
-        let concluded = base.concluded();
-        self.derived.retain(|name, _| concluded.contains(name) && self.held.contains_key(&name.class));
-        for (name, derived) in &mut self.derived {
-            let revised = |level| {
-                base.rules.iter().any(|rule| rule.level() == Some(level) && rule.sets.contains_key(name))
+    fn advance(&mut self, run: &mut Run) {
+        for step in &run.base.order {
+            match step {
+                Step::Rule(index) => self.step(run, *index),
+                Step::Merge(name) => self.merge(run, name),
+                Step::Level(name, level) => self.revise(run, name, *level),
+            }
+        }
+    }
+
+    /// Evaluates a rule as far as it is touched.
+    fn step(&mut self, run: &mut Run, index: usize) {
+        let rule = &run.base.rules[index];
+        if run.recheck {
+            self.network.nodes[index].needs = self.needs(rule);
+            if !self.network.nodes[index].needs.is_empty() {
+                self.network.nodes[index].planned = None;
+                self.drop_memory(index);
+                return;
+            }
+            self.plan(run.base, index);
+        } else if !self.network.nodes[index].needs.is_empty()
+            || !rule.classes().any(|class| run.touched.contains(class))
+                && self.network.nodes[index].memory.as_ref().is_some_and(|memory| memory.unasked == 0)
+        {
+            return;
+        }
+        let Some(planned) = self.network.nodes[index].planned.take() else { return };
+        let drivers = self.len(&rule.clauses[0].class).unwrap_or(0);
+        let memory = self.network.nodes[index].memory.take();
+        let mut memory = memory.unwrap_or_else(|| Memory::new(rule, &planned.plan, drivers));
+        let mut dirty = self.affected(run, rule, &planned, &mut memory);
+        if memory.unasked > 0 {
+            dirty.extend(memory.waiting());
+        }
+        let dirty = dirty.settle(memory.statuses.len());
+        if !dirty.is_none() || memory.statuses.is_empty() {
+            let rows = match &dirty {
+                Dirty::Rows(rows) => rows.len(),
+                _ => memory.statuses.len(),
             };
-            derived.layers.retain(|layer| revised(layer.level));
+            run.evaluated.push((index, rows));
+            let output = self.evaluate(run, rule, &planned.plan, &mut memory, &dirty);
+            let touched = memory.replace(&dirty, output);
+            for (given, touched) in memory.given.iter().zip(touched) {
+                self.pend(&given.name, rule.level(), &touched);
+            }
+        }
+        let node = &mut self.network.nodes[index];
+        (node.planned, node.memory) = (Some(planned), Some(memory));
+    }
+
+    /// Forgets what a rule gave.
+    pub(super) fn drop_memory(&mut self, index: usize) {
+        let Some(memory) = self.network.nodes[index].memory.take() else { return };
+        for given in &memory.given {
+            if let Some(derived) = self.derived.get_mut(&given.name) {
+                derived.pending.fill(Dirty::All);
+            }
         }
     }
 
-    fn rule(
-        &mut self,
-        rule: &Rule,
-        runner: &Engine,
-        until: Instant,
-        complete: &Complete,
-        report: &mut Conclusions,
-    ) {
-        let needs = self.needs(rule, complete);
-        if !needs.is_empty() {
-            self.done.remove(rule.name());
-            report.waiting.push(Waiting { rule: rule.name.clone(), needs });
-            return;
+    /// Notes that a stage of a property has to be brought together anew for some rows.
+    fn pend(&mut self, name: &PropertyName, level: Option<i64>, rows: &Dirty) {
+        if let Some(derived) = self.derived.get_mut(name) {
+            let stage = level.map_or(0, |level| derived.stage(Some(level)) + 1);
+            derived.pending[stage].join(rows);
         }
-        let made_from = self.inputs(rule);
-        if self.done.get(rule.name()).is_some_and(|done| done.made_from == made_from) {
-            return;
-        }
-        let outcome = catch_unwind(AssertUnwindSafe(|| self.evaluate(rule, runner, until)));
-        let (output, problems) = outcome.unwrap_or_else(|_| {
-            let place = rule.file.source.place(rule.position);
-            let message = format!("rule \"{}\" failed inside the engine", rule.name);
-            (Output::default(), vec![Diagnostic::error(Code::Panic, &place, message)])
-        });
-        let stamp = self.tick();
-        let version = rule.version.clone();
-        self.done.insert(rule.name.clone(), Done { version, made_from, stamp, output, problems });
-        report.evaluated.push(rule.name.clone());
     }
 
     /// What a rule waits for.
-    fn needs(&self, rule: &Rule, complete: &Complete) -> Vec<String> {
+    fn needs(&self, rule: &Rule) -> Vec<String> {
         let mut needs: BTreeSet<String> =
             rule.classes().filter(|class| !self.held.contains_key(*class)).map(str::to_owned).collect();
         let own = rule.level().and(rule.sets.keys().next());
@@ -108,9 +221,10 @@ impl KnowledgeBase {
             if needs.contains(&name.class) {
                 continue;
             }
-            let there = match complete.get(name) {
-                Some(complete) => *complete,
-                None => self.view(name, None).is_some(),
+            let told = || self.held[&name.class].table.column(&name.property).is_some();
+            let there = match self.derived.get(name) {
+                Some(derived) => derived.complete && !derived.stages.is_empty(),
+                None => told(),
             };
             if !there {
                 needs.insert(name.to_string());
@@ -119,116 +233,30 @@ impl KnowledgeBase {
         needs.into_iter().collect()
     }
 
-    fn inputs(&self, rule: &Rule) -> Made {
-        let classes =
-            rule.classes().map(|class| (class.to_owned(), self.held.get(class).map_or(0, |held| held.stamp)));
-        let own = rule.level().and(rule.sets.keys().next());
-        let properties = rule.reads.keys().chain(own).map(|name| {
-            let stamp = self.view(name, below(rule, name)).map_or(0, |(_, stamp)| stamp);
-            (name.to_string(), stamp)
-        });
-        classes.chain(properties).collect()
-    }
-
-    fn evaluate(&self, rule: &Rule, runner: &Engine, until: Instant) -> (Output, Vec<Diagnostic>) {
-        let plan = match plan(rule, &Known { base: self, rule }, &self.symbols) {
-            Ok(plan) => plan,
-            Err(problems) => return (Output::default(), problems),
-        };
-        let mut columns = vec![];
-        for name in &plan.columns {
-            match self.view(name, below(rule, name)) {
-                Some((column, _)) => columns.push(column),
-                None => return (Output::default(), vec![]),
+    fn changes(&self, run: Run) -> Changes {
+        let mut changes = Changes::default();
+        for (class, pending) in &run.told {
+            let Some(len) = self.len(class) else { continue };
+            let class = changes.classes.entry(class.clone()).or_default();
+            class.moved.clone_from(&pending.moved);
+            class.added = if pending.anew { (0..len as u32).collect() } else { pending.added.clone() };
+            class.added.sort_unstable();
+        }
+        for (name, stages) in &run.deltas {
+            let (Some(rows), Some(len)) = (stages.last(), self.len(&name.class)) else { continue };
+            let class = changes.classes.entry(name.class.clone()).or_default();
+            let mut rows = rows.clone().settle(len).rows(len);
+            rows.retain(|row| class.added.binary_search(row).is_err());
+            if !rows.is_empty() {
+                class.changed.insert(name.property.clone(), rows);
             }
         }
-        let sizes: Vec<usize> = rule.classes().map(|class| self.len(class).unwrap_or(0)).collect();
-        let machine = Machine {
-            rule,
-            columns,
-            symbols: &self.symbols,
-            runner,
-            deadline: until.min(Instant::now() + self.limits.rule),
-            trouble: None.into(),
-            troubles: 0.into(),
-            stopped: false.into(),
-        };
-        let mut output = search(&machine, &plan, &sizes);
-        let problem = output.problem.take().map(|problem| match output.problems {
-            0 | 1 => problem,
-            more => problem.help(format!("it failed {more} times; this is the first")),
-        });
-        (output, problem.into_iter().collect())
-    }
-
-    fn report(&self, base: &RuleBase, complete: &Complete, report: &mut Conclusions) {
-        for rule in &base.rules {
-            let Some(done) = self.done.get(rule.name()) else { continue };
-            report.diagnostics.extend(done.problems.iter().cloned());
-            for skipped in &done.output.skipped {
-                let clause = &rule.clauses[skipped.clause];
-                report.left_out.push(LeftOut {
-                    rule: rule.name.clone(),
-                    variable: clause.variable.clone(),
-                    class: clause.class.clone(),
-                    objects: skipped.objects,
-                });
-            }
-        }
-        for (name, derived) in &self.derived {
-            report.diagnostics.extend(derived.problems.iter().cloned());
-            let conflicts = self.conflicts(name, derived);
-            report
-                .diagnostics
-                .extend(conflicts.first().and_then(|first| disagreement(base, first, conflicts.len())));
-            report.conflicts.extend(conflicts);
-            if complete.get(name) == Some(&true) {
-                report.gaps.extend(self.gap(base, name, derived));
-            }
-        }
-    }
-}
-
-/// One message for all conflicts about a property.
-fn disagreement(base: &RuleBase, first: &Conflict, count: usize) -> Option<Diagnostic> {
-    let said: Vec<String> =
-        first.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
-    let (last, _) = first.values.last()?;
-    let rule = base.rules.iter().find(|rule| rule.name == *last)?;
-    let place = rule.file.source.place(*rule.sets.get(&first.property)?);
-    let (property, key) = (&first.property, &first.key);
-    let message = format!("rules disagree about {property} of {key}: {}", said.join(", "));
-    let others = if count == 1 { String::new() } else { format!(", as {} others", count - 1) };
-    let help = format!(
-        "{key} has no value of it now{others}; give one of the rules a `where` that keeps them apart"
-    );
-    Some(Diagnostic::error(Code::Conflict, &place, message).warning().help(help))
-}
-
-/// A revision reads its own property as the level below left it; everyone reads the last level.
-fn below(rule: &Rule, name: &PropertyName) -> Option<i64> {
-    rule.level().filter(|_| rule.sets.contains_key(name))
-}
-
-/// The properties that there are when a rule is evaluated.
-struct Known<'k> {
-    base: &'k KnowledgeBase,
-    rule: &'k Rule,
-}
-
-impl Kinds for Known<'_> {
-    fn kind(&self, name: &PropertyName) -> Kind {
-        match self.base.view(name, below(self.rule, name)) {
-            Some((column, _)) => Kind::Holds(Some(column.kind())),
-            None => Kind::Missing,
-        }
-    }
-
-    fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.base.held.get(&name.class)?.table.column(&name.property).map(crate::column::Column::kind)
-    }
-
-    fn properties(&self, class: &str) -> Vec<String> {
-        self.base.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+        changes.classes.retain(|_, class| *class != ClassChanges::default());
+        changes.evaluated = run
+            .evaluated
+            .iter()
+            .map(|&(rule, objects)| (run.base.rules[rule].name.clone(), objects))
+            .collect();
+        changes
     }
 }

@@ -1,61 +1,42 @@
-//! What rules gave to one property, and what it was made from.
+//! One property that rules conclude or revise.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
+use super::dirty::Dirty;
 use crate::column::Column;
-use crate::diagnostic::Diagnostic;
-use crate::machine::output::Output;
-use crate::value::Cell;
 
-/// What something was made from: names of rules, classes and properties, with the stamps they had.
-pub(super) type Made = Vec<(String, u64)>;
-
-/// Stands where no rule gave the value.
-pub(super) const NO_RULE: u32 = u32::MAX;
-
-/// A value that a rule gives: number of the rule among the writers, its firing, the value.
-pub(super) type Claim = (u32, u32, Cell);
-
-/// One property that rules conclude or revise.
-#[derive(Debug)]
-pub(super) struct Derived {
-    /// The rules that conclude it, in the order of the rule base.
-    pub(super) writers: Vec<String>,
-    pub(super) made_from: Made,
-    pub(super) stamp: u64,
-    /// Told values, and concluded ones where nothing is told.
-    pub(super) merged: Column,
-    /// For each row the writer and its firing.
-    pub(super) origin: Vec<(u32, u32)>,
-    /// Rows on which rules disagree, with all that was claimed.
-    pub(super) disputes: BTreeMap<u32, Vec<Claim>>,
-    pub(super) problems: Vec<Diagnostic>,
-    /// Levels of revision, ascending.
-    pub(super) layers: Vec<Layer>,
+/// A rule among those that give values to a property: its number, and the priority of what it says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Writer {
+    pub(crate) rule: usize,
+    pub(crate) priority: i64,
 }
 
-/// The property after one level of revision.
+/// A property with what rules make of it, stage by stage: concluded first, then revised level by level.
 #[derive(Debug)]
-pub(super) struct Layer {
-    pub(super) level: i64,
-    pub(super) made_from: Made,
-    pub(super) stamp: u64,
-    pub(super) column: Column,
+pub(crate) struct Derived {
+    /// The rules that conclude it: the greatest priority first, then in the order of the rule base.
+    pub(crate) writers: Vec<Writer>,
+    /// Levels of revision, ascending, each with its rules in the order of their names.
+    pub(crate) levels: Vec<(i64, Vec<usize>)>,
+    /// Whether rules prove it: then it is true if one of them says so.
+    pub(crate) hypothesis: bool,
+    /// The told or concluded values, then those after each level.
+    pub(crate) stages: Vec<Column>,
+    /// What has to be brought together anew, for each stage.
+    pub(crate) pending: Vec<Dirty>,
+    /// Whether the stages hold nothing yet, so that whatever comes counts as changed.
+    pub(crate) fresh: bool,
+    /// Rows on which rules disagree.
+    pub(crate) disputes: BTreeSet<u32>,
+    /// Whether every rule that gives it was evaluated.
+    pub(crate) complete: bool,
 }
 
 impl Derived {
-    pub(super) fn view(&self, below: Option<i64>) -> (&Column, u64) {
-        let layer = self.layers.iter().rev().find(|layer| below.is_none_or(|level| layer.level < level));
-        layer.map_or((&self.merged, self.stamp), |layer| (&layer.column, layer.stamp))
+    /// The stage that a rule sees which revises at this level; without a level, the last.
+    pub(crate) fn stage(&self, below: Option<i64>) -> usize {
+        below
+            .map_or(self.levels.len(), |below| self.levels.iter().filter(|(level, _)| *level < below).count())
     }
-}
-
-/// A rule that was evaluated.
-#[derive(Debug)]
-pub(super) struct Done {
-    pub(super) version: String,
-    pub(super) made_from: Made,
-    pub(super) stamp: u64,
-    pub(super) output: Output,
-    pub(super) problems: Vec<Diagnostic>,
 }

@@ -5,6 +5,7 @@ use thiserror::Error;
 use super::{Held, KnowledgeBase};
 use crate::class::{Class, ClassError, Table};
 use crate::column::Column;
+use crate::rule::PropertyName;
 use crate::value::{Cell, Type, Value};
 
 /// Why a fact cannot be told.
@@ -82,14 +83,22 @@ impl KnowledgeBase {
             return Err(FactError::Key { class: class.to_owned(), property: property.to_owned() });
         }
         let cell = value.as_ref().map_or(Cell::Unknown, |value| self.symbols.get_mut().cell(value));
-        let Some(Held { table, .. }) = self.held.get_mut(class) else { return Ok(()) };
+        if let (None, Some(kind)) = (at, cell.kind()) {
+            self.may_widen(class, property, kind, value.as_ref())?;
+        }
+        let Some(held) = self.held.get_mut(class) else { return Ok(()) };
+        let table = &mut held.table;
         let at = match (at, cell.kind()) {
             (Some(at), _) => at,
             (None, None) => return Ok(()),
-            (None, Some(kind)) => table.widen(property, kind),
+            (None, Some(kind)) => {
+                self.network.recheck = true;
+                table.widen(property, kind)
+            }
         };
         let cell = if cell == Cell::Unknown { table.null_of(at) } else { cell };
         let column = &mut table.columns[at];
+        let before = column.cell(row);
         if cell.kind().is_some_and(|kind| kind != column.kind()) {
             return Err(FactError::Type {
                 class: class.to_owned(),
@@ -99,7 +108,9 @@ impl KnowledgeBase {
             });
         }
         column.set(row, cell);
-        self.touch(class);
+        if !before.same(cell) {
+            held.pending.change(property, row as u32);
+        }
         Ok(())
     }
 
@@ -132,9 +143,15 @@ impl KnowledgeBase {
             row[at] = cell;
         }
         table.check_new(&row, &self.symbols.borrow())?;
-        let Some(Held { table, .. }) = self.held.get_mut(class) else { return Ok(0) };
+        for (property, cell) in &new {
+            if let Some(kind) = cell.kind() {
+                self.may_widen(class, property, kind, None)?;
+            }
+        }
+        let Some(Held { table, pending }) = self.held.get_mut(class) else { return Ok(0) };
         for (property, cell) in new {
             if let Some(kind) = cell.kind() {
+                self.network.recheck = true;
                 let at = table.widen(property, kind);
                 row.resize(table.columns.len(), Cell::Unknown);
                 row[at] = cell;
@@ -145,7 +162,7 @@ impl KnowledgeBase {
         }
         table.len += 1;
         let at = table.len - 1;
-        self.touch(class);
+        pending.added.push(at as u32);
         Ok(at)
     }
 
@@ -162,11 +179,19 @@ impl KnowledgeBase {
         if row >= table.len {
             return Err(FactError::NoObject { class: class.to_owned(), key: row.to_string() });
         }
-        if let Some(Held { table, .. }) = self.held.get_mut(class) {
+        if let Some(Held { table, pending }) = self.held.get_mut(class) {
+            let before = table.len as u32;
+            let moved: Vec<Option<u32>> = (0..before)
+                .map(|at| match at.cmp(&(row as u32)) {
+                    std::cmp::Ordering::Less => Some(at),
+                    std::cmp::Ordering::Equal => None,
+                    std::cmp::Ordering::Greater => Some(at - 1),
+                })
+                .collect();
+            pending.move_rows(&moved);
             table.columns.iter_mut().for_each(|column| column.remove(row));
             table.len -= 1;
         }
-        self.touch(class);
         Ok(())
     }
 
@@ -174,10 +199,23 @@ impl KnowledgeBase {
         self.held.get(class).ok_or_else(|| FactError::NoClass { class: class.to_owned() })
     }
 
-    fn touch(&mut self, class: &str) {
-        let stamp = self.tick();
-        if let Some(held) = self.held.get_mut(class) {
-            held.stamp = stamp;
+    /// A new told property of a class must hold what rules conclude of it.
+    fn may_widen(
+        &self,
+        class: &str,
+        property: &str,
+        kind: Type,
+        value: Option<&Value>,
+    ) -> Result<(), FactError> {
+        let holds = self.view(&PropertyName::new(class, property), None).map(Column::kind);
+        match holds {
+            Some(holds) if holds != kind => Err(FactError::Type {
+                class: class.to_owned(),
+                property: property.to_owned(),
+                holds,
+                value: value.map_or_else(|| kind.plural().to_owned(), ToString::to_string),
+            }),
+            _ => Ok(()),
         }
     }
 }

@@ -1,230 +1,282 @@
-//! Brings together what is told and what rules gave, and applies revisions.
-
-use std::collections::BTreeMap;
+//! Brings together what was told of a property and what rules conclude.
 
 use super::KnowledgeBase;
-use super::derived::{Claim, Derived, Layer, Made, NO_RULE};
+use super::conclude::Run;
+use super::derived::Derived;
+use super::dirty::Dirty;
+use super::memory::Memory;
 use crate::column::Column;
-use crate::diagnostic::{Code, Diagnostic};
-use crate::machine::lane::NO_ROW;
-use crate::machine::output::{Given, Output};
-use crate::rule::{Action, PropertyName, Rule};
-use crate::rule_base::RuleBase;
+use crate::machine::output::Buffer;
+use crate::rule::PropertyName;
 use crate::value::{Cell, Type};
 
+/// Where a value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Source {
+    /// Nobody gives one.
+    Nobody,
+    Told,
+    /// A rule, by number, in one of its firings. What it gives may be unknown.
+    Rule {
+        rule: usize,
+        firing: usize,
+    },
+    /// Rules of one priority that disagree.
+    Dispute,
+}
+
 impl KnowledgeBase {
-    /// Makes the column of a property; `true` if every rule that concludes it was evaluated.
-    pub(super) fn merge(&mut self, base: &RuleBase, name: &PropertyName) -> bool {
-        let Some(held) = self.held.get(&name.class) else { return false };
-        let writers: Vec<&Rule> =
-            base.rules.iter().filter(|rule| rule.level().is_none() && rule.sets.contains_key(name)).collect();
-        let mut made_from: Made = vec![(name.class.clone(), held.stamp)];
-        made_from.extend(
-            writers
-                .iter()
-                .filter_map(|rule| self.done.get(rule.name()).map(|done| (rule.name.clone(), done.stamp))),
-        );
-        let complete = made_from.len() == writers.len() + 1;
+    pub(super) fn merge(&mut self, run: &mut Run, name: &PropertyName) {
+        let Some(mut derived) = self.derived.remove(name) else { return };
+        if run.recheck {
+            self.settle(name, &mut derived, run);
+        }
+        if derived.stages.is_empty() || derived.pending[0].is_none() {
+            self.derived.insert(name.clone(), derived);
+            return;
+        }
+        let len = derived.stages[0].len();
+        let pending = std::mem::take(&mut derived.pending[0]).settle(len);
+        self.index(name, &derived.writers.iter().map(|writer| writer.rule).collect::<Vec<_>>());
+        let changed = match pending {
+            Dirty::All => self.merge_all(name, &mut derived),
+            pending => self.merge_rows(name, &mut derived, &pending.rows(len)),
+        };
+        let changed = changed.settle(len);
+        let of = derived.stages.len();
+        run.changed(name, (0, of), &changed);
+        if let Some(next) = derived.pending.get_mut(1) {
+            next.join(&changed);
+        }
+        self.derived.insert(name.clone(), derived);
+    }
+
+    /// Finds out whether the property is there at all, whole, and of which type.
+    fn settle(&mut self, name: &PropertyName, derived: &mut Derived, run: &mut Run) {
+        let Some(held) = self.held.get(&name.class) else {
+            derived.stages.clear();
+            return;
+        };
         let told = held.table.column(&name.property);
-        if told.is_none() && made_from.len() == 1 {
-            self.derived.remove(name);
-            return false;
+        let done = |&rule: &usize| self.network.nodes[rule].needs.is_empty();
+        let writers: Vec<usize> = derived.writers.iter().map(|writer| writer.rule).collect();
+        let revisers = derived.levels.iter().flat_map(|(_, rules)| rules);
+        let concluded = writers.iter().all(done);
+        derived.complete = concluded && revisers.clone().all(done);
+        if told.is_none() && !writers.iter().any(done) {
+            if !derived.stages.is_empty() {
+                run.changed(name, (0, derived.stages.len()), &Dirty::All);
+            }
+            derived.stages.clear();
+            derived.pending.fill(Dirty::All);
+            return;
         }
-        if self.derived.get(name).is_some_and(|derived| derived.made_from == made_from) {
-            return complete;
-        }
-        let mut merging = Merging::new(told, held.table.len, self.kind(name, told, &writers));
-        for (number, rule) in (0..).zip(&writers) {
-            let given = self.done.get(rule.name()).and_then(|done| find(&done.output, name));
-            if let Some(given) = given {
-                merging.add(number, given, rule);
+        let kind = self.kind(name, told, &writers);
+        let fits = derived
+            .stages
+            .first()
+            .is_some_and(|column| column.kind() == kind && column.len() == held.table.len);
+        if !fits {
+            derived.stages = vec![Column::unknown(kind, held.table.len); derived.levels.len() + 1];
+            derived.pending.fill(Dirty::All);
+            derived.fresh = true;
+            for stage in 0..derived.stages.len() {
+                run.changed(name, (stage, derived.stages.len()), &Dirty::All);
             }
         }
-        let Merging { column, origin, disputes, problems, .. } = merging;
-        let writers = writers.iter().map(|rule| rule.name.clone()).collect();
-        let stamp = self.tick();
-        let derived =
-            Derived { writers, made_from, stamp, merged: column, origin, disputes, problems, layers: vec![] };
-        self.derived.insert(name.clone(), derived);
-        complete
     }
 
     /// The told type, or that of the first rule that has one.
-    fn kind(&self, name: &PropertyName, told: Option<&Column>, writers: &[&Rule]) -> Type {
-        let outputs = || writers.iter().filter_map(|rule| find(&self.done.get(rule.name())?.output, name));
+    fn kind(&self, name: &PropertyName, told: Option<&Column>, writers: &[usize]) -> Type {
+        let given = || {
+            let memories = writers.iter().filter_map(|&rule| self.network.nodes[rule].memory.as_ref());
+            memories.flat_map(|memory| &memory.given).filter(|given| given.name == *name)
+        };
+        let typed = |buffer: &Buffer| match buffer {
+            Buffer::Typed(column) => Some(column.kind()),
+            Buffer::Cells(_) => None,
+        };
+        let found = |buffer: &Buffer| match buffer {
+            Buffer::Cells(cells) => cells.iter().find_map(|cell| cell.kind()),
+            Buffer::Typed(_) => None,
+        };
         told.map(Column::kind)
-            .or_else(|| outputs().find_map(|given| given.kind))
-            .or_else(|| outputs().find_map(|given| given.cells.iter().find_map(|cell| cell.kind())))
+            .or_else(|| given().find_map(|given| typed(&given.values)))
+            .or_else(|| given().find_map(|given| found(&given.values)))
             .unwrap_or(Type::Number)
     }
 
-    /// Applies one level of revision; `true` if every revision of the level was evaluated.
-    pub(super) fn revise(&mut self, base: &RuleBase, name: &PropertyName, level: i64) -> bool {
-        let rules: Vec<&Rule> = base
-            .rules
-            .iter()
-            .filter(|rule| rule.level() == Some(level) && rule.sets.contains_key(name))
-            .collect();
-        let Some((below, below_stamp)) = self.view(name, Some(level)) else { return false };
-        let mut made_from: Made = vec![(name.to_string(), below_stamp)];
-        made_from.extend(
-            rules
-                .iter()
-                .filter_map(|rule| self.done.get(rule.name()).map(|done| (rule.name.clone(), done.stamp))),
-        );
-        let complete = made_from.len() == rules.len() + 1;
-        let Some(derived) = self.derived.get(name) else { return false };
-        let at = derived.layers.iter().position(|layer| layer.level >= level).unwrap_or(derived.layers.len());
-        if derived.layers.get(at).is_some_and(|layer| layer.level == level && layer.made_from == made_from) {
-            return complete;
-        }
-        let mut column = below.clone();
-        if let Column::Numbers(values) = &mut column {
-            for (operator, row, amount) in self.contributions(name, &rules) {
-                values[row] = operator.apply(values[row], amount);
+    /// Makes it fast to find the firings that set a row.
+    pub(super) fn index(&mut self, name: &PropertyName, rules: &[usize]) {
+        let len = self.len(&name.class).unwrap_or(0);
+        for &rule in rules {
+            let Some(memory) = &mut self.network.nodes[rule].memory else { continue };
+            for at in 0..memory.given.len() {
+                if memory.given[at].name == *name {
+                    memory.prepare(at, len);
+                }
             }
         }
-        let stamp = self.tick();
-        if let Some(derived) = self.derived.get_mut(name) {
-            derived.layers.truncate(at);
-            derived.layers.push(Layer { level, made_from, stamp, column });
-        }
-        complete
     }
 
-    /// What the revisions of a level contribute, in an order that rests on names and keys alone: equal facts give
-    /// equal bits, however rows and files are ordered.
-    fn contributions(
+    fn merge_all(&self, name: &PropertyName, derived: &mut Derived) -> Dirty {
+        let kind = self.retyped(name, derived);
+        if let Some(kind) = kind {
+            let len = derived.stages[0].len();
+            derived.stages.iter_mut().for_each(|stage| *stage = Column::unknown(kind, len));
+            derived.pending.iter_mut().skip(1).for_each(|pending| *pending = Dirty::All);
+        }
+        let before = std::mem::replace(&mut derived.stages[0], Column::unknown(Type::Number, 0));
+        let fresh = std::mem::take(&mut derived.fresh) || kind.is_some();
+        let straight = self.straight(name, derived, &before).cloned();
+        derived.disputes.clear();
+        let (column, changed) = match straight {
+            Some(column) if fresh => (column, Dirty::All),
+            Some(column) => {
+                let differing = Dirty::Rows(before.differing(&column));
+                (column, differing)
+            }
+            None => {
+                let mut column = Column::unknown(before.kind(), before.len());
+                for row in 0..column.len() as u32 {
+                    let (cell, source) = self.resolve(name, derived, row, column.kind());
+                    column.set(row as usize, cell);
+                    if source == Source::Dispute {
+                        derived.disputes.insert(row);
+                    }
+                }
+                let differing = if fresh { Dirty::All } else { Dirty::Rows(before.differing(&column)) };
+                (column, differing)
+            }
+        };
+        derived.stages[0] = column;
+        changed
+    }
+
+    /// The type that the values have now, if it is another one: of a property that only interpreted parts give.
+    fn retyped(&self, name: &PropertyName, derived: &Derived) -> Option<Type> {
+        let told = self.held.get(&name.class)?.table.column(&name.property);
+        let writers: Vec<usize> = derived.writers.iter().map(|writer| writer.rule).collect();
+        let kind = self.kind(name, told, &writers);
+        (kind != derived.stages[0].kind()).then_some(kind)
+    }
+
+    /// The whole column where one rule alone gives it, object by object.
+    fn straight(&self, name: &PropertyName, derived: &Derived, before: &Column) -> Option<&Column> {
+        let [writer] = derived.writers.as_slice() else { return None };
+        if self.held.get(&name.class)?.table.column(&name.property).is_some() {
+            return None;
+        }
+        let memory = self.network.nodes[writer.rule].memory.as_ref()?;
+        let mut given = memory.given.iter().filter(|given| given.name == *name);
+        let (given, None) = (given.next()?, given.next()) else { return None };
+        match &given.values {
+            Buffer::Typed(column)
+                if memory.sets_objects(given)
+                    && column.kind() == before.kind()
+                    && column.len() == before.len() =>
+            {
+                Some(column)
+            }
+            _ => None,
+        }
+    }
+
+    fn merge_rows(&self, name: &PropertyName, derived: &mut Derived, rows: &[u32]) -> Dirty {
+        if self.retyped(name, derived).is_some() {
+            return self.merge_all(name, derived);
+        }
+        let mut changed = Dirty::None;
+        let len = derived.stages[0].len();
+        for &row in rows.iter().filter(|&&row| (row as usize) < len) {
+            let (cell, source) = self.resolve(name, derived, row, derived.stages[0].kind());
+            if source == Source::Dispute {
+                derived.disputes.insert(row);
+            } else {
+                derived.disputes.remove(&row);
+            }
+            if !derived.stages[0].cell(row as usize).same(cell) {
+                derived.stages[0].set(row as usize, cell);
+                changed.add(row);
+            }
+        }
+        changed
+    }
+
+    /// The value of one object, and where it comes from.
+    pub(super) fn resolve(
         &self,
         name: &PropertyName,
-        rules: &[&Rule],
-    ) -> Vec<(crate::rule::Operator, usize, f64)> {
-        let mut sorted: Vec<&&Rule> = rules.iter().collect();
-        sorted.sort_by(|a, b| a.name.cmp(&b.name));
-        let mut out = vec![];
-        for rule in sorted {
-            let Action::Revise { operator, .. } = rule.action else { continue };
-            let Some(done) = self.done.get(rule.name()) else { continue };
-            let Some(given) = find(&done.output, name) else { continue };
-            let ranks: Vec<Option<Vec<u32>>> = rule.classes().map(|class| self.ranks(class)).collect();
-            let rank = |firing: u32| -> Vec<u32> {
-                done.output
-                    .witnesses
-                    .iter()
-                    .zip(&ranks)
-                    .map(|(rows, ranks)| {
-                        let row = rows[firing as usize];
-                        ranks.as_ref().and_then(|ranks| ranks.get(row as usize)).copied().unwrap_or(row)
-                    })
-                    .collect()
-            };
-            let mut firings: Vec<(Vec<u32>, usize)> =
-                given.firings.iter().enumerate().map(|(nth, &firing)| (rank(firing), nth)).collect();
-            firings.sort();
-            for (_, nth) in firings {
-                let amount = match given.cells[nth] {
-                    Cell::Number(amount) => amount,
-                    _ => f64::NAN,
-                };
-                if given.rows[nth] != NO_ROW {
-                    out.push((operator, given.rows[nth] as usize, amount));
+        derived: &Derived,
+        row: u32,
+        kind: Type,
+    ) -> (Cell, Source) {
+        let told = self.held.get(&name.class).and_then(|held| held.table.column(&name.property));
+        let told = told.map_or(Cell::Unknown, |column| column.cell(row as usize));
+        if told != Cell::Unknown {
+            return (told, Source::Told);
+        }
+        if derived.hypothesis {
+            return self.proved(name, derived, row);
+        }
+        let mut chosen = (Cell::Unknown, Source::Nobody);
+        let mut priority = None;
+        for writer in &derived.writers {
+            if chosen.0 != Cell::Unknown && priority.is_some_and(|priority| writer.priority < priority) {
+                break;
+            }
+            for (cell, firing) in self.claims(name, writer.rule, row) {
+                let source = Source::Rule { rule: writer.rule, firing };
+                if cell == Cell::Unknown || cell.kind() != Some(kind) {
+                    // It says nothing, but the rule did apply: that explains the gap.
+                    if chosen.1 == Source::Nobody && cell == Cell::Unknown {
+                        chosen.1 = source;
+                    }
+                } else if chosen.0 == Cell::Unknown {
+                    chosen = (cell, source);
+                    priority = Some(writer.priority);
+                } else if chosen.0 != cell {
+                    return (Cell::Unknown, Source::Dispute);
                 }
             }
         }
-        out
+        chosen
     }
 
-    /// For each row its place in the order of keys.
-    fn ranks(&self, class: &str) -> Option<Vec<u32>> {
-        let table = &self.held.get(class)?.table;
-        let symbols = self.symbols.borrow();
-        let mut rows: Vec<u32> = (0..table.len as u32).collect();
-        rows.sort_by(|&a, &b| {
-            table.key.iter().fold(std::cmp::Ordering::Equal, |order, &column| {
-                let column = &table.columns[column];
-                order.then_with(|| match (column.cell(a as usize), column.cell(b as usize)) {
-                    (Cell::Number(a), Cell::Number(b)) => a.total_cmp(&b),
-                    (Cell::Text(a), Cell::Text(b)) => symbols.text(a).cmp(&symbols.text(b)),
-                    (Cell::Truth(a), Cell::Truth(b)) => a.cmp(&b),
-                    _ => std::cmp::Ordering::Equal,
-                })
-            })
-        });
-        let mut ranks = vec![0; rows.len()];
-        for (rank, row) in (0..).zip(rows) {
-            ranks[row as usize] = rank;
-        }
-        Some(ranks)
-    }
-}
-
-pub(super) fn find<'o>(output: &'o Output, name: &PropertyName) -> Option<&'o Given> {
-    output.given.iter().find(|given| given.name == *name)
-}
-
-/// A column in the making.
-struct Merging<'t> {
-    told: Option<&'t Column>,
-    column: Column,
-    origin: Vec<(u32, u32)>,
-    disputes: BTreeMap<u32, Vec<Claim>>,
-    problems: Vec<Diagnostic>,
-}
-
-impl<'t> Merging<'t> {
-    fn new(told: Option<&'t Column>, len: usize, kind: Type) -> Self {
-        let column = told.map_or_else(|| Column::unknown(kind, len), Clone::clone);
-        Self { told, column, origin: vec![(NO_RULE, 0); len], disputes: BTreeMap::new(), problems: vec![] }
-    }
-
-    fn add(&mut self, writer: u32, given: &Given, rule: &Rule) {
-        let mut mistyped = 0;
-        for ((&row, &firing), &cell) in given.rows.iter().zip(&given.firings).zip(&given.cells) {
-            let at = row as usize;
-            if self.told.is_some_and(|told| !told.is_unknown(at)) {
-                continue;
-            }
-            if cell == Cell::Unknown {
-                // It says nothing, but the rule did apply: that explains the gap.
-                if self.origin[at].0 == NO_RULE {
-                    self.origin[at] = (writer, firing);
+    /// A hypothesis: true if one rule proves it, false if all refute it.
+    fn proved(&self, name: &PropertyName, derived: &Derived, row: u32) -> (Cell, Source) {
+        let mut chosen = (Cell::Unknown, Source::Nobody);
+        for writer in &derived.writers {
+            for (cell, firing) in self.claims(name, writer.rule, row) {
+                let source = Source::Rule { rule: writer.rule, firing };
+                match (cell, chosen) {
+                    (Cell::Truth(true), _) => return (cell, source),
+                    (_, (_, Source::Nobody)) | (Cell::Unknown, (Cell::Truth(false), _)) => {
+                        chosen = (cell, source);
+                    }
+                    _ => {}
                 }
-                continue;
             }
-            if cell.kind() != Some(self.column.kind()) {
-                mistyped += 1;
-                continue;
-            }
-            self.claim(row, (writer, firing, cell));
         }
-        if mistyped > 0
-            && let Some(position) = rule.sets.get(&given.name)
-        {
-            let place = rule.file.source.place(*position);
-            let holds = self.column.kind().plural();
-            let message = format!("{} holds {holds}; rule \"{}\" gave something else", given.name, rule.name);
-            self.problems.push(
-                Diagnostic::error(Code::Type, &place, message).label(format!("for {mistyped} objects")),
-            );
-        }
+        chosen
     }
 
-    fn claim(&mut self, row: u32, claim: Claim) {
-        let at = row as usize;
-        if let Some(claims) = self.disputes.get_mut(&row) {
-            if claims.iter().all(|&(_, _, cell)| cell != claim.2) {
-                claims.push(claim);
+    /// What a rule says of one object, with the firings that say it.
+    pub(super) fn claims(&self, name: &PropertyName, rule: usize, row: u32) -> Vec<(Cell, usize)> {
+        let Some(memory) = &self.network.nodes[rule].memory else { return vec![] };
+        let mut claims = vec![];
+        for (at, _) in memory.given.iter().enumerate().filter(|(_, given)| given.name == *name) {
+            for firing in memory.firings_of(at, row) {
+                claims.extend(memory.claim(at, firing as usize).map(|cell| (cell, firing as usize)));
             }
-            return;
         }
-        let held = self.column.cell(at);
-        if held == Cell::Unknown {
-            self.column.set(at, claim.2);
-            self.origin[at] = (claim.0, claim.1);
-        } else if held != claim.2 {
-            let (writer, firing) = self.origin[at];
-            self.disputes.insert(row, vec![(writer, firing, held), claim]);
-            self.column.set(at, Cell::Unknown);
-        }
+        claims
+    }
+}
+
+impl Memory {
+    /// Whether what is given stands object by object.
+    fn sets_objects(&self, given: &crate::machine::output::Given) -> bool {
+        self.shape == super::memory::Shape::Single && given.variable == 0
     }
 }

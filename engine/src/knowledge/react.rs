@@ -9,7 +9,6 @@ use super::body::Tellable;
 use super::facts::FactError;
 use super::undo::Undo;
 use crate::agenda::{Binding, Halt, Outside, Stopped};
-use crate::changes::Changes;
 use crate::conclusions::Witness;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::machine::lane::NO_ROW;
@@ -66,8 +65,6 @@ impl KnowledgeBase {
         let mut stopped = self.matching(&mut run, true).err().map(|why| self.too_much(rules, why));
         let checkpoint = self.agenda.checkpoint();
         let generation = self.generation;
-        // Where nothing is concluded, what was told is all that changes.
-        let concludes = !rules.order.is_empty();
         while stopped.is_none() {
             let Some((number, binding)) = self.agenda.next(&run.skipped) else { break };
             if run.firings.len() >= self.limits.firings {
@@ -79,33 +76,25 @@ impl KnowledgeBase {
                 break;
             }
             self.agenda.carry_out(number, &binding);
-            let Some(changes) = self.carry_out(number, &binding, &mut run) else { continue };
-            if concludes {
+            if self.carry_out(number, &binding, &mut run) {
                 self.follow(rules);
-            } else {
-                self.agenda.note(&changes);
+                stopped = self.matching(&mut run, false).err().map(|why| self.too_much(rules, why));
             }
-            stopped = self.matching(&mut run, false).err().map(|why| self.too_much(rules, why));
         }
         if stopped.is_some() {
-            self.take_back(&mut run.undo, 0);
+            self.take_back(&mut run.undo);
             self.generation = generation;
             run.firings.clear();
-        }
-        if !concludes || stopped.is_some() {
-            // The agenda knows already.
             let changes = self.renew(rules);
             self.unreported.absorb(changes);
-        }
-        if stopped.is_some() {
             self.agenda.go_back(checkpoint);
         }
         let diagnostics = run.diagnostics().into_iter().chain(stopped).collect();
         Reactions { firings: run.firings, changes: std::mem::take(&mut self.unreported), diagnostics }
     }
 
-    /// Carries out one activation; what it changed, or `None` if it failed.
-    fn carry_out(&mut self, number: usize, binding: &Binding, run: &mut Run) -> Option<Changes> {
+    /// Carries out one activation; `false` if it failed, and so told nothing.
+    fn carry_out(&mut self, number: usize, binding: &Binding, run: &mut Run) -> bool {
         let rule = &run.rules.rules[number];
         let rows = self.rows(number, binding);
         let edits = match self.body(number, binding, &rows, run) {
@@ -115,15 +104,15 @@ impl KnowledgeBase {
                     run.skipped.insert(number);
                 }
                 run.failed(number, *problem);
-                return None;
+                return false;
             }
         };
         let witnesses = self.called(rule, &rows);
-        let (told, changes) = match self.act(&edits, &mut run.undo) {
+        let told = match self.act(&edits, &mut run.undo) {
             Ok(done) => done,
             Err(wrong) => {
                 run.failed(number, refused(rule, &wrong));
-                return None;
+                return false;
             }
         };
         self.generation += 1;
@@ -135,7 +124,7 @@ impl KnowledgeBase {
             witnesses,
             told,
         });
-        Some(changes)
+        true
     }
 
     /// Brings the matches up to what is told and concluded now.

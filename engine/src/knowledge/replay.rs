@@ -1,11 +1,10 @@
 //! Tells again what rules told.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::KnowledgeBase;
 use super::facts::FactError;
 use super::undo::{Edit, Undo};
-use crate::changes::{Changes, ClassChanges};
 use crate::reactions::Told;
 
 impl KnowledgeBase {
@@ -16,7 +15,7 @@ impl KnowledgeBase {
         for told in log {
             let done = self.edit_of(told).and_then(|edit| self.edit(&edit, &mut undo));
             if let Err(wrong) = done {
-                self.take_back(&mut undo, 0);
+                self.take_back(&mut undo);
                 return Err(wrong);
             }
         }
@@ -49,21 +48,20 @@ impl KnowledgeBase {
         })
     }
 
-    /// Does all edits of one action, or none: values first, then objects that go, then new ones.
-    pub(super) fn act(&mut self, edits: &[Edit], undo: &mut Undo) -> Result<(Vec<Told>, Changes), FactError> {
-        let keep = undo.0.len();
+    /// Does all edits of one action, or none: values first, then objects that go, then new ones. Nothing else may
+    /// have been told since the last inference.
+    pub(super) fn act(&mut self, edits: &[Edit], undo: &mut Undo) -> Result<Vec<Told>, FactError> {
+        let mut action = Undo::default();
         let mut told = vec![];
-        let mut changes = Changes::default();
         for edit in ordered(edits) {
             told.push(self.told(&edit));
-            let rows = self.rows_of(&edit);
-            if let Err(wrong) = self.edit(&edit, undo) {
-                self.take_back(undo, keep);
+            if let Err(wrong) = self.edit(&edit, &mut action) {
+                self.take_back_all(&mut action);
                 return Err(wrong);
             }
-            changes.absorb(changed(edit, rows));
         }
-        Ok((told, changes))
+        undo.0.append(&mut action.0);
+        Ok(told)
     }
 
     fn told(&self, edit: &Edit) -> Told {
@@ -80,11 +78,6 @@ impl KnowledgeBase {
                 Told::Object { class: class.clone(), properties: properties.clone() }
             }
         }
-    }
-
-    fn rows_of(&self, edit: &Edit) -> u32 {
-        let (Edit::Value { class, .. } | Edit::Gone { class, .. } | Edit::Object { class, .. }) = edit;
-        self.len(class).unwrap_or(0) as u32
     }
 }
 
@@ -104,26 +97,4 @@ fn ordered(edits: &[Edit]) -> Vec<Edit> {
     values.extend(gone.into_iter().map(|(class, row)| Edit::Gone { class: class.clone(), row: row.0 }));
     values.extend(objects);
     values
-}
-
-/// What an edit changed in a class of so many objects, as long as nothing is concluded of it.
-fn changed(edit: Edit, rows: u32) -> Changes {
-    let mut changes = ClassChanges::default();
-    let class = match edit {
-        Edit::Value { class, row, property, .. } => {
-            changes.changed = BTreeMap::from([(property, vec![row as u32])]);
-            class
-        }
-        Edit::Gone { class, row } => {
-            let gone = row as u32;
-            let moved = |row: u32| if row == gone { None } else { Some(row - u32::from(row > gone)) };
-            changes.moved = Some((0..rows).map(moved).collect());
-            class
-        }
-        Edit::Object { class, .. } => {
-            changes.added = vec![rows];
-            class
-        }
-    };
-    Changes { classes: BTreeMap::from([(class, changes)]), ..Changes::default() }
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::KnowledgeBase;
+use super::pending::Pending;
 use crate::class::Table;
 use crate::column::Column;
 use crate::value::{Cell, Value};
@@ -33,11 +34,30 @@ impl Undo {
 }
 
 impl KnowledgeBase {
-    /// Takes back all edits after the first `keep`.
-    pub(super) fn take_back(&mut self, undo: &mut Undo, keep: usize) {
+    /// Takes back all edits.
+    pub(super) fn take_back(&mut self, undo: &mut Undo) {
+        for (class, table) in self.before(undo) {
+            match table {
+                Some(table) => self.hold(table),
+                None => self.retract(&class),
+            }
+        }
+    }
+
+    /// Takes back all that was told since the last inference: nothing has changed then.
+    pub(super) fn take_back_all(&mut self, undo: &mut Undo) {
+        for (class, table) in self.before(undo) {
+            match (table, self.held.get_mut(&class)) {
+                (Some(table), Some(held)) => (held.table, held.pending) = (table, Pending::default()),
+                _ => self.retract(&class),
+            }
+        }
+    }
+
+    /// The tables before the edits; `None` of classes that there were not.
+    fn before(&self, undo: &mut Undo) -> BTreeMap<String, Option<Table>> {
         let mut tables: BTreeMap<String, Option<Table>> = BTreeMap::new();
-        while undo.0.len() > keep {
-            let Some((class, done)) = undo.0.pop() else { break };
+        while let Some((class, done)) = undo.0.pop() {
             let held = &self.held;
             let table = tables
                 .entry(class)
@@ -48,12 +68,7 @@ impl KnowledgeBase {
                 done.take_back(table);
             }
         }
-        for (class, table) in tables {
-            match table {
-                Some(table) => self.hold(table),
-                None => self.retract(&class),
-            }
-        }
+        tables
     }
 }
 

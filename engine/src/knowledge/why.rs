@@ -1,12 +1,12 @@
 //! Why a property has its value.
 
 use super::KnowledgeBase;
-use super::derived::NO_RULE;
+use super::derived::Derived;
+use super::merge::Source;
 use crate::conclusions::{Justification, Justifications, Origin, Revision, Support, Witness};
 use crate::machine::lane::NO_ROW;
 use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
-use crate::value::Cell;
 
 impl KnowledgeBase {
     /// Why a property of the object with this key has its value; `None` if there is no such object or property,
@@ -16,41 +16,56 @@ impl KnowledgeBase {
         let name = PropertyName::new(class, property);
         let value = self.host_value(self.column(&name)?.cell(row));
         let key = key.to_owned();
-        let Some(derived) = self.derived.get(&name) else {
-            value.as_ref()?;
-            return Some(Justification {
-                property: name,
-                key,
-                value,
-                origin: Origin::Told,
-                revisions: vec![],
-            });
+        let told = |value| Justification {
+            property: name.clone(),
+            key: key.clone(),
+            value,
+            origin: Origin::Told,
+            revisions: vec![],
         };
-        let &(writer, firing) = derived.origin.get(row)?;
-        let origin = if writer == NO_RULE {
-            (!derived.merged.is_unknown(row)).then_some(Origin::Told)?
-        } else {
-            let rule = rules.rules.iter().find(|rule| rule.name == derived.writers[writer as usize])?;
-            Origin::Rule(self.support(rule, firing)?)
+        let Some(derived) = self.derived.get(&name).filter(|derived| !derived.stages.is_empty()) else {
+            return value.is_some().then(|| told(value));
         };
-        let revisions = self.revisions(rules, &name, row);
+        let origin = match self.source(&name, derived, row as u32) {
+            Source::Nobody => return None,
+            Source::Told => Origin::Told,
+            Source::Rule { rule, firing } => Origin::Rule(self.support(rules, rule, firing)?),
+            Source::Dispute => {
+                let (rule, firing) = derived.writers.iter().find_map(|writer| {
+                    Some((writer.rule, self.claims(&name, writer.rule, row as u32).first()?.1))
+                })?;
+                Origin::Rule(self.support(rules, rule, firing)?)
+            }
+        };
+        let revisions = self.revisions(rules, &name, derived, row as u32);
         Some(Justification { property: name, key, value, origin, revisions })
+    }
+
+    fn source(&self, name: &PropertyName, derived: &Derived, row: u32) -> Source {
+        self.resolve(name, derived, row, derived.stages[0].kind()).1
     }
 
     /// For a property that rules conclude: the rule behind each object's value.
     pub fn justifications(&self, class: &str, property: &str) -> Option<Justifications> {
-        let derived = self.derived.get(&PropertyName::new(class, property))?;
-        let version = |name: &String| self.done.get(name).map_or(String::new(), |done| done.version.clone());
-        let rules = derived.writers.iter().map(|name| (name.clone(), version(name))).collect();
-        let of_row = derived
-            .origin
+        let name = PropertyName::new(class, property);
+        let derived = self.derived.get(&name).filter(|derived| !derived.stages.is_empty())?;
+        let of = |rule: usize| self.network.nodes.get(rule);
+        let rules = derived
+            .writers
             .iter()
-            .enumerate()
-            .map(|(row, &(writer, _))| {
-                (writer != NO_RULE && !derived.merged.is_unknown(row)).then_some(writer)
-            })
+            .filter_map(|writer| of(writer.rule).map(|node| (node.name.clone(), node.version.clone())))
             .collect();
-        Some(Justifications { rules, of_row })
+        let merged = &derived.stages[0];
+        let writer = |row: usize| match self.source(&name, derived, row as u32) {
+            Source::Rule { rule, .. } if !merged.is_unknown(row) => derived
+                .writers
+                .iter()
+                .zip(0..)
+                .find(|(writer, _)| writer.rule == rule)
+                .map(|(_, number)| number),
+            _ => None,
+        };
+        Some(Justifications { rules, of_row: (0..merged.len()).map(writer).collect() })
     }
 
     /// For a property that rules conclude: the row that a variable of its rule stands for, for each object.
@@ -62,62 +77,69 @@ impl KnowledgeBase {
         property: &str,
         variable: &str,
     ) -> Option<Vec<Option<u32>>> {
-        let derived = self.derived.get(&PropertyName::new(class, property))?;
-        let number = rule.clauses.iter().position(|clause| clause.variable == variable)?;
-        let rows = self.done.get(rule.name())?.output.witnesses.get(number)?;
-        let writer = derived.writers.iter().position(|name| name == rule.name())? as u32;
-        let witness = |&(by, firing): &(u32, u32)| {
-            let row = (by == writer).then(|| rows.get(firing as usize).copied()).flatten()?;
-            (row != NO_ROW).then_some(row)
+        let name = PropertyName::new(class, property);
+        let derived = self.derived.get(&name).filter(|derived| !derived.stages.is_empty())?;
+        let clause = rule.clauses.iter().position(|clause| clause.variable == variable)?;
+        let number = self.network.nodes.iter().position(|node| node.name == rule.name())?;
+        let memory = self.network.nodes[number].memory.as_ref()?;
+        let witness = |row: u32| match self.source(&name, derived, row) {
+            Source::Rule { rule, firing } if rule == number => {
+                Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW)
+            }
+            _ => None,
         };
-        Some(derived.origin.iter().map(witness).collect())
+        Some((0..derived.stages[0].len() as u32).map(witness).collect())
     }
 
     /// For a property that rules revise: each such rule with the rows that it revises.
     pub fn revised<'r>(&self, rules: &'r RuleBase, class: &str, property: &str) -> Vec<(&'r Rule, Vec<u32>)> {
         let name = PropertyName::new(class, property);
-        let revises = |rule: &&Rule| rule.level().is_some() && rule.sets.contains_key(&name);
-        let rows = |rule: &'r Rule| {
-            let given = self.done.get(rule.name()).into_iter().flat_map(|done| &done.output.given);
-            (rule, given.flat_map(|given| given.rows.iter().copied()).collect())
-        };
-        rules.rules.iter().filter(revises).map(rows).collect()
+        let mut out = vec![];
+        for (rule, node) in rules.rules.iter().zip(&self.network.nodes) {
+            if rule.level().is_none() || !rule.sets.contains_key(&name) {
+                continue;
+            }
+            let mut rows = vec![];
+            if let Some(memory) = &node.memory {
+                for given in memory.given.iter().filter(|given| given.name == name) {
+                    let firings =
+                        (0..memory.firings()).filter(|&firing| given.written.get(firing) == Some(&true));
+                    rows.extend(firings.map(|firing| memory.witness(given.variable, firing)));
+                }
+            }
+            out.push((rule, rows));
+        }
+        out
     }
 
-    fn support(&self, rule: &Rule, firing: u32) -> Option<Support> {
-        let output = &self.done.get(rule.name())?.output;
-        let witness = |(clause, rows): (&crate::rule::Clause, &Vec<u32>)| {
-            let row = *rows.get(firing as usize)?;
-            let key = self.key(&clause.class, row as usize)?;
-            Some(Witness { variable: clause.variable.clone(), class: clause.class.clone(), key })
+    fn support(&self, rules: &RuleBase, number: usize, firing: usize) -> Option<Support> {
+        let rule = &rules.rules[number];
+        let memory = self.network.nodes[number].memory.as_ref()?;
+        let witness = |(clause, of): (usize, &crate::rule::Clause)| {
+            let key = self.key(&of.class, memory.witness(clause, firing) as usize)?;
+            Some(Witness { variable: of.variable.clone(), class: of.class.clone(), key })
         };
         Some(Support {
             rule: rule.name.clone(),
             version: rule.version.clone(),
             file: rule.file().to_owned(),
             line: rule.line,
-            witnesses: rule.clauses.iter().zip(&output.witnesses).filter_map(witness).collect(),
+            witnesses: rule.clauses.iter().enumerate().filter_map(witness).collect(),
         })
     }
 
-    fn revisions(&self, rules: &RuleBase, name: &PropertyName, row: usize) -> Vec<Revision> {
+    fn revisions(&self, rules: &RuleBase, name: &PropertyName, derived: &Derived, row: u32) -> Vec<Revision> {
         let mut revisions = vec![];
-        for rule in rules.rules.iter().filter(|rule| rule.sets.contains_key(name)) {
-            let Action::Revise { operator, level, .. } = rule.action else { continue };
-            let Some(done) = self.done.get(rule.name()) else { continue };
-            for given in &done.output.given {
-                for (nth, _) in given.rows.iter().enumerate().filter(|&(_, &at)| at as usize == row) {
-                    let amount = match given.cells[nth] {
-                        Cell::Number(amount) => Some(amount),
-                        _ => None,
-                    };
-                    if let Some(support) = self.support(rule, given.firings[nth]) {
-                        revisions.push(Revision { level, operator, amount, support });
+        for (level, revisers) in &derived.levels {
+            for &number in revisers {
+                let Action::Revise { operator, .. } = rules.rules[number].action else { continue };
+                for (amount, firing) in self.contributions(rules, name, number, row) {
+                    if let Some(support) = self.support(rules, number, firing) {
+                        revisions.push(Revision { level: *level, operator, amount, support });
                     }
                 }
             }
         }
-        revisions.sort_by(|a, b| (a.level, &a.support.rule).cmp(&(b.level, &b.support.rule)));
         revisions
     }
 }

@@ -22,11 +22,11 @@ pub(crate) enum Written {
 }
 
 impl Written {
-    pub(crate) fn at(&self, index: usize) -> bool {
+    pub(crate) fn extend(&self, out: &mut Vec<bool>, len: usize) {
         match self {
-            Self::Nowhere => false,
-            Self::Everywhere => true,
-            Self::Where(mask) => mask[index],
+            Self::Nowhere => out.resize(out.len() + len, false),
+            Self::Everywhere => out.resize(out.len() + len, true),
+            Self::Where(mask) => out.extend_from_slice(&mask[..len]),
         }
     }
 }
@@ -50,20 +50,20 @@ impl Machine<'_> {
                 Step::If { condition, then, otherwise, changes } => {
                     let batch = Batch { frame, slots: &slots.values, mask };
                     let condition = self.evaluate(condition, batch).truths().into_static();
-                    let active = |index| mask.is_none_or(|mask| mask[index]);
-                    let when = |wanted: Truth| -> Vec<bool> {
-                        (0..frame.len).map(|index| active(index) && condition.at(index) == wanted).collect()
-                    };
-                    let (yes, no, unknown) = (when(Truth::True), when(Truth::False), when(Truth::Unknown));
-                    if yes.contains(&true) {
-                        self.steps(then, targets, frame, Some(&yes), slots);
-                    }
-                    if no.contains(&true) {
-                        self.steps(otherwise, targets, frame, Some(&no), slots);
-                    }
-                    if unknown.contains(&true) {
-                        for &slot in changes {
-                            slots.put(slot, Values::UNKNOWN, frame.len, Some(&unknown));
+                    let whole = |truth| matches!(&condition, Lane::Same(same) if *same == truth);
+                    if whole(Truth::True) {
+                        self.steps(then, targets, frame, mask, slots);
+                    } else if whole(Truth::False) {
+                        self.steps(otherwise, targets, frame, mask, slots);
+                    } else {
+                        let when = |wanted: Truth| when(&condition, wanted, frame.len, mask);
+                        self.branch(then, changes, targets, frame, &when(Truth::True), slots);
+                        self.branch(otherwise, changes, targets, frame, &when(Truth::False), slots);
+                        let unknown = when(Truth::Unknown);
+                        if unknown.contains(&true) {
+                            for &slot in changes {
+                                slots.put(slot, Values::UNKNOWN, frame.len, Some(&unknown));
+                            }
                         }
                     }
                 }
@@ -85,7 +85,70 @@ impl Machine<'_> {
     }
 }
 
+/// The bindings, of those that count, for which the condition is that.
+fn when(condition: &Lane<Truth>, wanted: Truth, len: usize, mask: Mask) -> Vec<bool> {
+    let mut chosen: Vec<bool> = match condition {
+        Lane::Same(truth) => vec![*truth == wanted; len],
+        Lane::Each(truths) => truths.iter().map(|&truth| truth == wanted).collect(),
+    };
+    if let Some(mask) = mask {
+        chosen.iter_mut().zip(mask).for_each(|(chosen, &active)| *chosen &= active);
+    }
+    chosen
+}
+
+impl Machine<'_> {
+    /// One branch of an `if`. Where few bindings take it, it runs for them alone.
+    fn branch(
+        &self,
+        steps: &[Step],
+        changes: &[usize],
+        targets: &[Target],
+        frame: &Frame,
+        chosen: &[bool],
+        slots: &mut Slots,
+    ) {
+        let count = chosen.iter().filter(|chosen| **chosen).count();
+        if count == 0 || steps.is_empty() {
+            return;
+        }
+        if count * 4 > frame.len {
+            return self.steps(steps, targets, frame, Some(chosen), slots);
+        }
+        let taken: Vec<u32> = (0..).zip(chosen).filter(|(_, chosen)| **chosen).map(|(at, _)| at).collect();
+        let mut own = Slots {
+            values: slots.values.iter().map(|values| values.select(&taken)).collect(),
+            written: vec![Written::Nowhere; slots.written.len()],
+        };
+        self.steps(steps, targets, &frame.select(&taken), None, &mut own);
+        for &slot in changes {
+            slots.scatter(slot, &own.values[slot], &own.written[slot], &taken, frame.len);
+        }
+    }
+}
+
 impl Slots {
+    /// Takes over what a branch wrote for some bindings.
+    fn scatter(&mut self, slot: usize, values: &Values, written: &Written, taken: &[u32], len: usize) {
+        let from: Vec<bool> = match written {
+            Written::Nowhere => return,
+            Written::Everywhere => vec![true; taken.len()],
+            Written::Where(mask) => mask.clone(),
+        };
+        let written_now =
+            taken.iter().zip(&from).filter(|(_, written)| **written).map(|(&at, _)| at as usize);
+        match &mut self.written[slot] {
+            Written::Everywhere => {}
+            Written::Where(mask) => written_now.for_each(|at| mask[at] = true),
+            nowhere @ Written::Nowhere => {
+                let mut mask = vec![false; len];
+                written_now.for_each(|at| mask[at] = true);
+                *nowhere = Written::Where(mask);
+            }
+        }
+        self.values[slot].scatter(values, taken, &from, len);
+    }
+
     fn put(&mut self, slot: usize, value: Values<'static>, len: usize, mask: Mask) {
         let Some(mask) = mask else {
             self.values[slot] = value;

@@ -6,7 +6,7 @@ use crate::column::Column;
 use crate::value::Cell;
 
 /// Rows by the values of some columns. Rows of one group keep the order in which they came.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Index {
     /// One map for each column: group so far and value to group. Only looked up, never walked.
     groups: Vec<HashMap<(u32, u64), u32>>,
@@ -15,11 +15,11 @@ pub(crate) struct Index {
 }
 
 impl Index {
-    pub(crate) fn new(columns: &[&Column], rows: impl Iterator<Item = u32>) -> Self {
+    pub(crate) fn new(columns: &[&Column], rows: &[u32]) -> Self {
         let mut index = Self { groups: columns.iter().map(|_| HashMap::new()).collect(), ..Self::default() };
         let mut counts = vec![0_u32; columns.len()];
         let mut members: Vec<(u32, u32)> = vec![];
-        'rows: for row in rows {
+        'rows: for &row in rows {
             let mut group = 0;
             for (nth, column) in columns.iter().enumerate() {
                 let Some(part) = bits(column.cell(row as usize)) else { continue 'rows };
@@ -62,7 +62,7 @@ impl Index {
 }
 
 /// A value as bits; values of different types never meet, since a join has one type.
-fn bits(cell: Cell) -> Option<u64> {
+pub(crate) fn bits(cell: Cell) -> Option<u64> {
     match cell {
         Cell::Unknown => None,
         // Minus zero equals zero.

@@ -37,6 +37,14 @@ impl<T: Copy> Lane<'_, T> {
         }
     }
 
+    /// Adds the values of a batch to those of others.
+    pub(crate) fn extend(&self, out: &mut Vec<T>, len: usize) {
+        match self {
+            Self::Same(value) => out.resize(out.len() + len, *value),
+            Self::Each(values) => out.extend_from_slice(&values[..len]),
+        }
+    }
+
     pub(crate) fn into_static(self) -> Lane<'static, T> {
         match self {
             Self::Same(value) => Lane::Same(value),
@@ -44,9 +52,41 @@ impl<T: Copy> Lane<'_, T> {
         }
     }
 
+    fn select(&self, chosen: &[u32]) -> Lane<'static, T> {
+        match self {
+            Self::Same(value) => Lane::Same(*value),
+            Self::Each(values) => Lane::Each(chosen.iter().map(|&at| values[at as usize]).collect()),
+        }
+    }
+
+    /// Writes the values of some places, of those that `which` says.
+    fn scatter(&mut self, values: &Lane<T>, places: &[u32], which: &[bool], len: usize) {
+        if let Self::Same(value) = self {
+            *self = Self::Each(vec![*value; len].into());
+        }
+        let Self::Each(own) = self else { return };
+        let own = own.to_mut();
+        for (index, (&at, _)) in places.iter().zip(which).enumerate().filter(|(_, (_, which))| **which) {
+            own[at as usize] = values.at(index);
+        }
+    }
+
     /// The values from `yes` where `choose` says so, else from `self`.
     pub(crate) fn blend(&self, yes: &Self, len: usize, choose: impl Fn(usize) -> bool) -> Lane<'static, T> {
-        Lane::Each((0..len).map(|index| if choose(index) { yes.at(index) } else { self.at(index) }).collect())
+        let pick = |index, yes: T, no: T| if choose(index) { yes } else { no };
+        Lane::Each(match (self, yes) {
+            (Self::Same(no), Self::Same(yes)) => (0..len).map(|index| pick(index, *yes, *no)).collect(),
+            (Self::Same(no), Self::Each(yes)) => {
+                yes[..len].iter().enumerate().map(|(index, &yes)| pick(index, yes, *no)).collect()
+            }
+            (Self::Each(no), Self::Same(yes)) => {
+                no[..len].iter().enumerate().map(|(index, &no)| pick(index, *yes, no)).collect()
+            }
+            (Self::Each(no), Self::Each(yes)) => {
+                let both = no[..len].iter().zip(&yes[..len]).enumerate();
+                both.map(|(index, (&no, &yes))| pick(index, yes, no)).collect()
+            }
+        })
     }
 }
 
@@ -156,6 +196,16 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// The values of some bindings.
+    pub(crate) fn select(&self, chosen: &[u32]) -> Values<'static> {
+        match self {
+            Self::Numbers(lane) => Values::Numbers(lane.select(chosen)),
+            Self::Texts(lane) => Values::Texts(lane.select(chosen)),
+            Self::Truths(lane) => Values::Truths(lane.select(chosen)),
+            Self::Cells(lane) => Values::Cells(lane.select(chosen)),
+        }
+    }
+
     /// The type; `None` for cells.
     pub(crate) const fn kind(&self) -> Option<Type> {
         match self {
@@ -163,6 +213,33 @@ impl<'a> Values<'a> {
             Self::Texts(_) => Some(Type::Text),
             Self::Truths(_) => Some(Type::Truth),
             Self::Cells(_) => None,
+        }
+    }
+}
+
+impl Values<'static> {
+    /// Writes the values of some places, of those that `which` says.
+    pub(crate) fn scatter(&mut self, values: &Values, places: &[u32], which: &[bool], len: usize) {
+        if let (Values::Cells(Lane::Same(Cell::Unknown)), Some(kind)) = (&*self, values.kind()) {
+            *self = std::mem::replace(self, Values::UNKNOWN).narrow(kind);
+        }
+        match (&mut *self, values) {
+            (Values::Numbers(own), Values::Numbers(lane)) => own.scatter(lane, places, which, len),
+            (Values::Texts(own), Values::Texts(lane)) => own.scatter(lane, places, which, len),
+            (Values::Truths(own), Values::Truths(lane)) => own.scatter(lane, places, which, len),
+            (Values::Cells(own), values) => {
+                let cells = Lane::Each((0..places.len()).map(|index| values.cell(index)).collect());
+                own.scatter(&cells, places, which, len);
+            }
+            (_, values) => {
+                let kind = self.kind();
+                let own = std::mem::replace(self, Values::UNKNOWN);
+                let cells: Vec<Cell> = (0..len).map(|index| own.cell(index)).collect();
+                let mut own = Values::Cells(Lane::Each(cells.into()));
+                own.scatter(values, places, which, len);
+                // What only running tells of another type stays unknown.
+                *self = kind.map_or_else(|| own.clone(), |kind| own.clone().narrow(kind));
+            }
         }
     }
 }
@@ -199,6 +276,15 @@ impl Rows {
             Self::From(first) => first + index as u32,
             Self::Same(row) => *row,
             Self::Each(rows) => rows[index],
+        }
+    }
+
+    pub(crate) fn extend(&self, out: &mut Vec<u32>, len: usize) {
+        match self {
+            Self::Unbound | Self::Numbers(_) => out.resize(out.len() + len, NO_ROW),
+            Self::From(first) => out.extend(*first..*first + len as u32),
+            Self::Same(row) => out.resize(out.len() + len, *row),
+            Self::Each(rows) => out.extend_from_slice(&rows[..len]),
         }
     }
 

@@ -1,10 +1,11 @@
 //! Finds one witness for each binding: the least, the most, or the first that passes.
 
 use super::evaluate::Batch;
-use super::lane::{Frame, Lane, NO_ROW, Rows};
+use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
 use super::search::Search;
 use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
+use crate::plan::node::Comparison;
 use crate::script::syntax::Quantifier;
 use crate::value::Truth;
 
@@ -60,8 +61,13 @@ impl Search<'_> {
         clause: &ClausePlan,
         frame: &Frame,
     ) -> Result<Found, Stopped> {
+        let candidates = self.candidates(number);
+        if !candidates.thresholds.is_empty()
+            && let Some(found) = self.by_threshold(number, clause, frame)?
+        {
+            return Ok(found);
+        }
         let mut found = Found::new(clause, frame.len);
-        let candidates = &self.candidates[number];
         if candidates.index.is_some() {
             self.by_index(number, clause, frame, &mut found)?;
         } else if candidates.rows.len() <= frame.len {
@@ -70,6 +76,51 @@ impl Search<'_> {
             self.by_binding(number, clause, frame, &mut found)?;
         }
         Ok(found)
+    }
+
+    /// For few candidates that only pass or fail comparisons of numbers: the worst first, so that the best is what
+    /// stays. `None` where the bindings' side is not numbers.
+    fn by_threshold(
+        &self,
+        number: usize,
+        clause: &ClausePlan,
+        frame: &Frame,
+    ) -> Result<Option<Found>, Stopped> {
+        let candidates = self.candidates(number);
+        let batch = Batch { frame, slots: &[], mask: None };
+        let mut sides = vec![];
+        for threshold in &clause.thresholds {
+            match self.machine.evaluate(&threshold.binding, batch) {
+                Values::Numbers(lane) => sides.push((threshold.comparison, lane)),
+                _ => return Ok(None),
+            }
+        }
+        let mut best = vec![NOWHERE; frame.len];
+        let mut passes = vec![0_u64; frame.len];
+        for (nth, &row) in candidates.rows.iter().enumerate().rev() {
+            passes.fill(u64::MAX);
+            for ((comparison, lane), values) in sides.iter().zip(&candidates.thresholds) {
+                narrow(&mut passes, *comparison, values[nth], lane);
+            }
+            for (best, passes) in best.iter_mut().zip(&passes) {
+                *best = (*best & !passes) | (u64::from(row) & passes);
+            }
+        }
+        let mut found = Found::new(clause, frame.len);
+        found.rows = best.into_iter().map(|row| row as u32).collect();
+        let unknown = |index: usize| {
+            let side = sides.iter().any(|(_, lane)| lane.at(index).is_nan());
+            side || candidates.thresholds.iter().flatten().any(|value| value.is_nan())
+        };
+        let open: Vec<u32> = (0..frame.len as u32)
+            .filter(|&index| found.rows[index as usize] == NO_ROW && unknown(index as usize))
+            .collect();
+        if !open.is_empty() {
+            let mut counted = Found::new(clause, open.len());
+            self.by_candidate(number, clause, &frame.select(&open), &mut counted)?;
+            open.iter().zip(counted.unknown).for_each(|(&at, unknown)| found.unknown[at as usize] = unknown);
+        }
+        Ok(Some(found))
     }
 
     fn by_index(
@@ -130,7 +181,7 @@ impl Search<'_> {
         found: &mut Found,
     ) -> Result<(), Stopped> {
         let mut tried = frame.clone();
-        for &row in &self.candidates[number].rows {
+        for &row in &self.candidates(number).rows {
             self.machine.tick()?;
             tried.rows[number] = Rows::Same(row);
             let (truths, values) = self.tried(clause, &tried);
@@ -152,7 +203,7 @@ impl Search<'_> {
         frame: &Frame,
         found: &mut Found,
     ) -> Result<(), Stopped> {
-        let candidates = &self.candidates[number];
+        let candidates = self.candidates(number);
         for binding in 0..frame.len {
             for (nth, chunk) in candidates.rows.chunks(BATCH).enumerate() {
                 self.machine.tick()?;
@@ -185,5 +236,35 @@ impl Search<'_> {
             _ => Lane::Same(f64::NAN),
         };
         (truths, values)
+    }
+}
+
+/// [`NO_ROW`] among 64 bits.
+const NOWHERE: u64 = NO_ROW as u64;
+
+/// Keeps the bits of the bindings for which the comparison with the candidate's value is true. Without a branch, so
+/// that several are compared at once.
+// Rules mean equality to the bit.
+#[allow(clippy::float_cmp)]
+fn narrow(passes: &mut [u64], comparison: Comparison, candidate: f64, bindings: &Lane<f64>) {
+    fn with(passes: &mut [u64], bindings: &Lane<f64>, test: impl Fn(f64) -> bool) {
+        match bindings {
+            Lane::Same(value) if test(*value) => {}
+            Lane::Same(_) => passes.fill(0),
+            Lane::Each(values) => {
+                for (passes, &value) in passes.iter_mut().zip(values.iter()) {
+                    *passes &= u64::from(test(value)).wrapping_neg();
+                }
+            }
+        }
+    }
+    match comparison {
+        Comparison::Equal => with(passes, bindings, |value| candidate == value),
+        // Nothing is unequal to the unknown.
+        Comparison::Unequal => with(passes, bindings, |value| (candidate < value) | (candidate > value)),
+        Comparison::Less => with(passes, bindings, |value| candidate < value),
+        Comparison::AtMost => with(passes, bindings, |value| candidate <= value),
+        Comparison::Greater => with(passes, bindings, |value| candidate > value),
+        Comparison::AtLeast => with(passes, bindings, |value| candidate >= value),
     }
 }

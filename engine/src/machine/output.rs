@@ -1,18 +1,100 @@
 //! What the evaluation of one rule gives.
 
+use super::lane::Values;
+use crate::column::Column;
 use crate::diagnostic::Diagnostic;
 use crate::rule::PropertyName;
-use crate::value::{Cell, Type};
+use crate::symbols::Symbol;
+use crate::value::{Cell, Truth, Type};
 
-/// Values that a rule gives to a property: row, firing and value side by side.
+/// Values side by side, of one type where it is known before running.
+#[derive(Clone, Debug)]
+pub(crate) enum Buffer {
+    Typed(Column),
+    Cells(Vec<Cell>),
+}
+
+impl Buffer {
+    pub(crate) fn new(kind: Option<Type>) -> Self {
+        kind.map_or(Self::Cells(vec![]), |kind| Self::Typed(Column::unknown(kind, 0)))
+    }
+
+    /// None of the same type.
+    pub(crate) fn empty(&self) -> Self {
+        match self {
+            Self::Typed(column) => Self::Typed(Column::unknown(column.kind(), 0)),
+            Self::Cells(_) => Self::Cells(vec![]),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Typed(column) => column.len(),
+            Self::Cells(cells) => cells.len(),
+        }
+    }
+
+    pub(crate) fn cell(&self, at: usize) -> Cell {
+        match self {
+            Self::Typed(column) => column.cell(at),
+            Self::Cells(cells) => cells.get(at).copied().unwrap_or(Cell::Unknown),
+        }
+    }
+
+    pub(crate) fn set(&mut self, at: usize, cell: Cell) {
+        match self {
+            Self::Typed(column) => {
+                column.set(at, cell);
+            }
+            Self::Cells(cells) => cells[at] = cell,
+        }
+    }
+
+    pub(crate) fn push(&mut self, cell: Cell) {
+        match self {
+            Self::Typed(column) => column.push(cell),
+            Self::Cells(cells) => cells.push(cell),
+        }
+    }
+
+    /// Makes it this long; new places are unknown.
+    pub(crate) fn resize(&mut self, len: usize) {
+        match self {
+            Self::Typed(Column::Numbers(values)) => values.resize(len, f64::NAN),
+            Self::Typed(Column::Texts(values)) => values.resize(len, Symbol::UNKNOWN),
+            Self::Typed(Column::Truths(values)) => values.resize(len, Truth::Unknown),
+            Self::Cells(cells) => cells.resize(len, Cell::Unknown),
+        }
+    }
+
+    /// Adds the values of a batch.
+    pub(crate) fn extend(&mut self, values: &Values, len: usize) {
+        match (self, values) {
+            (Self::Typed(Column::Numbers(out)), Values::Numbers(lane)) => lane.extend(out, len),
+            (Self::Typed(Column::Texts(out)), Values::Texts(lane)) => lane.extend(out, len),
+            (Self::Typed(Column::Truths(out)), Values::Truths(lane)) => lane.extend(out, len),
+            (out, values) => (0..len).for_each(|index| out.push(values.cell(index))),
+        }
+    }
+
+    /// Adds all of another.
+    pub(crate) fn append(&mut self, other: &Self) {
+        match (self, other) {
+            (Self::Typed(Column::Numbers(out)), Self::Typed(Column::Numbers(more))) => out.extend(more),
+            (Self::Typed(Column::Texts(out)), Self::Typed(Column::Texts(more))) => out.extend(more),
+            (Self::Typed(Column::Truths(out)), Self::Typed(Column::Truths(more))) => out.extend(more),
+            (out, more) => (0..more.len()).for_each(|at| out.push(more.cell(at))),
+        }
+    }
+}
+
+/// What a rule gives to one property of one of its variables: a value for each firing that gives one.
 #[derive(Clone, Debug)]
 pub(crate) struct Given {
     pub(crate) name: PropertyName,
-    /// The type, if it is known before running.
-    pub(crate) kind: Option<Type>,
-    pub(crate) rows: Vec<u32>,
-    pub(crate) firings: Vec<u32>,
-    pub(crate) cells: Vec<Cell>,
+    pub(crate) variable: usize,
+    pub(crate) values: Buffer,
+    pub(crate) written: Vec<bool>,
 }
 
 /// A binding of the clauses before, for which a clause was not met.
@@ -21,39 +103,80 @@ pub(crate) struct Failure {
     /// Row of the first clause's object.
     pub(crate) row: u32,
     pub(crate) clause: u32,
-    /// Candidates whose test, or whose value to compare, was unknown.
-    pub(crate) unknown: u32,
 }
 
-/// Objects of a clause's class that were never candidates, since what is asked of them is unknown.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Skipped {
-    pub(crate) clause: usize,
-    pub(crate) objects: usize,
+/// What came of an object of the first clause, or how a firing came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Status(u8);
+
+impl Status {
+    /// Nobody asked for it yet.
+    pub(crate) const UNASKED: Self = Self(255);
+    /// The rule says nothing of it.
+    pub(crate) const SILENT: Self = Self(0);
+    /// All clauses were met.
+    pub(crate) const THEN: Self = Self(1);
+    /// What the first clause asks of it is unknown.
+    pub(crate) const LEFT_OUT: Self = Self(2);
+
+    /// This clause was not met, and there is no `else`.
+    pub(crate) const fn failed(clause: usize) -> Self {
+        Self(64 + clause as u8)
+    }
+
+    /// This clause was not met, and `else` was carried out.
+    pub(crate) const fn otherwise(clause: usize) -> Self {
+        Self(128 + clause as u8)
+    }
+
+    /// The clause that was not met.
+    pub(crate) const fn unmet(self) -> Option<usize> {
+        match self.0 {
+            64..=127 => Some(self.0 as usize - 64),
+            128..=191 => Some(self.0 as usize - 128),
+            _ => None,
+        }
+    }
+
+    /// Whether the search came as far as this clause.
+    pub(crate) const fn reached(self, clause: usize) -> bool {
+        match self.unmet() {
+            Some(unmet) => clause <= unmet,
+            None => self.0 == 1,
+        }
+    }
 }
 
-/// All conclusions of one rule, with what each rests on.
+/// All conclusions of one rule from some of its first clause's objects, with what each rests on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Output {
     /// For each clause the row bound in each firing, [`NO_ROW`](super::lane::NO_ROW) where there is none.
     pub(crate) witnesses: Vec<Vec<u32>>,
-    pub(crate) firings: u32,
+    pub(crate) statuses: Vec<Status>,
+    /// Rows of the first clause for which a clause was not met, and how many candidates an unknown kept out.
+    pub(crate) undecided: Vec<(u32, u32)>,
+    pub(crate) firings: usize,
     pub(crate) given: Vec<Given>,
     pub(crate) failures: Vec<Failure>,
-    pub(crate) skipped: Vec<Skipped>,
+    /// For each clause the row bound in each failure, that of the clause itself being what a `none` found.
+    pub(crate) failed: Vec<Vec<u32>>,
+    /// Objects of the first clause that were not considered, since what is asked of them is unknown.
+    pub(crate) left_out: Vec<u32>,
     pub(crate) problem: Option<Diagnostic>,
     pub(crate) problems: usize,
+    /// Whether a limit ended it; what it gave is not whole then.
+    pub(crate) stopped: bool,
 }
 
 impl Output {
-    pub(crate) fn given(&mut self, name: &PropertyName) -> &mut Given {
-        let at = self.given.iter().position(|given| given.name == *name).unwrap_or_else(|| {
+    pub(crate) fn given(&mut self, name: &PropertyName, variable: usize, kind: Option<Type>) -> &mut Given {
+        let same = |given: &Given| given.name == *name && given.variable == variable;
+        let at = self.given.iter().position(same).unwrap_or_else(|| {
             self.given.push(Given {
                 name: name.clone(),
-                kind: None,
-                rows: vec![],
-                firings: vec![],
-                cells: vec![],
+                variable,
+                values: Buffer::new(kind),
+                written: vec![],
             });
             self.given.len() - 1
         });

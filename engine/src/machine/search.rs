@@ -1,48 +1,56 @@
 //! Goes through a rule's clauses, from batch to batch, and fires.
 
 use super::action::Slots;
+use super::candidates::Candidates;
 use super::evaluate::Batch;
-use super::index::Index;
-use super::lane::{Frame, Lane, NO_ROW, Rows};
-use super::output::{Failure, Output, Skipped};
+use super::hypothesis::Verdicts;
+use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
+use super::output::{Failure, Output, Status};
 use super::{BATCH, Machine, Stopped};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::plan::action::ActionPlan;
+use crate::plan::action::{ActionPlan, Target};
 use crate::plan::clause::ClausePlan;
 use crate::plan::{Effect, Plan};
+use crate::rule::PropertyName;
 use crate::script::syntax::Quantifier;
 use crate::value::{Truth, Type};
 
 /// Most firings of one rule.
-pub(crate) const MAX_FIRINGS: u32 = 20_000_000;
+pub(crate) const MAX_FIRINGS: usize = 20_000_000;
 
-/// The objects of a clause's class that may be bound, and how to find them.
-pub(crate) struct Candidates {
-    pub(crate) rows: Vec<u32>,
-    /// Rows of which it is not known whether they may be bound, where that counts.
-    pub(crate) undecided: Vec<u32>,
-    /// Whether `rows` is 0, 1, 2, ...
-    pub(crate) all: bool,
-    pub(crate) index: Option<Index>,
+/// The objects of the first clause from which a search starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Drivers<'d> {
+    /// Rows from and up to.
+    Range(u32, u32),
+    Rows(&'d [u32]),
+    /// The first clause binds one object, or none, of so many.
+    Whole(u32),
 }
 
 /// The evaluation of one rule.
 pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
-    pub(crate) candidates: Vec<Candidates>,
-    output: Output,
+    pub(crate) candidates: &'s [Option<Candidates>],
+    pub(super) verdicts: Verdicts,
+    pub(super) output: Output,
 }
 
-/// Evaluates a rule; `sizes` are the numbers of objects of its clauses' classes.
-pub(crate) fn search(machine: &Machine, plan: &Plan, sizes: &[usize]) -> Output {
-    let mut search = Search { machine, plan, candidates: vec![], output: Output::default() };
+/// Evaluates a rule for some of the objects of its first clause; `candidates` has an entry for each clause, of which
+/// the first counts for [`Drivers::Whole`] only.
+pub(crate) fn search(
+    machine: &Machine,
+    plan: &Plan,
+    candidates: &[Option<Candidates>],
+    drivers: Drivers,
+) -> Output {
+    let mut search =
+        Search { machine, plan, candidates, verdicts: Verdicts::default(), output: Output::default() };
     search.output.witnesses = vec![vec![]; plan.clauses.len()];
+    search.output.failed = vec![vec![]; plan.clauses.len()];
     search.expect();
-    let stopped = search.prepare(sizes).and_then(|()| {
-        let rows = plan.clauses.iter().map(|_| Rows::Unbound).collect();
-        search.advance(0, Frame { len: 1, rows })
-    });
+    let stopped = search.start(drivers);
     let mut output = search.output;
     output.problem = machine.trouble.take();
     output.problems = machine.troubles.get();
@@ -53,11 +61,9 @@ pub(crate) fn search(machine: &Machine, plan: &Plan, sizes: &[usize]) -> Output 
             machine.rule.name
         );
         let stopped = Diagnostic::error(Code::Deadline, &place, message);
-        return Output {
-            problem: output.problem.or(Some(stopped)),
-            problems: output.problems.max(1),
-            ..Output::default()
-        };
+        output.problem = output.problem.or(Some(stopped));
+        output.problems = output.problems.max(1);
+        output.stopped = true;
     }
     output
 }
@@ -65,89 +71,65 @@ pub(crate) fn search(machine: &Machine, plan: &Plan, sizes: &[usize]) -> Output 
 impl<'s> Search<'s> {
     /// Makes room for what may be concluded, so that a type is known even where nothing is.
     fn expect(&mut self) {
-        match &self.plan.effect {
-            Effect::Conclude { then, otherwise } => {
-                for target in then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets)) {
-                    let given = self.output.given(&target.name);
-                    given.kind = given.kind.or(target.kind);
-                }
-            }
-            Effect::Revise { .. } => {
-                for name in self.machine.rule.sets.keys() {
-                    self.output.given(name).kind = Some(Type::Number);
-                }
-            }
+        for (name, variable, kind) in self.plan.targets(self.machine.rule) {
+            self.output.given(name, variable, kind);
         }
     }
 
-    fn prepare(&mut self, sizes: &[usize]) -> Result<(), Stopped> {
-        for (number, (clause, &size)) in self.plan.clauses.iter().zip(sizes).enumerate() {
-            let mut rows: Vec<u32> = (0..size as u32).collect();
-            let mut unknown = 0;
-            let mut undecided = vec![];
-            if clause.whole.is_some() {
-                (rows, undecided) = self.decided(number, clause, rows)?;
-            } else if let Some(own) = &clause.own {
-                rows = self.keep(number, &rows, |machine, batch, keep| {
-                    let truths = machine.evaluate(own, batch).truths();
-                    (0..batch.frame.len).for_each(|index| {
-                        let truth = truths.at(index);
-                        unknown += usize::from(truth == Truth::Unknown);
-                        keep.push(truth == Truth::True);
-                    });
-                })?;
+    fn start(&mut self, drivers: Drivers) -> Result<(), Stopped> {
+        let unbound = || vec![Rows::Unbound; self.plan.clauses.len()];
+        match drivers {
+            Drivers::Whole(objects) => {
+                self.advance(0, Frame { len: 1, rows: unbound() })?;
+                self.verdicts.leave_open(self.candidates(0).undecided.iter().copied());
+                self.settle(0..objects)?;
             }
-            if let (Some(by), true) = (&clause.by, clause.by_own) {
-                let mut values: Vec<f64> = vec![];
-                rows = self.keep(number, &rows, |machine, batch, keep| {
-                    let numbers = machine.evaluate(by, batch).numbers();
-                    for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
-                        keep.push(!number.is_nan());
-                        unknown += usize::from(number.is_nan());
-                        values.extend(Some(number).filter(|number| !number.is_nan()));
-                    }
-                })?;
-                let mut ranked: Vec<(f64, u32)> = values.into_iter().zip(rows).collect();
-                // Stable: equal values stay in the order of the table.
-                match clause.quantifier {
-                    Quantifier::Most => ranked.sort_by(|a, b| b.0.total_cmp(&a.0)),
-                    _ => ranked.sort_by(|a, b| (a.0 + 0.0).total_cmp(&(b.0 + 0.0))),
+            Drivers::Range(from, to) => {
+                for first in (from..to).step_by(BATCH) {
+                    let len = (to - first).min(BATCH as u32) as usize;
+                    let mut frame = Frame { len, rows: unbound() };
+                    frame.rows[0] = Rows::From(first);
+                    self.drive(frame)?;
                 }
-                rows = ranked.into_iter().map(|(_, row)| row).collect();
+                self.settle(from..to)?;
             }
-            if unknown > 0 {
-                self.output.skipped.push(Skipped { clause: number, objects: unknown });
+            Drivers::Rows(rows) => {
+                for chunk in rows.chunks(BATCH) {
+                    let mut frame = Frame { len: chunk.len(), rows: unbound() };
+                    frame.rows[0] = Rows::Each(chunk.to_vec());
+                    self.drive(frame)?;
+                }
+                self.settle(rows.iter().copied())?;
             }
-            let all = rows.iter().zip(0..).all(|(&row, nth)| row == nth);
-            let index = (!clause.joins.is_empty()).then(|| {
-                let columns: Vec<_> =
-                    clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
-                Index::new(&columns, rows.iter().copied())
-            });
-            self.candidates.push(Candidates { rows, undecided, all, index });
         }
         Ok(())
     }
 
-    /// The rows for which `test` pushes true; it sees them batch by batch, bound to one variable.
-    pub(super) fn keep(
-        &self,
-        variable: usize,
-        rows: &[u32],
-        mut test: impl FnMut(&Machine, Batch, &mut Vec<bool>),
-    ) -> Result<Vec<u32>, Stopped> {
-        let mut kept = vec![];
-        let mut flags = vec![];
-        for chunk in rows.chunks(BATCH) {
-            self.machine.tick()?;
-            let mut bound = vec![Rows::Unbound; self.plan.clauses.len()];
-            bound[variable] = Rows::Each(chunk.to_vec());
-            let frame = Frame { len: chunk.len(), rows: bound };
-            flags.clear();
-            test(self.machine, Batch { frame: &frame, slots: &[], mask: None }, &mut flags);
-            kept.extend(chunk.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(&row, _)| row));
+    /// A batch of objects of the first clause.
+    fn drive(&mut self, frame: Frame) -> Result<(), Stopped> {
+        self.machine.tick()?;
+        let Some(own) = &self.plan.clauses[0].own else { return self.advance(1, frame) };
+        let truths = self.machine.evaluate(own, Batch { frame: &frame, slots: &[], mask: None }).truths();
+        let truths = match truths {
+            Lane::Same(Truth::True) => return self.advance(1, frame),
+            truths => truths.into_static(),
+        };
+        let passing = self.passing(&truths, frame.len);
+        for index in (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown) {
+            let row = frame.rows[0].at(index);
+            self.output.left_out.push(row);
+            self.verdicts.leave_open(std::iter::once(row));
         }
-        Ok(kept)
+        if passing.is_empty() {
+            return Ok(());
+        }
+        let next = if passing.len() == frame.len { frame } else { frame.select(&passing) };
+        self.advance(1, next)
+    }
+
+    #[allow(clippy::unused_self)] // it reads as a step of the search
+    fn passing(&self, truths: &Lane<Truth>, len: usize) -> Vec<u32> {
+        (0..len as u32).filter(|&index| truths.at(index as usize) == Truth::True).collect()
     }
 
     fn advance(&mut self, number: usize, frame: Frame) -> Result<(), Stopped> {
@@ -155,7 +137,8 @@ impl<'s> Search<'s> {
         let plan = self.plan;
         let Some(clause) = plan.clauses.get(number) else { return self.fire(&frame) };
         if clause.quantifier == Quantifier::Each {
-            return self.each(number, clause, &frame);
+            self.each(number, clause, &frame)?;
+            return self.doubt(number, clause, &frame);
         }
         if clause.quantifier.counts() {
             let numbers = self.tally(number, clause, &frame)?.numbers(clause.quantifier);
@@ -168,14 +151,21 @@ impl<'s> Search<'s> {
         }
         let found = self.witnesses(number, clause, &frame)?;
         let wanted = clause.quantifier != Quantifier::None;
+        if wanted && !found.rows.contains(&NO_ROW) {
+            let mut next = frame;
+            next.rows[number] = Rows::Each(found.rows);
+            return self.advance(number + 1, next);
+        }
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
-            self.fail(
-                number,
-                &frame.select(&failing),
-                failing.iter().map(|&index| found.unknown[index as usize]),
-            )?;
+            let of = |index: &u32| (found.rows[*index as usize], found.unknown[*index as usize]);
+            let found: Vec<(u32, u32)> = failing.iter().map(of).collect();
+            let failed = frame.select(&failing);
+            if wanted {
+                self.doubt(number, clause, &failed)?;
+            }
+            self.fail(number, failed, &found)?;
         }
         if passing.is_empty() {
             return Ok(());
@@ -195,8 +185,9 @@ impl<'s> Search<'s> {
         let met = |index: &u32| tally.holds(*index as usize) == Truth::True;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
         if !failing.is_empty() {
-            let undecided = failing.iter().map(|&index| tally.undecided(index as usize));
-            self.fail(number, &frame.select(&failing), undecided)?;
+            let found: Vec<(u32, u32)> =
+                failing.iter().map(|&index| (NO_ROW, tally.undecided(index as usize))).collect();
+            self.fail(number, frame.select(&failing), &found)?;
         }
         match passing.len() {
             0 => Ok(()),
@@ -207,7 +198,8 @@ impl<'s> Search<'s> {
 
     /// Every candidate that passes, for every binding.
     fn each(&mut self, number: usize, clause: &'s ClausePlan, frame: &Frame) -> Result<(), Stopped> {
-        if self.candidates[number].index.is_some() {
+        let candidates = self.candidates(number);
+        if candidates.index.is_some() {
             let groups: Vec<Vec<u32>> =
                 self.groups(number, clause, frame).into_iter().map(<[u32]>::to_vec).collect();
             let mut pairs: Vec<(u32, u32)> = vec![];
@@ -223,8 +215,7 @@ impl<'s> Search<'s> {
         }
         for binding in 0..frame.len {
             let mut from = 0;
-            while from < self.candidates[number].rows.len() {
-                let candidates = &self.candidates[number];
+            while from < candidates.rows.len() {
                 let to = (from + BATCH).min(candidates.rows.len());
                 let mut next = frame.repeat(binding, to - from);
                 next.rows[number] = if candidates.all {
@@ -258,8 +249,11 @@ impl<'s> Search<'s> {
     fn filtered(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
         let Some(test) = &clause.test else { return self.advance(number + 1, frame) };
         let truths = self.machine.evaluate(test, Batch { frame: &frame, slots: &[], mask: None }).truths();
-        let passing: Vec<u32> =
-            (0..frame.len as u32).filter(|&index| truths.at(index as usize) == Truth::True).collect();
+        if self.plan.hypothesis.is_some() {
+            let unknown = (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown);
+            self.verdicts.leave_open(unknown.map(|index| frame.rows[0].at(index)));
+        }
+        let passing = self.passing(&truths, frame.len);
         if passing.is_empty() {
             return Ok(());
         }
@@ -269,25 +263,45 @@ impl<'s> Search<'s> {
 
     /// For each binding the rows that the index gives.
     pub(crate) fn groups(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Vec<&[u32]> {
-        let Some(index) = &self.candidates[number].index else { return vec![] };
+        let Some(index) = &self.candidates(number).index else { return vec![] };
         let batch = Batch { frame, slots: &[], mask: None };
         let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
         (0..frame.len).map(|binding| index.rows(keys.iter().map(|key| key.cell(binding)))).collect()
     }
 
-    fn fail(
-        &mut self,
-        number: usize,
-        frame: &Frame,
-        unknown: impl Iterator<Item = u32>,
-    ) -> Result<(), Stopped> {
+    /// The candidates of a clause, which are made before a search.
+    pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
+        static NONE: Candidates = Candidates {
+            rows: vec![],
+            all: false,
+            index: None,
+            undecided: vec![],
+            thresholds: vec![],
+            left_out: 0,
+        };
+        self.candidates.get(number).and_then(Option::as_ref).unwrap_or(&NONE)
+    }
+
+    /// `found` is for each binding what a `none` found, and how many candidates an unknown kept out.
+    fn fail(&mut self, number: usize, mut frame: Frame, found: &[(u32, u32)]) -> Result<(), Stopped> {
         let plan = self.plan;
-        if let Effect::Conclude { otherwise: Some(action), .. } = &plan.effect {
-            return self.conclude(action, frame);
-        }
-        for (index, unknown) in unknown.enumerate() {
+        // A `none` that found one is decided, whatever else is unknown.
+        let undecided = |(row, unknown): &(u32, u32)| *row == NO_ROW && *unknown > 0;
+        for (index, &(_, unknown)) in found.iter().enumerate().filter(|(_, found)| undecided(found)) {
             let row = frame.rows[0].at(index);
-            self.output.failures.push(Failure { row, clause: number as u32, unknown });
+            self.output.undecided.push((row, unknown));
+            self.verdicts.leave_open(std::iter::once(row));
+        }
+        if plan.clauses[number].quantifier == Quantifier::None {
+            frame.rows[number] = Rows::Each(found.iter().map(|&(row, _)| row).collect());
+        }
+        if let Effect::Conclude { otherwise: Some(action), .. } = &plan.effect {
+            return self.conclude(action, &frame, Status::otherwise(number));
+        }
+        let failure = |index| Failure { row: frame.rows[0].at(index), clause: number as u32 };
+        self.output.failures.extend((0..frame.len).map(failure));
+        for (column, rows) in self.output.failed.iter_mut().zip(&frame.rows) {
+            rows.extend(column, frame.len);
         }
         Ok(())
     }
@@ -295,51 +309,86 @@ impl<'s> Search<'s> {
     fn fire(&mut self, frame: &Frame) -> Result<(), Stopped> {
         let plan = self.plan;
         match &plan.effect {
-            Effect::Conclude { then, .. } => self.conclude(then, frame),
-            Effect::Revise { variable, amount, .. } => {
-                let first = self.record(frame)?;
+            Effect::Conclude { then, .. } => {
+                self.prove(frame);
+                self.conclude(then, frame, Status::THEN)
+            }
+            Effect::Revise { amount, .. } => {
+                self.record(frame, Status::THEN)?;
                 let amounts = self.machine.evaluate(amount, Batch { frame, slots: &[], mask: None });
-                let rows = &frame.rows[*variable];
-                let Some(name) = self.machine.rule.sets.keys().next() else { return Ok(()) };
-                let given = self.output.given(name);
-                for index in 0..frame.len {
-                    given.rows.push(rows.at(index));
-                    given.firings.push(first + index as u32);
-                    given.cells.push(amounts.cell(index));
+                for given in &mut self.output.given {
+                    given.values.extend(&amounts, frame.len);
+                    given.written.resize(given.values.len(), true);
                 }
                 Ok(())
             }
         }
     }
 
-    fn conclude(&mut self, action: &ActionPlan, frame: &Frame) -> Result<(), Stopped> {
-        let first = self.record(frame)?;
+    fn conclude(&mut self, action: &ActionPlan, frame: &Frame, status: Status) -> Result<(), Stopped> {
+        self.record(frame, status)?;
         let Slots { values, written } = self.machine.act(action, frame);
-        for target in &action.targets {
-            let rows = &frame.rows[target.variable];
-            let given = self.output.given(&target.name);
-            for index in 0..frame.len {
-                let row = rows.at(index);
-                if row != NO_ROW && written[target.slot].at(index) {
-                    given.rows.push(row);
-                    given.firings.push(first + index as u32);
-                    given.cells.push(values[target.slot].cell(index));
+        let proves = (status == Status::THEN).then_some(self.plan.hypothesis.as_ref()).flatten();
+        for given in &mut self.output.given {
+            if Some(&given.name) == proves && given.variable == 0 {
+                given.values.extend(&Values::Truths(Lane::Same(Truth::True)), frame.len);
+                given.written.resize(given.values.len(), true);
+                continue;
+            }
+            let of = |target: &&Target| target.variable == given.variable && target.name == given.name;
+            match action.targets.iter().find(of) {
+                Some(target) => {
+                    given.values.extend(&values[target.slot], frame.len);
+                    written[target.slot].extend(&mut given.written, frame.len);
+                }
+                None => {
+                    let len = given.values.len() + frame.len;
+                    given.values.resize(len);
+                    given.written.resize(len, false);
                 }
             }
         }
         Ok(())
     }
 
-    /// Keeps what the bindings rest on; gives the number of the first firing.
-    fn record(&mut self, frame: &Frame) -> Result<u32, Stopped> {
-        let first = self.output.firings;
-        if first > MAX_FIRINGS {
+    /// Keeps what the bindings rest on.
+    pub(super) fn record(&mut self, frame: &Frame, status: Status) -> Result<(), Stopped> {
+        if self.output.firings > MAX_FIRINGS {
             return Err(Stopped);
         }
         for (column, rows) in self.output.witnesses.iter_mut().zip(&frame.rows) {
-            column.extend((0..frame.len).map(|index| rows.at(index)));
+            rows.extend(column, frame.len);
         }
-        self.output.firings += frame.len as u32;
-        Ok(first)
+        self.output.statuses.resize(self.output.firings + frame.len, status);
+        self.output.firings += frame.len;
+        Ok(())
+    }
+}
+
+impl Plan {
+    /// What the rule sets: each property with its variable and, where it is known before running, its type.
+    pub(crate) fn targets<'p>(
+        &'p self,
+        rule: &'p crate::rule::Rule,
+    ) -> Vec<(&'p PropertyName, usize, Option<Type>)> {
+        let mut out: Vec<(&PropertyName, usize, Option<Type>)> = vec![];
+        match &self.effect {
+            Effect::Conclude { then, otherwise } => {
+                for target in then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets)) {
+                    match out
+                        .iter_mut()
+                        .find(|(name, variable, _)| *variable == target.variable && **name == target.name)
+                    {
+                        Some((_, _, kind)) => *kind = kind.or(target.kind),
+                        None => out.push((&target.name, target.variable, target.kind)),
+                    }
+                }
+                out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
+            }
+            Effect::Revise { variable, .. } => {
+                out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));
+            }
+        }
+        out
     }
 }

@@ -60,61 +60,31 @@ impl Tally {
 }
 
 impl Search<'_> {
-    /// Parts the rows into those that pass what is asked of the object alone, with all columns of joins known,
-    /// and those of which that is unknown.
-    pub(super) fn decided(
-        &self,
-        number: usize,
-        clause: &ClausePlan,
-        rows: Vec<u32>,
-    ) -> Result<(Vec<u32>, Vec<u32>), Stopped> {
-        let mut truths = vec![Truth::True; rows.len()];
-        if let Some(own) = &clause.own {
-            truths.clear();
-            self.keep(number, &rows, |machine, batch, keep| {
-                let lane = machine.evaluate(own, batch).truths();
-                truths.extend((0..batch.frame.len).map(|index| lane.at(index)));
-                keep.resize(batch.frame.len, false);
-            })?;
-        }
-        let columns: Vec<_> = clause.joins.iter().map(|join| self.machine.columns[join.column]).collect();
-        let (mut passing, mut undecided) = (vec![], vec![]);
-        for (row, truth) in rows.into_iter().zip(truths) {
-            let known = columns.iter().all(|column| !column.is_unknown(row as usize));
-            match truth {
-                Truth::False => {}
-                Truth::True if known => passing.push(row),
-                _ => undecided.push(row),
-            }
-        }
-        Ok((passing, undecided))
-    }
-
     /// Goes through the candidates of each binding, the undecided ones too.
     pub(super) fn tally(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Tally, Stopped> {
         let mut tally = Tally::new(frame.len);
-        let candidates = &self.candidates[number];
-        let undecided = candidates.undecided.iter();
+        let candidates = self.candidates(number);
         if candidates.index.is_none() {
             let pairs = pairs(frame, |_| candidates.rows.iter());
             self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
-            let pairs = self::pairs(frame, |_| undecided.clone());
+            let pairs = self::pairs(frame, |_| candidates.undecided.iter());
             self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
             return Ok(tally);
         }
         let groups = self.groups(number, clause, frame);
         let pairs = pairs(frame, |binding| groups[binding].iter());
         self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
-        // An unknown key may equal every value.
-        let batch = Batch { frame, slots: &[], mask: None };
-        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
-        let open = |binding: usize| keys.iter().any(|key| key.cell(binding) == Cell::Unknown);
-        let pairs = self::pairs(frame, |binding| {
-            let all = if open(binding) { candidates.rows.as_slice() } else { &[] };
-            all.iter().chain(undecided.clone())
-        });
+        let unknown_key = self.unknown_keys(clause, frame);
+        let pairs = self::pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
         self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
         Ok(tally)
+    }
+
+    /// For each binding whether a key of the clause's joins is unknown; it may equal every value then.
+    pub(super) fn unknown_keys(&self, clause: &ClausePlan, frame: &Frame) -> Vec<bool> {
+        let batch = Batch { frame, slots: &[], mask: None };
+        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
+        (0..frame.len).map(|binding| keys.iter().any(|key| key.cell(binding) == Cell::Unknown)).collect()
     }
 
     fn tallied(
@@ -171,7 +141,8 @@ impl Search<'_> {
     }
 }
 
-fn pairs<'r, I: Iterator<Item = &'r u32>>(
+/// Each binding with each of its rows.
+pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
     frame: &Frame,
     rows: impl Fn(usize) -> I,
 ) -> impl Iterator<Item = (u32, u32)> {

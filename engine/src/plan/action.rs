@@ -39,6 +39,22 @@ pub(crate) struct ActionPlan {
     pub(crate) targets: Vec<Target>,
 }
 
+impl ActionPlan {
+    /// Whether running it calls the interpreter.
+    pub(crate) fn interprets(&self) -> bool {
+        fn any(steps: &[Step]) -> bool {
+            steps.iter().any(|step| match step {
+                Step::Put { value, .. } => value.interprets(),
+                Step::If { condition, then, otherwise, .. } => {
+                    condition.interprets() || any(then) || any(otherwise)
+                }
+                Step::Interpret(_) => true,
+            })
+        }
+        any(&self.steps)
+    }
+}
+
 pub(crate) fn action(lowering: &mut Lowering, block: &StmtBlock) -> ActionPlan {
     let mut plan = ActionPlan::default();
     reset(lowering);
@@ -248,5 +264,19 @@ pub(crate) fn check_revised(
     {
         let message = format!("a revision changes numbers; `{name}.{property}` holds {}", kind.plural());
         lowering.problem(Code::Type, position, message);
+    }
+}
+
+/// A hypothesis needs a property that holds truth values.
+pub(crate) fn hypothesis(lowering: &mut Lowering) -> Option<PropertyName> {
+    let name = lowering.rule.hypothesis()?;
+    let (_, _, position) = lowering.rule.hypothesis.as_ref()?;
+    match lowering.kinds.declared(&name) {
+        Some(kind) if kind != Type::Truth => {
+            let message = format!("a hypothesis is true or false; {name} holds {}", kind.plural());
+            lowering.problem(Code::Type, *position, message);
+            None
+        }
+        _ => Some(name),
     }
 }

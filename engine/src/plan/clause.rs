@@ -12,6 +12,14 @@ pub(crate) struct Join {
     pub(crate) key: Node,
 }
 
+/// A comparison that has the candidate on its left side alone, and the variables before it on its right.
+#[derive(Debug)]
+pub(crate) struct Threshold {
+    pub(crate) comparison: Comparison,
+    pub(crate) candidate: Node,
+    pub(crate) binding: Node,
+}
+
 /// A clause ready to run.
 #[derive(Debug)]
 pub(crate) struct ClausePlan {
@@ -28,6 +36,8 @@ pub(crate) struct ClausePlan {
     pub(crate) whole: Option<Node>,
     /// What must be true of each object that passes `all`.
     pub(crate) have: Option<Node>,
+    /// `test`, where it is such comparisons and nothing else.
+    pub(crate) thresholds: Vec<Threshold>,
 }
 
 pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
@@ -43,7 +53,8 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
         let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
-        let undecided_counts = clause.quantifier.counts() || clause.quantifier == Quantifier::All;
+        let undecided_counts =
+            clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
         let mut plan = ClausePlan {
             quantifier: clause.quantifier,
             joins: vec![],
@@ -54,8 +65,10 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             by,
             whole: condition.clone().filter(|_| undecided_counts),
             have,
+            thresholds: vec![],
         };
         split(condition, index, &mut plan);
+        plan.thresholds = plan.test.as_ref().and_then(|test| thresholds(test, index)).unwrap_or_default();
         plans.push(plan);
     }
     plans
@@ -97,4 +110,23 @@ fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
 
 fn all(mut parts: Vec<Node>) -> Option<Node> {
     if parts.len() > 1 { Some(Node::And(parts)) } else { parts.pop() }
+}
+
+fn thresholds(test: &Node, index: usize) -> Option<Vec<Threshold>> {
+    let parts = if let Node::And(parts) = test { parts.as_slice() } else { std::slice::from_ref(test) };
+    parts.iter().map(|part| threshold(part, index)).collect()
+}
+
+fn threshold(part: &Node, index: usize) -> Option<Threshold> {
+    let Node::Compare(comparison, a, b) = part else { return None };
+    let alone = |node: &Node| node.variables() == 1 << index && !node.interprets();
+    let apart = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
+    let (comparison, candidate, binding) = if alone(a) && apart(b) {
+        (*comparison, a, b)
+    } else if alone(b) && apart(a) {
+        (comparison.turned(), b, a)
+    } else {
+        return None;
+    };
+    Some(Threshold { comparison, candidate: (**candidate).clone(), binding: (**binding).clone() })
 }

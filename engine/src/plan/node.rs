@@ -39,6 +39,20 @@ pub(crate) enum Comparison {
     AtLeast,
 }
 
+impl Comparison {
+    /// The same comparison with its sides exchanged.
+    pub(crate) const fn turned(self) -> Self {
+        match self {
+            Self::Equal => Self::Equal,
+            Self::Unequal => Self::Unequal,
+            Self::Less => Self::Greater,
+            Self::AtMost => Self::AtLeast,
+            Self::Greater => Self::Less,
+            Self::AtLeast => Self::AtMost,
+        }
+    }
+}
+
 /// A lowered expression. Unknown goes in and comes out everywhere; "and", "or" and "not" are Kleene's.
 #[derive(Clone, Debug)]
 pub(crate) enum Node {

@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt};
+use rhai::{AST, ASTFlags, CustomExpr, Engine, Expr, ParseErrorType, Position, Stmt, StmtBlock};
 
 use super::names::property_of;
 use super::reaction::{reaction, told_by_functions};
 use super::resolve::resolve;
 use super::source::{MAX_FILE_BYTES, SourceFile};
-use super::syntax::{Shape, Slot};
+use super::syntax::{Quantifier, Shape, Slot};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, Constant, FileScope, Operator, Rule};
 use crate::value::Cell;
@@ -220,6 +220,7 @@ fn rule(
     let clauses = clauses(item);
     let action = action(item, &clauses, file, problems)?;
     let priority = priority(item, file, problems);
+    let hypothesis = hypothesis(item, &clauses, file, problems);
     let mut rule = Rule {
         name: name.to_owned(),
         position,
@@ -230,6 +231,7 @@ fn rule(
         action,
         reads: BTreeMap::new(),
         sets: BTreeMap::new(),
+        hypothesis,
         file: Arc::clone(file),
     };
     let shared = resolve(&mut rule, known, problems);
@@ -247,6 +249,30 @@ fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i6
             let message = "a priority is a whole number, as in `priority 10` or `priority -1`";
             problems.push(Diagnostic::error(Code::Syntax, &place, message));
             0
+        }
+    }
+}
+
+fn hypothesis(
+    item: &Item,
+    clauses: &[Clause],
+    file: &FileScope,
+    problems: &mut Vec<Diagnostic>,
+) -> Option<(usize, String, Position)> {
+    let (_, given) = item.inputs.iter().find(|(slot, _)| *slot == Slot::Hypothesis)?;
+    let first = clauses.first()?;
+    match property_of(given) {
+        Some((variable, property, position))
+            if variable == first.variable && first.quantifier == Quantifier::Each =>
+        {
+            Some((0, property.to_owned(), position))
+        }
+        _ => {
+            let place = file.source.place(given.start_position());
+            let message = "a hypothesis is a property of the object of the rule's first `each`";
+            let help = format!("as in `hypothesis {}.reachable`", first.variable);
+            problems.push(Diagnostic::error(Code::Hypothesis, &place, message).help(help));
+            None
         }
     }
 }
@@ -308,6 +334,9 @@ fn action(
             return Some(reaction(*then, clauses));
         }
         return Some(Action::Conclude { then, otherwise: block(Slot::Else) });
+    }
+    if input(Slot::Hypothesis).is_some() {
+        return Some(Action::Conclude { then: Box::new(StmtBlock::NONE), otherwise: None });
     }
     let target = input(Slot::Target)?;
     let Some((index, property, position)) = property_of(target).and_then(|(variable, property, position)| {

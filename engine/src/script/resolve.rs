@@ -21,7 +21,8 @@ pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
     let file = Arc::clone(&rule.file);
     let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
     problems.extend(clause_complaints(rule, &variables));
-    let names = names(rule, &variables);
+    let mut names = names(rule, &variables);
+    problems.extend(hypothesis(rule, &mut names));
     let place = |(index, property): &Use| PropertyName::new(&rule.clauses[*index].class, property);
     let reads = names.reads.iter().map(|(used, position)| (place(used), *position)).collect();
     let sets = names.sets.iter().map(|(used, position)| (place(used), *position)).collect();
@@ -90,6 +91,14 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
     }
     numbers(rule, rule.clauses.len(), &mut names);
     names
+}
+
+/// A hypothesis is set too, and by nothing else in its rule.
+fn hypothesis(rule: &Rule, names: &mut Names) -> Option<Diagnostic> {
+    let (clause, property, position) = rule.hypothesis.as_ref()?;
+    let twice = names.sets.insert((*clause, property.clone()), *position)?;
+    let message = format!("the hypothesis `{property}` cannot be set by the action too");
+    Some(complaint(rule, Code::Hypothesis, twice, message))
 }
 
 /// Whether one of the first clauses gives a number of this name.

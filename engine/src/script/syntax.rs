@@ -53,6 +53,11 @@ impl Quantifier {
         matches!(self, Self::Each | Self::Least | Self::Most | Self::Some)
     }
 
+    /// Whether a firing names the one object that decides.
+    pub(crate) const fn names(self) -> bool {
+        matches!(self, Self::Least | Self::Most | Self::Some | Self::None)
+    }
+
     /// Whether it gives a number.
     pub(crate) const fn counts(self) -> bool {
         matches!(self, Self::Count | Self::Sum)
@@ -76,6 +81,7 @@ pub(crate) enum Slot {
     Where,
     By,
     Have,
+    Hypothesis,
     Then,
     Else,
     Target,
@@ -99,6 +105,8 @@ enum At {
     By,
     Where,
     Have,
+    Hypothesis,
+    AfterHypothesis,
     Then,
     AfterThen,
     Else,
@@ -191,6 +199,8 @@ impl Shape {
             At::Where => self.input(Slot::Where, At::Options { by: true, condition: true }, "$expr$"),
             At::Have => self.input(Slot::Have, At::Options { by: true, condition: true }, "$expr$"),
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
+            At::Hypothesis => self.input(Slot::Hypothesis, At::AfterHypothesis, "$expr$"),
+            At::AfterHypothesis if ahead == "then" => self.word("then", At::Then),
             At::AfterThen if ahead == "else" && self.reaction => {
                 wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
             }
@@ -207,15 +217,16 @@ impl Shape {
             At::Amount => self.input(Slot::Amount, At::AfterAmount, "$expr$"),
             At::AfterAmount if ahead == "level" => self.word("level", At::Level),
             At::Level => self.input(Slot::Level, At::End, "$int$"),
-            At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
+            At::AfterHypothesis | At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
         }
     }
 
-    /// A `revise` does not end in a block, and rhai would ask for a semicolon before the next item; so the
-    /// next item is read as part of the same expression.
+    /// Where an item does not end in a block, rhai would ask for a semicolon before the next item; so the next
+    /// item is read as part of the same expression.
     fn item(&mut self, ahead: &str) -> Next {
+        let in_block = matches!(self.slots.last(), Some(Slot::Then | Slot::Else));
         match ahead {
-            "rule" | "revise" | "on" if self.revision => {
+            "rule" | "revise" | "on" if !in_block => {
                 (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
                 self.clause = None;
                 let words = ["rule", "revise", "on"];
@@ -277,10 +288,26 @@ impl Shape {
         if ahead == end && self.clause.is_some() {
             return self.word(end, at);
         }
+        if ahead == "hypothesis" && self.clause.is_some() && !self.revision && !self.reaction {
+            return self.word("hypothesis", At::Hypothesis);
+        }
         if self.clause.is_none() {
             return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`"));
         }
-        let words = ["each", "least", "most", "some", "none", "count", "sum", "all", "where", "by", end];
+        let words = [
+            "each",
+            "least",
+            "most",
+            "some",
+            "none",
+            "count",
+            "sum",
+            "all",
+            "where",
+            "by",
+            "hypothesis",
+            end,
+        ];
         let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
         wrong(format!("another clause or `{end}` belongs here, not {}{meant}", found(ahead)))
     }

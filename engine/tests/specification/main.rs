@@ -6,6 +6,8 @@
 mod conflicts;
 mod doors;
 mod explanation;
+mod hypotheses;
+mod incremental;
 mod interpreter;
 mod joins;
 mod limits;

@@ -159,11 +159,13 @@ impl Site {
 fn concluded(base: &mut KnowledgeBase, rules: &RuleBase) -> Vec<Vec<Vec<Option<usize>>>> {
     base.conclude(rules);
     let bound = |nth: usize| {
-        let output = &base.done[&nth.to_string()].output;
-        let row =
-            |rows: &Vec<u32>, firing: usize| Some(rows[firing] as usize).filter(|_| rows[firing] != NO_ROW);
-        let firing = |firing| output.witnesses.iter().map(|rows| row(rows, firing)).collect();
-        let mut all: Vec<Vec<Option<usize>>> = (0..output.firings as usize).map(firing).collect();
+        let number = rules.rules.iter().position(|rule| rule.name == nth.to_string()).unwrap();
+        let memory = base.network.nodes[number].memory.as_ref().unwrap();
+        let clauses = memory.witnesses.len();
+        let row = |clause, firing| Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW);
+        let binding = |firing| (0..clauses).map(|clause| Some(row(clause, firing)? as usize)).collect();
+        let fired = (0..memory.firings()).filter(|&firing| memory.claim(0, firing).is_some());
+        let mut all: Vec<Vec<Option<usize>>> = fired.map(binding).collect();
         all.sort();
         all
     };

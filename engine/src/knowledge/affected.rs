@@ -1,0 +1,301 @@
+//! Which objects of its first clause a rule has to look at again after a change: never too few, and as few as can be
+//! told without evaluating it.
+
+use std::collections::HashSet;
+
+use super::KnowledgeBase;
+use super::conclude::Run;
+use super::dirty::Dirty;
+use super::evaluate::below;
+use super::memory::{Memory, Shape};
+use super::network::Planned;
+use crate::machine::evaluate::Batch;
+use crate::machine::index::bits;
+use crate::machine::lane::{Frame, NO_ROW, Rows};
+use crate::machine::output::Status;
+use crate::machine::{BATCH, Machine};
+use crate::plan::clause::ClausePlan;
+use crate::rule::Rule;
+use crate::script::syntax::Quantifier;
+use crate::value::Truth;
+
+/// Up to so many changed candidates are tried one by one; of more, all bindings that came as far are looked at again.
+const TRIED: usize = 16;
+
+/// What changed in a clause's class, as far as the rule looks at it.
+struct Change {
+    /// Rows with a value that the rule reads, new ones not counted.
+    read: Dirty,
+    /// Rows with a value that decides whether they are bound, and new ones.
+    matching: Dirty,
+}
+
+impl KnowledgeBase {
+    pub(super) fn affected(&self, run: &Run, rule: &Rule, planned: &Planned, memory: &mut Memory) -> Dirty {
+        let changes: Vec<Change> =
+            (0..rule.clauses.len()).map(|number| self.change(run, rule, planned, number)).collect();
+        for (number, change) in changes.iter().enumerate() {
+            if !change.matching.is_none() {
+                memory.candidates[number] = None;
+            }
+        }
+        let mut dirty = Dirty::Rows(std::mem::take(&mut memory.lost));
+        if memory.unasked == memory.statuses.len() {
+            return Dirty::None;
+        }
+        let nothing = changes.iter().all(|change| change.read.is_none() && change.matching.is_none());
+        if nothing && dirty == Dirty::Rows(vec![]) {
+            return Dirty::None;
+        }
+        if memory.shape == Shape::Whole || memory.problem.is_some() {
+            // What failed is counted as a whole.
+            return Dirty::All;
+        }
+        dirty.join(&changes[0].read);
+        dirty.join(&changes[0].matching);
+        let machine = self.machine(rule, &planned.plan, run.until);
+        for (number, change) in changes.iter().enumerate().skip(1) {
+            if dirty == Dirty::All {
+                break;
+            }
+            let found = self.through(&machine, planned, memory, rule, number, change);
+            dirty.join(&found);
+        }
+        match dirty {
+            Dirty::Rows(mut rows) => {
+                rows.retain(|&row| {
+                    memory.statuses.get(row as usize).is_some_and(|&status| status != Status::UNASKED)
+                });
+                Dirty::Rows(rows)
+            }
+            Dirty::All if memory.unasked > 0 => {
+                let asked = memory.statuses.iter().zip(0..).filter(|(status, _)| **status != Status::UNASKED);
+                Dirty::Rows(asked.map(|(_, row)| row).collect())
+            }
+            other => other,
+        }
+    }
+
+    fn change(&self, run: &Run, rule: &Rule, planned: &Planned, number: usize) -> Change {
+        let class = &rule.clauses[number].class;
+        let mut change = Change { read: Dirty::None, matching: Dirty::None };
+        if !run.touched.contains(class) {
+            return change;
+        }
+        if let Some(told) = run.told.get(class) {
+            if told.anew {
+                return Change { read: Dirty::All, matching: Dirty::All };
+            }
+            change.matching.extend(told.added.iter().copied());
+        }
+        let delta = |column: usize| {
+            let name = &planned.plan.columns[column];
+            let stage = self.derived.get(name).map_or(0, |derived| derived.stage(below(rule, name)));
+            run.delta(name, stage)
+        };
+        for &column in &planned.uses.anywhere[number] {
+            change.read.join(delta(column));
+        }
+        for &column in &planned.uses.matching[number] {
+            change.matching.join(delta(column));
+        }
+        change
+    }
+
+    /// The objects of the first clause that a change in a later clause's class concerns.
+    fn through(
+        &self,
+        machine: &Machine,
+        planned: &Planned,
+        memory: &Memory,
+        rule: &Rule,
+        number: usize,
+        change: &Change,
+    ) -> Dirty {
+        if change.read.is_none() && change.matching.is_none() {
+            return Dirty::None;
+        }
+        let clause = &planned.plan.clauses[number];
+        let few = |dirty: &Dirty| !matches!(dirty, Dirty::All);
+        // A hypothesis hangs on all that is unknown, too.
+        let proves = planned.plan.hypothesis.is_some();
+        if memory.shape != Shape::Single
+            || !clause.quantifier.names()
+            || proves
+            || !few(&change.read)
+            || !few(&change.matching)
+        {
+            return Dirty::All;
+        }
+        let size = self.len(&rule.clauses[number].class).unwrap_or(0);
+        let mut dirty = resting_on(memory, number, &change.read.rows(size), size);
+        let matching = change.matching.clone().settle(usize::MAX).rows(size);
+        if matching.is_empty() {
+            return dirty;
+        }
+        // One of those that were unknown may be decided now.
+        dirty.extend(memory.undecided.keys().copied());
+        let reached = reached(machine, planned, memory, number, &matching, size);
+        if clause.joins.is_empty() {
+            self.tried(machine, clause, memory, number, &matching, &reached, &mut dirty);
+        } else {
+            joined(machine, clause, memory, number, &matching, &reached, &mut dirty);
+        }
+        dirty
+    }
+
+    #[allow(clippy::too_many_arguments, clippy::unused_self)] // one step of `through`
+    fn tried(
+        &self,
+        machine: &Machine,
+        clause: &ClausePlan,
+        memory: &Memory,
+        number: usize,
+        matching: &[u32],
+        reached: &[u32],
+        dirty: &mut Dirty,
+    ) {
+        if matching.len() > TRIED {
+            dirty.extend(reached.iter().copied());
+            return;
+        }
+        let own = one(number, memory.witnesses.len(), matching);
+        let passing: Vec<u32> = match &clause.own {
+            Some(test) => {
+                let truths = machine.evaluate(test, batch(&own)).truths();
+                (0..own.len).filter(|&at| truths.at(at) != Truth::False).map(|at| matching[at]).collect()
+            }
+            None => matching.to_vec(),
+        };
+        for chunk in reached.chunks(BATCH) {
+            let mut frame = bound(memory, number, chunk);
+            for &row in &passing {
+                let Some(test) = &clause.test else {
+                    dirty.extend(chunk.iter().copied());
+                    break;
+                };
+                frame.rows[number] = Rows::Same(row);
+                let truths = machine.evaluate(test, batch(&frame)).truths();
+                dirty.extend(
+                    chunk
+                        .iter()
+                        .enumerate()
+                        .filter(|&(at, _)| truths.at(at) != Truth::False)
+                        .map(|(_, &row)| row),
+                );
+            }
+        }
+    }
+}
+
+/// Objects whose firing, or failure, rests on one of these rows.
+fn resting_on(memory: &Memory, number: usize, rows: &[u32], size: usize) -> Dirty {
+    let mut dirty = Dirty::None;
+    let witnesses = memory.witnesses[number].iter().zip(0..);
+    match rows {
+        [] => {}
+        [row] => dirty.extend(witnesses.filter(|(witness, _)| *witness == row).map(|(_, driver)| driver)),
+        rows => {
+            let mut among = vec![false; size];
+            rows.iter().for_each(|&row| among[row as usize] = true);
+            let hit = |witness: u32| among.get(witness as usize) == Some(&true);
+            dirty.extend(witnesses.filter(|(witness, _)| hit(**witness)).map(|(_, driver)| driver));
+        }
+    }
+    dirty
+}
+
+/// Objects whose search came as far as this clause, and for which one of the candidates could win.
+fn reached(
+    machine: &Machine,
+    planned: &Planned,
+    memory: &Memory,
+    number: usize,
+    matching: &[u32],
+    size: usize,
+) -> Vec<u32> {
+    let clause = &planned.plan.clauses[number];
+    let came = memory.statuses.iter().zip(0_u32..).filter(|(status, _)| status.reached(number));
+    let came = came.map(|(_, driver)| driver);
+    if !clause.joins.is_empty() {
+        return came.collect();
+    }
+    let beaten: Vec<bool> = match (&clause.by, clause.quantifier) {
+        // A `none` that found one finds one still, unless that one changed.
+        (_, Quantifier::None) => vec![false; size],
+        (Some(by), quantifier) if clause.by_own => {
+            let all: Vec<u32> = (0..size as u32).collect();
+            let frame = one(number, memory.witnesses.len(), &all);
+            let values = machine.evaluate(by, batch(&frame)).numbers();
+            let value = |row: u32| values.at(row as usize) + 0.0;
+            let before = |a: u32, b: u32| match quantifier {
+                Quantifier::Most => value(a) > value(b) || (value(a) == value(b) && a <= b),
+                _ => value(a) < value(b) || (value(a) == value(b) && a <= b),
+            };
+            // Unknown values are no candidates, but are counted as such.
+            let wins = |a: u32, b: u32| before(a, b) || value(a).is_nan() || value(b).is_nan();
+            all.iter().map(|&row| matching.iter().any(|&candidate| wins(candidate, row))).collect()
+        }
+        (None, Quantifier::Some) => {
+            (0..size as u32).map(|row| matching.iter().any(|&candidate| candidate <= row)).collect()
+        }
+        _ => vec![true; size],
+    };
+    came.filter(|&driver| {
+        let witness = memory.witnesses[number][driver as usize];
+        witness == NO_ROW || beaten.get(witness as usize) != Some(&false)
+    })
+    .collect()
+}
+
+/// Objects whose key is that of one of the candidates.
+fn joined(
+    machine: &Machine,
+    clause: &ClausePlan,
+    memory: &Memory,
+    number: usize,
+    matching: &[u32],
+    reached: &[u32],
+    dirty: &mut Dirty,
+) {
+    let key = |row: u32| {
+        let cell = |join: &crate::plan::clause::Join| bits(machine.columns[join.column].cell(row as usize));
+        clause.joins.iter().map(cell).collect::<Option<Vec<u64>>>()
+    };
+    // Only looked up, never walked.
+    let keys: HashSet<Vec<u64>> = matching.iter().filter_map(|&row| key(row)).collect();
+    for chunk in reached.chunks(BATCH) {
+        let frame = bound(memory, number, chunk);
+        let parts: Vec<_> =
+            clause.joins.iter().map(|join| machine.evaluate(&join.key, batch(&frame))).collect();
+        for (at, &driver) in chunk.iter().enumerate() {
+            let wanted: Option<Vec<u64>> = parts.iter().map(|part| bits(part.cell(at))).collect();
+            // An unknown key finds nothing, now as before.
+            if wanted.is_some_and(|wanted| keys.contains(&wanted)) {
+                dirty.add(driver);
+            }
+        }
+    }
+}
+
+const fn batch(frame: &Frame) -> Batch<'_> {
+    Batch { frame, slots: &[], mask: None }
+}
+
+/// These rows bound to one variable.
+fn one(variable: usize, clauses: usize, rows: &[u32]) -> Frame {
+    let mut bound = vec![Rows::Unbound; clauses];
+    bound[variable] = Rows::Each(rows.to_vec());
+    Frame { len: rows.len(), rows: bound }
+}
+
+/// These objects of the first clause, with what the clauses before this one are bound to.
+fn bound(memory: &Memory, number: usize, drivers: &[u32]) -> Frame {
+    let mut rows = vec![Rows::Unbound; memory.witnesses.len()];
+    rows[0] = Rows::Each(drivers.to_vec());
+    for clause in 1..number {
+        let column = &memory.witnesses[clause];
+        rows[clause] = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
+    }
+    Frame { len: drivers.len(), rows }
+}

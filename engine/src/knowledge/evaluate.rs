@@ -1,0 +1,152 @@
+//! Plans rules and runs them for the objects that need it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use super::KnowledgeBase;
+use super::conclude::Run;
+use super::dirty::Dirty;
+use super::memory::{Memory, Shape};
+use super::network::Planned;
+use crate::column::Column;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::machine::Machine;
+use crate::machine::candidates::Candidates;
+use crate::machine::output::Output;
+use crate::machine::search::{Drivers, search};
+use crate::plan::uses::Uses;
+use crate::plan::{Kind, Kinds, Plan, plan};
+use crate::rule::{PropertyName, Rule};
+use crate::rule_base::RuleBase;
+use crate::script::interpreter::runner;
+use crate::value::Type;
+
+impl KnowledgeBase {
+    /// Plans a rule, if it has no plan for the types that there are now. A rule that is planned anew starts anew.
+    pub(super) fn plan(&mut self, base: &RuleBase, index: usize) {
+        let rule = &base.rules[index];
+        let kept = self.network.nodes[index]
+            .planned
+            .as_ref()
+            .is_some_and(|planned| planned.kinds == self.kinds(rule, &planned.plan));
+        if kept {
+            return;
+        }
+        self.drop_memory(index);
+        let outcome =
+            catch_unwind(AssertUnwindSafe(|| plan(rule, &Known { base: self, rule }, &self.symbols)));
+        let outcome = outcome.unwrap_or_else(|_| Err(vec![failed_inside(rule)]));
+        let (planned, problems) = match outcome {
+            Ok(plan) => {
+                let (uses, kinds, interprets) = (Uses::of(&plan), self.kinds(rule, &plan), plan.interprets());
+                (Some(Planned { plan, uses, kinds, interprets }), vec![])
+            }
+            Err(problems) => (None, problems),
+        };
+        let node = &mut self.network.nodes[index];
+        (node.planned, node.problems) = (planned, problems);
+    }
+
+    /// The types that a plan rests on.
+    fn kinds(&self, rule: &Rule, plan: &Plan) -> Vec<Option<Type>> {
+        let read = plan.columns.iter().map(|name| self.view(name, below(rule, name)).map(Column::kind));
+        let told = |name: &PropertyName| self.held.get(&name.class)?.table.column(&name.property);
+        read.chain(rule.sets.keys().map(|name| told(name).map(Column::kind))).collect()
+    }
+
+    /// What a rule gives for some objects of its first clause.
+    pub(super) fn evaluate(
+        &self,
+        run: &Run,
+        rule: &Rule,
+        plan: &Plan,
+        memory: &mut Memory,
+        drivers: &Dirty,
+    ) -> Output {
+        let outcome = catch_unwind(AssertUnwindSafe(|| self.search(run, rule, plan, memory, drivers)));
+        let mut output = outcome.unwrap_or_else(|_| Output {
+            problem: Some(failed_inside(rule)),
+            stopped: true,
+            ..Output::default()
+        });
+        if output.stopped {
+            // What was found until then is not whole, and would hang on the order of the search.
+            let problem = output.problem.take();
+            *memory = Memory::new(rule, plan, memory.statuses.len());
+            output = memory.nothing();
+            output.problem = problem;
+        }
+        memory.problem = output.problem.take().map(|problem| match output.problems {
+            0 | 1 => problem,
+            more => problem.help(format!("it failed {more} times; this is the first")),
+        });
+        output
+    }
+
+    fn search(&self, run: &Run, rule: &Rule, plan: &Plan, memory: &mut Memory, drivers: &Dirty) -> Output {
+        let machine = self.machine(rule, plan, run.until);
+        for (number, clause) in rule.clauses.iter().enumerate() {
+            let needed = number > 0 || memory.shape == Shape::Whole;
+            if needed && memory.candidates[number].is_none() {
+                let size = self.len(&clause.class).unwrap_or(0);
+                // A search without candidates looks at the clock, too, and is stopped.
+                memory.candidates[number] = Candidates::of(&machine, plan, number, size).ok();
+            }
+        }
+        let len = memory.statuses.len() as u32;
+        let drivers = match (memory.shape, drivers) {
+            (Shape::Whole, _) => Drivers::Whole(self.len(&rule.clauses[0].class).unwrap_or(0) as u32),
+            (_, Dirty::Rows(rows)) => Drivers::Rows(rows),
+            _ => Drivers::Range(0, len),
+        };
+        search(&machine, plan, &memory.candidates, drivers)
+    }
+
+    pub(super) fn machine<'m>(&'m self, rule: &'m Rule, plan: &Plan, until: Instant) -> Machine<'m> {
+        static NONE: Column = Column::Truths(vec![]);
+        let column = |name| self.view(name, below(rule, name)).unwrap_or(&NONE);
+        Machine {
+            rule,
+            columns: plan.columns.iter().map(column).collect(),
+            symbols: &self.symbols,
+            runner: runner(),
+            deadline: until.min(Instant::now() + self.limits.rule),
+            trouble: None.into(),
+            troubles: 0.into(),
+            stopped: false.into(),
+        }
+    }
+}
+
+fn failed_inside(rule: &Rule) -> Diagnostic {
+    let place = rule.file.source.place(rule.position);
+    Diagnostic::error(Code::Panic, &place, format!("rule \"{}\" failed inside the engine", rule.name))
+}
+
+/// A revision reads its own property as the level below left it; everyone reads the last level.
+pub(super) fn below(rule: &Rule, name: &PropertyName) -> Option<i64> {
+    rule.level().filter(|_| rule.sets.contains_key(name))
+}
+
+/// The properties that there are when a rule is planned.
+struct Known<'k> {
+    base: &'k KnowledgeBase,
+    rule: &'k Rule,
+}
+
+impl Kinds for Known<'_> {
+    fn kind(&self, name: &PropertyName) -> Kind {
+        match self.base.view(name, below(self.rule, name)) {
+            Some(column) => Kind::Holds(Some(column.kind())),
+            None => Kind::Missing,
+        }
+    }
+
+    fn declared(&self, name: &PropertyName) -> Option<Type> {
+        self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+    }
+
+    fn properties(&self, class: &str) -> Vec<String> {
+        self.base.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+    }
+}

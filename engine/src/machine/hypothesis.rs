@@ -1,0 +1,96 @@
+//! What a rule says of each object of its first clause: proved, refuted, or undecided.
+
+use std::collections::HashSet;
+
+use super::evaluate::Batch;
+use super::lane::{Frame, Rows};
+use super::output::Status;
+use super::search::Search;
+use super::tally::pairs;
+use super::{BATCH, Stopped};
+use crate::plan::clause::ClausePlan;
+use crate::value::{Cell, Truth};
+
+/// What came up for the objects of the first clause.
+#[derive(Debug, Default)]
+pub(super) struct Verdicts {
+    proved: HashSet<u32>,
+    open: HashSet<u32>,
+}
+
+impl Verdicts {
+    pub(super) fn leave_open(&mut self, rows: impl Iterator<Item = u32>) {
+        self.open.extend(rows);
+    }
+}
+
+impl Search<'_> {
+    /// Leaves open what rests on objects of this clause of which an unknown hides whether they pass.
+    pub(super) fn doubt(&mut self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<(), Stopped> {
+        if self.plan.hypothesis.is_none() || number == 0 {
+            return Ok(());
+        }
+        let mut open: Vec<u32> = vec![];
+        let candidates = self.candidates(number);
+        let unknown_key = self.unknown_keys(clause, frame);
+        let mut pairs = pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
+        loop {
+            let (bindings, rows): (Vec<u32>, Vec<u32>) = pairs.by_ref().take(BATCH).unzip();
+            if bindings.is_empty() {
+                break;
+            }
+            self.machine.tick()?;
+            let mut tried = frame.select(&bindings);
+            tried.rows[number] = Rows::Each(rows);
+            let batch = Batch { frame: &tried, slots: &[], mask: None };
+            let truths = clause.whole.as_ref().map(|whole| self.machine.evaluate(whole, batch).truths());
+            let may_pass =
+                |index: usize| truths.as_ref().is_none_or(|truths| truths.at(index) != Truth::False);
+            open.extend(
+                bindings
+                    .iter()
+                    .enumerate()
+                    .filter(|&(index, _)| may_pass(index))
+                    .map(|(_, &binding)| frame.rows[0].at(binding as usize)),
+            );
+        }
+        drop(pairs);
+        self.verdicts.leave_open(open.into_iter());
+        Ok(())
+    }
+
+    /// The bindings met all clauses.
+    pub(super) fn prove(&mut self, frame: &Frame) {
+        if self.plan.hypothesis.is_some() {
+            self.verdicts.proved.extend((0..frame.len).map(|index| frame.rows[0].at(index)));
+        }
+    }
+
+    /// Says of the objects that were looked at what is refuted, and what is undecided.
+    pub(super) fn settle(&mut self, looked_at: impl Iterator<Item = u32>) -> Result<(), Stopped> {
+        if self.plan.hypothesis.is_none() {
+            return Ok(());
+        }
+        let Verdicts { proved, open } = std::mem::take(&mut self.verdicts);
+        let others: Vec<u32> = looked_at.filter(|row| !proved.contains(row)).collect();
+        for chunk in others.chunks(BATCH) {
+            let mut rows = vec![Rows::Unbound; self.plan.clauses.len()];
+            rows[0] = Rows::Each(chunk.to_vec());
+            self.record(&Frame { len: chunk.len(), rows }, Status::SILENT)?;
+            for given in &mut self.output.given {
+                if Some(&given.name) == self.plan.hypothesis.as_ref() {
+                    for row in chunk {
+                        let refuted = !open.contains(row);
+                        given.values.push(if refuted { Cell::Truth(false) } else { Cell::Unknown });
+                        given.written.push(true);
+                    }
+                } else {
+                    let len = given.values.len() + chunk.len();
+                    given.values.resize(len);
+                    given.written.resize(len, false);
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,99 @@
+//! Which columns a plan looks at, and through which variable.
+
+use std::collections::BTreeSet;
+
+use super::action::{ActionPlan, Step};
+use super::fragment::{Fragment, Source};
+use super::node::Node;
+use super::{Effect, Plan};
+
+/// Columns by the number of the variable through which they are read.
+#[derive(Debug, Default)]
+pub(crate) struct Uses {
+    /// Anywhere.
+    pub(crate) anywhere: Vec<BTreeSet<usize>>,
+    /// In the variable's own clause: what decides whether it is bound.
+    pub(crate) matching: Vec<BTreeSet<usize>>,
+}
+
+impl Uses {
+    pub(crate) fn of(plan: &Plan) -> Self {
+        let none = || vec![BTreeSet::new(); plan.clauses.len()];
+        let mut uses = Self { anywhere: none(), matching: none() };
+        for (number, clause) in plan.clauses.iter().enumerate() {
+            let mut found = vec![];
+            for join in &clause.joins {
+                found.push((number, join.column));
+                properties(&join.key, &mut found);
+            }
+            for node in clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have) {
+                properties(node, &mut found);
+            }
+            let own = found.iter().filter(|(variable, _)| *variable == number);
+            uses.matching[number].extend(own.map(|(_, column)| *column));
+            uses.add(&found);
+        }
+        let mut found = vec![];
+        match &plan.effect {
+            Effect::Conclude { then, otherwise } => {
+                for ActionPlan { steps, .. } in std::iter::once(then).chain(otherwise) {
+                    of_steps(steps, &mut found);
+                }
+            }
+            Effect::Revise { amount, .. } => properties(amount, &mut found),
+        }
+        uses.add(&found);
+        uses
+    }
+
+    fn add(&mut self, found: &[(usize, usize)]) {
+        for &(variable, column) in found {
+            self.anywhere[variable].insert(column);
+        }
+    }
+}
+
+fn of_steps(steps: &[Step], found: &mut Vec<(usize, usize)>) {
+    for step in steps {
+        match step {
+            Step::Put { value, .. } => properties(value, found),
+            Step::If { condition, then, otherwise, .. } => {
+                properties(condition, found);
+                of_steps(then, found);
+                of_steps(otherwise, found);
+            }
+            Step::Interpret(fragment) => of_fragment(fragment, found),
+        }
+    }
+}
+
+fn of_fragment(fragment: &Fragment, found: &mut Vec<(usize, usize)>) {
+    found.extend(fragment.bare.iter().map(|&(_, variable, column)| (variable, column)));
+    for object in fragment.objects.values() {
+        for (_, source) in &object.properties {
+            if let Source::Column(column) = source {
+                found.push((object.variable, *column));
+            }
+        }
+    }
+}
+
+fn properties(node: &Node, found: &mut Vec<(usize, usize)>) {
+    match node {
+        Node::Unknown
+        | Node::Number(_)
+        | Node::Text(_)
+        | Node::Truth(_)
+        | Node::Local(_)
+        | Node::Aggregate(_) => {}
+        Node::Property { variable, column } => found.push((*variable, *column)),
+        Node::Arithmetic(_, a, b) | Node::Compare(_, a, b) | Node::Concat(a, b) | Node::Coalesce(a, b) => {
+            properties(a, found);
+            properties(b, found);
+        }
+        Node::Function(_, a) | Node::Not(a) | Node::Known(a) | Node::Narrow(_, a) => properties(a, found),
+        Node::And(parts) | Node::Or(parts) => parts.iter().for_each(|part| properties(part, found)),
+        Node::Choose(a, b, c) => [a, b, c].into_iter().for_each(|part| properties(part, found)),
+        Node::Interpret(fragment) => of_fragment(fragment, found),
+    }
+}
