@@ -62,7 +62,9 @@ impl ClassChanges {
             let to = |row: u32| moved.get(row as usize).copied().flatten();
             let follow = |rows: &mut Vec<u32>| {
                 *rows = rows.iter().filter_map(|&row| to(row)).collect();
-                rows.sort_unstable();
+                if !rows.is_sorted() {
+                    rows.sort_unstable();
+                }
             };
             match &mut self.moved {
                 Some(earlier) => earlier.iter_mut().for_each(|row| *row = row.and_then(to)),

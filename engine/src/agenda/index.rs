@@ -21,8 +21,9 @@ impl Index {
         Self { columns, groups: HashMap::new(), unknown: vec![] }
     }
 
-    pub(crate) fn insert(&mut self, id: u32, cells: impl Iterator<Item = Cell>) {
-        let group = match key(cells) {
+    /// Takes in an object of a world with these columns.
+    pub(crate) fn insert(&mut self, id: u32, columns: &[Vec<Cell>]) {
+        let group = match key(self.columns.iter().map(|&column| columns[column][id as usize])) {
             Some(key) => self.groups.entry(key).or_default(),
             None => &mut self.unknown,
         };
@@ -31,9 +32,9 @@ impl Index {
         }
     }
 
-    /// Takes out an object; the cells are those that it was inserted with.
-    pub(crate) fn remove(&mut self, id: u32, cells: impl Iterator<Item = Cell>) {
-        let key = key(cells);
+    /// Takes out an object, whose values are those that it was inserted with.
+    pub(crate) fn remove(&mut self, id: u32, columns: &[Vec<Cell>]) {
+        let key = key(self.columns.iter().map(|&column| columns[column][id as usize]));
         let group = match key {
             Some(key) => self.groups.get_mut(&key),
             None => Some(&mut self.unknown),

@@ -101,7 +101,7 @@ impl World {
         }
         let mut index = Index::new(columns.to_vec());
         for &id in self.classes[class].ids.iter() {
-            index.insert(id, columns.iter().map(|&column| self.columns[column][id as usize]));
+            index.insert(id, &self.columns);
         }
         self.indexes.push(index);
         self.classes[class].indexes.push(self.indexes.len() - 1);
@@ -227,17 +227,13 @@ impl World {
 
     fn unindex(&mut self, class: usize, id: u32) {
         for &index in &self.classes[class].indexes {
-            let index = &mut self.indexes[index];
-            let columns = index.columns.clone();
-            index.remove(id, columns.iter().map(|&column| self.columns[column][id as usize]));
+            self.indexes[index].remove(id, &self.columns);
         }
     }
 
     fn reindex(&mut self, class: usize, id: u32) {
         for &index in &self.classes[class].indexes {
-            let index = &mut self.indexes[index];
-            let columns = index.columns.clone();
-            index.insert(id, columns.iter().map(|&column| self.columns[column][id as usize]));
+            self.indexes[index].insert(id, &self.columns);
         }
     }
 

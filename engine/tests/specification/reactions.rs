@@ -280,7 +280,7 @@ fn an_action_is_done_whole_or_not_at_all() {
         run.diagnostics.iter().map(|problem| problem.message.clone()).collect::<Vec<_>>()
     };
     assert_eq!(fails("let x = 1; x.trim();").len(), 1);
-    assert_eq!(fails("throw \"no\";"), [r#"rule "r": Runtime error: no (line 1, position 120)"#]);
+    assert_eq!(fails("throw \"no\";"), [r#"rule "r": Runtime error: no (line 1, position 119)"#]);
     assert_eq!(fails("lamp.level = [1];"), [r#"rule "r": `level` cannot hold a value of type array"#]);
     assert_eq!(
         fails("lamp.level = word();"),
