@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
 use crate::plan::reaction::reaction;
-use crate::plan::{Effect, Kind, Kinds, plan};
-use crate::rule::{PropertyName, Rule};
+use crate::plan::{Effect, Key, Kind, Kinds, plan};
+use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
 use crate::suggest::nearest;
@@ -29,12 +29,29 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     }
     known.tell_kinds(base, &symbols);
     known.concluded.extend(base.hypotheses().into_iter().map(|name| (name, Some(Type::Truth))));
+    for name in base.declared.supplied() {
+        known.concluded.entry(name.clone()).or_default();
+    }
+    let (types, mut declared) = crate::declared::check::check(&base.declared, schema, &known);
+    declared.sort_by(|a, b| (&a.file, a.span).cmp(&(&b.file, b.span)));
+    for (name, kind) in types {
+        known.concluded.entry(name).or_default().get_or_insert(kind);
+    }
     let mut problems: Vec<(usize, Vec<Diagnostic>)> = vec![];
     for step in &base.order {
         let Step::Rule(index) = step else { continue };
         let rule = &base.rules[*index];
-        let wrong = unknown_classes(rule, schema, &told);
-        if !wrong.is_empty() {
+        if matches!(rule.action, Action::Default { .. }) {
+            // It is checked with the other declarations.
+            continue;
+        }
+        let wrong = unknown_classes(rule, base, schema, &told);
+        if !wrong.is_empty()
+            || !rule
+                .clauses
+                .iter()
+                .all(|clause| schema.has(&clause.class) || told.classes.contains_key(clause.class.as_str()))
+        {
             problems.push((*index, wrong));
             continue;
         }
@@ -54,7 +71,7 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     }
     for (index, rule) in base.rules.iter().enumerate() {
         let Some(action) = rule.reaction() else { continue };
-        let wrong = unknown_classes(rule, schema, &told);
+        let wrong = unknown_classes(rule, base, schema, &told);
         let wrong = if wrong.is_empty() {
             reaction(rule, action, &known, &symbols).err().unwrap_or_default()
         } else {
@@ -68,19 +85,31 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     }
     // As the author reads: by the order of the files, not of the dependencies.
     problems.sort_by_key(|&(index, _)| index);
-    problems.into_iter().flat_map(|(_, wrong)| wrong).collect()
+    let mut all: Vec<Diagnostic> =
+        declared.into_iter().chain(problems.into_iter().flat_map(|(_, wrong)| wrong)).collect();
+    all.extend(base.warnings.iter().cloned());
+    // What is wrong with a class's condition shows in every rule over the class; it is said once.
+    let mut said = BTreeSet::new();
+    all.retain(|problem| said.insert((problem.file.clone(), problem.span, problem.message.clone())));
+    all
 }
 
-fn unknown_classes(rule: &Rule, schema: &Schema, told: &NamesTold) -> Vec<Diagnostic> {
+fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTold) -> Vec<Diagnostic> {
     let mut named = BTreeSet::new();
+    let declared = || base.declared.subclasses().map(|(name, _)| name);
     rule.clauses
         .iter()
+        // What a declaration names is said there.
+        .filter(|clause| clause.link.is_none() && clause.conditions.is_empty())
         .filter(|clause| !schema.has(&clause.class) && !told.classes.contains_key(clause.class.as_str()))
         .filter(|clause| named.insert(&clause.class))
         .map(|clause| {
             let place = rule.file.source.place(clause.class_position);
             Diagnostic::error(Code::UnknownClass, &place, format!("there is no class {}", clause.class))
-                .did_you_mean(nearest(&clause.class, schema.classes().chain(told.classes.keys().copied())))
+                .did_you_mean(nearest(
+                    &clause.class,
+                    schema.classes().chain(told.classes.keys().copied()).chain(declared()),
+                ))
         })
         .collect()
 }
@@ -119,6 +148,10 @@ impl Kinds for Declared<'_> {
     fn declared(&self, name: &PropertyName) -> Option<Type> {
         let earlier = || self.concluded.get(name).or_else(|| self.told.get(name)).copied().flatten();
         self.schema.kind(&name.class, &name.property).or_else(earlier)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.schema.key_of(class).map_or(Key::Unsaid, |key| Key::Properties(key.to_vec()))
     }
 
     fn properties(&self, class: &str) -> Vec<String> {

@@ -33,6 +33,16 @@ pub enum Code {
     Assignment,
     /// Rules that need each other's conclusions.
     Cycle,
+    /// A declaration that cannot be, or that a rule does not keep to.
+    Declaration,
+    /// A table that does not read as one.
+    Table,
+    /// Rows of a table that match the same.
+    Overlap,
+    /// Inputs without a row.
+    Gap,
+    /// A row, or a rule, that never counts.
+    Unreachable,
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis,
     /// Two operators at one level of revision.
@@ -49,11 +59,15 @@ pub enum Code {
     Matches,
     /// The engine itself failed.
     Panic,
+    /// A file of rule tests does not read as tests.
+    TestSyntax,
+    /// A rule test does not hold.
+    TestFailed,
 }
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 26] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -65,6 +79,11 @@ impl Code {
         Self::Type,
         Self::Assignment,
         Self::Cycle,
+        Self::Declaration,
+        Self::Table,
+        Self::Overlap,
+        Self::Gap,
+        Self::Unreachable,
         Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
@@ -73,6 +92,8 @@ impl Code {
         Self::Loop,
         Self::Matches,
         Self::Panic,
+        Self::TestSyntax,
+        Self::TestFailed,
     ];
 
     /// The name that users and programs see.
@@ -89,6 +110,11 @@ impl Code {
             Self::Type => "rule/type",
             Self::Assignment => "rule/assignment",
             Self::Cycle => "rule/cycle",
+            Self::Declaration => "rule/declaration",
+            Self::Table => "rule/table",
+            Self::Overlap => "rule/overlap",
+            Self::Gap => "rule/gap",
+            Self::Unreachable => "rule/unreachable",
             Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
@@ -97,6 +123,8 @@ impl Code {
             Self::Loop => "rule/loop",
             Self::Matches => "rule/matches",
             Self::Panic => "rule/panic",
+            Self::TestSyntax => "test/syntax",
+            Self::TestFailed => "test/failed",
         }
     }
 }

@@ -18,6 +18,7 @@ mod report;
 mod revise;
 mod undo;
 mod why;
+mod why_not;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -108,7 +109,8 @@ impl KnowledgeBase {
     pub fn schema(&self) -> Schema {
         let mut schema = Schema::default();
         for (name, Held { table, .. }) in &self.held {
-            schema = schema.class(name, &[]);
+            let key: Vec<&str> = table.key.iter().map(|&column| table.names[column].as_str()).collect();
+            schema = schema.class(name, &[]).key(name, &key);
             for (property, column) in table.names.iter().zip(&table.columns) {
                 schema.add(name, property, column.kind());
             }

@@ -49,17 +49,27 @@
 //! revise "NAME"
 //!     clauses as above
 //!     set x.property by OPERATOR NUMBER [level N]  * + - max min; the level is 0 if not given
+//!
+//! table "NAME" HIT [priority N]                    unique, any, first, priority [VALUES], collect sum|min|max|count
+//!     clauses as above
+//!     given [ VALUE, ... ]
+//!     set   [ x.property, ... ]
+//!     rows  [ [ CELL, ..., VALUE, ... ], ... ]     3, "z", any, ["a", "b"], not("z"), below(3), between(1, 3), ...
+//!
+//! class LOW_DOORS of DOORS where CONDITION         the objects of DOORS that pass; a class may be of such a class
+//! property DOORS.width from table, rule, default 2, ask "How wide is door {door}?"
+//! property DOORS.room names ROOMS[.key]            then `door.room.height` reads through it
 //! ```
 //!
 //! The first clause is an `each` (or `some`); the others follow in any order and may speak of the variables before
 //! them. In `by`, a bare name is a property of the variable just bound. Files may also hold functions (`fn`) and
-//! constants (`const`). `rule`, `revise` and `on`, and the words that rhai reserves (`is`, `default`, `case`, ...),
-//! cannot name properties or variables.
+//! constants (`const`). Where one follows an item that does not end in `}`, a `;` belongs between. The words that
+//! rhai reserves (`is`, `default`, `case`, ...) cannot name properties or variables.
 //!
 //! - A **rule concludes**. It is pure, and the order of rules and of rows never counts, but for ties. A property
 //!   has one value: two rules, or two bindings of one rule, that say different things make a [`Conflict`], and the
-//!   value is unknown; the greater `priority` is heard before. Within one action a later assignment replaces an earlier one. A told value stands before a
-//!   concluded one.
+//!   value is unknown. The greatest `priority` with a known value is heard. Within one action a later assignment
+//!   replaces an earlier one. A told value stands before a concluded one.
 //! - **Rules are ordered** by what they read and set. Rules that need each other's conclusions are refused, and the
 //!   cycle is named.
 //! - **`least`** takes the least value and its object; of equal ones the first row. Objects whose value is unknown
@@ -70,9 +80,20 @@
 //! - **`hypothesis`** is a property of the first clause's object: true where all clauses are met, false where one
 //!   is not, unknown where that is undecided. Several rules may prove one hypothesis: it is true if one proves it,
 //!   false if all refute it. Nothing else sets it.
+//! - A **table** concludes like a rule. Of its rows count: of `unique` and `any` the one that matches, of `first`
+//!   the first, of `priority` the one whose first output ranks first, of `collect` all together. `between(a, b)`
+//!   and `a..b` are from a up to, but not, b. What is unknown makes the outputs unknown, unless no row that could
+//!   match looks at it. Rows of `unique` that overlap and rows of `any` that overlap and differ are errors; rows
+//!   never reached, and inputs without a row, are warnings with an example.
+//! - A **class by condition** may stand wherever a class stands. Bare names in its condition are properties of the
+//!   object. What is declared of its properties counts before what is declared of the class that it is of.
+//! - **Sources** are asked in their order. A default looks at told properties only.
+//! - A **link** that names no object makes unknown what is read through it, and never fails a rule. A `where` may
+//!   read through the link of its own object in `each` only.
 //! - **`else`** runs once for each binding of the clauses before for which a `least`, `most` or `some` finds no
 //!   object, a `none` finds one, or an `all` is not met. It may use the variables bound before that clause;
-//!   properties of the others are unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do not lead to `else`.
+//!   properties of the others are unknown. An `each` that finds nothing, and a `where` of an `each` that fails, do
+//!   not lead to `else`.
 //! - **`revise`** changes a number, told or concluded. Each level starts from what the level below gave, and within a
 //!   `revise` the property that it sets is read as the level below left it; everyone else reads the last level. A
 //!   level has one operator (`+` and `-` are one). `each` contributes for every binding, `some` once; contributions
@@ -152,18 +173,23 @@ mod check;
 mod class;
 mod column;
 mod conclusions;
+mod declared;
 mod diagnostic;
 mod knowledge;
+mod lint;
 mod machine;
 mod order;
 mod plan;
 mod reactions;
+mod rejection;
 mod rule;
 mod rule_base;
+mod rule_test;
 mod schema;
 mod script;
 mod suggest;
 mod symbols;
+mod table;
 mod told;
 mod value;
 
@@ -173,12 +199,15 @@ pub use conclusions::{
     Conclusions, Conflict, Gap, Justification, Justifications, LeftOut, Origin, Reason, Revision, Support,
     Waiting, Witness,
 };
+pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::facts::FactError;
 pub use reactions::{Activation, Firing, Reactions, Told};
+pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};
 pub use rule_base::RuleBase;
+pub use rule_test::{RuleTests, TestFailure, TestOutcome};
 pub use schema::Schema;
 pub use script::interpreter::Limits;
 pub use script::source::{MAX_FILE_BYTES, SourceFile};

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::declared::Declarations;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{PropertyName, Rule};
 
@@ -17,8 +18,11 @@ pub(crate) enum Step {
 }
 
 /// The steps in an order that respects all dependencies, or the cycles that make one impossible.
-pub(crate) fn order(rules: &[Rule]) -> Result<Vec<Step>, Vec<Diagnostic>> {
-    let levels = levels(rules);
+pub(crate) fn order(rules: &[Rule], declared: &Declarations) -> Result<Vec<Step>, Vec<Diagnostic>> {
+    let mut levels = levels(rules);
+    for name in declared.supplied() {
+        levels.entry(name.clone()).or_default();
+    }
     let mut needs: BTreeMap<Step, BTreeSet<Step>> = BTreeMap::new();
     // Rules that react are no part of an inference: they run after it.
     for (index, rule) in rules.iter().enumerate().filter(|(_, rule)| !rule.reacts()) {

@@ -4,9 +4,11 @@ pub(crate) mod action;
 pub(crate) mod call;
 pub(crate) mod clause;
 pub(crate) mod fragment;
+mod link;
 pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;
+mod table;
 pub(crate) mod uses;
 
 use std::cell::RefCell;
@@ -29,11 +31,21 @@ pub(crate) enum Kind {
     Holds(Option<Type>),
 }
 
+/// What is known of a class's key.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Key {
+    /// Only objects will tell.
+    Unsaid,
+    Properties(Vec<String>),
+}
+
 /// Tells what kind a property is.
 pub(crate) trait Kinds {
     fn kind(&self, property: &PropertyName) -> Kind;
     /// The type that a property was declared with, whatever rules conclude of it.
     fn declared(&self, property: &PropertyName) -> Option<Type>;
+    /// What tells the objects of a class apart.
+    fn key(&self, class: &str) -> Key;
     /// Names to suggest for a misspelt one.
     fn properties(&self, class: &str) -> Vec<String>;
 }
@@ -41,8 +53,20 @@ pub(crate) trait Kinds {
 /// What a rule does for each binding.
 #[derive(Debug)]
 pub(crate) enum Effect {
-    Conclude { then: ActionPlan, otherwise: Option<ActionPlan> },
-    Revise { variable: usize, amount: Node },
+    Conclude {
+        then: ActionPlan,
+        otherwise: Option<ActionPlan>,
+    },
+    Revise {
+        variable: usize,
+        amount: Node,
+    },
+    /// A value of the first clause's object for where nothing else gives one.
+    Default {
+        name: PropertyName,
+        value: Node,
+        kind: Option<Type>,
+    },
 }
 
 /// A rule ready to run.
@@ -72,6 +96,12 @@ pub(crate) fn plan(
         },
         // Reactions have plans of their own; as a rule they conclude nothing.
         Action::React(_) => Effect::Conclude { then: ActionPlan::default(), otherwise: None },
+        Action::Default { property, value, position } => {
+            action::default(&mut lowering, property, value.as_ref(), *position)
+        }
+        Action::Table(table) => {
+            Effect::Conclude { then: table::action(&mut lowering, table), otherwise: None }
+        }
         Action::Revise { target, amount, position, .. } => {
             action::check_revised(&mut lowering, target, *position);
             Effect::Revise { variable: target.0, amount: lowering.wanted(amount, Type::Number) }
@@ -94,6 +124,7 @@ impl Plan {
                 then.interprets() || otherwise.as_ref().is_some_and(ActionPlan::interprets)
             }
             Effect::Revise { amount, .. } => amount.interprets(),
+            Effect::Default { value, .. } => value.interprets(),
         };
         effect || self.clauses.iter().any(clause)
     }

@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use rhai::{Expr, Module, Position, Shared, StmtBlock};
 
+use crate::declared::Condition;
 use crate::script::source::SourceFile;
 use crate::script::syntax::Quantifier;
+use crate::table::Table;
 use crate::value::Cell;
 
 /// A property of a class, as rules name it: `DOORS.hardness`.
@@ -92,14 +94,65 @@ pub(crate) struct Clause {
     pub(crate) have: Option<Expr>,
     /// The name of the number that `count` and `sum` give.
     pub(crate) number: Option<(String, Position)>,
+    /// What makes an object one of the class as the rule names it.
+    pub(crate) conditions: Vec<Condition>,
+    /// Of a hidden clause: what names the object.
+    pub(crate) link: Option<LinkUse>,
+}
+
+/// How a hidden clause finds its object: the property of another clause's object names it.
+#[derive(Clone, Debug)]
+pub(crate) struct LinkUse {
+    pub(crate) clause: usize,
+    pub(crate) property: String,
+    /// The property of the object that is named; the class's key if it is not given.
+    pub(crate) key: Option<String>,
+    pub(crate) position: Position,
+    /// Where the link is declared.
+    pub(crate) declared: (Arc<FileScope>, Position),
+}
+
+impl Clause {
+    /// A clause of which only the variable is known yet.
+    pub(crate) fn new(quantifier: Quantifier, variable: String, position: Position) -> Self {
+        Self {
+            quantifier,
+            variable,
+            position,
+            class: String::new(),
+            class_position: Position::NONE,
+            by: None,
+            condition: None,
+            have: None,
+            number: None,
+            conditions: vec![],
+            link: None,
+        }
+    }
 }
 
 /// What a rule does with what its clauses bind.
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
-    Conclude { then: Box<StmtBlock>, otherwise: Option<Box<StmtBlock>> },
-    Revise { target: (usize, String), operator: Operator, amount: Expr, level: i64, position: Position },
+    Conclude {
+        then: Box<StmtBlock>,
+        otherwise: Option<Box<StmtBlock>>,
+    },
+    Revise {
+        target: (usize, String),
+        operator: Operator,
+        amount: Expr,
+        level: i64,
+        position: Position,
+    },
     React(Box<Reaction>),
+    Table(Box<Table>),
+    /// What a property of the only clause's object is if nothing else gives it a value.
+    Default {
+        property: String,
+        value: Option<Expr>,
+        position: Position,
+    },
 }
 
 /// What an `on` rule does. Its body runs in the interpreter; what can be seen of it without running is listed.
@@ -227,14 +280,16 @@ impl Rule {
     pub(crate) const fn reaction(&self) -> Option<&Reaction> {
         match &self.action {
             Action::React(reaction) => Some(reaction),
-            Action::Conclude { .. } | Action::Revise { .. } => None,
+            Action::Conclude { .. } | Action::Revise { .. } | Action::Table(_) | Action::Default { .. } => {
+                None
+            }
         }
     }
 
     /// The level of a revision; `None` for a rule that concludes.
     pub const fn level(&self) -> Option<i64> {
         match &self.action {
-            Action::Conclude { .. } | Action::React(_) => None,
+            Action::Conclude { .. } | Action::React(_) | Action::Table(_) | Action::Default { .. } => None,
             Action::Revise { level, .. } => Some(*level),
         }
     }

@@ -7,12 +7,17 @@ use std::thread;
 
 use rhai::Position;
 
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::declared::Declarations;
+use crate::declared::build::{against_rules, declarations};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
+use crate::lint::lint;
 use crate::order::{Step, order};
 use crate::rule::{Action, Operator, PropertyName, Rule};
 use crate::schema::Schema;
+use crate::script::desugar::desugar;
 use crate::script::interpreter::{STACK_BYTES, function_names, reader};
-use crate::script::read::read;
+use crate::script::read::{Draft, read, version};
+use crate::script::resolve::resolve;
 use crate::script::source::SourceFile;
 
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
@@ -22,13 +27,16 @@ pub struct RuleBase {
     pub(crate) id: u64,
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
+    pub(crate) declared: Declarations,
+    /// What was found that is not wrong.
+    pub(crate) warnings: Vec<Diagnostic>,
 }
 
 impl RuleBase {
     /// Reads rule files. Each file is read up to its first error of syntax, and all files are reported.
     pub fn compile(files: &[SourceFile]) -> Result<Self, Diagnostics> {
         let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(files))).ok());
-        let Some((rules, mut problems)) = outcome else {
+        let Some((mut rules, declared, mut problems)) = outcome else {
             let place = files.first().map(|file| file.place(Position::START));
             let message = "reading the rule files failed inside the engine";
             return Err(Diagnostics(
@@ -38,12 +46,20 @@ impl RuleBase {
         problems.extend(duplicates(&rules));
         problems.extend(operators(&rules));
         problems.extend(hypotheses(&rules));
+        problems.extend(against_rules(&declared, &rules));
+        let (wrong, warnings): (Vec<_>, Vec<_>) =
+            lint(&rules).into_iter().partition(|found| found.severity == Severity::Error);
+        problems.extend(wrong);
         if !problems.is_empty() {
+            // As the author reads; stable, so that what is said of one place keeps its order.
+            let number = |file: &str| files.iter().position(|source| source.name() == file);
+            problems.sort_by_key(|problem| (number(&problem.file), problem.span.0));
             return Err(Diagnostics(problems));
         }
-        let order = order(&rules).map_err(Diagnostics)?;
+        rules.extend(defaults(&declared));
+        let order = order(&rules, &declared).map_err(Diagnostics)?;
         static COMPILED: AtomicU64 = AtomicU64::new(1);
-        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order })
+        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
     }
 
     /// The rules, in the order of the files.
@@ -51,7 +67,12 @@ impl RuleBase {
         &self.rules
     }
 
-    /// Names and types against the classes that there are; empty if all is well.
+    /// Classes by condition, links, and where properties come from.
+    pub const fn declared(&self) -> &Declarations {
+        &self.declared
+    }
+
+    /// Names and types against the classes that there are, and warnings; empty if all is well.
     pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
         on_deep_stack(|| crate::check::check(self, schema))
     }
@@ -67,6 +88,24 @@ impl RuleBase {
     }
 }
 
+/// A declared default is heard after every rule, that of the most special class first.
+fn defaults(declared: &Declarations) -> Vec<Rule> {
+    let mut rules = vec![];
+    for (name, declarations) in &declared.properties {
+        for (rank, declaration) in (0..).zip(declarations.iter().rev()) {
+            let Action::Default { value: Some(_), position, .. } = declaration.rule.action else { continue };
+            let mut rule = declaration.rule.clone();
+            rule.priority = i64::MIN + rank;
+            rule.sets.insert(name.clone(), position);
+            let sources = declaration.sources.iter().map(|source| format!("{source:?}"));
+            let signature: Vec<String> = sources.chain([format!("{:?}", rule.action)]).collect();
+            rule.version = version(signature.iter().map(String::as_str));
+            rules.push(rule);
+        }
+    }
+    rules
+}
+
 /// Runs on a thread with a stack for the deepest rule that is allowed.
 pub(crate) fn on_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     thread::scope(|scope| {
@@ -76,16 +115,32 @@ pub(crate) fn on_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     })
 }
 
-fn read_all(files: &[SourceFile]) -> (Vec<Rule>, Vec<Diagnostic>) {
-    let engine = reader();
+/// Reads all files, then looks up what the rules of each name: a declaration counts in all of them.
+fn read_all(files: &[SourceFile]) -> (Vec<Rule>, Declarations, Vec<Diagnostic>) {
     let known = function_names();
-    let (mut rules, mut problems) = (vec![], vec![]);
+    let mut problems = vec![];
+    let (mut drafts, mut classes, mut properties) = (vec![], vec![], vec![]);
     for file in files {
-        let (read, wrong) = read(file, engine, known);
-        rules.extend(read);
-        problems.extend(wrong);
+        let read = read(file, reader());
+        drafts.push(read.drafts);
+        classes.extend(read.classes);
+        properties.extend(read.properties);
+        problems.push(read.problems);
     }
-    (rules, problems)
+    let mut wrong = vec![];
+    let declared = declarations(classes, properties, known, &mut wrong);
+    let mut rules = vec![];
+    for (drafts, problems) in drafts.into_iter().zip(&mut problems) {
+        for Draft { mut rule, text, outside } in drafts {
+            let used = desugar(&mut rule, &declared, problems);
+            let shared = resolve(&mut rule, known, problems);
+            let outside = shared.then_some(&*outside);
+            let parts = std::iter::once(text.as_str()).chain(outside).chain(used.iter().map(String::as_str));
+            rule.version = version(parts);
+            rules.push(rule);
+        }
+    }
+    (rules, declared, problems.into_iter().flatten().chain(wrong).collect())
 }
 
 fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::value::Type;
+use crate::value::{Type, Value};
 
-/// The classes that rules may name, with the types of their properties.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// The classes that rules may name, with the types of their properties; for tests also their keys and what NULL means.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schema {
     classes: BTreeMap<String, BTreeMap<String, Type>>,
+    keys: BTreeMap<String, Vec<String>>,
+    nulls: BTreeMap<String, BTreeMap<String, Value>>,
 }
 
 impl Schema {
@@ -19,9 +21,36 @@ impl Schema {
         self
     }
 
+    /// Says what tells the objects of a class apart.
+    #[must_use]
+    pub fn key(mut self, class: &str, key: &[&str]) -> Self {
+        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
+        self
+    }
+
+    /// What tells the objects of a class apart, if that was said.
+    pub fn key_of(&self, class: &str) -> Option<&[String]> {
+        self.keys.get(class).map(Vec::as_slice)
+    }
+
     /// Adds one property.
     pub fn add(&mut self, class: &str, property: &str, kind: Type) {
         self.classes.entry(class.to_owned()).or_default().insert(property.to_owned(), kind);
+    }
+
+    /// Says by which properties the objects of a class are told apart.
+    pub fn set_key(&mut self, class: &str, key: &[&str]) {
+        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
+    }
+
+    /// Says that `None` of a property is not unknown but this value, as [`Class::null_means`](crate::Class::null_means).
+    pub fn set_null(&mut self, class: &str, property: &str, means: impl Into<Value>) {
+        self.nulls.entry(class.to_owned()).or_default().insert(property.to_owned(), means.into());
+    }
+
+    /// The properties of a class whose `None` is a value, with that value, sorted.
+    pub fn nulls(&self, class: &str) -> impl Iterator<Item = (&str, &Value)> {
+        self.nulls.get(class).into_iter().flatten().map(|(property, means)| (property.as_str(), means))
     }
 
     /// Whether a class is known.

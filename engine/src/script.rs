@@ -1,11 +1,14 @@
 //! Rule files: how they are read, and the interpreter behind them.
 
+pub(crate) mod desugar;
 pub(crate) mod failure;
 pub(crate) mod interpreter;
 pub(crate) mod names;
 mod reaction;
 pub(crate) mod reactor;
 pub(crate) mod read;
-mod resolve;
+pub(crate) mod resolve;
+mod rewrite;
 pub(crate) mod source;
 pub(crate) mod syntax;
+pub(crate) mod wording;

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
-use crate::{reason, trees};
+use crate::{generation, reason, trees};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -72,7 +72,7 @@ impl KnowledgeBase {
 
     fn answer(&self, tx: &mut Tx<'_>, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
         let robot = pick_robot(tx, robot)?;
-        let generation = tx.site_value("generation")?.and_then(|text| text.parse().ok()).unwrap_or(0);
+        let generation = generation::read(tx)?;
         let mut answer = Answer {
             status: Status::Ok,
             robot: robot.clone(),

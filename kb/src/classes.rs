@@ -91,6 +91,18 @@ pub fn declare(schema: &mut Schema, gives: &[String]) {
             _ => Type::Number,
         };
         let (class, property) = split(name.trim());
+        if !schema.has(class) {
+            declare_key(schema, class, Some(property));
+        }
         schema.add(class, property, kind);
+    }
+}
+
+/// Adds the key of a class, and what NULL means in it; `first` is its first property.
+pub fn declare_key(schema: &mut Schema, class: &str, first: Option<&str>) {
+    let composite = KEYS.iter().find(|(name, _)| *name == class).map(|(_, key)| key.to_vec());
+    schema.set_key(class, &composite.unwrap_or_else(|| first.into_iter().collect()));
+    for (_, property) in UNLIMITED.iter().filter(|(name, _)| *name == class) {
+        schema.set_null(class, property, f64::INFINITY);
     }
 }

@@ -8,7 +8,9 @@ mod output;
 mod picture;
 mod route;
 mod sql;
+mod test;
 mod tune;
+mod watch;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -39,6 +41,10 @@ pub enum Verb {
     Tune(TuneArgs),
     /// Lint rules, tables and map without building
     Check(CheckArgs),
+    /// Run the tests of the site's rules
+    Test(TestArgs),
+    /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
+    Watch(WatchArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
@@ -160,6 +166,22 @@ pub struct CheckArgs {
     pub site: SiteArgs,
 }
 
+/// `adit test`.
+#[derive(Args, Debug)]
+pub struct TestArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+}
+
+/// `adit watch`.
+#[derive(Args, Debug)]
+pub struct WatchArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+}
+
 /// `adit sql`.
 #[derive(Args, Debug)]
 pub struct SqlArgs {
@@ -247,6 +269,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         }),
         Verb::Tune(args) => tune::tune(args).map(|()| 0),
         Verb::Check(args) => doctor::check(args).map(|sound| u8::from(!sound)),
+        Verb::Test(args) => test::run(args).map(|passed| u8::from(!passed)),
+        Verb::Watch(args) => watch::run(args).map(|()| 0),
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::History(args) => tune::history(args).map(|()| 0),
@@ -261,10 +285,12 @@ pub fn run(cli: &Cli) -> ExitCode {
                 output::line(&serde_json::json!({"error": output::as_json(error.problems())}).to_string());
             }
             output::problems(error.problems());
-            let no_route = |problem: &miette::Report| {
-                problem.code().is_some_and(|code| code.to_string() == "draw/no-route")
+            // no route, or a check that failed, is no unusable input
+            let is_finding = |problem: &miette::Report| {
+                let code = problem.code().map(|code| code.to_string());
+                matches!(code.as_deref(), Some("draw/no-route" | "test/failed"))
             };
-            ExitCode::from(if error.problems().iter().all(no_route) { 1 } else { 2 })
+            ExitCode::from(if error.problems().iter().all(is_finding) { 1 } else { 2 })
         }
     }
 }
@@ -278,6 +304,8 @@ impl Verb {
             Self::Route(args) => args.site.json,
             Self::Tune(args) => args.site.json,
             Self::Check(args) => args.site.json,
+            Self::Test(args) => args.site.json,
+            Self::Watch(args) => args.site.json,
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
             Self::History(args) => args.site.json,

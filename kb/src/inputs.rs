@@ -3,13 +3,14 @@
 use std::path::Path;
 use std::time::Instant;
 
-use adit_engine::RuleBase;
+use adit_engine::{RuleBase, RuleTests};
 use adit_planners::planner::Planner;
 use adit_planners::read::MapReport;
 use adit_planners::world::World;
 
 use crate::derive::Stage;
 use crate::error::Result;
+use crate::rules::Rules;
 use crate::site::Site;
 use crate::{lint, rules};
 
@@ -17,6 +18,8 @@ use crate::{lint, rules};
 pub struct Inputs {
     /// The rules.
     pub rules: RuleBase,
+    /// The tests beside them.
+    pub tests: RuleTests,
     /// The map, with what the site lays over it.
     pub world: World,
     /// What reading the map cost or gave of free space.
@@ -34,11 +37,11 @@ impl Inputs {
     /// `rule_folder` stands instead of the site's own rules.
     pub fn read(site: &Site, rule_folder: Option<&Path>, planners: &[Box<dyn Planner>]) -> Result<Self> {
         let began = Instant::now();
-        let rules = rules::load(site, rule_folder)?;
+        let Rules { base: rules, tests } = rules::load(site, rule_folder)?;
         let (world, map_report, notes) = site.world()?;
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
         let unread = lint::unread(&rules, planners).into_iter().map(|problem| problem.to_string());
         let notes = unread.chain(notes.into_iter().map(|note| note.to_string())).collect();
-        Ok(Self { rules, world, map_report, notes, stage })
+        Ok(Self { rules, tests, world, map_report, notes, stage })
     }
 }

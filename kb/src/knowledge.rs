@@ -7,7 +7,7 @@ use std::time::Instant;
 use adit_db::history::Author;
 use adit_db::robot::State;
 use adit_db::{Store, Tx};
-use adit_engine::{RuleBase, Schema, Type};
+use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts};
 use adit_planners::layers::RoomsByState;
@@ -24,9 +24,10 @@ use crate::inputs::Inputs;
 use crate::progress::{Progress, Silent};
 use crate::report::{Before, PlaceCosts, Report, Routes};
 use crate::robots::RobotFile;
+use crate::rules::Rules;
 use crate::site::{Rooms, Site};
 use crate::store::{LastBuild, Tables};
-use crate::{classes, lint, rules, tables, trees};
+use crate::{classes, generation, lint, rules, tables, trees};
 
 /// Something that the expert should know, though nothing is wrong.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -39,6 +40,14 @@ struct Note(String);
 #[error("{0}")]
 #[diagnostic(code("rule/gap"), severity(warning))]
 struct Gap(String);
+
+/// What the tests of a rule base gave.
+pub struct Tested {
+    /// The state of the knowledge base that the site is in; 0 where it was never built.
+    pub generation: u64,
+    /// One for each test, in the order of the files.
+    pub outcomes: Vec<TestOutcome>,
+}
 
 /// A site with its planners, ready to be built and edited.
 pub struct KnowledgeBase {
@@ -110,6 +119,15 @@ impl KnowledgeBase {
         &self.database
     }
 
+    /// The files that a build reads, `site.toml` first.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files = self.site.files();
+        if let Some(folder) = rules::folder(&self.site, self.rules.as_deref()) {
+            files.extend(rules::files(folder));
+        }
+        files
+    }
+
     /// Map, facts, rules, routes: into the site's database, all or nothing.
     pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
         self.build_at(&self.database, progress)
@@ -168,7 +186,7 @@ impl KnowledgeBase {
     /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
     /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<miette::Report>> {
-        let rules = rules::load(&self.site, self.rules.as_deref())?;
+        let rules = rules::load(&self.site, self.rules.as_deref())?.base;
         let unread = lint::unread(&rules, &self.planners);
         let said: Vec<String> = unread.iter().map(ToString::to_string).collect();
         let mut problems: Vec<miette::Report> = unread.into_iter().map(miette::Report::new).collect();
@@ -199,7 +217,7 @@ impl KnowledgeBase {
     fn follow(&self, tx: &mut Tx<'_>, inputs: &Inputs, progress: &dyn Progress) -> Result<Report> {
         let before = Before::read(tx)?;
         let told = self.told(tx, &inputs.rules)?;
-        self.check_rules(&inputs.rules, &told)?;
+        self.vet(&inputs.rules, &inputs.tests, &told)?;
         let robots = self.robots(tx)?;
         let mut derived = derive(
             &inputs.world,
@@ -224,7 +242,10 @@ impl KnowledgeBase {
         let routes = self.keep_routes(tx, &graph, &robots, &before, progress)?;
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
-        let generation = self.sign(tx, &inputs.rules)?;
+        let same = before.rooms == graph.rooms && before.doors == graph.doors && routes.changed == Some(0);
+        let basis = generation::basis(&self.site, &inputs.world, &inputs.rules, &told);
+        let generation = generation::renew(tx, same, &basis)?;
+        self.sign(tx, &inputs.rules)?;
         let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
         if graph.rooms.is_empty() {
             report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
@@ -268,6 +289,7 @@ impl KnowledgeBase {
                 };
                 schema.add(class, property, kind);
             }
+            classes::declare_key(&mut schema, class, table.columns.first().map(|(name, _)| name.as_str()));
         }
         for planner in &self.planners {
             classes::declare(&mut schema, &planner.signature().gives);
@@ -275,11 +297,37 @@ impl KnowledgeBase {
         schema
     }
 
-    fn check_rules(&self, rules: &RuleBase, told: &Facts) -> Result<()> {
-        let problems = rules.check(&self.schema(told));
+    /// Refuses rules with names or types that cannot be right, and rules that fail a test beside them.
+    fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Facts) -> Result<()> {
+        let failures: Vec<_> =
+            self.run_tests(rules, tests, told)?.into_iter().flat_map(|outcome| outcome.failures).collect();
+        if failures.is_empty() {
+            return Ok(());
+        }
+        Err(Error::all(failures.into_iter().map(|failure| failure.diagnostic)))
+    }
+
+    fn run_tests(&self, rules: &RuleBase, tests: &RuleTests, told: &Facts) -> Result<Vec<TestOutcome>> {
+        let schema = self.schema(told);
+        let problems = rules.check(&schema);
         let errors: Vec<_> =
             problems.into_iter().filter(|problem| problem.severity == adit_engine::Severity::Error).collect();
-        if errors.is_empty() { Ok(()) } else { Err(Error::all(errors)) }
+        if !errors.is_empty() {
+            return Err(Error::all(errors));
+        }
+        tests.run(rules, &schema).map_err(|problems| Error::all(problems.0))
+    }
+
+    /// Runs the tests of the rule base that is in force; nothing is changed.
+    pub fn test(&self) -> Result<Tested> {
+        let Rules { base, tests } = rules::load(&self.site, self.rules.as_deref())?;
+        let (told, generation) = if self.database.exists() {
+            let mut store = Store::open_read_only(&self.database)?;
+            store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
+        } else {
+            (tables::unbuilt(), 0)
+        };
+        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
     }
 
     fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {
@@ -307,7 +355,7 @@ impl KnowledgeBase {
     ) -> Result<Routes> {
         let plan = trees::plan(graph, robots, self.site.starts.as_ref())?;
         let ends = trees::ends(graph)?;
-        let comparable = before.starts == plan.starts && before.same_rooms(graph);
+        let comparable = before.same_starts(&plan.starts) && before.same_rooms(graph);
         let mut routes = Routes::new(plan.starts.len(), comparable);
         let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
         let mut new = PlaceCosts::new();
@@ -346,10 +394,7 @@ impl KnowledgeBase {
     }
 
     /// Says what the database now stands for.
-    fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<u64> {
-        let last = tx.site_value("generation")?.and_then(|text| text.parse::<u64>().ok()).unwrap_or(0);
-        let generation = last + 1;
-        tx.set_site_value("generation", Some(&generation.to_string()))?;
+    fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
         tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
@@ -361,7 +406,7 @@ impl KnowledgeBase {
         let watched: Vec<&str> = own.iter().filter(read).map(String::as_str).collect();
         tx.watch_tables(&watched)?;
         tx.mark_fresh()?;
-        Ok(generation)
+        Ok(())
     }
 }
 
@@ -381,8 +426,8 @@ fn is_unbuilt(database: &Path) -> bool {
     if std::fs::metadata(database).is_ok_and(|file| file.len() == 0) {
         return true;
     }
-    let generation = |tx: &mut Tx<'_>| tx.site_value("generation");
-    Store::open(database).and_then(|mut store| store.transaction(generation)).is_ok_and(|g| g.is_none())
+    let signed = |tx: &mut Tx<'_>| tx.site_value("generation");
+    Store::open(database).and_then(|mut store| store.transaction(signed)).is_ok_and(|g| g.is_none())
 }
 
 /// What the kept routes between places cost so far; few enough to be asked one by one, or none.

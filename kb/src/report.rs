@@ -36,6 +36,16 @@ impl Before {
         self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
     }
 
+    /// Whether routes were kept from these starts, in whatever order, each as the same tree.
+    pub fn same_starts(&self, starts: &[Start]) -> bool {
+        let sorted = |starts: &[Start]| {
+            let mut starts = starts.to_vec();
+            starts.sort_unstable_by(|a, b| (&a.name, &a.robot, a.tree).cmp(&(&b.name, &b.robot, b.tree)));
+            starts
+        };
+        sorted(&self.starts) == sorted(starts)
+    }
+
     /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
     pub fn same_rooms(&self, graph: &SiteGraph) -> bool {
         let same = |(old, new): (&Room, &Room)| {

@@ -11,6 +11,7 @@ use crate::error::{Error, Result};
 #[derive(RustEmbed)]
 #[folder = "$CARGO_MANIFEST_DIR/../rules"]
 #[include = "*.rhai"]
+#[include = "*.toml"]
 pub struct Rules;
 
 /// The example sites.

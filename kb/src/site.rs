@@ -124,6 +124,18 @@ impl Site {
         self.folder.join("site.db")
     }
 
+    /// The files that it is made of, besides its rules: `site.toml` first.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files = vec![self.folder.join("site.toml"), self.map.clone(), self.robots.clone()];
+        let is_text = self.map.is_file() && self.map.extension().is_none_or(|extension| extension != "toml");
+        if is_text && let Ok(text) = fs::read_to_string(&self.map) {
+            let image = text.lines().find_map(|line| line.strip_prefix("image:"));
+            let image = image.map(|image| image.trim().trim_matches(['"', '\'']));
+            files.extend(image.map(|image| self.map.with_file_name(image)));
+        }
+        files
+    }
+
     /// A number that changes with the texts of `site.toml` and of the map's own file (not of its image).
     pub fn texts(&self) -> u64 {
         let map = if self.map.is_file() { fs::read(&self.map).unwrap_or_default() } else { Vec::new() };

@@ -3,7 +3,7 @@
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
-use adit_planners::facts::{Column, Table};
+use adit_planners::facts::{Column, Facts, Table};
 
 use crate::error::{Error, Result};
 
@@ -26,6 +26,11 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("from_state", changes.iter().map(|row| row.from_state.clone()).collect::<Column>())
         .with("to_state", changes.iter().map(|row| row.to_state.clone()).collect::<Column>())
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
+}
+
+/// The classes that every site tells, of one that was never built: without objects.
+pub fn unbuilt() -> Facts {
+    Facts::from([("ROBOTS".to_owned(), robots(&[])), ("CHANGES".to_owned(), changes(&[]))])
 }
 
 /// A table or view of the site's own as a class: a column holds numbers or texts; one that is declared BOOLEAN

@@ -105,6 +105,17 @@ impl TestSite {
         self.write("site.toml", format!("rules = \"rules\"\n{site}"));
     }
 
+    /// Copies a shipped rule base with its tests into the site's folder `rules`.
+    pub fn copy_rules_and_tests(&self, base: &str) {
+        self.copy_rules(base);
+        let tests = repository().join("rules/rooms").join(base).join("tests");
+        for entry in fs::read_dir(tests).expect("tests of a rule base") {
+            let file = entry.expect("a file").path();
+            let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+            self.write(&format!("rules/tests/{name}"), fs::read(&file).expect("readable"));
+        }
+    }
+
     /// Runs `adit VERB SITE ARGS…`.
     pub fn adit(&self, verb: &str, args: &[&str]) -> Ran {
         let mut command = Command::new(adit());

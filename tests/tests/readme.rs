@@ -27,10 +27,14 @@ fn starter() -> TestSite {
     for file in ["site.toml", "map.toml", "robots.toml"] {
         site.write(file, fs::read(folder.join(file)).unwrap());
     }
-    for rule in fs::read_dir(folder.join("rules")).unwrap() {
-        let rule = rule.unwrap().path();
-        let name = rule.file_name().unwrap().to_str().unwrap();
-        site.write(&format!("rules/{name}"), fs::read(&rule).unwrap());
+    for rules in ["rules", "rules/tests"] {
+        for file in fs::read_dir(folder.join(rules)).unwrap() {
+            let file = file.unwrap().path();
+            let name = file.file_name().unwrap().to_str().unwrap();
+            if file.is_file() {
+                site.write(&format!("{rules}/{name}"), fs::read(&file).unwrap());
+            }
+        }
     }
     site.built()
 }

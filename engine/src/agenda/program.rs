@@ -5,6 +5,7 @@ use crate::plan::clause::ClausePlan;
 use crate::plan::fragment::Fragment;
 use crate::plan::node::{Comparison, Node};
 use crate::plan::reaction::ReactionPlan;
+use crate::plan::uses::Uses;
 use crate::rule::{PropertyName, Reaction, Rule};
 use crate::script::syntax::Quantifier;
 
@@ -14,6 +15,8 @@ pub(crate) struct Conjunct {
     pub(crate) node: Node,
     variables: u64,
     pub(crate) clause: usize,
+    /// It looks at a link's object, bound or not, and does not decide the link.
+    after_link: bool,
 }
 
 /// A clause of the rule.
@@ -110,21 +113,17 @@ impl Program {
         facts: &dyn Facts,
     ) -> Self {
         let columns: Vec<usize> = plan.columns.iter().map(|name| world.column(name, facts)).collect();
+        let uses = Uses::of_clauses(&plan.clauses);
         let (mut clauses, mut conjuncts) = (vec![], vec![]);
         for (number, plan) in plan.clauses.into_iter().enumerate() {
             let name = &rule.clauses[number].class;
             let class = world.class(name, facts);
             let read = reaction.reads.iter().filter(|(variable, _)| *variable == number);
-            let reads = read.map(|(_, property)| world.column(&PropertyName::new(name, property), facts));
+            let mut reads: Vec<usize> =
+                read.map(|(_, property)| world.column(&PropertyName::new(name, property), facts)).collect();
+            reads.extend(uses.anywhere[number].iter().map(|&column| columns[column]));
             let (by, have, whole) = (plan.by.clone(), plan.have.clone(), plan.whole.clone());
-            clauses.push(Clause {
-                quantifier: plan.quantifier,
-                class,
-                by,
-                have,
-                whole,
-                reads: reads.collect(),
-            });
+            clauses.push(Clause { quantifier: plan.quantifier, class, by, have, whole, reads });
             world.classes[class].watched |= plan.quantifier != Quantifier::Each;
             conjuncts.extend(parts(plan, number));
         }
@@ -145,7 +144,10 @@ impl Program {
     fn path(&self, from: Option<usize>, end: usize, world: &mut World) -> Path {
         // Conditions of a clause that is decided are tested there, unless the search is for what it decides.
         let tested = |conjunct: &Conjunct| {
-            self.clauses[conjunct.clause].quantifier == Quantifier::Each || from == Some(conjunct.clause)
+            if from == Some(conjunct.clause) {
+                return !conjunct.after_link;
+            }
+            conjunct.after_link || self.clauses[conjunct.clause].quantifier == Quantifier::Each
         };
         let mut bound = from.map_or(0, |clause| 1 << clause);
         let due = |before: u64, now: u64| -> Vec<usize> {
@@ -164,7 +166,7 @@ impl Program {
                 (false, true) => Visit::Each,
                 (false, false) => Visit::Decide,
             };
-            let own = |conjunct: &Conjunct| conjunct.clause == clause;
+            let own = |conjunct: &Conjunct| conjunct.clause == clause && !conjunct.after_link;
             let usable = |conjunct: &Conjunct| if each { tested(conjunct) } else { own(conjunct) };
             let find = if visit == Visit::Given { None } else { self.find(clause, bound, &usable, world) };
             let now = bound | 1 << clause;
@@ -228,13 +230,17 @@ fn parts(plan: ClausePlan, clause: usize) -> Vec<Conjunct> {
         let own = Node::Property { variable: clause, column: join.column };
         Node::Compare(Comparison::Equal, Box::new(own), Box::new(join.key))
     };
-    let mut nodes: Vec<Node> = plan.joins.into_iter().map(equation).collect();
+    let link = plan.quantifier == Quantifier::Link;
+    let mut nodes: Vec<(Node, bool)> = plan.joins.into_iter().map(|join| (equation(join), false)).collect();
     for condition in plan.own.into_iter().chain(plan.test) {
         match condition {
-            Node::And(parts) => nodes.extend(parts),
-            other => nodes.push(other),
+            Node::And(parts) => nodes.extend(parts.into_iter().map(|part| (part, link))),
+            other => nodes.push((other, link)),
         }
     }
-    let conjunct = |node: Node| Conjunct { variables: node.variables(), node, clause };
+    let conjunct = |(node, after_link): (Node, bool)| {
+        let variables = node.variables();
+        Conjunct { node, variables, clause, after_link }
+    };
     nodes.into_iter().map(conjunct).collect()
 }

@@ -130,6 +130,9 @@ impl<'s> Search<'s> {
         if clause.minds_unknowns() {
             return self.tally(step, bound);
         }
+        if clause.quantifier == Quantifier::Link && step.find.is_none() {
+            return Ok(true);
+        }
         let mut best: Option<(u32, f64)> = None;
         for &id in self.candidates(step, bound, false).0 {
             self.tick()?;
@@ -155,7 +158,8 @@ impl<'s> Search<'s> {
             return Ok(best.is_none());
         }
         bound.ids[step.clause] = best.map_or(NO_ROW, |(id, _)| id);
-        Ok(best.is_some())
+        // A link that leads nowhere leaves its object unknown.
+        Ok(best.is_some() || clause.quantifier == Quantifier::Link)
     }
 
     /// `count`, `sum` and `all`: a candidate of which it is unknown whether it counts makes the whole unknown.

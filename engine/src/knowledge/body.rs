@@ -17,7 +17,7 @@ use crate::column::Column;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::fragment::{Fragment, Source};
 use crate::plan::reaction::told;
-use crate::plan::{Kind, Kinds};
+use crate::plan::{Key, Kind, Kinds};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::script::failure::failure;
@@ -57,6 +57,13 @@ impl Kinds for Tellable<'_> {
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
         self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.base.held.get(class).map_or(Key::Unsaid, |held| {
+            let table = &held.table;
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
     }
 
     fn properties(&self, class: &str) -> Vec<String> {

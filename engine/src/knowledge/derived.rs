@@ -21,6 +21,8 @@ pub(crate) struct Derived {
     pub(crate) levels: Vec<(i64, Vec<usize>)>,
     /// Whether rules prove it: then it is true if one of them says so.
     pub(crate) hypothesis: bool,
+    /// Whether what rules conclude stands before what was told, as its sources declare.
+    pub(crate) rules_first: bool,
     /// The told or concluded values, then those after each level.
     pub(crate) stages: Vec<Column>,
     /// What has to be brought together anew, for each stage.

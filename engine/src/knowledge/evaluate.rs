@@ -15,7 +15,7 @@ use crate::machine::candidates::Candidates;
 use crate::machine::output::Output;
 use crate::machine::search::{Drivers, search};
 use crate::plan::uses::Uses;
-use crate::plan::{Kind, Kinds, Plan, plan};
+use crate::plan::{Key, Kind, Kinds, Plan, plan};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::script::interpreter::runner;
@@ -129,9 +129,9 @@ pub(super) fn below(rule: &Rule, name: &PropertyName) -> Option<i64> {
 }
 
 /// The properties that there are when a rule is planned.
-struct Known<'k> {
-    base: &'k KnowledgeBase,
-    rule: &'k Rule,
+pub(super) struct Known<'k> {
+    pub(super) base: &'k KnowledgeBase,
+    pub(super) rule: &'k Rule,
 }
 
 impl Kinds for Known<'_> {
@@ -144,6 +144,13 @@ impl Kinds for Known<'_> {
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
         self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.base.held.get(class).map_or(Key::Unsaid, |held| {
+            let table = &held.table;
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
     }
 
     fn properties(&self, class: &str) -> Vec<String> {

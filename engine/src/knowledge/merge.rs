@@ -213,12 +213,21 @@ impl KnowledgeBase {
     ) -> (Cell, Source) {
         let told = self.held.get(&name.class).and_then(|held| held.table.column(&name.property));
         let told = told.map_or(Cell::Unknown, |column| column.cell(row as usize));
-        if told != Cell::Unknown {
+        if told != Cell::Unknown && !derived.rules_first {
             return (told, Source::Told);
         }
         if derived.hypothesis {
             return self.proved(name, derived, row);
         }
+        let concluded = self.concluded(name, derived, row, kind);
+        if concluded.0 == Cell::Unknown && concluded.1 != Source::Dispute && told != Cell::Unknown {
+            return (told, Source::Told);
+        }
+        concluded
+    }
+
+    /// What rules conclude of one object.
+    fn concluded(&self, name: &PropertyName, derived: &Derived, row: u32, kind: Type) -> (Cell, Source) {
         let mut chosen = (Cell::Unknown, Source::Nobody);
         let mut priority = None;
         for writer in &derived.writers {

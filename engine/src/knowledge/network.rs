@@ -162,7 +162,7 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
             None => writers.push(Writer { rule: number, priority: rule.priority }),
         }
     }
-    writers.sort_by_key(|writer| (-writer.priority, writer.rule));
+    writers.sort_by_key(|writer| (std::cmp::Reverse(writer.priority), writer.rule));
     levels.values_mut().for_each(|rules| rules.sort_by(|&a, &b| base.rules[a].name.cmp(&base.rules[b].name)));
     let levels: Vec<(i64, Vec<usize>)> = levels.into_iter().collect();
     let stages = if stages.len() == levels.len() + 1 { stages } else { vec![] };
@@ -172,6 +172,7 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
         levels,
         hypothesis: base.hypotheses().contains(name),
         stages,
+        rules_first: base.declared.rules_first(name),
         fresh: false,
         disputes: BTreeSet::new(),
         complete: false,

@@ -168,7 +168,7 @@ impl KnowledgeBase {
     /// The objects as hosts call them.
     fn called(&self, rule: &Rule, rows: &[Option<usize>]) -> Vec<Witness> {
         let witness = |(clause, row): (&Clause, &Option<usize>)| {
-            let key = self.key(&clause.class, (*row)?)?;
+            let key = self.key(&clause.class, (*row).filter(|_| clause.link.is_none())?)?;
             Some(Witness { variable: clause.variable.clone(), class: clause.class.clone(), key })
         };
         rule.clauses.iter().zip(rows).filter_map(witness).collect()

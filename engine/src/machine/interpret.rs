@@ -133,7 +133,7 @@ impl Machine<'_> {
         } else if value.is_string() || value.is_char() {
             Cell::Text(self.symbols.borrow_mut().intern(&value.to_string()))
         } else {
-            let place = self.rule.file.source.place(fragment.position);
+            let place = fragment.file.source.place(fragment.position);
             let message =
                 format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
             self.troubles.set(self.troubles.get() + 1);

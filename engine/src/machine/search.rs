@@ -146,6 +146,16 @@ impl<'s> Search<'s> {
             next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
             return self.advance(number + 1, next);
         }
+        if clause.quantifier == Quantifier::Link {
+            let rows = match self.candidates(number).index {
+                Some(_) => self.groups(number, clause, &frame),
+                None => vec![&[][..]; frame.len],
+            };
+            let first = rows.into_iter().map(|rows| rows.first().copied().unwrap_or(NO_ROW)).collect();
+            let mut next = frame;
+            next.rows[number] = Rows::Each(first);
+            return self.filtered(number, clause, next);
+        }
         if clause.quantifier == Quantifier::All {
             return self.all(number, clause, frame);
         }
@@ -313,6 +323,15 @@ impl<'s> Search<'s> {
                 self.prove(frame);
                 self.conclude(then, frame, Status::THEN)
             }
+            Effect::Default { value, .. } => {
+                self.record(frame, Status::THEN)?;
+                let values = self.machine.evaluate(value, Batch { frame, slots: &[], mask: None });
+                for given in &mut self.output.given {
+                    given.values.extend(&values, frame.len);
+                    given.written.resize(given.values.len(), true);
+                }
+                Ok(())
+            }
             Effect::Revise { amount, .. } => {
                 self.record(frame, Status::THEN)?;
                 let amounts = self.machine.evaluate(amount, Batch { frame, slots: &[], mask: None });
@@ -385,6 +404,7 @@ impl Plan {
                 }
                 out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
             }
+            Effect::Default { name, kind, .. } => out.push((name, 0, *kind)),
             Effect::Revise { variable, .. } => {
                 out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));
             }

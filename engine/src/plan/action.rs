@@ -2,6 +2,7 @@
 
 use rhai::{Expr, Position, Stmt, StmtBlock};
 
+use super::Effect;
 use super::call::arithmetic;
 use super::fragment::Fragment;
 use super::lower::{Local, Lowering, Stop, Typed};
@@ -148,7 +149,7 @@ fn step(
     Ok(())
 }
 
-fn slot(lowering: &mut Lowering) -> usize {
+pub(super) fn slot(lowering: &mut Lowering) -> usize {
     lowering.slots += 1;
     lowering.slots - 1
 }
@@ -265,6 +266,30 @@ pub(crate) fn check_revised(
         let message = format!("a revision changes numbers; `{name}.{property}` holds {}", kind.plural());
         lowering.problem(Code::Type, position, message);
     }
+}
+
+/// What a property is if nothing else gives it a value.
+pub(crate) fn default(
+    lowering: &mut Lowering,
+    property: &str,
+    value: Option<&Expr>,
+    position: Position,
+) -> Effect {
+    let name = PropertyName::new(&lowering.rule.clauses[0].class, property);
+    lowering.own = Some(0);
+    let lowered = value.map_or(Ok((Node::Unknown, None)), |value| lowering.lower(value));
+    lowering.own = None;
+    let (value, kind) = match (lowering.kinds.declared(&name), lowered) {
+        (Some(wanted), Ok((_, Some(kind)))) if wanted != kind => {
+            let message =
+                format!("{name} holds {}, and its default gives {}", wanted.plural(), kind.plural());
+            lowering.problem(Code::Type, position, message);
+            (Node::Unknown, None)
+        }
+        (Some(wanted), Ok((value, None))) => (Node::Narrow(wanted, Box::new(value)), Some(wanted)),
+        (_, lowered) => lowered.unwrap_or((Node::Unknown, None)),
+    };
+    Effect::Default { name, value, kind }
 }
 
 /// A hypothesis needs a property that holds truth values.

@@ -15,7 +15,7 @@ impl Lowering<'_> {
         arguments: &[&Expr],
         position: Position,
     ) -> Result<Typed, Stop> {
-        if self.rule.file.function_names.contains(&(name.to_owned(), arguments.len())) {
+        if self.file.function_names.contains(&(name.to_owned(), arguments.len())) {
             return Err(Stop::Interpret);
         }
         match (name, arguments) {

@@ -1,5 +1,7 @@
 //! Clauses made ready: what an index answers, what is tested once for the class, what for each binding.
 
+use std::sync::Arc;
+
 use super::lower::Lowering;
 use super::node::{Comparison, Node};
 use crate::script::syntax::Quantifier;
@@ -45,6 +47,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
     let mut plans = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
         lowering.enter(Some(index));
+        let of_class = of_class(lowering, index);
         let by = clause.by.as_ref().map(|by| {
             lowering.own = Some(index);
             let node = lowering.wanted(by, Type::Number);
@@ -52,6 +55,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             node
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
+        let condition = all(of_class.into_iter().chain(condition).flat_map(parts).collect());
         let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
         let undecided_counts =
             clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
@@ -67,21 +71,47 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             have,
             thresholds: vec![],
         };
-        split(condition, index, &mut plan);
+        if let Some(link) = &clause.link {
+            // A link's condition looks at the object before, which is bound; it is tested after the link.
+            plan.joins.extend(super::link::join(lowering, index, link));
+            plan.test = condition;
+        } else {
+            split(condition, index, &mut plan);
+        }
         plan.thresholds = plan.test.as_ref().and_then(|test| thresholds(test, index)).unwrap_or_default();
         plans.push(plan);
     }
     plans
 }
 
+/// What makes the clause's object one of the class that the rule names.
+fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
+    let rule = lowering.rule;
+    let own_file = Arc::clone(&lowering.file);
+    lowering.own = Some(index);
+    let conditions = rule.clauses[index].conditions.iter();
+    let nodes = conditions
+        .map(|condition| {
+            lowering.file = Arc::clone(&condition.file);
+            lowering.wanted(&condition.expr, Type::Truth)
+        })
+        .collect();
+    lowering.own = None;
+    lowering.file = own_file;
+    nodes
+}
+
+fn parts(condition: Node) -> Vec<Node> {
+    match condition {
+        Node::And(parts) => parts,
+        other => vec![other],
+    }
+}
+
 fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
-    let parts = match condition {
-        None => return,
-        Some(Node::And(parts)) => parts,
-        Some(other) => vec![other],
-    };
+    let Some(condition) = condition else { return };
     let (mut own, mut test) = (vec![], vec![]);
-    for part in parts {
+    for part in parts(condition) {
         match part {
             part if part.variables() & !(1 << index) == 0 => own.push(part),
             Node::Compare(Comparison::Equal, a, b) => match join(*a, *b, index) {

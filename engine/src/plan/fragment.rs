@@ -1,13 +1,18 @@
 //! A part of a rule that stays with the interpreter.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use rhai::{AST, Dynamic, Position};
+
+use crate::rule::FileScope;
 
 /// A script and what it needs to run: the properties and variables that it names.
 #[derive(Clone, Debug)]
 pub(crate) struct Fragment {
     pub(crate) script: AST,
+    /// Where its positions are.
+    pub(crate) file: Arc<FileScope>,
     pub(crate) position: Position,
     /// For each pattern variable by name: its number, and its properties with their columns.
     pub(crate) objects: BTreeMap<String, Object>,

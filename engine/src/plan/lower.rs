@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use rhai::{AST, Dynamic, Expr, Position, Stmt, StmtBlock};
 
@@ -9,7 +10,7 @@ use super::fragment::{Fragment, Object, Source};
 use super::node::{Comparison, Node};
 use super::{Kind, Kinds};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Clause, Constant, PropertyName, Rule};
+use crate::rule::{Clause, Constant, FileScope, PropertyName, Rule};
 use crate::script::names::{Names, Patterns, property_of};
 use crate::suggest::nearest;
 use crate::symbols::{Symbol, Symbols};
@@ -39,6 +40,8 @@ pub(crate) struct Local {
 pub(crate) struct Lowering<'r> {
     pub(crate) rule: &'r Rule,
     pub(crate) kinds: &'r dyn Kinds,
+    /// The file of the expressions that are lowered: its constants and functions count.
+    pub(crate) file: Arc<FileScope>,
     symbols: &'r RefCell<Symbols>,
     columns: Vec<PropertyName>,
     problems: Vec<Diagnostic>,
@@ -57,6 +60,7 @@ impl<'r> Lowering<'r> {
         Self {
             rule,
             kinds,
+            file: Arc::clone(&rule.file),
             symbols,
             columns: vec![],
             problems: vec![],
@@ -96,10 +100,14 @@ impl<'r> Lowering<'r> {
         position: Position,
         message: impl Into<String>,
     ) -> &mut Diagnostic {
-        let place = self.rule.file.source.place(position);
+        let place = self.file.source.place(position);
         self.problems.push(Diagnostic::error(code, &place, message));
         let last = self.problems.len() - 1;
         &mut self.problems[last]
+    }
+
+    pub(crate) fn complain(&mut self, problem: Diagnostic) {
+        self.problems.push(problem);
     }
 
     /// An expression that must give this type. What is wrong is on the list, and the node is then unknown.
@@ -211,7 +219,7 @@ impl<'r> Lowering<'r> {
         if let Some((clause, _)) = self.numbers().find(|(_, number)| *number == name) {
             return Ok((Node::Aggregate(clause), Some(Type::Number)));
         }
-        if let Some(constant) = self.rule.file.constants.get(name) {
+        if let Some(constant) = self.file.constants.get(name) {
             return Ok(match constant {
                 Constant::Text(text) => (Node::Text(self.intern(text)), Some(Type::Text)),
                 Constant::Cell(Cell::Number(number)) => (Node::Number(*number), Some(Type::Number)),
@@ -355,13 +363,8 @@ impl<'r> Lowering<'r> {
             object.variable = *variable;
             object.properties.push((property.clone(), source));
         }
-        let constants = self
-            .rule
-            .file
-            .constants
-            .iter()
-            .map(|(name, constant)| (name.clone(), dynamic(constant)))
-            .collect();
+        let constants =
+            self.file.constants.iter().map(|(name, constant)| (name.clone(), dynamic(constant))).collect();
         let locals = self
             .locals
             .iter()
@@ -373,8 +376,9 @@ impl<'r> Lowering<'r> {
             .filter(|(_, name)| free.contains(name) || own(name))
             .map(|(clause, name)| (name.to_owned(), clause))
             .collect();
-        let script = AST::new(statements, self.rule.file.functions.clone());
-        Ok(Fragment { script, position, objects, bare, numbers, constants, locals })
+        let script = AST::new(statements, self.file.functions.clone());
+        let file = Arc::clone(&self.file);
+        Ok(Fragment { script, file, position, objects, bare, numbers, constants, locals })
     }
 
     /// The numbers that clauses give.
@@ -386,7 +390,7 @@ impl<'r> Lowering<'r> {
 
     fn is_given(&self, name: &str) -> bool {
         self.numbers().any(|(_, number)| number == name)
-            || self.rule.file.constants.contains_key(name)
+            || self.file.constants.contains_key(name)
             || self.locals.iter().any(|local| local.name == name)
     }
 }

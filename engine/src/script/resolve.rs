@@ -17,7 +17,7 @@ const MAX_CLAUSES: usize = 32;
 
 /// Finds what the rule reads and sets, reports names that mean nothing, and tells whether the rule uses
 /// constants or functions of its file.
-pub(super) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut Vec<Diagnostic>) -> bool {
+pub(crate) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut Vec<Diagnostic>) -> bool {
     let file = Arc::clone(&rule.file);
     let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
     problems.extend(clause_complaints(rule, &variables));
@@ -67,6 +67,7 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
             });
             merge(&mut names, of_object);
         }
+        of_class(&mut names, clause, index);
         for condition in clause.condition.iter().chain(&clause.have) {
             names.expression(condition, &patterns, None);
         }
@@ -88,9 +89,44 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
             names.expression(amount, &patterns, None);
             names.sets.insert(target.clone(), *position);
         }
+        Action::Table(table) => {
+            let outputs = table.rows.iter().flat_map(|row| &row.outputs);
+            for expr in table.given.iter().map(|(input, _)| input).chain(outputs) {
+                names.expression(expr, &patterns, None);
+            }
+            for (clause, property, position) in &table.set {
+                names.sets.insert((*clause, property.clone()), *position);
+            }
+        }
+        Action::Default { value, .. } => {
+            if let Some(value) = value {
+                let mut of_object = Names::default();
+                of_object.expression(value, &Patterns(&[]), Some(0));
+                of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));
+                merge(&mut names, of_object);
+            }
+        }
     }
     numbers(rule, rule.clauses.len(), &mut names);
     names
+}
+
+/// What is read to find the object, and to see that it is of the class that the rule names.
+fn of_class(names: &mut Names, clause: &Clause, index: usize) {
+    for condition in &clause.conditions {
+        let mut of_object = Names::default();
+        of_object.expression(&condition.expr, &Patterns(&[]), Some(index));
+        of_object.reads.retain(|(_, property), _| !condition.file.constants.contains_key(property));
+        for (used, _) in of_object.reads {
+            names.reads.entry(used).or_insert(clause.class_position);
+        }
+    }
+    if let Some(link) = &clause.link {
+        names.reads.entry((link.clause, link.property.clone())).or_insert(link.position);
+        if let Some(key) = &link.key {
+            names.reads.entry((index, key.clone())).or_insert(link.position);
+        }
+    }
 }
 
 /// A hypothesis is set too, and by nothing else in its rule.

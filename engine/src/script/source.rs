@@ -1,5 +1,6 @@
 //! A rule file's text, and places in it.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use miette::NamedSource;
@@ -43,6 +44,23 @@ impl SourceFile {
         let rest = &text[start..];
         let offset = start + rest.char_indices().nth(column - 1).map_or(rest.len(), |(at, _)| at);
         Place { source: self.clone(), span: (offset, token_len(&text[offset..])), line, column }
+    }
+}
+
+impl SourceFile {
+    /// The place of some bytes of the text.
+    pub(crate) fn place_of(&self, bytes: &Range<usize>) -> Place {
+        let text = self.text();
+        let start = text.floor_char_boundary(bytes.start.min(text.len()));
+        let end = text.floor_char_boundary(bytes.end.clamp(start, text.len()));
+        let before = &text[..start];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Place {
+            source: self.clone(),
+            span: (start, end - start),
+            line: before.matches('\n').count() + 1,
+            column: text[line_start..start].chars().count() + 1,
+        }
     }
 }
 

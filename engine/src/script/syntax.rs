@@ -1,79 +1,39 @@
-//! The grammar of `rule`, `revise` and `on`, as rhai's custom syntax asks for it: token by token.
+//! The grammar of items, as rhai's custom syntax asks for it: token by token.
+
+mod declare;
+mod quantifier;
+mod table;
+mod word;
 
 use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
 
 use crate::suggest::nearest;
-
-/// What a clause asks of the objects of its class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Quantifier {
-    Each,
-    Least,
-    Most,
-    Some,
-    None,
-    /// How many objects pass: binds a number.
-    Count,
-    /// The sum of a number over the objects that pass: binds a number.
-    Sum,
-    /// Whether something holds of all objects that pass.
-    All,
-}
-
-impl Quantifier {
-    fn of(word: &str) -> Option<Self> {
-        Some(match word {
-            "each" => Self::Each,
-            "least" => Self::Least,
-            "most" => Self::Most,
-            "some" => Self::Some,
-            "none" => Self::None,
-            "count" => Self::Count,
-            "sum" => Self::Sum,
-            "all" => Self::All,
-            _ => return None,
-        })
-    }
-
-    pub(crate) const fn word(self) -> &'static str {
-        match self {
-            Self::Each => "each",
-            Self::Least => "least",
-            Self::Most => "most",
-            Self::Some => "some",
-            Self::None => "none",
-            Self::Count => "count",
-            Self::Sum => "sum",
-            Self::All => "all",
-        }
-    }
-
-    /// Whether later clauses and the action may speak of the object.
-    pub(crate) const fn binds(self) -> bool {
-        matches!(self, Self::Each | Self::Least | Self::Most | Self::Some)
-    }
-
-    /// Whether a firing names the one object that decides.
-    pub(crate) const fn names(self) -> bool {
-        matches!(self, Self::Least | Self::Most | Self::Some | Self::None)
-    }
-
-    /// Whether it gives a number.
-    pub(crate) const fn counts(self) -> bool {
-        matches!(self, Self::Count | Self::Sum)
-    }
-
-    const fn ranks(self) -> bool {
-        matches!(self, Self::Least | Self::Most | Self::Sum)
-    }
-}
+use declare::Declaring;
+pub(crate) use quantifier::Quantifier;
+use table::Tabling;
+pub(crate) use word::{Word, start_file};
 
 /// What an input of the custom syntax is; there is one for each input, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
-    RuleName,
-    RevisionName,
-    ReactionName,
+    Name(Word),
+    /// The policy of a table; what its values are ranked by; how they are brought together.
+    Hit,
+    HitValues,
+    HitFold,
+    Given,
+    Set,
+    Rows,
+    /// A declared class: its parent and condition.
+    Parent,
+    Declared,
+    /// Where a property links to: class and key.
+    LinkClass,
+    LinkKey,
+    /// Where a property comes from.
+    Source,
+    Ask,
+    Default,
     Priority,
     Number,
     Variable(Quantifier),
@@ -94,6 +54,8 @@ pub(crate) enum Slot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum At {
     Name,
+    Declaring(Declaring),
+    Tabling(Tabling),
     Priority,
     Clause,
     Number(Quantifier),
@@ -117,6 +79,7 @@ enum At {
     AfterAmount,
     Level,
     End,
+    Done,
 }
 
 /// The state that travels with one custom expression.
@@ -124,10 +87,11 @@ enum At {
 pub(crate) struct Shape {
     pub(crate) slots: Vec<Slot>,
     at: At,
-    revision: bool,
-    reaction: bool,
+    item: Word,
     clause: Option<Quantifier>,
     needs_have: bool,
+    /// Whether the next token begins an item on its own.
+    keyed: bool,
 }
 
 /// How rhai shows the end of the file.
@@ -137,17 +101,17 @@ type Next = Result<Option<ImmutableString>, ParseError>;
 
 /// Teaches an engine the rule syntax.
 pub(crate) fn register(engine: &mut Engine) {
-    for key in ["rule", "revise", "on"] {
+    for word in Word::ALL {
         engine.register_custom_syntax_with_state_raw(
-            key,
+            word.key(),
             move |_, ahead, state| {
                 let mut shape = state.clone().try_cast::<Shape>().unwrap_or(Shape {
                     slots: vec![],
                     at: At::Name,
-                    revision: key == "revise",
-                    reaction: key == "on",
+                    item: word,
                     clause: None,
                     needs_have: false,
+                    keyed: false,
                 });
                 let next = shape.next(ahead);
                 *state = Dynamic::from(shape);
@@ -157,10 +121,18 @@ pub(crate) fn register(engine: &mut Engine) {
             |_, _, _| Err("a rule is declared, not run".into()),
         );
     }
+    word::register(engine);
 }
 
 impl Shape {
     fn next(&mut self, ahead: &str) -> Next {
+        // The next item's word, where one begins.
+        let keyed = Word::ALL.into_iter().find(|word| word.key() == ahead);
+        self.keyed = keyed.is_some();
+        let ahead = match keyed {
+            Some(word) => word.as_str(),
+            None => ahead,
+        };
         // What is no token comes as the reader's complaint about it.
         if ahead.starts_with("Unexpected ") {
             return wrong(format!("{ahead}: names have letters a to z, digits and _ only"));
@@ -169,13 +141,17 @@ impl Shape {
             return wrong("this text is not closed by a double quote on its line".into());
         }
         match self.at {
-            At::Name if self.revision => self.input(Slot::RevisionName, At::Clause, "$string$"),
-            At::Name if self.reaction => self.input(Slot::ReactionName, At::Clause, "$string$"),
-            At::Name => self.input(Slot::RuleName, At::Clause, "$string$"),
+            At::Name if matches!(self.item, Word::Class | Word::Property) => self.declared_name(),
+            At::Name => {
+                let at = if self.item == Word::Table { At::Tabling(Tabling::Hit) } else { At::Clause };
+                self.input(Slot::Name(self.item), at, "$string$")
+            }
+            At::Declaring(at) => self.declaring(at, ahead),
+            At::Tabling(at) => self.tabling(at, ahead),
             At::Clause if ahead == "priority" && self.may_have_priority() => {
                 self.word("priority", At::Priority)
             }
-            At::Clause if ahead == "priority" && self.revision && self.clause.is_none() => {
+            At::Clause if ahead == "priority" && self.item == Word::Revise && self.clause.is_none() => {
                 wrong("a revision has a level, not a priority: `level 3` at its end".into())
             }
             At::Clause => self.clause(ahead),
@@ -201,7 +177,7 @@ impl Shape {
             At::Then => self.input(Slot::Then, At::AfterThen, "$block$"),
             At::Hypothesis => self.input(Slot::Hypothesis, At::AfterHypothesis, "$expr$"),
             At::AfterHypothesis if ahead == "then" => self.word("then", At::Then),
-            At::AfterThen if ahead == "else" && self.reaction => {
+            At::AfterThen if ahead == "else" && self.item == Word::On => {
                 wrong("an `on` has no `else`: another `on` with `none` says what to do instead".into())
             }
             At::AfterThen if ahead == "else" => self.word("else", At::Else),
@@ -217,32 +193,33 @@ impl Shape {
             At::Amount => self.input(Slot::Amount, At::AfterAmount, "$expr$"),
             At::AfterAmount if ahead == "level" => self.word("level", At::Level),
             At::Level => self.input(Slot::Level, At::End, "$int$"),
-            At::AfterHypothesis | At::AfterThen | At::AfterAmount | At::End => self.item(ahead),
+            At::AfterHypothesis | At::AfterThen | At::AfterAmount | At::End => self.next_item(ahead),
+            At::Done => Ok(None),
         }
     }
 
     /// Where an item does not end in a block, rhai would ask for a semicolon before the next item; so the next
     /// item is read as part of the same expression.
-    fn item(&mut self, ahead: &str) -> Next {
+    fn next_item(&mut self, ahead: &str) -> Next {
         let in_block = matches!(self.slots.last(), Some(Slot::Then | Slot::Else));
-        match ahead {
-            "rule" | "revise" | "on" if !in_block => {
-                (self.revision, self.reaction) = (ahead == "revise", ahead == "on");
+        match Word::of(ahead).filter(|_| !in_block) {
+            Some(word) => {
+                self.item = word;
                 self.clause = None;
-                let words = ["rule", "revise", "on"];
-                words
-                    .into_iter()
-                    .find(|word| *word == ahead)
-                    .map_or(Ok(None), |word| self.word(word, At::Name))
+                self.word(if self.keyed { word.key() } else { word.as_str() }, At::Name)
             }
-            _ => Ok(None),
+            None if ahead == ";" && !in_block => self.word(";", At::Done),
+            None if !in_block && matches!(ahead, "fn" | "const" | "private") => {
+                wrong(format!("a `;` belongs before `{ahead}` here"))
+            }
+            None => Ok(None),
         }
     }
 
     fn may_have_priority(&self) -> bool {
         self.clause.is_none()
-            && !self.revision
-            && matches!(self.slots.last(), Some(Slot::RuleName | Slot::ReactionName))
+            && self.item != Word::Revise
+            && matches!(self.slots.last(), Some(Slot::Name(_) | Slot::Hit | Slot::HitValues | Slot::HitFold))
     }
 
     fn options(&mut self, ahead: &str, by: bool, condition: bool) -> Next {
@@ -284,11 +261,15 @@ impl Shape {
             let at = if quantifier.counts() { At::Number(quantifier) } else { At::Variable(quantifier) };
             return self.word(quantifier.word(), at);
         }
-        let (end, at) = if self.revision { ("set", At::Target) } else { ("then", At::Then) };
+        let (end, at) = match self.item {
+            Word::Revise => ("set", At::Target),
+            Word::Table => ("given", At::Tabling(Tabling::Given)),
+            _ => ("then", At::Then),
+        };
         if ahead == end && self.clause.is_some() {
             return self.word(end, at);
         }
-        if ahead == "hypothesis" && self.clause.is_some() && !self.revision && !self.reaction {
+        if ahead == "hypothesis" && self.clause.is_some() && self.item == Word::Rule {
             return self.word("hypothesis", At::Hypothesis);
         }
         if self.clause.is_none() {

@@ -4,7 +4,7 @@ use adit_engine::{Class, Conclusions, KnowledgeBase, RuleBase, Schema, SourceFil
 use proptest::prelude::*;
 
 /// Rules to choose from. T and U have a key, numbers x and y, a text s and a truth b, any of which may be unknown.
-const RULES: [&str; 30] = [
+const RULES: [&str; 36] = [
     "rule \"own\" each t in T where t.x > 0 then { t.twice = t.x * 2; t.name = t.s + \"!\"; }",
     "rule \"least\" each t in T least u in U by x where u.y < t.x then { t.least = u.x + t.y; t.who = u.s; }",
     "rule \"least of two\" each t in T least u in U by x where u.y < t.x && u.x <= t.y then { t.two = u.y; } else { t.two = -1; }",
@@ -34,6 +34,12 @@ const RULES: [&str; 30] = [
     "rule \"good\" each t in T where t.good then { t.better = t.x + 1; }",
     "rule \"exception\" priority 3 each t in T some u in U where u.s == t.s && u.b then { t.both = 7; t.z = u.x; }",
     "rule \"counts z\" each u in U count n of t in T where t.zz > u.x then { u.n = n; }",
+    "class BIG of T where x > 0.5\nrule \"of a class\" each t in BIG least u in U by y where u.x < t.y then { t.big = u.y; }",
+    "property T.z from table, rule, default y * 2",
+    "property U.seen from rule, table, default true\nrule \"seen by\" each t in T some u in U where u.s == t.s then { t.saw = u.seen; }",
+    "property T.s names U.s\nrule \"through a link\" each t in T where t.x > 0 then { t.link = t.s.x; t.known = known(t.s.late); }",
+    "class SMALL of U where y < 1\nclass TINY of SMALL where x < 0.5\nproperty TINY.size from default x\nproperty SMALL.size from rule, default 7\nrule \"size\" each u in TINY where u.b then { u.size = 3; }",
+    "rule \"sizes\" each t in T sum n of u in U by size where u.s == t.s then { t.sizes = n; }",
     "fn f(a, b) { if a > b { a } else { b + 1 } }\nrule \"script\" each t in T some u in U where u.s == t.s then { t.f = f(t.x, u.x); }",
 ];
 

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod conflicts;
+mod declarations;
 mod doors;
 mod explanation;
 mod hypotheses;
@@ -18,7 +19,10 @@ mod quantifiers;
 mod reaction_limits;
 mod reactions;
 mod revisions;
+mod rule_tests;
 mod support;
+mod tables;
 mod unknown;
 mod waltz;
+mod why_not;
 mod wrong_files;

@@ -410,3 +410,25 @@ fn a_rule_waits_for_what_nobody_has_told() {
 fn a_rule_base_without_reactions_reacts_to_nothing() {
     assert!(lamps([1.0, 2.0, 3.0]).react(&RuleBase::default()).firings.is_empty());
 }
+
+#[test]
+fn reactions_look_through_links_and_at_classes_by_condition() {
+    let rules = rules(
+        r#"property LAMPS.room names ROOMS
+           class DARK_ROOMS of ROOMS where light < 3
+           on "switch on" each lamp in LAMPS where lamp.room.light < 3 && lamp.level == 0 then { lamp.level = 5; }
+           on "lost" each lamp in LAMPS where unknown(lamp.room.light) && lamp.level == 0 then { lamp.note = "lost"; }
+           on "dark" each room in DARK_ROOMS then { tell("NOTES", #{ room: room.room }); }"#,
+    );
+    let mut base = lamps([0.0, 0.0, 0.0]);
+    for (lamp, room) in [("a", "hall"), ("b", "attic"), ("c", "cellar")] {
+        base.tell("LAMPS", lamp, "room", Some(room.into())).unwrap();
+    }
+    let room = Class::new("ROOMS", &["room"]).texts("room", ["hall", "attic"].map(Some));
+    base.assert(room.numbers("light", [Some(9.0), Some(1.0)])).unwrap();
+    assert_eq!(fired(&base.react(&rules)), [("switch on", "b"), ("lost", "c"), ("dark", "attic")]);
+    base.tell("ROOMS", "hall", "light", Some(2.0.into())).unwrap();
+    assert_eq!(fired(&base.react(&rules)), [("switch on", "a"), ("dark", "hall")]);
+    base.add("ROOMS", &[("room", "cellar".into()), ("light", 0.0.into())]).unwrap();
+    assert_eq!(fired(&base.react(&rules)), [("switch on", "c"), ("dark", "cellar")]);
+}

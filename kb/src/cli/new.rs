@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::NewArgs;
 use super::output::{json, line};
 use crate::error::{Error, Result};
+use crate::rules::TESTS;
 use crate::shipped::{self, Rules, Sites};
 use crate::site::{Rooms, Site};
 
@@ -22,7 +23,9 @@ pub fn run(args: &NewArgs) -> Result<()> {
         Some(map) => copy_map(map, &args.dir)?,
         None => starter(&args.dir, "map.toml")?,
     };
-    shipped::write::<Rules>(mode.rule_base(), &args.dir.join("rules"))?;
+    let rules = args.dir.join("rules");
+    shipped::write::<Rules>(mode.rule_base(), &rules)?;
+    shipped::write::<Rules>(&format!("{}/{TESTS}", mode.rule_base()), &rules.join(TESTS))?;
     starter(&args.dir, "robots.toml")?;
     write(&args.dir.join("site.toml"), &site_text(&args.dir, &map, mode))?;
     Site::open(&args.dir)?.world()?;
@@ -33,7 +36,7 @@ pub fn run(args: &NewArgs) -> Result<()> {
     line(&format!("{site} is a site now:"));
     line("  site.toml    what it is made of; places, bridges and obstacles may be laid over the map here");
     line("  robots.toml  the robot's states: height and width in metres, hardness per metre, action");
-    line("  rules/       what decides; edit it, and build again");
+    line("  rules/       what decides, with its tests; edit both, and build again");
     line(&format!("next: adit build {site}"));
     Ok(())
 }

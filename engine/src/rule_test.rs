@@ -1,0 +1,121 @@
+//! Rule tests: what must be concluded from which facts, written as data beside the rules.
+
+mod read;
+mod run;
+mod toml_text;
+mod vocabulary;
+
+use std::fmt;
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::rule_base::RuleBase;
+use crate::schema::Schema;
+use crate::script::source::SourceFile;
+use crate::value::Value;
+
+/// The tests of a rule base, read from TOML files.
+///
+/// ```toml
+/// tolerance = 0.0                       # how far a number may be off; 0 if not said
+/// [keys]                                # the properties that tell objects apart, where the host does not say;
+/// PLANTS = ["pot"]                      # objects of a class without a key are numbered from 1
+///
+/// [given]                               # facts of every test of this file, class by class
+/// PEOPLE = [{ name = "Ann", can_carry = 0.2 }, { name = "Bob", can_carry = 5.0 }]
+///
+/// [[test]]
+/// name = "who can carry it waters it"
+/// [test.given]                          # replaces the class of that name above; what is left out is unknown
+/// PLANTS = [{ pot = "fern", litres = 0.5 }]
+/// [test.conclude]                       # class, key, property
+/// PLANTS.fern = { waterer = "Bob", thirsty = { unknown = true } }
+///
+/// [[test.then]]                         # edits, and what must be concluded after them
+/// tell.PLANTS.fern.litres = 0.1         # { unknown = true } takes a value back
+/// add.PEOPLE = [{ name = "Cid", can_carry = 9.0 }]
+/// remove.PEOPLE = ["Bob"]
+/// conclude.PLANTS.fern.waterer = "Ann"
+/// ```
+///
+/// Classes and properties that the host's [`Schema`] or another test knows are there in every test, empty or unknown; for
+/// others a rule waits, as it does in life.
+#[derive(Clone, Debug, Default)]
+pub struct RuleTests {
+    files: Vec<read::TestFile>,
+}
+
+/// What became of a test.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct TestOutcome {
+    /// Its name.
+    pub test: String,
+    /// Its file.
+    pub file: String,
+    /// Its line, from 1.
+    pub line: usize,
+    /// Whether all that it expects is concluded.
+    pub passed: bool,
+    /// What is not as expected, in the order of the file.
+    pub failures: Vec<TestFailure>,
+}
+
+/// A value that is not as a test expects it.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct TestFailure {
+    /// Number of the edit (`[[test.then]]`) after which it was expected; 0 before all edits.
+    pub step: usize,
+    /// The class.
+    pub class: String,
+    /// The object's key.
+    pub key: String,
+    /// The property.
+    pub property: String,
+    /// What the test expects; `None` is unknown.
+    pub expected: Option<Value>,
+    /// What was told or concluded; `None` is unknown.
+    pub found: Option<Value>,
+    /// Where the value comes from, or why there is none.
+    pub why: String,
+    /// All of it, at its place in the test's file.
+    #[serde(skip)]
+    pub diagnostic: Diagnostic,
+}
+
+impl RuleTests {
+    /// Reads files of tests. All that is wrong in all of them is reported.
+    pub fn read(files: &[SourceFile]) -> Result<Self, Diagnostics> {
+        let (mut read, mut problems) = (vec![], vec![]);
+        for file in files {
+            match read::file(file) {
+                Ok(file) => read.push(file),
+                Err(wrong) => problems.extend(wrong),
+            }
+        }
+        if problems.is_empty() { Ok(Self { files: read }) } else { Err(Diagnostics(problems)) }
+    }
+
+    /// How many tests there are.
+    pub fn len(&self) -> usize {
+        self.files.iter().map(|file| file.tests.len()).sum()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Runs every test on a knowledge base of its own. Names and types that cannot be right are an error.
+    pub fn run(&self, rules: &RuleBase, schema: &Schema) -> Result<Vec<TestOutcome>, Diagnostics> {
+        let vocabulary = vocabulary::Vocabulary::new(&self.files, rules, schema).map_err(Diagnostics)?;
+        let tests = self.files.iter().flat_map(|file| file.tests.iter().map(move |test| (file, test)));
+        Ok(tests.map(|(file, test)| run::run(file, test, rules, &vocabulary)).collect())
+    }
+}
+
+/// One sentence: `DOORS 7 hardness is 4 and should be 3: DOORS 7 hardness is 4, by rule ...`.
+impl fmt::Display for TestFailure {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.diagnostic.message)?;
+        if self.why.is_empty() { Ok(()) } else { write!(out, ": {}", self.why) }
+    }
+}

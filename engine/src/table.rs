@@ -1,0 +1,154 @@
+//! Decision tables: rows of tests over the same inputs, each with what it gives.
+
+mod bits;
+pub(crate) mod overlap;
+pub(crate) mod region;
+
+use rhai::{Expr, Position};
+
+use crate::value::Type;
+
+/// Which rows of a table count where several match (DMN's hit policies).
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Hit {
+    /// No two rows match one input.
+    Unique,
+    /// Rows that match one input give the same.
+    Any,
+    /// The first that matches.
+    First,
+    /// The one whose first output comes first in this list.
+    Priority(Vec<Literal>),
+    /// All that match, brought together.
+    Collect(Fold),
+}
+
+/// How the outputs of all rows that match are brought together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fold {
+    Sum,
+    Min,
+    Max,
+    Count,
+}
+
+/// A plain value in a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Literal {
+    Number(f64),
+    Text(String),
+    Truth(bool),
+}
+
+impl Literal {
+    pub(crate) const fn kind(&self) -> Type {
+        match self {
+            Self::Number(_) => Type::Number,
+            Self::Text(_) => Type::Text,
+            Self::Truth(_) => Type::Truth,
+        }
+    }
+}
+
+impl std::fmt::Display for Literal {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(out, "{number}"),
+            Self::Text(text) => write!(out, "\"{text}\""),
+            Self::Truth(truth) => write!(out, "{truth}"),
+        }
+    }
+}
+
+/// What a cell asks of its input.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Test {
+    Any,
+    OneOf(Vec<Literal>),
+    Not(Box<Self>),
+    Below(f64),
+    AtMost(f64),
+    Above(f64),
+    AtLeast(f64),
+    /// From the first up to, but not, the second.
+    Between(f64, f64),
+}
+
+impl Test {
+    /// The values that it names.
+    pub(crate) fn literals(&self) -> Vec<Literal> {
+        match self {
+            Self::Any => vec![],
+            Self::OneOf(literals) => literals.clone(),
+            Self::Not(test) => test.literals(),
+            Self::Below(number) | Self::AtMost(number) | Self::Above(number) | Self::AtLeast(number) => {
+                vec![Literal::Number(*number)]
+            }
+            Self::Between(from, to) => vec![Literal::Number(*from), Literal::Number(*to)],
+        }
+    }
+
+    /// Whether a known value passes.
+    pub(crate) fn passes(&self, value: &Literal) -> bool {
+        let number = |holds: &dyn Fn(f64) -> bool| matches!(value, Literal::Number(number) if holds(*number));
+        match self {
+            Self::Any => true,
+            Self::OneOf(literals) => literals.contains(value),
+            Self::Not(test) => !test.passes(value),
+            Self::Below(limit) => number(&|number| number < *limit),
+            Self::AtMost(limit) => number(&|number| number <= *limit),
+            Self::Above(limit) => number(&|number| number > *limit),
+            Self::AtLeast(limit) => number(&|number| number >= *limit),
+            Self::Between(from, to) => number(&|number| *from <= number && number < *to),
+        }
+    }
+}
+
+/// A row: a test for each input, an expression for each output.
+#[derive(Clone, Debug)]
+pub(crate) struct Row {
+    pub(crate) position: Position,
+    pub(crate) tests: Vec<(Test, Position)>,
+    pub(crate) outputs: Vec<Expr>,
+}
+
+/// A table as it was read.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    pub(crate) hit: Hit,
+    /// The inputs, each as it is written.
+    pub(crate) given: Vec<(Expr, String)>,
+    /// Clause, property and place of each output.
+    pub(crate) set: Vec<(usize, String, Position)>,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Table {
+    /// The rows in the order in which they are heard: where one has matched, later ones do not count.
+    pub(crate) fn heard(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.rows.len()).collect();
+        if let Hit::Priority(values) = &self.hit {
+            let rank = |row: usize| {
+                let first = self.rows[row].outputs.first().and_then(plain);
+                values.iter().position(|value| first.as_ref() == Some(value)).unwrap_or(values.len())
+            };
+            order.sort_by_key(|&row| rank(row));
+        }
+        order
+    }
+}
+
+/// The value that an expression writes out.
+pub(crate) fn plain(expr: &Expr) -> Option<Literal> {
+    Some(match expr {
+        Expr::IntegerConstant(number, _) => Literal::Number(*number as f64),
+        Expr::FloatConstant(number, _) => Literal::Number(**number),
+        Expr::BoolConstant(truth, _) => Literal::Truth(*truth),
+        Expr::StringConstant(text, _) => Literal::Text(text.to_string()),
+        Expr::FnCall(call, _) if call.name == "-" && call.args.len() == 1 => match plain(&call.args[0])? {
+            Literal::Number(number) => Literal::Number(-number),
+            _ => return None,
+        },
+        _ => return None,
+    })
+}

@@ -1,0 +1,39 @@
+//! The number of the knowledge base's state, which stands on every answer and grows with every change that took.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use adit_db::Tx;
+use adit_engine::RuleBase;
+use adit_planners::facts::Facts;
+use adit_planners::world::World;
+
+use crate::derive::content;
+use crate::error::Result;
+use crate::site::Site;
+
+/// The number of the state that the database is in; 0 where it was never built.
+pub fn read(tx: &mut Tx<'_>) -> Result<u64> {
+    Ok(tx.site_value("generation")?.and_then(|text| text.parse().ok()).unwrap_or(0))
+}
+
+/// Gives the database a new number, unless what was derived is the `same` as before and rests on an equal basis.
+pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
+    let same = same && tx.site_value("basis")?.as_deref() == Some(basis);
+    let generation = read(tx)? + u64::from(!same);
+    tx.set_site_value("basis", Some(basis))?;
+    tx.set_site_value("generation", Some(&generation.to_string()))?;
+    Ok(generation)
+}
+
+/// A text that is equal where everything is that a derivation starts from.
+pub fn basis(site: &Site, world: &World, rules: &RuleBase, told: &Facts) -> String {
+    let mut hasher = DefaultHasher::new();
+    (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
+    for rule in rules.rules() {
+        (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);
+    }
+    for (class, table) in told {
+        (class, content(std::slice::from_ref(table))).hash(&mut hasher);
+    }
+    format!("{:016x}", hasher.finish())
+}
