@@ -78,13 +78,31 @@ impl KnowledgeBase {
     /// what rests on something that is gone is taken back.
     pub fn conclude(&mut self, rules: &RuleBase) -> Conclusions {
         let run = self.infer(rules);
-        let evaluated = run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
+        let evaluated: Vec<String> =
+            run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
+        if self.agenda.is_used() {
+            let changes = self.changes(&run);
+            self.agenda.note(&changes);
+        }
         Conclusions { evaluated, ..self.report(rules) }
     }
 
     /// As [`conclude`](Self::conclude), without the report on all rules and objects: it costs what depends on the
     /// change, and tells what changed.
     pub fn update(&mut self, rules: &RuleBase) -> Changes {
+        self.follow(rules);
+        std::mem::take(&mut self.unreported)
+    }
+
+    /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
+    pub(super) fn follow(&mut self, rules: &RuleBase) {
+        let changes = self.renew(rules);
+        self.agenda.note(&changes);
+        self.unreported.absorb(changes);
+    }
+
+    /// Makes everything right, and tells what changed since the last inference.
+    pub(super) fn renew(&mut self, rules: &RuleBase) -> Changes {
         let run = self.infer(rules);
         self.changes(&run)
     }

@@ -271,8 +271,8 @@ fn call_complaints(rule: &Rule, names: &Names, known: &BTreeSet<String>) -> Vec<
         if own.contains(&(name.clone(), *count)) || known.contains(name) {
             continue;
         }
-        if let Some(complaint) = reaction::complaint(rule, (name, *count, *position)) {
-            problems.extend(complaint);
+        if reaction::is_own(name) {
+            problems.extend(reaction::call_complaint(rule, (name, *count, *position)));
             continue;
         }
         let candidates = own.iter().map(|(name, _)| name).chain(known).map(String::as_str);
