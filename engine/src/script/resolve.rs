@@ -141,7 +141,13 @@ fn unused(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
     for (index, clause) in rule.clauses.iter().enumerate() {
         let (name, position) = match &clause.number {
             Some((number, position)) if !names.numbers.contains_key(number) => (number, *position),
-            None if clause.quantifier.binds() && clause.link.is_none() && !used(index, clause) => {
+            // That there is one may be all that counts: for `some`, and for rules that react.
+            None if clause.quantifier.binds()
+                && clause.quantifier != Quantifier::Some
+                && clause.link.is_none()
+                && !rule.reacts()
+                && !used(index, clause) =>
+            {
                 (&clause.variable, clause.position)
             }
             _ => continue,
