@@ -178,7 +178,7 @@ impl KnowledgeBase {
         let keys = clause.joins.iter().map(|join| join.key.variables() | 1);
         let Dirty::Rows(rows) = drivers else { return Dirty::All };
         let decided = !clause.joins.is_empty()
-            && !clause.by.as_ref().is_some_and(|_| !clause.by_own)
+            && (clause.by.is_none() || clause.by_own)
             && keys.fold(0, |all, key| all | key) == 1
             && planned.uses.matching[number].iter().all(|column| told(number, column))
             && planned.uses.anywhere[0].iter().all(|column| told(0, column));

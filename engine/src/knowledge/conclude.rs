@@ -217,7 +217,11 @@ impl KnowledgeBase {
             None if memory.unasked > 0 => dirty.extend(memory.waiting()),
             None => {}
         }
-        let dirty = dirty.settle(memory.statuses.len());
+        let dirty = match dirty.settle(memory.statuses.len()) {
+            // Taking out many costs more than doing all.
+            Dirty::Rows(rows) if memory.unasked == 0 && rows.len() * 4 > memory.statuses.len() => Dirty::All,
+            dirty => dirty,
+        };
         if !dirty.is_none() || memory.statuses.is_empty() {
             let rows = match &dirty {
                 Dirty::Rows(rows) => rows.len(),
