@@ -1,6 +1,8 @@
 //! The knowledge base: what was told, what rules concluded, and why.
 
 mod affected;
+pub(crate) mod ask;
+mod body;
 mod conclude;
 mod derived;
 mod difference;
@@ -11,8 +13,11 @@ mod memory;
 mod merge;
 mod network;
 mod pending;
+mod react;
+mod replay;
 mod report;
 mod revise;
+mod undo;
 mod why;
 mod why_not;
 
@@ -20,6 +25,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::agenda::Agenda;
+use crate::changes::Changes;
 use crate::class::{Class, ClassError, Table, value};
 use crate::column::Column;
 use crate::rule::PropertyName;
@@ -49,6 +56,10 @@ pub struct KnowledgeBase {
     symbols: RefCell<Symbols>,
     held: BTreeMap<String, Held>,
     derived: BTreeMap<PropertyName, Derived>,
+    agenda: Agenda,
+    /// What changed since the host last asked.
+    unreported: Changes,
+    generation: u64,
     network: Network,
     limits: Limits,
 }
@@ -67,6 +78,12 @@ impl KnowledgeBase {
     /// Adds a class, or replaces it: objects are told apart by their key, and only what differs counts as changed.
     pub fn assert(&mut self, class: Class) -> Result<(), ClassError> {
         let table = Table::new(class, self.symbols.get_mut())?;
+        self.hold(table);
+        Ok(())
+    }
+
+    /// Takes a table as what is told of its class.
+    fn hold(&mut self, table: Table) {
         match self.held.get_mut(&table.name) {
             Some(held) => {
                 let difference = difference::difference(&held.table, &table);
@@ -79,7 +96,6 @@ impl KnowledgeBase {
                 self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
             }
         }
-        Ok(())
     }
 
     /// Takes a class away, and what rests on it.

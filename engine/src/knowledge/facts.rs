@@ -108,6 +108,10 @@ impl KnowledgeBase {
             });
         }
         column.set(row, cell);
+        if value.is_some() && !self.network.not_known.is_empty() {
+            let key = held.table.key_text(row, &self.symbols.borrow());
+            self.network.not_known.remove(&(PropertyName::new(class, property), key));
+        }
         if !before.same(cell) {
             held.pending.change(property, row as u32);
         }
@@ -222,7 +226,7 @@ impl KnowledgeBase {
 
 impl Table {
     /// The number of a new property, unknown for all objects.
-    fn widen(&mut self, property: &str, kind: Type) -> usize {
+    pub(crate) fn widen(&mut self, property: &str, kind: Type) -> usize {
         self.names.push(property.to_owned());
         self.columns.push(Column::unknown(kind, self.len));
         self.columns.len() - 1

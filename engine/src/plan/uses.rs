@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::action::{ActionPlan, Step};
+use super::clause::ClausePlan;
 use super::fragment::{Fragment, Source};
 use super::node::Node;
 use super::{Effect, Plan};
@@ -14,25 +15,36 @@ pub(crate) struct Uses {
     pub(crate) anywhere: Vec<BTreeSet<usize>>,
     /// In the variable's own clause: what decides whether it is bound.
     pub(crate) matching: Vec<BTreeSet<usize>>,
+    /// In the variable's own clause, but for what its objects are compared by.
+    pub(crate) passing: Vec<BTreeSet<usize>>,
 }
 
 impl Uses {
-    pub(crate) fn of(plan: &Plan) -> Self {
-        let none = || vec![BTreeSet::new(); plan.clauses.len()];
-        let mut uses = Self { anywhere: none(), matching: none() };
-        for (number, clause) in plan.clauses.iter().enumerate() {
+    /// What clauses look at.
+    pub(crate) fn of_clauses(clauses: &[ClausePlan]) -> Self {
+        let none = || vec![BTreeSet::new(); clauses.len()];
+        let mut uses = Self { anywhere: none(), matching: none(), passing: none() };
+        for (number, clause) in clauses.iter().enumerate() {
             let mut found = vec![];
             for join in &clause.joins {
                 found.push((number, join.column));
                 properties(&join.key, &mut found);
             }
-            for node in clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have) {
+            for node in clause.own.iter().chain(&clause.test).chain(&clause.have) {
                 properties(node, &mut found);
             }
+            let own = found.iter().filter(|(variable, _)| *variable == number);
+            uses.passing[number].extend(own.map(|(_, column)| *column));
+            clause.by.iter().for_each(|by| properties(by, &mut found));
             let own = found.iter().filter(|(variable, _)| *variable == number);
             uses.matching[number].extend(own.map(|(_, column)| *column));
             uses.add(&found);
         }
+        uses
+    }
+
+    pub(crate) fn of(plan: &Plan) -> Self {
+        let mut uses = Self::of_clauses(&plan.clauses);
         let mut found = vec![];
         match &plan.effect {
             Effect::Conclude { then, otherwise } => {

@@ -3,6 +3,7 @@
 // clippy knows test functions, but not their helpers.
 #![allow(clippy::unwrap_used)]
 
+mod asking;
 mod conflicts;
 mod declarations;
 mod doors;
@@ -12,13 +13,17 @@ mod incremental;
 mod interpreter;
 mod joins;
 mod limits;
+mod manners;
 mod order;
 mod priority;
 mod quantifiers;
+mod reaction_limits;
+mod reactions;
 mod revisions;
 mod rule_tests;
 mod support;
 mod tables;
 mod unknown;
+mod waltz;
 mod why_not;
 mod wrong_files;
