@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::ask::Asked;
 use super::dirty::Dirty;
+use super::evaluate::below;
 use super::pending::Pending;
 use super::{KnowledgeBase, memory::Memory};
 use crate::changes::{Changes, ClassChanges};
@@ -276,7 +277,9 @@ impl KnowledgeBase {
             }
             let told = || self.held[&name.class].table.column(&name.property).is_some();
             let there = match self.derived.get(name) {
-                Some(derived) => derived.complete && !derived.stages.is_empty(),
+                Some(derived) => {
+                    derived.complete[derived.stage(below(rule, name))] && !derived.stages.is_empty()
+                }
                 None => told(),
             };
             if !there {

@@ -32,8 +32,8 @@ pub(crate) struct Derived {
     pub(crate) fresh: bool,
     /// Rows on which rules disagree.
     pub(crate) disputes: BTreeSet<u32>,
-    /// Whether every rule that gives it was evaluated.
-    pub(crate) complete: bool,
+    /// For each stage whether every rule up to it was evaluated.
+    pub(crate) complete: Vec<bool>,
 }
 
 impl Derived {

@@ -173,12 +173,12 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
     Derived {
         writers,
         pending: vec![Dirty::All; levels.len() + 1],
+        complete: vec![false; levels.len() + 1],
         levels,
         hypothesis: base.hypotheses().contains(name),
         stages,
         rules_first: base.declared.rules_first(name),
         fresh: false,
         disputes: BTreeSet::new(),
-        complete: false,
     }
 }
