@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use miette::{LabeledSpan, NamedSource, SourceCode};
 
-use crate::script::source::Place;
+use crate::script::source::{Place, SourceFile};
 
 /// Stable names of what can be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -43,6 +43,8 @@ pub enum Code {
     Gap,
     /// A row, or a rule, that never counts.
     Unreachable,
+    /// What is named and never used.
+    Unused,
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis,
     /// Two operators at one level of revision.
@@ -67,7 +69,7 @@ pub enum Code {
 
 impl Code {
     /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 27] = [
         Self::Syntax,
         Self::TooLarge,
         Self::Statement,
@@ -84,6 +86,7 @@ impl Code {
         Self::Overlap,
         Self::Gap,
         Self::Unreachable,
+        Self::Unused,
         Self::Hypothesis,
         Self::Operator,
         Self::Conflict,
@@ -115,6 +118,7 @@ impl Code {
             Self::Overlap => "rule/overlap",
             Self::Gap => "rule/gap",
             Self::Unreachable => "rule/unreachable",
+            Self::Unused => "rule/unused",
             Self::Hypothesis => "rule/hypothesis",
             Self::Operator => "rule/operator",
             Self::Conflict => "rule/conflict",
@@ -129,6 +133,12 @@ impl Code {
     }
 }
 
+impl serde::Serialize for Code {
+    fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        out.serialize_str(self.as_str())
+    }
+}
+
 impl fmt::Display for Code {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         out.write_str(self.as_str())
@@ -136,7 +146,8 @@ impl fmt::Display for Code {
 }
 
 /// How bad it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The rules work, but perhaps not as meant.
     Warning,
@@ -145,7 +156,7 @@ pub enum Severity {
 }
 
 /// One message about a rule file. It prints with a caret through [`miette`].
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, serde::Serialize)]
 pub struct Diagnostic {
     /// What kind of thing is wrong.
     pub code: Code,
@@ -165,6 +176,7 @@ pub struct Diagnostic {
     pub label: Option<String>,
     /// What to do about it.
     pub help: Option<String>,
+    #[serde(skip)]
     source: Arc<NamedSource<String>>,
 }
 
@@ -182,6 +194,16 @@ impl Diagnostic {
             help: None,
             source: Arc::clone(place.source.named()),
         }
+    }
+
+    /// The same, of another file with the same lines where it stands.
+    #[must_use]
+    pub(crate) fn moved_to(mut self, source: &SourceFile) -> Self {
+        let before: usize = source.text().split_inclusive('\n').take(self.line - 1).map(str::len).sum();
+        let line = &source.text()[before..];
+        self.span.0 = before + line.char_indices().nth(self.column - 1).map_or(line.len(), |(at, _)| at);
+        self.source = Arc::clone(source.named());
+        self
     }
 
     #[must_use]

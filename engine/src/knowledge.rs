@@ -1,6 +1,7 @@
 //! The knowledge base: what was told, what rules concluded, and why.
 
 mod affected;
+pub(crate) mod ask;
 mod body;
 mod conclude;
 mod derived;

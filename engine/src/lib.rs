@@ -156,6 +156,12 @@
 //! - [`Reactions::log`] is what was told; [`KnowledgeBase::replay`] tells it again. Each firing makes the next
 //!   [`generation`](KnowledgeBase::generation).
 //!
+//! # Messages
+//!
+//! What is wrong with rule files comes as [`Diagnostics`], up to 20 errors of syntax a file; [`RuleBase::check`]
+//! adds what the classes show, and warnings: rows of tables that never count, inputs without a row, conditions that
+//! nothing can pass, what is named and never used. Each has a code, a place and mostly a help; as JSON too.
+//!
 //! # Limits
 //!
 //! | | |
@@ -202,6 +208,7 @@ pub use conclusions::{
 pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
+pub use knowledge::ask::{Answer, Question};
 pub use knowledge::facts::FactError;
 pub use reactions::{Activation, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};

@@ -1,6 +1,8 @@
 //! What the rules say though they were hardly meant to.
 
-pub(crate) mod table;
+mod contradiction;
+mod table;
+pub(crate) mod unused;
 
 use crate::diagnostic::Diagnostic;
 use crate::rule::{Action, Rule};
@@ -9,6 +11,7 @@ use crate::rule::{Action, Rule};
 pub(crate) fn lint(rules: &[Rule]) -> Vec<Diagnostic> {
     let mut found = vec![];
     for rule in rules {
+        found.extend(contradiction::lint(rule));
         if let Action::Table(table) = &rule.action {
             found.extend(self::table::lint(rule, table));
         }

@@ -4,7 +4,7 @@ pub(crate) mod action;
 pub(crate) mod call;
 pub(crate) mod clause;
 pub(crate) mod fragment;
-mod link;
+pub(crate) mod link;
 pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;

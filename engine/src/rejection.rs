@@ -16,7 +16,7 @@ pub struct WhyNot {
     pub value: Option<Value>,
     /// What was rejected, in the order of the rules, of their clauses, and of the objects.
     pub rejected: Vec<Rejected>,
-    /// Whether there were more objects than are looked at for one rule.
+    /// Whether there were more objects than are named for one rule, or than there was time for.
     pub truncated: bool,
 }
 
@@ -92,6 +92,17 @@ pub enum Rejection {
         /// How many objects there are.
         objects: usize,
     },
+    /// A row of a decision table does not match.
+    Row {
+        /// The row, from 1.
+        row: usize,
+        /// The input of the first cell that fails, as the table writes it.
+        input: String,
+        /// What the cell asks, in words.
+        cell: String,
+        /// The input's value; `None` is unknown.
+        value: Option<Value>,
+    },
     /// The rule waits for classes or properties that nobody gives.
     Waiting {
         /// Their names.
@@ -134,6 +145,10 @@ impl fmt::Display for Rejected {
             Rejection::Unmet { objects } => {
                 write!(out, "finds no `{variable}` among {objects} objects of {class}")
             }
+            Rejection::Row { row, input, cell, value } => {
+                let value = value.as_ref().map_or("unknown".to_owned(), Value::to_string);
+                write!(out, "row {row} wants {input} {cell}, and it is {value}")
+            }
             Rejection::Waiting { needs } => write!(out, "waits for {}", needs.join(", ")),
             Rejection::Overruled { by: Some(rule) } => {
                 write!(out, "is not heard: \"{rule}\" stands against it")
@@ -172,7 +187,7 @@ impl fmt::Display for WhyNot {
             write!(out, "; {rejected}")?;
         }
         if self.truncated {
-            out.write_str("; and more objects than are looked at here")?;
+            out.write_str("; and more objects than are named here")?;
         }
         Ok(())
     }

@@ -33,7 +33,8 @@ pub struct RuleBase {
 }
 
 impl RuleBase {
-    /// Reads rule files. Each file is read up to its first error of syntax, and all files are reported.
+    /// Reads rule files. All files are reported; after an error of syntax a file is read on from its next item, for
+    /// more such errors only.
     pub fn compile(files: &[SourceFile]) -> Result<Self, Diagnostics> {
         let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(files))).ok());
         let Some((mut rules, declared, mut problems)) = outcome else {
@@ -47,9 +48,9 @@ impl RuleBase {
         problems.extend(operators(&rules));
         problems.extend(hypotheses(&rules));
         problems.extend(against_rules(&declared, &rules));
-        let (wrong, warnings): (Vec<_>, Vec<_>) =
-            lint(&rules).into_iter().partition(|found| found.severity == Severity::Error);
-        problems.extend(wrong);
+        problems.extend(lint(&rules));
+        let (mut problems, warnings): (Vec<_>, Vec<_>) =
+            problems.into_iter().partition(|found| found.severity == Severity::Error);
         if !problems.is_empty() {
             // As the author reads; stable, so that what is said of one place keeps its order.
             let number = |file: &str| files.iter().position(|source| source.name() == file);

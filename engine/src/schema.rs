@@ -24,8 +24,13 @@ impl Schema {
     /// Says what tells the objects of a class apart.
     #[must_use]
     pub fn key(mut self, class: &str, key: &[&str]) -> Self {
-        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
+        self.set_key(class, key);
         self
+    }
+
+    /// Says what tells the objects of a class apart.
+    pub fn set_key(&mut self, class: &str, key: &[&str]) {
+        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
     }
 
     /// What tells the objects of a class apart, if that was said.
@@ -36,11 +41,6 @@ impl Schema {
     /// Adds one property.
     pub fn add(&mut self, class: &str, property: &str, kind: Type) {
         self.classes.entry(class.to_owned()).or_default().insert(property.to_owned(), kind);
-    }
-
-    /// Says by which properties the objects of a class are told apart.
-    pub fn set_key(&mut self, class: &str, key: &[&str]) {
-        self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
     }
 
     /// Says that `None` of a property is not unknown but this value, as [`Class::null_means`](crate::Class::null_means).

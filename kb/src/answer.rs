@@ -57,6 +57,12 @@ impl KnowledgeBase {
     ///
     /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
+        self.fresh()?.snapshot(|tx| self.answer(tx, start, goal, robot))
+    }
+
+    /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
+    /// derived again first.
+    pub(crate) fn fresh(&self) -> Result<Store> {
         let mut store = Store::open_read_only(self.database())?;
         let texts = self.site().texts().to_string();
         let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
@@ -67,7 +73,7 @@ impl KnowledgeBase {
             self.build(&crate::progress::Silent)?;
             store = Store::open_read_only(self.database())?;
         }
-        store.snapshot(|tx| self.answer(tx, start, goal, robot))
+        Ok(store)
     }
 
     fn answer(&self, tx: &mut Tx<'_>, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
@@ -153,7 +159,8 @@ impl KnowledgeBase {
     }
 }
 
-fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
+/// The robot that is meant, or the only one.
+pub(crate) fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
     let mut robots: Vec<String> = tx.states()?.into_iter().map(|state| state.robot).collect();
     robots.dedup();
     match wanted {

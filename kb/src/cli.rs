@@ -11,6 +11,7 @@ mod sql;
 mod test;
 mod tune;
 mod watch;
+mod why;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -45,6 +46,10 @@ pub enum Verb {
     Test(TestArgs),
     /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
     Watch(WatchArgs),
+    /// Why something is as it is: the rule and the facts behind it
+    Why(WhyArgs),
+    /// Why the route does not lead through a room or door: what that would cost, and what rules rejected there
+    WhyNot(WhyNotArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
@@ -182,6 +187,36 @@ pub struct WatchArgs {
     pub site: SiteArgs,
 }
 
+/// `adit why`.
+#[derive(Args, Debug)]
+pub struct WhyArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`
+    pub what: String,
+}
+
+/// `adit why-not`.
+#[derive(Args, Debug)]
+pub struct WhyNotArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub start: String,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub goal: String,
+    /// The room or door: `room d`, `door 7`
+    #[arg(long, value_name = "WHAT")]
+    pub through: String,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+}
+
 /// `adit sql`.
 #[derive(Args, Debug)]
 pub struct SqlArgs {
@@ -271,6 +306,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Check(args) => doctor::check(args).map(|sound| u8::from(!sound)),
         Verb::Test(args) => test::run(args).map(|passed| u8::from(!passed)),
         Verb::Watch(args) => watch::run(args).map(|()| 0),
+        Verb::Why(args) => why::why(args).map(|()| 0),
+        Verb::WhyNot(args) => why::why_not(args).map(|()| 0),
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::History(args) => tune::history(args).map(|()| 0),
@@ -306,6 +343,8 @@ impl Verb {
             Self::Check(args) => args.site.json,
             Self::Test(args) => args.site.json,
             Self::Watch(args) => args.site.json,
+            Self::Why(args) => args.site.json,
+            Self::WhyNot(args) => args.site.json,
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
             Self::History(args) => args.site.json,

@@ -39,11 +39,14 @@ mod scene;
 mod shipped;
 mod site;
 mod store;
+mod subject;
 mod suggest;
 mod tables;
 mod trees;
 pub mod watch;
 mod weights;
+pub mod why;
+pub mod why_not;
 
 pub use answer::{Answer, Status};
 pub use derive::Stage;

@@ -9,6 +9,7 @@ use super::dirty::Dirty;
 use super::evaluate::below;
 use super::memory::{Memory, Shape};
 use super::network::Planned;
+use crate::machine::candidates::Candidates;
 use crate::machine::evaluate::Batch;
 use crate::machine::index::bits;
 use crate::machine::lane::{Frame, NO_ROW, Rows};
@@ -28,15 +29,19 @@ struct Change {
     read: Dirty,
     /// Rows with a value that decides whether they are bound, and new ones.
     matching: Dirty,
+    /// Rows with a value that decides whether they pass, whatever they are compared by, and new ones.
+    passing: Dirty,
+    /// The candidates before the change: the best first.
+    before: Option<Candidates>,
 }
 
 impl KnowledgeBase {
     pub(super) fn affected(&self, run: &Run, rule: &Rule, planned: &Planned, memory: &mut Memory) -> Dirty {
-        let changes: Vec<Change> =
+        let mut changes: Vec<Change> =
             (0..rule.clauses.len()).map(|number| self.change(run, rule, planned, number)).collect();
-        for (number, change) in changes.iter().enumerate() {
+        for (number, change) in changes.iter_mut().enumerate() {
             if !change.matching.is_none() {
-                memory.candidates[number] = None;
+                change.before = memory.candidates[number].take();
             }
         }
         let mut dirty = Dirty::Rows(std::mem::take(&mut memory.lost));
@@ -78,15 +83,17 @@ impl KnowledgeBase {
 
     fn change(&self, run: &Run, rule: &Rule, planned: &Planned, number: usize) -> Change {
         let class = &rule.clauses[number].class;
-        let mut change = Change { read: Dirty::None, matching: Dirty::None };
+        let mut change =
+            Change { read: Dirty::None, matching: Dirty::None, passing: Dirty::None, before: None };
         if !run.touched.contains(class) {
             return change;
         }
         if let Some(told) = run.told.get(class) {
             if told.anew {
-                return Change { read: Dirty::All, matching: Dirty::All };
+                return Change { read: Dirty::All, matching: Dirty::All, passing: Dirty::All, before: None };
             }
             change.matching.extend(told.added.iter().copied());
+            change.passing.extend(told.added.iter().copied());
         }
         let delta = |column: usize| {
             let name = &planned.plan.columns[column];
@@ -98,6 +105,9 @@ impl KnowledgeBase {
         }
         for &column in &planned.uses.matching[number] {
             change.matching.join(delta(column));
+        }
+        for &column in &planned.uses.passing[number] {
+            change.passing.join(delta(column));
         }
         change
     }
@@ -135,7 +145,7 @@ impl KnowledgeBase {
         }
         // One of those that were unknown may be decided now.
         dirty.extend(memory.undecided.keys().copied());
-        let reached = reached(machine, planned, memory, number, &matching, size);
+        let reached = reached(machine, planned, memory, number, &matching, change, size);
         if clause.joins.is_empty() {
             self.tried(machine, clause, memory, number, &matching, &reached, &mut dirty);
         } else {
@@ -212,6 +222,7 @@ fn reached(
     memory: &Memory,
     number: usize,
     matching: &[u32],
+    change: &Change,
     size: usize,
 ) -> Vec<u32> {
     let clause = &planned.plan.clauses[number];
@@ -234,16 +245,31 @@ fn reached(
             };
             // Unknown values are no candidates, but are counted as such.
             let wins = |a: u32, b: u32| before(a, b) || value(a).is_nan() || value(b).is_nan();
-            all.iter().map(|&row| matching.iter().any(|&candidate| wins(candidate, row))).collect()
+            let better = Better::of(change, size);
+            all.iter()
+                .map(|&row| {
+                    matching.iter().any(|&candidate| wins(candidate, row) && !better.lost(candidate, row))
+                })
+                .collect()
         }
         (None, Quantifier::Some) => {
             (0..size as u32).map(|row| matching.iter().any(|&candidate| candidate <= row)).collect()
         }
         _ => vec![true; size],
     };
+    let unmet = match (&clause.by, clause.by_own) {
+        (Some(_), true) => {
+            let better = Better::of(change, size);
+            matching.iter().any(|&candidate| better.rank(candidate).is_none())
+        }
+        _ => true,
+    };
+    if !unmet && !beaten.contains(&true) {
+        return vec![];
+    }
     came.filter(|&driver| {
         let witness = memory.witnesses[number][driver as usize];
-        witness == NO_ROW || beaten.get(witness as usize) != Some(&false)
+        if witness == NO_ROW { unmet } else { beaten.get(witness as usize) != Some(&false) }
     })
     .collect()
 }
@@ -298,4 +324,39 @@ fn bound(memory: &Memory, number: usize, drivers: &[u32]) -> Frame {
         rows[clause] = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
     }
     Frame { len: drivers.len(), rows }
+}
+
+/// The order of the candidates before a change, as far as what they have to pass is as it was: one that stood before
+/// the witness did not pass, and does not now.
+struct Better {
+    ranks: Vec<Option<u32>>,
+}
+
+impl Better {
+    fn of(change: &Change, size: usize) -> Self {
+        let mut ranks = vec![None; size];
+        if let Some(before) = &change.before {
+            for (&row, rank) in before.rows.iter().zip(0..) {
+                if let Some(place) = ranks.get_mut(row as usize) {
+                    *place = Some(rank);
+                }
+            }
+        }
+        for row in change.passing.rows(size) {
+            if let Some(place) = ranks.get_mut(row as usize) {
+                *place = None;
+            }
+        }
+        Self { ranks }
+    }
+
+    /// Where it stood, if it passes what it passed.
+    fn rank(&self, row: u32) -> Option<u32> {
+        self.ranks.get(row as usize).copied().flatten()
+    }
+
+    /// Whether a candidate stood before one that was chosen; what rests on itself is found by itself.
+    fn lost(&self, candidate: u32, chosen: u32) -> bool {
+        matches!((self.rank(candidate), self.rank(chosen)), (Some(candidate), Some(chosen)) if candidate <= chosen)
+    }
 }

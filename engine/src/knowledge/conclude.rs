@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
+use super::ask::Asked;
 use super::dirty::Dirty;
 use super::pending::Pending;
 use super::{KnowledgeBase, memory::Memory};
@@ -25,9 +26,34 @@ pub(super) struct Run<'b> {
     pub(super) evaluated: Vec<(usize, usize)>,
     /// Whether classes, properties or rules came or went.
     pub(super) recheck: bool,
+    /// Of the objects that nobody asked for yet those that are asked for now; `None` is all.
+    pub(super) asked: Option<Asked>,
 }
 
-impl Run<'_> {
+impl<'b> Run<'b> {
+    pub(super) const fn new(base: &'b RuleBase, until: Instant) -> Self {
+        Self {
+            base,
+            until,
+            told: BTreeMap::new(),
+            deltas: BTreeMap::new(),
+            touched: BTreeSet::new(),
+            evaluated: vec![],
+            recheck: false,
+            asked: None,
+        }
+    }
+
+    /// Adds what a run changed that came after this one.
+    pub(super) fn follow(&mut self, later: Run) {
+        for (name, stages) in later.deltas {
+            let own = self.deltas.entry(name).or_default();
+            own.resize(own.len().max(stages.len()), Dirty::None);
+            own.iter_mut().zip(&stages).for_each(|(own, stage)| own.join(stage));
+        }
+        self.evaluated.extend(later.evaluated);
+    }
+
     /// The rows of a property that changed, as a rule sees it that revises at this level.
     pub(super) fn delta(&self, name: &PropertyName, stage: usize) -> &Dirty {
         const NONE: &Dirty = &Dirty::None;
@@ -55,8 +81,7 @@ impl KnowledgeBase {
         let evaluated: Vec<String> =
             run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
         if self.agenda.is_used() {
-            let changes = self.changes(run);
-            self.agenda.note(&changes);
+            self.noted(&run);
         }
         Conclusions { evaluated, ..self.report(rules) }
     }
@@ -70,25 +95,52 @@ impl KnowledgeBase {
 
     /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
     pub(super) fn follow(&mut self, rules: &RuleBase) {
-        let changes = self.renew(rules);
-        self.agenda.note(&changes);
+        let run = self.infer(rules);
+        let changes = self.noted(&run);
         self.unreported.absorb(changes);
+    }
+
+    /// What an inference changed; the agenda takes note of it.
+    pub(super) fn noted(&mut self, run: &Run) -> Changes {
+        let changes = self.changes(run);
+        self.agenda.note(&changes);
+        changes
     }
 
     /// Makes everything right, and tells what changed since the last inference.
     pub(super) fn renew(&mut self, rules: &RuleBase) -> Changes {
         let run = self.infer(rules);
-        self.changes(run)
+        self.changes(&run)
     }
 
     fn infer<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
         let mut run = self.begin(base);
-        if run.recheck || self.interprets() {
-            on_deep_stack(|| self.advance(&mut run));
-        } else {
-            self.advance(&mut run);
-        }
+        self.advance_on(&mut run);
         run
+    }
+
+    /// Goes on until no type of a property changes any more: those that interpreted parts give are known when they
+    /// have run.
+    pub(super) fn advance_on(&mut self, run: &mut Run) {
+        self.advance_once(run);
+        for _ in 0..run.base.rules.len() {
+            if !self.network.recheck {
+                break;
+            }
+            let mut next = Run::new(run.base, run.until);
+            next.recheck = std::mem::take(&mut self.network.recheck);
+            next.asked.clone_from(&run.asked);
+            self.advance_once(&mut next);
+            run.follow(next);
+        }
+    }
+
+    fn advance_once(&mut self, run: &mut Run) {
+        if run.recheck || self.interprets() {
+            on_deep_stack(|| self.advance(run));
+        } else {
+            self.advance(run);
+        }
     }
 
     /// Whether a rule needs the deep stack that the interpreter asks for.
@@ -97,17 +149,10 @@ impl KnowledgeBase {
     }
 
     /// Takes in what was told.
-    fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
+    pub(super) fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
         let gone = self.take_over(base);
-        let mut run = Run {
-            base,
-            until: Instant::now() + self.limits.inference,
-            told: BTreeMap::new(),
-            deltas: BTreeMap::new(),
-            touched: BTreeSet::new(),
-            evaluated: vec![],
-            recheck: std::mem::take(&mut self.network.recheck),
-        };
+        let mut run = Run::new(base, Instant::now() + self.limits.inference);
+        run.recheck = std::mem::take(&mut self.network.recheck);
         for name in gone {
             run.changed(&name, (0, 1), &Dirty::All);
         }
@@ -164,8 +209,7 @@ impl KnowledgeBase {
             }
             self.plan(run.base, index);
         } else if !self.network.nodes[index].needs.is_empty()
-            || !rule.classes().any(|class| run.touched.contains(class))
-                && self.network.nodes[index].memory.as_ref().is_some_and(|memory| memory.unasked == 0)
+            || !rule.classes().any(|class| run.touched.contains(class)) && !self.is_asked(run, index)
         {
             return;
         }
@@ -174,8 +218,10 @@ impl KnowledgeBase {
         let memory = self.network.nodes[index].memory.take();
         let mut memory = memory.unwrap_or_else(|| Memory::new(rule, &planned.plan, drivers));
         let mut dirty = self.affected(run, rule, &planned, &mut memory);
-        if memory.unasked > 0 {
-            dirty.extend(memory.waiting());
+        match &run.asked {
+            Some(asked) => asked.get(&index).into_iter().for_each(|rows| dirty.join(rows)),
+            None if memory.unasked > 0 => dirty.extend(memory.waiting()),
+            None => {}
         }
         let dirty = dirty.settle(memory.statuses.len());
         if !dirty.is_none() || memory.statuses.is_empty() {
@@ -192,6 +238,15 @@ impl KnowledgeBase {
         }
         let node = &mut self.network.nodes[index];
         (node.planned, node.memory) = (Some(planned), Some(memory));
+    }
+
+    /// Whether a rule has objects that nobody asked for before, and that are asked for now.
+    fn is_asked(&self, run: &Run, index: usize) -> bool {
+        let memory = self.network.nodes[index].memory.as_ref();
+        match &run.asked {
+            Some(asked) => memory.is_none() || asked.contains_key(&index),
+            None => memory.is_none_or(|memory| memory.unasked > 0),
+        }
     }
 
     /// Forgets what a rule gave.
@@ -233,7 +288,7 @@ impl KnowledgeBase {
         needs.into_iter().collect()
     }
 
-    fn changes(&self, run: Run) -> Changes {
+    pub(super) fn changes(&self, run: &Run) -> Changes {
         let mut changes = Changes::default();
         for (class, pending) in &run.told {
             let Some(len) = self.len(class) else { continue };

@@ -108,6 +108,10 @@ impl KnowledgeBase {
             });
         }
         column.set(row, cell);
+        if value.is_some() && !self.network.not_known.is_empty() {
+            let key = held.table.key_text(row, &self.symbols.borrow());
+            self.network.not_known.remove(&(PropertyName::new(class, property), key));
+        }
         if !before.same(cell) {
             held.pending.change(property, row as u32);
         }

@@ -1,5 +1,7 @@
 //! Brings together what was told of a property and what rules conclude.
 
+use std::collections::BTreeSet;
+
 use super::KnowledgeBase;
 use super::conclude::Run;
 use super::derived::Derived;
@@ -38,10 +40,13 @@ impl KnowledgeBase {
         let len = derived.stages[0].len();
         let pending = std::mem::take(&mut derived.pending[0]).settle(len);
         self.index(name, &derived.writers.iter().map(|writer| writer.rule).collect::<Vec<_>>());
+        let kind = derived.stages[0].kind();
         let changed = match pending {
             Dirty::All => self.merge_all(name, &mut derived),
             pending => self.merge_rows(name, &mut derived, &pending.rows(len)),
         };
+        // Who reads it was planned for another type.
+        self.network.recheck |= derived.stages[0].kind() != kind;
         let changed = changed.settle(len);
         let of = derived.stages.len();
         run.changed(name, (0, of), &changed);
@@ -128,8 +133,14 @@ impl KnowledgeBase {
         }
         let before = std::mem::replace(&mut derived.stages[0], Column::unknown(Type::Number, 0));
         let fresh = std::mem::take(&mut derived.fresh) || kind.is_some();
-        let straight = self.straight(name, derived, &before).cloned();
         derived.disputes.clear();
+        let straight = match self.straight(name, derived, &before).cloned() {
+            Some(column) => Some(column),
+            None => self.side_by_side(name, derived, &before).map(|(column, disputes)| {
+                derived.disputes = disputes;
+                column
+            }),
+        };
         let (column, changed) = match straight {
             Some(column) if fresh => (column, Dirty::All),
             Some(column) => {
@@ -180,6 +191,52 @@ impl KnowledgeBase {
             }
             _ => None,
         }
+    }
+
+    /// The whole column where each rule gives it object by object, and nobody tells it.
+    fn side_by_side(
+        &self,
+        name: &PropertyName,
+        derived: &Derived,
+        before: &Column,
+    ) -> Option<(Column, BTreeSet<u32>)> {
+        if derived.hypothesis || self.held.get(&name.class)?.table.column(&name.property).is_some() {
+            return None;
+        }
+        let mut sides: Vec<(i64, &Memory, usize)> = vec![];
+        for writer in &derived.writers {
+            let Some(memory) = &self.network.nodes[writer.rule].memory else { continue };
+            for (at, given) in memory.given.iter().enumerate().filter(|(_, given)| given.name == *name) {
+                if !memory.sets_objects(given) {
+                    return None;
+                }
+                sides.push((writer.priority, memory, at));
+            }
+        }
+        let kind = before.kind();
+        let mut column = Column::unknown(kind, before.len());
+        let mut disputes = BTreeSet::new();
+        for row in 0..before.len() {
+            let mut chosen: Option<(Cell, i64)> = None;
+            for &(priority, memory, at) in &sides {
+                if chosen.is_some_and(|(_, of)| priority < of) {
+                    break;
+                }
+                match memory.claim(at, row).filter(|cell| cell.kind() == Some(kind)) {
+                    Some(cell) if chosen.is_some_and(|(said, _)| said != cell) => {
+                        disputes.insert(row as u32);
+                        chosen = None;
+                        break;
+                    }
+                    Some(cell) => chosen = Some((cell, priority)),
+                    None => {}
+                }
+            }
+            if let Some((cell, _)) = chosen {
+                column.set(row, cell);
+            }
+        }
+        Some((column, disputes))
     }
 
     fn merge_rows(&self, name: &PropertyName, derived: &mut Derived, rows: &[u32]) -> Dirty {

@@ -47,6 +47,8 @@ pub(super) struct Network {
     pub(super) recheck: bool,
     /// Classes that were taken away.
     pub(super) retracted: BTreeSet<String>,
+    /// Values, by property and key, of which the user has said that they are not known.
+    pub(super) not_known: BTreeSet<(PropertyName, String)>,
 }
 
 impl KnowledgeBase {

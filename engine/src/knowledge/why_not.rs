@@ -1,5 +1,6 @@
 //! Why not: each rule that could set a property is gone through by hand for one object, and what it rejects is noted.
 
+mod rows;
 mod tests_of;
 mod walk;
 
@@ -14,17 +15,18 @@ use crate::rejection::{Rejected, Rejection, WhyNot};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::script::interpreter::runner;
-use tests_of::TestsOf;
+use tests_of::TestsOfRule;
 use walk::Walk;
 
-/// Objects that are looked at for one rule.
+/// Objects of which it is said why one rule did not take them.
 const MOST_OBJECTS: usize = 1_000;
 
 impl KnowledgeBase {
     /// Why a property of the object with this key has no other value: for each rule that could set or revise it, the
     /// objects that its clauses did not take, each with the part of `where` that failed or the value by which it lost,
-    /// and the clause that was not met where the rule did not apply. At most 1,000 objects a rule are looked at. `None`
-    /// if there is no such object. Asks of the knowledge base as the last inference left it.
+    /// and the clause that was not met where the rule did not apply. At most 1,000 objects a rule are named; in a
+    /// class of more than 50 not those that an equation keeps apart. `None` if there is no such object. Asks of the
+    /// knowledge base as the last inference left it.
     pub fn why_not(&mut self, rules: &RuleBase, class: &str, key: &str, property: &str) -> Option<WhyNot> {
         let row = u32::try_from(self.row(class, key)?).ok()?;
         let name = PropertyName::new(class, property);
@@ -58,7 +60,8 @@ impl KnowledgeBase {
         let Some(planned) = self.network.nodes.get(number).and_then(|node| node.planned.as_ref()) else {
             return walked;
         };
-        let Some((tests, columns)) = TestsOf::rule(rule, &Known { base: self, rule }, &self.symbols) else {
+        let Some((tests, columns)) = TestsOfRule::new(rule, &Known { base: self, rule }, &self.symbols)
+        else {
             return walked;
         };
         let column = |name| self.view(name, below(rule, name)).unwrap_or(&NONE);

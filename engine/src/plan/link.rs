@@ -8,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{LinkUse, PropertyName};
 
 /// The equation that finds the object; `None` where it is not known yet, or is wrong.
-pub(super) fn join(lowering: &mut Lowering, index: usize, link: &LinkUse) -> Option<Join> {
+pub(crate) fn join(lowering: &mut Lowering, index: usize, link: &LinkUse) -> Option<Join> {
     let class = &lowering.rule.clauses[index].class;
     let from = PropertyName::new(&lowering.rule.clauses[link.clause].class, &link.property);
     let key = match (&link.key, lowering.kinds.key(class)) {

@@ -15,22 +15,27 @@ pub(crate) struct Uses {
     pub(crate) anywhere: Vec<BTreeSet<usize>>,
     /// In the variable's own clause: what decides whether it is bound.
     pub(crate) matching: Vec<BTreeSet<usize>>,
+    /// In the variable's own clause, but for what its objects are compared by.
+    pub(crate) passing: Vec<BTreeSet<usize>>,
 }
 
 impl Uses {
     /// What clauses look at.
     pub(crate) fn of_clauses(clauses: &[ClausePlan]) -> Self {
         let none = || vec![BTreeSet::new(); clauses.len()];
-        let mut uses = Self { anywhere: none(), matching: none() };
+        let mut uses = Self { anywhere: none(), matching: none(), passing: none() };
         for (number, clause) in clauses.iter().enumerate() {
             let mut found = vec![];
             for join in &clause.joins {
                 found.push((number, join.column));
                 properties(&join.key, &mut found);
             }
-            for node in clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have) {
+            for node in clause.own.iter().chain(&clause.test).chain(&clause.have) {
                 properties(node, &mut found);
             }
+            let own = found.iter().filter(|(variable, _)| *variable == number);
+            uses.passing[number].extend(own.map(|(_, column)| *column));
+            clause.by.iter().for_each(|by| properties(by, &mut found));
             let own = found.iter().filter(|(variable, _)| *variable == number);
             uses.matching[number].extend(own.map(|(_, column)| *column));
             uses.add(&found);

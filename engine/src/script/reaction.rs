@@ -114,6 +114,24 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             });
         }
     };
+    calls(reaction, &mut look);
+    problems
+}
+
+/// Whether a rule forgets the object of this variable.
+pub(super) fn forgets(rule: &Rule, variable: &str) -> bool {
+    let mut found = false;
+    let mut look = |call: &FnCallExpr| {
+        let object = call.args.first();
+        let own = matches!(object, Some(Expr::Variable(object, ..)) if object.1.as_str() == variable);
+        found |= call.name == "forget" && own;
+    };
+    rule.reaction().into_iter().for_each(|reaction| calls(reaction, &mut look));
+    found
+}
+
+/// Every call in a body.
+fn calls(reaction: &Reaction, look: &mut dyn FnMut(&FnCallExpr)) {
     for stmt in reaction.body.statements() {
         stmt.walk(&mut vec![], &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) =
@@ -124,7 +142,6 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             true
         });
     }
-    problems
 }
 
 /// `tell` and `forget` are the engine's own.

@@ -12,7 +12,7 @@ use rhai::{AST, ASTFlags, Engine, Expr, ParseErrorType, Position, Stmt};
 
 use super::reaction::told_by_functions;
 use super::source::{MAX_FILE_BYTES, SourceFile};
-use super::syntax::{Word, start_file};
+use super::syntax::{Word, start_file, starts_item};
 use crate::declared::build::{ClassItem, PropertyItem};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Constant, FileScope, Rule};
@@ -36,7 +36,8 @@ pub(crate) struct Read {
     pub(crate) problems: Vec<Diagnostic>,
 }
 
-/// The items of a file, and what is wrong with its syntax. Reading stops at the first error of syntax.
+/// The items of a file, and what is wrong with its syntax. After an error the file is read on from the next line
+/// that begins an item; what such a file holds is looked at for more errors only.
 pub(crate) fn read(source: &SourceFile, reader: &Engine) -> Read {
     if source.text().len() > MAX_FILE_BYTES {
         let place = source.place(Position::START);
@@ -49,20 +50,49 @@ pub(crate) fn read(source: &SourceFile, reader: &Engine) -> Read {
             ..Read::default()
         };
     }
+    let mut read = Read::default();
+    match compile(source, reader, &mut read.problems) {
+        Some(ast) => items(source, &ast, &mut read),
+        None => recover(source, reader, &mut read.problems),
+    }
+    read
+}
+
+fn compile(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>) -> Option<AST> {
     start_file();
-    let ast = match reader.compile(source.text()) {
-        Ok(ast) => ast,
+    match reader.compile(source.text()) {
+        Ok(ast) => Some(ast),
         Err(error) => {
             let message = syntax_message(error.err_type());
-            let place = source.place(error.position());
-            return Read {
-                problems: vec![Diagnostic::error(Code::Syntax, &place, message)],
-                ..Read::default()
-            };
+            problems.push(Diagnostic::error(Code::Syntax, &source.place(error.position()), message));
+            None
         }
-    };
-    let mut problems = vec![];
-    let file = Arc::new(scope(source, &ast, &mut problems));
+    }
+}
+
+/// Syntax errors that are told of one file.
+const MAX_SYNTAX_ERRORS: usize = 20;
+
+/// Reads what comes after an error, with blank lines before it so that places hold.
+fn recover(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>) {
+    let lines: Vec<&str> = source.text().split_inclusive('\n').collect();
+    while problems.len() < MAX_SYNTAX_ERRORS {
+        let Some(last) = problems.last().map(|problem| problem.line) else { return };
+        let Some(next) = (last..lines.len()).find(|&line| starts_item(lines[line])) else { return };
+        let rest = format!("{}{}", "\n".repeat(next), lines[next..].concat());
+        let rest = SourceFile::new(source.name(), rest);
+        let mut found = vec![];
+        if compile(&rest, reader, &mut found).is_some() {
+            return;
+        }
+        problems.extend(found.into_iter().map(|problem| problem.moved_to(source)));
+    }
+}
+
+fn items(source: &SourceFile, ast: &AST, read: &mut Read) {
+    let problems = &mut read.problems;
+    let file = Arc::new(scope(source, ast, problems));
+    problems.extend(crate::lint::unused::lint(&file));
     let items: Vec<item::Item> = ast
         .statements()
         .iter()
@@ -77,21 +107,18 @@ pub(crate) fn read(source: &SourceFile, reader: &Engine) -> Read {
         .collect();
     let texts = item::item_texts(source, &items);
     let outside: Arc<str> = item::outside(source.text(), &texts).into();
-    let mut read = Read::default();
     for (item, &(start, end)) in items.iter().zip(&texts) {
         let text = source.text()[start..end].to_owned();
         match item.word() {
             Word::Class => read.classes.extend(declared::class(item, text, &file)),
             Word::Property => read.properties.extend(declared::property(item, text, &file)),
             Word::Rule | Word::Revise | Word::On | Word::Table => {
-                let rule = rule::rule(item, &file, &mut problems);
+                let rule = rule::rule(item, &file, problems);
                 let outside = Arc::clone(&outside);
                 read.drafts.extend(rule.map(|rule| Draft { rule, text, outside }));
             }
         }
     }
-    read.problems = problems;
-    read
 }
 
 fn syntax_message(error: &ParseErrorType) -> String {

@@ -39,6 +39,7 @@ pub(crate) fn resolve(rule: &mut Rule, known: &BTreeSet<String>, problems: &mut 
         problems.extend(names.nested.iter().map(inside));
         return false;
     }
+    problems.extend(unused(rule, &names));
     problems.extend(variable_complaints(rule, &variables, &names));
     problems.extend(use_complaints(rule, &names));
     problems.extend(reaction::forget_complaints(rule));
@@ -127,6 +128,29 @@ fn of_class(names: &mut Names, clause: &Clause, index: usize) {
             names.reads.entry((index, key.clone())).or_insert(link.position);
         }
     }
+}
+
+/// Variables and numbers that are bound and never looked at.
+fn unused(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
+    let used = |index: usize, clause: &Clause| {
+        let properties = || names.reads.keys().chain(names.sets.keys());
+        properties().any(|(of, _)| *of == index)
+            || names.whole.iter().any(|(name, _)| *name == clause.variable)
+            || reaction::forgets(rule, &clause.variable)
+    };
+    let mut found = vec![];
+    for (index, clause) in rule.clauses.iter().enumerate() {
+        let (name, position) = match &clause.number {
+            Some((number, position)) if !names.numbers.contains_key(number) => (number, *position),
+            None if clause.quantifier.binds() && clause.link.is_none() && !used(index, clause) => {
+                (&clause.variable, clause.position)
+            }
+            _ => continue,
+        };
+        let message = format!("`{name}` is never used in this rule");
+        found.push(complaint(rule, Code::Unused, position, message).warning());
+    }
+    found
 }
 
 /// A hypothesis is set too, and by nothing else in its rule.

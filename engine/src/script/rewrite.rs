@@ -55,7 +55,7 @@ fn stmt_mut(stmt: &mut Stmt, change: Change) {
         Stmt::FnCall(call, _) => call.args.iter_mut().for_each(|argument| expr_mut(argument, change)),
         Stmt::Block(block) => block_mut(block, change),
         Stmt::Expr(expr) | Stmt::BreakLoop(Some(expr), ..) | Stmt::Return(Some(expr), ..) => {
-            expr_mut(expr, change)
+            expr_mut(expr, change);
         }
         _ => {}
     }

@@ -35,6 +35,14 @@ impl SourceFile {
         &self.named
     }
 
+    /// The place of the token at this byte.
+    pub(crate) fn place_at(&self, offset: usize) -> Place {
+        let before = &self.text()[..offset];
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        Place { source: self.clone(), span: (offset, token_len(&self.text()[offset..])), line, column }
+    }
+
     /// The place of a token. The interpreter counts lines and characters from 1.
     pub(crate) fn place(&self, position: Position) -> Place {
         let line = position.line().unwrap_or(1);

@@ -11,7 +11,7 @@ use crate::suggest::nearest;
 use declare::Declaring;
 pub(crate) use quantifier::Quantifier;
 use table::Tabling;
-pub(crate) use word::{Word, start_file};
+pub(crate) use word::{Word, start_file, starts_item};
 
 /// What an input of the custom syntax is; there is one for each input, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,6 +3,7 @@
 // clippy knows test functions, but not their helpers.
 #![allow(clippy::unwrap_used)]
 
+mod asking;
 mod conflicts;
 mod declarations;
 mod doors;

@@ -147,3 +147,55 @@ fn a_variable_that_is_not_the_first_is_asked_of_every_binding_before_it() {
         &"rule \"best\" does not take THINGS 1 as `t`: t.size == o.height is false (10 against 5)".to_owned()
     ));
 }
+
+#[test]
+fn each_row_of_a_table_names_its_first_cell_that_fails() {
+    let table = r#"
+        table "size" first each t in THINGS given [t.size, t.thing] set [t.kind] rows [
+            [below(3), any, "small"], [between(4, 6), 2, "second"], [any, above(7), "late"] ]
+    "#;
+    let (mut base, _) = concluded(table, [things("size", &[Some(5.0)])]);
+    assert_eq!(
+        sentences(&why_not(table, (&mut base, "1", "kind"))),
+        [
+            "rule \"size\" row 1 wants t.size below 3, and it is 5",
+            "rule \"size\" row 2 wants t.thing 2, and it is 1",
+            "rule \"size\" row 3 wants t.thing above 7, and it is 1",
+        ]
+    );
+}
+
+#[test]
+fn classes_by_condition_and_links_are_asked_too() {
+    let rule = r#"
+        class SMALL of THINGS where size < 3
+        property THINGS.size names THINGS.thing
+        rule "small" each t in SMALL then { t.kind = "small"; }
+        rule "next" each t in THINGS where t.size.size > 5 then { t.next = true; }
+    "#;
+    let (mut base, _) = concluded(rule, [things("size", &[Some(3.0), Some(9.0), Some(4.0)])]);
+    assert_eq!(
+        sentences(&why_not(rule, (&mut base, "1", "kind"))),
+        ["rule \"small\" does not take THINGS 1 as `t`: size < 3 is false (3 against 3)"]
+    );
+    let next = sentences(&why_not(rule, (&mut base, "1", "next")));
+    assert!(next.last().unwrap().ends_with("is false (4 against 5)"), "{next:?}");
+}
+
+#[test]
+fn in_a_large_class_an_equation_chooses_who_is_a_candidate() {
+    let rule = r#"rule "r" each t in THINGS some o in THINGS where o.thing == t.size && o.size > 100
+        then { t.big = true; }"#;
+    let sizes: Vec<Option<f64>> = (1..=3000).map(|size| Some(f64::from(size))).collect();
+    let (mut base, _) = concluded(rule, [things("size", &sizes)]);
+    let why = why_not(rule, (&mut base, "50", "big"));
+    assert_eq!(
+        sentences(&why),
+        [
+            "rule \"r\" does not take THINGS 50 as `o`: o.size > 100 is false (50 against 100)",
+            "rule \"r\" finds no `o` among 3000 objects of THINGS",
+        ]
+    );
+    assert!(!why.truncated);
+    assert!(why_not(rule, (&mut base, "2500", "big")).rejected.is_empty(), "found beyond the first thousand");
+}

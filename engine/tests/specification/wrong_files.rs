@@ -80,3 +80,15 @@ fn right_rules_are_not_complained_about() {
     "#;
     assert!(said(&SourceFile::new("right.rhai", right)).is_empty());
 }
+
+#[test]
+fn a_message_is_json_too() {
+    let file = SourceFile::new("a.rhai", "rule \"r\" each d in DORS then { d.x = 1; }");
+    let json = serde_json::to_value(said(&file)).unwrap();
+    let expected = serde_json::json!([{
+        "code": "rule/unknown-class", "severity": "error", "message": "there is no class DORS",
+        "file": "a.rhai", "span": [19, 4], "line": 1, "column": 20, "label": null,
+        "help": "did you mean `DOORS`?",
+    }]);
+    assert_eq!(json, expected);
+}

@@ -1,21 +1,24 @@
 //! Goes through the clauses of a rule for one object that it could set a property of.
 
-use super::tests_of::{Part, TestsOf};
+use super::tests_of::{Part, TestsOfRule};
 use crate::knowledge::KnowledgeBase;
 use crate::machine::Machine;
 use crate::machine::evaluate::Batch;
 use crate::machine::lane::{Frame, Lane, NO_ROW, Rows};
 use crate::plan::node::Node;
 use crate::rejection::{Rejected, Rejection};
-use crate::rule::{Clause, LinkUse, PropertyName};
+use crate::rule::Clause;
 use crate::script::syntax::Quantifier;
-use crate::value::{Cell, Truth, Value};
+use crate::value::{Truth, Value};
+
+/// In a class of more objects, those that an equation keeps apart from the binding are no candidates.
+const FEW_OBJECTS: usize = 50;
 
 /// One rule, one object, and what was rejected so far.
 pub(super) struct Walk<'w> {
-    knowledge: &'w KnowledgeBase,
-    machine: &'w Machine<'w>,
-    tests: &'w [TestsOf],
+    pub(super) knowledge: &'w KnowledgeBase,
+    pub(super) machine: &'w Machine<'w>,
+    pub(super) tests: &'w TestsOfRule,
     /// The clause that stands for the object, and its row.
     target: (usize, u32),
     budget: usize,
@@ -36,7 +39,7 @@ impl<'w> Walk<'w> {
     pub(super) fn new(
         knowledge: &'w KnowledgeBase,
         machine: &'w Machine<'w>,
-        tests: &'w [TestsOf],
+        tests: &'w TestsOfRule,
         target: (usize, u32),
         budget: usize,
     ) -> Self {
@@ -52,16 +55,13 @@ impl<'w> Walk<'w> {
     /// Whether any binding from this clause on fires.
     fn clause(&mut self, number: usize, frame: &Frame) -> bool {
         let machine = self.machine;
-        let Some(clause) = machine.rule.clauses.get(number) else { return true };
+        let Some(clause) = machine.rule.clauses.get(number) else { return self.rows(frame) };
         if let Some(link) = &clause.link {
-            let row = self.linked(&clause.class, link, frame);
-            return self.clause(number + 1, &bound(frame, number, row.map_or(Rows::Unbound, Rows::Same)));
+            return self.link(number, link.clause, frame);
         }
-        // What does not pass is what `none`, `all`, `count` and `sum` leave aside: nobody asks for that.
-        let noted = clause.quantifier.binds();
-        let passing = self.passing(number, clause, frame, noted);
+        let passing = self.passing(number, clause, frame);
         match clause.quantifier {
-            Quantifier::Each | Quantifier::Link => {
+            Quantifier::Each => {
                 if passing.rows.is_empty() && self.target.0 != number {
                     self.reject(clause, None, Rejection::Unmet { objects: passing.objects });
                 }
@@ -80,6 +80,8 @@ impl<'w> Walk<'w> {
                 let taken = self.target.0 != number || self.target.1 == row;
                 taken && self.clause(number + 1, &bound(frame, number, Rows::Same(row)))
             }
+            // Goes with `link` above.
+            Quantifier::Link => self.clause(number + 1, frame),
             Quantifier::None => match passing.rows.first() {
                 Some(&row) => {
                     self.reject(clause, Some(row), Rejection::Found);
@@ -101,42 +103,52 @@ impl<'w> Walk<'w> {
         }
     }
 
-    /// The row of the object that a property of another names.
-    fn linked(&self, class: &str, link: &LinkUse, frame: &Frame) -> Option<u32> {
-        let of = &self.machine.rule.clauses[link.clause].class;
-        let names = self.knowledge.column(&PropertyName::new(of, &link.property))?;
-        let wanted = names.cell(frame.rows[link.clause].at(0) as usize);
-        let table = &self.knowledge.held.get(class)?.table;
-        let key = match &link.key {
-            Some(key) => self.knowledge.column(&PropertyName::new(class, key))?,
-            None => &table.columns[*table.key.first()?],
+    /// Goes through a link to the object that a property of clause `from` names; what is asked after that is asked of
+    /// that clause's object.
+    fn link(&mut self, number: usize, from: usize, frame: &Frame) -> bool {
+        let rule = self.machine.rule;
+        let tests = &self.tests.clauses[number];
+        let objects = self.knowledge.len(&rule.clauses[number].class).unwrap_or(0) as u32;
+        let named = |row: &u32| {
+            let frame = bound(frame, number, Rows::Same(*row));
+            tests.link.as_ref().is_some_and(|link| self.truth(link, &frame) == Truth::True)
         };
-        (0..table.len as u32).find(|&row| wanted != Cell::Unknown && key.cell(row as usize) == wanted)
+        let named = (0..objects).take_while(|_| self.machine.tick().is_ok()).find(named);
+        let frame = bound(frame, number, named.map_or(Rows::Unbound, Rows::Same));
+        match self.first_untrue(&tests.condition, &frame) {
+            None => self.clause(number + 1, &frame),
+            Some((_, reason)) => {
+                self.reject(&rule.clauses[from], Some(frame.rows[from].at(0)), reason);
+                false
+            }
+        }
     }
 
     /// The objects that pass `where`.
-    fn passing(&mut self, number: usize, clause: &Clause, frame: &Frame, noted: bool) -> Passing {
-        let own = clause.quantifier == Quantifier::Each && self.target.0 == number;
+    fn passing(&mut self, number: usize, clause: &Clause, frame: &Frame) -> Passing {
+        let target = self.target.0 == number;
         let (from, to) = match self.target.1 {
-            row if own => (row, row + 1),
+            row if target && clause.quantifier == Quantifier::Each => (row, row + 1),
             _ => (0, self.knowledge.len(&clause.class).unwrap_or(0) as u32),
         };
         let mut passing = Passing { rows: vec![], unknown: 0, objects: (to - from) as usize };
+        // What does not pass `none`, `all`, `count` and `sum` nobody asks for.
+        let noted = clause.quantifier.binds();
+        let tests = self.tests;
+        let few = passing.objects <= FEW_OBJECTS;
         for row in from..to {
-            if self.budget == 0 || self.machine.tick().is_err() {
+            if self.machine.tick().is_err() {
                 self.truncated = true;
                 break;
             }
-            self.budget -= 1;
             let frame = bound(frame, number, Rows::Same(row));
-            match self.first_untrue(&self.tests[number].condition, &frame) {
-                None => passing.rows.push(row),
-                Some(reason) => {
-                    passing.unknown += usize::from(matches!(reason, Rejection::Unknown { .. }));
-                    if noted {
-                        self.reject(clause, Some(row), reason);
-                    }
-                }
+            let Some((part, reason)) = self.first_untrue(&tests.clauses[number].condition, &frame) else {
+                passing.rows.push(row);
+                continue;
+            };
+            passing.unknown += usize::from(matches!(reason, Rejection::Unknown { .. }));
+            if noted && (target || few || !part.joins) {
+                self.reject(clause, Some(row), reason);
             }
         }
         passing
@@ -145,7 +157,8 @@ impl<'w> Walk<'w> {
     /// The object that is taken; the others are rejected.
     fn winner(&mut self, number: usize, clause: &Clause, frame: &Frame, passing: &Passing) -> Option<u32> {
         let tests = self.tests;
-        let Some(by) = tests[number].by.as_ref().filter(|_| clause.quantifier != Quantifier::Some) else {
+        let Some(by) = tests.clauses[number].by.as_ref().filter(|_| clause.quantifier != Quantifier::Some)
+        else {
             let (&winner, others) = passing.rows.split_first()?;
             let key = self.key(clause, winner);
             for &row in others {
@@ -174,10 +187,11 @@ impl<'w> Walk<'w> {
 
     /// Whether all that pass have what is asked; those that do not are rejected.
     fn all_have(&mut self, number: usize, clause: &Clause, frame: &Frame, passing: &Passing) -> bool {
+        let tests = self.tests;
         let mut holds = passing.unknown == 0;
         for &row in &passing.rows {
             let frame = bound(frame, number, Rows::Same(row));
-            if let Some(reason) = self.first_untrue(&self.tests[number].have, &frame) {
+            if let Some((_, reason)) = self.first_untrue(&tests.clauses[number].have, &frame) {
                 holds = false;
                 self.reject(clause, Some(row), reason);
             }
@@ -190,7 +204,7 @@ impl<'w> Walk<'w> {
         if passing.unknown > 0 {
             return f64::NAN;
         }
-        match (&self.tests[number].by, clause.quantifier) {
+        match (&self.tests.clauses[number].by, clause.quantifier) {
             (Some(by), Quantifier::Sum) => {
                 let amount = |row: &u32| self.number(&by.node, &bound(frame, number, Rows::Same(*row)));
                 let mut amounts: Vec<f64> = passing.rows.iter().map(amount).collect();
@@ -202,22 +216,25 @@ impl<'w> Walk<'w> {
     }
 
     /// The first part that is false; where there is none, the first that is unknown.
-    fn first_untrue(&self, parts: &[Part], frame: &Frame) -> Option<Rejection> {
-        let truth = |part: &Part| self.machine.evaluate(&part.node, one(frame)).truths().at(0);
+    fn first_untrue<'p>(&self, parts: &'p [Part], frame: &Frame) -> Option<(&'p Part, Rejection)> {
         let mut unknown = None;
         for part in parts {
-            match truth(part) {
+            match self.truth(part, frame) {
                 Truth::True => {}
                 Truth::Unknown => unknown = unknown.or(Some(part)),
                 Truth::False => {
                     let (left, right) = self.sides(part, frame);
-                    return Some(Rejection::Failed { test: part.text.clone(), left, right });
+                    return Some((part, Rejection::Failed { test: part.text.clone(), left, right }));
                 }
             }
         }
         let part = unknown?;
         let (left, right) = self.sides(part, frame);
-        Some(Rejection::Unknown { test: part.text.clone(), left, right })
+        Some((part, Rejection::Unknown { test: part.text.clone(), left, right }))
+    }
+
+    fn truth(&self, part: &Part, frame: &Frame) -> Truth {
+        self.machine.evaluate(&part.node, one(frame)).truths().at(0)
     }
 
     fn sides(&self, part: &Part, frame: &Frame) -> (Option<Value>, Option<Value>) {
@@ -234,6 +251,13 @@ impl<'w> Walk<'w> {
     }
 
     fn reject(&mut self, clause: &Clause, row: Option<u32>, reason: Rejection) {
+        if row.is_some() {
+            if self.budget == 0 {
+                self.truncated = true;
+                return;
+            }
+            self.budget -= 1;
+        }
         let key = row.filter(|&row| row != NO_ROW).map(|row| self.key(clause, row));
         let rejected = Rejected {
             variable: Some(clause.variable.clone()),
@@ -245,7 +269,7 @@ impl<'w> Walk<'w> {
     }
 }
 
-fn one(frame: &Frame) -> Batch<'_> {
+pub(super) fn one(frame: &Frame) -> Batch<'_> {
     Batch { frame, slots: &[], mask: None }
 }
 

@@ -47,6 +47,12 @@ impl Word {
     }
 }
 
+/// Whether a line of a file begins an item.
+pub(crate) fn starts_item(line: &str) -> bool {
+    let end = line.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(line.len());
+    Word::of(&line[..end]).is_some() && line[end..].starts_with([' ', '\t'])
+}
+
 /// What the last token leaves behind for the next one.
 #[derive(Debug, Default)]
 struct Before {

@@ -1,0 +1,91 @@
+//! Why something is as it is, and why no route leads another way.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use adit_tests::TestSite;
+
+#[test]
+fn why_names_the_rule_and_what_it_chose() {
+    let site = TestSite::example("paper").built();
+    let said = site.adit("why", &["doors.3.hardness"]).expecting(0).stdout;
+    assert!(said.starts_with("door 3 hardness is 37.0055"), "{said}");
+    assert!(
+        said.contains("by rule \"weigh a door\" (rules/rooms/paper/doors.rhai, line 7, version "),
+        "{said}"
+    );
+    assert!(said.contains("first = ROBOTS robot/SQUAT"), "{said}");
+    assert_eq!(site.adit("why", &["door 3"]).expecting(0).stdout.lines().count(), 3);
+    let room = site.adit("why", &["room b", "--json"]).expecting(0).json();
+    assert_eq!((&room["object"], &room["generation"]), (&"rooms.2".into(), &1.into()));
+    assert_eq!(room["conclusions"][0]["witness"]["state"], "ROBOTS robot/SQUAT");
+    let bridge = site.adit("why", &["BRIDGES.2.low", "--json"]).expecting(0).json();
+    assert_eq!(
+        bridge["conclusions"][0]["rule"],
+        "a bridge is low where the tallest state does not fit under it"
+    );
+}
+
+#[test]
+fn why_of_something_that_is_not_there_says_what_is() {
+    let site = TestSite::example("paper").built();
+    site.adit("why", &["room bb"]).expecting(2).complains(&["rooms bb", "did you mean `b`?"]);
+    site.adit("why", &["door 99"]).expecting(2).complains(&["there are 8 doors"]);
+    site.adit("why", &["doors.3.hardnes"]).expecting(2).complains(&["did you mean `hardness`?"]);
+    site.adit("why", &["nonsense"]).expecting(2).complains(&["names no object", "door 7"]);
+}
+
+#[test]
+fn why_follows_an_edit_from_outside() {
+    let site = TestSite::example("paper").built();
+    site.outside_edit("UPDATE robots SET hardness = 9 WHERE state = 'SQUAT'");
+    let answer = site.adit("why", &["doors.4.hardness", "--json"]).expecting(0).json();
+    assert_eq!(answer["generation"], 2);
+    assert_eq!(answer["conclusions"][0]["witness"]["first"], "ROBOTS robot/LIE-FACE-DOWN");
+}
+
+#[test]
+fn why_not_gives_the_price_of_another_way() {
+    let site = TestSite::example("paper").built();
+    let answer = site.adit("why-not", &["f", "e", "--through", "room c", "--json"]).expecting(0).json();
+    let (best, cost) = (answer["best"].as_f64().unwrap(), answer["cost"].as_f64().unwrap());
+    assert!((best - 92.007_434).abs() < 1e-6, "{best}");
+    // Table 7: room c is entered at 94.009; from there door 5 leads to e.
+    assert!((cost - (94.009_106 + 39.697_794)).abs() < 1e-5, "{cost}");
+    assert!(answer["reason"].as_str().unwrap().contains("41.699 more"), "{answer:#}");
+    let on = site.adit("why-not", &["f", "e", "--through", "door 3"]).expecting(0).stdout;
+    assert!(on.starts_with("the best route from f to e leads through door 3"), "{on}");
+}
+
+#[test]
+fn why_not_names_for_each_state_the_test_that_failed() {
+    let site = TestSite::example("paper").built();
+    let args = ["f", "e", "--through", "door 1", "--json"];
+    let answer = site.adit("why-not", &args).expecting(0).json();
+    assert_eq!((&answer["cost"], &answer["reason"]), (&().into(), &"door 1 lets no state through".into()));
+    let rejected = answer["rejected"].as_array().unwrap();
+    let lying = rejected
+        .iter()
+        .find(|one| one["variable"] == "first" && one["key"] == "robot/LIE-FACE-DOWN")
+        .unwrap();
+    assert_eq!(lying["reason"], "failed");
+    assert_eq!(lying["test"], "first.height < door.height1");
+    assert_eq!((&lying["left"], &lying["right"]), (&5.0.into(), &4.0.into()));
+    let lost = rejected.iter().find(|one| one["variable"] == "second" && one["reason"] == "lost").unwrap();
+    assert_eq!((&lost["value"], &lost["winner"]), (&2.0.into(), &"robot/STAND".into()));
+}
+
+#[test]
+fn why_not_works_where_rooms_are_by_state() {
+    let site = TestSite::example("clinic").built();
+    let route = site.adit("route", &["dock", "ward 12", "--json"]).expecting(0).json();
+    let steps = route["steps"].as_array().unwrap();
+    let passed = steps.iter().find(|step| step["kind"] == "room").unwrap()["place"].as_str().unwrap();
+    let through = format!("room {passed}");
+    let answer =
+        site.adit("why-not", &["dock", "ward 12", "--through", &through, "--json"]).expecting(0).json();
+    let (best, cost) = (answer["best"].as_f64().unwrap(), answer["cost"].as_f64().unwrap());
+    assert!((best - route["cost"].as_f64().unwrap()).abs() < 1e-9);
+    assert!(
+        cost < best * 1.001,
+        "the way through a room of the route costs what the route costs: {cost}, {best}"
+    );
+}
