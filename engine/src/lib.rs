@@ -109,6 +109,12 @@
 //! functions, `switch`, loops) runs in the interpreter with the same meaning, some microseconds a binding; a function of
 //! something unknown is unknown.
 //!
+//! # Messages
+//!
+//! What is wrong with rule files comes as [`Diagnostics`], up to 20 errors of syntax a file; [`RuleBase::check`]
+//! adds what the classes show, and warnings: rows of tables that never count, inputs without a row, conditions that
+//! nothing can pass, what is named and never used. Each has a code, a place and mostly a help; as JSON too.
+//!
 //! # Reactions
 //!
 //! ```text
@@ -155,12 +161,6 @@
 //!   firing are named (`rule/loop`).
 //! - [`Reactions::log`] is what was told; [`KnowledgeBase::replay`] tells it again. Each firing makes the next
 //!   [`generation`](KnowledgeBase::generation).
-//!
-//! # Messages
-//!
-//! What is wrong with rule files comes as [`Diagnostics`], up to 20 errors of syntax a file; [`RuleBase::check`]
-//! adds what the classes show, and warnings: rows of tables that never count, inputs without a row, conditions that
-//! nothing can pass, what is named and never used. Each has a code, a place and mostly a help; as JSON too.
 //!
 //! # Limits
 //!

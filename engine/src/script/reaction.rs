@@ -118,18 +118,6 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
     problems
 }
 
-/// Whether a rule forgets the object of this variable.
-pub(super) fn forgets(rule: &Rule, variable: &str) -> bool {
-    let mut found = false;
-    let mut look = |call: &FnCallExpr| {
-        let object = call.args.first();
-        let own = matches!(object, Some(Expr::Variable(object, ..)) if object.1.as_str() == variable);
-        found |= call.name == "forget" && own;
-    };
-    rule.reaction().into_iter().for_each(|reaction| calls(reaction, &mut look));
-    found
-}
-
 /// Every call in a body.
 fn calls(reaction: &Reaction, look: &mut dyn FnMut(&FnCallExpr)) {
     for stmt in reaction.body.statements() {

@@ -136,13 +136,18 @@ fn unused(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
         let properties = || names.reads.keys().chain(names.sets.keys());
         properties().any(|(of, _)| *of == index)
             || names.whole.iter().any(|(name, _)| *name == clause.variable)
-            || reaction::forgets(rule, &clause.variable)
     };
     let mut found = vec![];
     for (index, clause) in rule.clauses.iter().enumerate() {
         let (name, position) = match &clause.number {
             Some((number, position)) if !names.numbers.contains_key(number) => (number, *position),
-            None if clause.quantifier.binds() && clause.link.is_none() && !used(index, clause) => {
+            // That there is one may be all that counts: for `some`, and for rules that react.
+            None if clause.quantifier.binds()
+                && clause.quantifier != Quantifier::Some
+                && clause.link.is_none()
+                && !rule.reacts()
+                && !used(index, clause) =>
+            {
                 (&clause.variable, clause.position)
             }
             _ => continue,
