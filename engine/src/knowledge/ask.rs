@@ -93,17 +93,14 @@ impl KnowledgeBase {
             (PropertyName::new(class, *property), rows)
         });
         let asked = self.asked(rules, wanted.collect(), run.until);
-        if !asked.is_empty() {
-            let mut second = Run::new(rules, run.until);
-            second.asked = Some(asked);
-            self.advance_on(&mut second);
-            run.follow(second);
+        if asked.is_empty() {
+            return self.noted(&run);
         }
-        let changes = self.changes(&run);
-        if self.agenda.is_used() {
-            self.agenda.note(&changes);
-        }
-        changes
+        let mut second = Run::new(rules, run.until);
+        second.asked = Some(asked);
+        self.advance_on(&mut second);
+        run.follow(second);
+        self.noted(&run)
     }
 
     /// From the values that are wanted back to the objects for which rules have to be evaluated.

@@ -82,8 +82,7 @@ impl KnowledgeBase {
         let evaluated: Vec<String> =
             run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
         if self.agenda.is_used() {
-            let changes = self.changes(&run);
-            self.agenda.note(&changes);
+            self.noted(&run);
         }
         Conclusions { evaluated, ..self.report(rules) }
     }
@@ -97,9 +96,16 @@ impl KnowledgeBase {
 
     /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
     pub(super) fn follow(&mut self, rules: &RuleBase) {
-        let changes = self.renew(rules);
-        self.agenda.note(&changes);
+        let run = self.infer(rules);
+        let changes = self.noted(&run);
         self.unreported.absorb(changes);
+    }
+
+    /// What an inference changed; the agenda takes note of it.
+    pub(super) fn noted(&mut self, run: &Run) -> Changes {
+        let changes = self.changes(run);
+        self.agenda.note(&changes);
+        changes
     }
 
     /// Makes everything right, and tells what changed since the last inference.
