@@ -1,24 +1,33 @@
 //! Names and types of a rule base against a schema.
 
+mod told;
+
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
+use crate::plan::reaction::reaction;
 use crate::plan::{Effect, Key, Kind, Kinds, plan};
 use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
 use crate::suggest::nearest;
 use crate::symbols::Symbols;
+use crate::told::NamesTold;
 use crate::value::Type;
 
 pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     let symbols = RefCell::new(Symbols::default());
-    let mut known = Declared { schema, concluded: BTreeMap::new() };
+    let told = NamesTold::of(&base.rules);
+    let mut known = Declared { schema, concluded: BTreeMap::new(), told: BTreeMap::new() };
     for name in base.concluded() {
         known.concluded.insert(name.clone(), None);
     }
+    for name in told.properties.keys() {
+        known.told.insert(name.clone(), None);
+    }
+    known.tell_kinds(base, &symbols);
     known.concluded.extend(base.hypotheses().into_iter().map(|name| (name, Some(Type::Truth))));
     for name in base.declared.supplied() {
         known.concluded.entry(name.clone()).or_default();
@@ -36,8 +45,13 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
             // It is checked with the other declarations.
             continue;
         }
-        let wrong = unknown_classes(rule, base, schema);
-        if !wrong.is_empty() || !rule.clauses.iter().all(|clause| schema.has(&clause.class)) {
+        let wrong = unknown_classes(rule, base, schema, &told);
+        if !wrong.is_empty()
+            || !rule
+                .clauses
+                .iter()
+                .all(|clause| schema.has(&clause.class) || told.classes.contains_key(clause.class.as_str()))
+        {
             problems.push((*index, wrong));
             continue;
         }
@@ -55,6 +69,20 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
             Err(wrong) => problems.push((*index, wrong)),
         }
     }
+    for (index, rule) in base.rules.iter().enumerate() {
+        let Some(action) = rule.reaction() else { continue };
+        let wrong = unknown_classes(rule, base, schema, &told);
+        let wrong = if wrong.is_empty() {
+            reaction(rule, action, &known, &symbols).err().unwrap_or_default()
+        } else {
+            wrong
+        };
+        problems.push((index, wrong));
+    }
+    for (rule, slip) in told::slips(base, &told, &known) {
+        let index = base.rules.iter().position(|other| other.name == rule.name).unwrap_or(0);
+        problems.push((index, vec![slip]));
+    }
     // As the author reads: by the order of the files, not of the dependencies.
     problems.sort_by_key(|&(index, _)| index);
     let mut all: Vec<Diagnostic> =
@@ -66,18 +94,22 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     all
 }
 
-fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
+fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTold) -> Vec<Diagnostic> {
     let mut named = BTreeSet::new();
     let declared = || base.declared.subclasses().map(|(name, _)| name);
     rule.clauses
         .iter()
         // What a declaration names is said there.
         .filter(|clause| clause.link.is_none() && clause.conditions.is_empty())
-        .filter(|clause| !schema.has(&clause.class) && named.insert(&clause.class))
+        .filter(|clause| !schema.has(&clause.class) && !told.classes.contains_key(clause.class.as_str()))
+        .filter(|clause| named.insert(&clause.class))
         .map(|clause| {
             let place = rule.file.source.place(clause.class_position);
             Diagnostic::error(Code::UnknownClass, &place, format!("there is no class {}", clause.class))
-                .did_you_mean(nearest(&clause.class, schema.classes().chain(declared())))
+                .did_you_mean(nearest(
+                    &clause.class,
+                    schema.classes().chain(told.classes.keys().copied()).chain(declared()),
+                ))
         })
         .collect()
 }
@@ -86,6 +118,21 @@ fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema) -> Vec<Diagnos
 struct Declared<'s> {
     schema: &'s Schema,
     concluded: BTreeMap<PropertyName, Option<Type>>,
+    /// Those that rules tell.
+    told: BTreeMap<PropertyName, Option<Type>>,
+}
+
+impl Declared<'_> {
+    /// The types of what rules tell, as far as they can be seen.
+    fn tell_kinds(&mut self, base: &RuleBase, symbols: &RefCell<Symbols>) {
+        for rule in &base.rules {
+            let Some(action) = rule.reaction() else { continue };
+            for (name, kind, _) in crate::plan::reaction::told(rule, action, self, symbols) {
+                let known = self.told.entry(name).or_default();
+                *known = known.or(kind);
+            }
+        }
+    }
 }
 
 impl Kinds for Declared<'_> {
@@ -93,13 +140,14 @@ impl Kinds for Declared<'_> {
         match (self.schema.kind(&name.class, &name.property), self.concluded.get(name)) {
             (Some(kind), _) => Kind::Holds(Some(kind)),
             (None, Some(kind)) => Kind::Holds(*kind),
-            (None, None) => Kind::Missing,
+            (None, None) => self.told.get(name).map_or(Kind::Missing, |kind| Kind::Holds(*kind)),
         }
     }
 
     /// What an earlier rule gives, a later one has to give too.
     fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.schema.kind(&name.class, &name.property).or_else(|| self.concluded.get(name).copied().flatten())
+        let earlier = || self.concluded.get(name).or_else(|| self.told.get(name)).copied().flatten();
+        self.schema.kind(&name.class, &name.property).or_else(earlier)
     }
 
     fn key(&self, class: &str) -> Key {
@@ -107,8 +155,8 @@ impl Kinds for Declared<'_> {
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        let concluded =
-            self.concluded.keys().filter(|name| name.class == class).map(|name| name.property.clone());
+        let concluded = self.concluded.keys().chain(self.told.keys()).filter(|name| name.class == class);
+        let concluded = concluded.map(|name| name.property.clone());
         self.schema.properties(class).map(str::to_owned).chain(concluded).collect()
     }
 }

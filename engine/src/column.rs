@@ -67,6 +67,16 @@ impl Column {
         }
     }
 
+    /// Puts a row in; those from there on move down.
+    pub(crate) fn insert(&mut self, row: usize, cell: Cell) {
+        match self {
+            Self::Numbers(values) => values.insert(row, f64::NAN),
+            Self::Texts(values) => values.insert(row, Symbol::UNKNOWN),
+            Self::Truths(values) => values.insert(row, Truth::Unknown),
+        }
+        self.set(row, cell);
+    }
+
     /// Takes a row out; those after it move up.
     pub(crate) fn remove(&mut self, row: usize) {
         match self {

@@ -2,6 +2,7 @@
 
 mod affected;
 pub(crate) mod ask;
+mod body;
 mod conclude;
 mod derived;
 mod difference;
@@ -12,8 +13,11 @@ mod memory;
 mod merge;
 mod network;
 mod pending;
+mod react;
+mod replay;
 mod report;
 mod revise;
+mod undo;
 mod why;
 mod why_not;
 
@@ -21,6 +25,8 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::agenda::Agenda;
+use crate::changes::Changes;
 use crate::class::{Class, ClassError, Table, value};
 use crate::column::Column;
 use crate::rule::PropertyName;
@@ -50,6 +56,10 @@ pub struct KnowledgeBase {
     symbols: RefCell<Symbols>,
     held: BTreeMap<String, Held>,
     derived: BTreeMap<PropertyName, Derived>,
+    agenda: Agenda,
+    /// What changed since the host last asked.
+    unreported: Changes,
+    generation: u64,
     network: Network,
     limits: Limits,
 }
@@ -68,19 +78,20 @@ impl KnowledgeBase {
     /// Adds a class, or replaces it: objects are told apart by their key, and only what differs counts as changed.
     pub fn assert(&mut self, class: Class) -> Result<(), ClassError> {
         let table = Table::new(class, self.symbols.get_mut())?;
-        match self.held.get_mut(&table.name) {
-            Some(held) => {
-                let difference = difference::difference(&held.table, &table);
-                held.pending.join(difference);
-                self.network.recheck |= held.pending.anew;
-                held.table = table;
-            }
-            None => {
-                self.network.recheck = true;
-                self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
-            }
-        }
+        self.hold(table);
         Ok(())
+    }
+
+    /// Takes a table as what is told of its class.
+    fn hold(&mut self, table: Table) {
+        if let Some(held) = self.held.get_mut(&table.name) {
+            held.pending.join(difference::difference(&held.table, &table));
+            self.network.recheck |= held.pending.anew;
+            held.table = table;
+        } else {
+            self.network.recheck = true;
+            self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
+        }
     }
 
     /// Takes a class away, and what rests on it.

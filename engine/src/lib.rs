@@ -2,7 +2,7 @@
 //!
 //! A host asserts classes of objects ([`Class`], [`KnowledgeBase::assert`]), compiles rule files
 //! ([`RuleBase::compile`]), lets the rules conclude ([`KnowledgeBase::conclude`]), reads values back, and asks why
-//! ([`KnowledgeBase::why`]).
+//! ([`KnowledgeBase::why`]), or why not ([`KnowledgeBase::why_not`]). Tests of rules are data ([`RuleTests`]).
 //!
 //! ```
 //! use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile, Value};
@@ -115,16 +115,65 @@
 //! adds what the classes show, and warnings: rows of tables that never count, inputs without a row, conditions that
 //! nothing can pass, what is named and never used. Each has a code, a place and mostly a help; as JSON too.
 //!
+//! # Reactions
+//!
+//! ```text
+//! on "NAME" [priority N]
+//!     clauses as above
+//!     then { tell("CLASS", #{ property: value, ... }); x.property = VALUE; forget(x); }
+//! ```
+//!
+//! A rule concludes, and what it concludes goes when its reasons go. An `on` **tells**: new objects, values, objects
+//! that are gone. What it told stays until it is told otherwise. [`KnowledgeBase::react`] makes everything right that
+//! follows from what was told, carries out the first activation of the agenda, makes everything right again, and so on
+//! until none waits. An **activation** is a rule with the objects that its clauses bind.
+//!
+//! ```
+//! use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile, Value};
+//!
+//! let rules = RuleBase::compile(&[SourceFile::new("gate.rhai", r#"
+//!     on "a coin opens the gate"
+//!         each coin in COINS
+//!         each gate in GATES where gate.gate == coin.gate && gate.state == "locked"
+//!         then { gate.state = "open"; forget(coin); }
+//! "#)])?;
+//! let mut base = KnowledgeBase::new();
+//! base.assert(Class::new("GATES", &["gate"]).texts("gate", [Some("north")]).texts("state", [Some("locked")]))?;
+//! base.assert(Class::new("COINS", &[]).texts("gate", [Some("north"), Some("north")]))?;
+//! let run = base.react(&rules);
+//! assert_eq!(run.firings.len(), 1);
+//! assert_eq!((base.value("GATES", "north", "state"), base.len("COINS")), (Some(Value::from("open")), Some(1)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! - The **order** is the same whatever the history: the greatest priority first, then the rules in the order of the
+//!   files, then the rows of the objects in the order of the clauses. [`KnowledgeBase::agenda`] shows it.
+//! - An activation that was carried out **comes again** only when a property that the rule reads of one of its objects
+//!   has another value, told or concluded, or when its clauses stopped being met and are met again. That holds for
+//!   what the rule changes itself: a rule that reads what it sets goes on until its condition is false.
+//! - A body runs in the interpreter, with loops, `if` and the functions of its file (which may `tell` too). A property
+//!   that is unknown is `()` there, and `x.p = ()` takes back what was told. It is done **whole or not at all**: values
+//!   first, then what is forgotten, then new objects. If it fails, nothing of it is told, and it is not tried again.
+//! - What is told stands before what is concluded. A class that only `tell` makes has no key: its objects are called by
+//!   their rows, from 1. Names that are told may be new; one that looks like a slip is reported by
+//!   [`RuleBase::check`].
+//! - A run that does not end, takes too long or has too many matches is **taken back whole**, and the rules that kept
+//!   firing are named (`rule/loop`).
+//! - [`Reactions::log`] is what was told; [`KnowledgeBase::replay`] tells it again. Each firing makes the next
+//!   [`generation`](KnowledgeBase::generation).
+//!
 //! # Limits
 //!
 //! | | |
 //! |---|---|
 //! | rule file | 1,000,000 bytes, 128 functions, expressions nested 64 deep (32 in functions) |
 //! | rule | 32 clauses, 20 million firings, [`Limits::rule`] of time |
+//! | run of reactions | [`Limits::firings`] (10,000), [`Limits::matches`] (1,000,000) kept, [`Limits::reactions`] of time |
 //! | interpreted part | 1,000,000 steps with its closures, 32 calls deep, 256 variables |
 //! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
 //! | never | `eval`, `import`, `sleep`, printing |
 
+mod agenda;
 mod changes;
 mod check;
 mod class;
@@ -137,6 +186,7 @@ mod lint;
 mod machine;
 mod order;
 mod plan;
+mod reactions;
 mod rejection;
 mod rule;
 mod rule_base;
@@ -146,6 +196,7 @@ mod script;
 mod suggest;
 mod symbols;
 mod table;
+mod told;
 mod value;
 
 pub use changes::{Changes, ClassChanges};
@@ -159,6 +210,7 @@ pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::ask::{Answer, Question};
 pub use knowledge::facts::FactError;
+pub use reactions::{Activation, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};
 pub use rule_base::RuleBase;

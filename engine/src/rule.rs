@@ -189,6 +189,8 @@ pub(crate) struct FileScope {
     pub(crate) constants: BTreeMap<String, Constant>,
     pub(crate) functions: Shared<Module>,
     pub(crate) function_names: BTreeSet<(String, usize)>,
+    /// What its functions tell, for the reactions that call them.
+    pub(crate) tells: Vec<Telling>,
 }
 
 /// A constant of a file.

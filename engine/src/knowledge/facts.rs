@@ -226,7 +226,7 @@ impl KnowledgeBase {
 
 impl Table {
     /// The number of a new property, unknown for all objects.
-    fn widen(&mut self, property: &str, kind: Type) -> usize {
+    pub(crate) fn widen(&mut self, property: &str, kind: Type) -> usize {
         self.names.push(property.to_owned());
         self.columns.push(Column::unknown(kind, self.len));
         self.columns.len() - 1

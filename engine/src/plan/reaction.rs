@@ -32,6 +32,7 @@ pub(crate) fn reaction(
 ) -> Result<ReactionPlan, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(rule, kinds, symbols);
     let clauses = clause::clauses(&mut lowering);
+    lowering.enter(None);
     for (name, kind, position) in told(rule, reaction, kinds, symbols) {
         if let (Some(holds), Some(kind)) = (kinds.declared(&name), kind)
             && holds != kind
@@ -40,9 +41,8 @@ pub(crate) fn reaction(
             lowering.problem(Code::Type, position, message);
         }
     }
-    let variables: Vec<String> = rule.clauses.iter().map(|clause| clause.variable.clone()).collect();
     let mut names = Names::default();
-    names.block(&reaction.body, &Patterns(&variables));
+    names.block(&reaction.body, &Patterns(&lowering.variables()));
     let statements = vec![Stmt::Block(Box::new(reaction.body.clone()))];
     let body = lowering.fragment(statements, &names, reaction.body.position());
     let (columns, problems) = lowering.finish();
@@ -62,6 +62,7 @@ pub(crate) fn told(
     let kind = |value: &Expr| {
         // What cannot be typed here, since a `let` is in it, is no mistake.
         let mut lowering = Lowering::new(rule, kinds, symbols);
+        lowering.enter(None);
         let lowered = lowering.lower(value);
         lowering.finish().1.is_empty().then_some(lowered).and_then(|lowered| lowered.ok()?.1)
     };

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::action::{ActionPlan, Step};
+use super::clause::ClausePlan;
 use super::fragment::{Fragment, Source};
 use super::node::Node;
 use super::{Effect, Plan};
@@ -19,10 +20,11 @@ pub(crate) struct Uses {
 }
 
 impl Uses {
-    pub(crate) fn of(plan: &Plan) -> Self {
-        let none = || vec![BTreeSet::new(); plan.clauses.len()];
+    /// What clauses look at.
+    pub(crate) fn of_clauses(clauses: &[ClausePlan]) -> Self {
+        let none = || vec![BTreeSet::new(); clauses.len()];
         let mut uses = Self { anywhere: none(), matching: none(), passing: none() };
-        for (number, clause) in plan.clauses.iter().enumerate() {
+        for (number, clause) in clauses.iter().enumerate() {
             let mut found = vec![];
             for join in &clause.joins {
                 found.push((number, join.column));
@@ -38,6 +40,11 @@ impl Uses {
             uses.matching[number].extend(own.map(|(_, column)| *column));
             uses.add(&found);
         }
+        uses
+    }
+
+    pub(crate) fn of(plan: &Plan) -> Self {
+        let mut uses = Self::of_clauses(&plan.clauses);
         let mut found = vec![];
         match &plan.effect {
             Effect::Conclude { then, otherwise } => {

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
+use rhai::{AST, ASTNode, Expr, FnCallExpr, Module, Position, Shared, Stmt, StmtBlock};
 
 use super::names::property_of;
-use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, FileScope, Reaction, Rule, Setting, Telling};
 use crate::suggest::nearest;
 
-pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
+pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
     let (mut tells, mut sets) = (vec![], vec![]);
     for stmt in body.statements() {
         stmt.walk(&mut vec![], &mut |path| {
@@ -18,7 +17,9 @@ pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
                 Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
                     let sides = &assignment.1;
                     if let Some((variable, property, position)) = property_of(&sides.lhs)
-                        && let Some(variable) = clauses.iter().position(|clause| clause.variable == variable)
+                        && let Some(variable) = clauses
+                            .iter()
+                            .position(|clause| clause.quantifier.binds() && clause.variable == variable)
                     {
                         let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
                         sets.push(Setting { variable, property: property.to_owned(), position, value });
@@ -32,7 +33,20 @@ pub(super) fn reaction(body: Box<StmtBlock>, clauses: &[Clause]) -> Action {
             true
         });
     }
-    Action::React(Box::new(Reaction { body: *body, reads: BTreeSet::new(), tells, sets }))
+    Action::React(Box::new(Reaction { body, reads: BTreeSet::new(), tells, sets }))
+}
+
+/// What the functions of a file tell.
+pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
+    let mut tells = vec![];
+    AST::new(Vec::<Stmt>::new(), Shared::clone(functions)).walk(&mut |path| {
+        if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) = path.last()
+        {
+            tells.extend(telling(call));
+        }
+        true
+    });
+    tells
 }
 
 fn telling(call: &FnCallExpr) -> Option<Telling> {
@@ -49,26 +63,29 @@ fn telling(call: &FnCallExpr) -> Option<Telling> {
     Some(Telling { class: class.to_string(), position: *position, properties })
 }
 
-/// Complaints about a call of `tell` or `forget`; `None` if the call is of another function.
-pub(super) fn complaint(
+/// What is wrong with a call of `tell` or `forget`: the rule only concludes, or the number of arguments.
+pub(super) fn call_complaint(
     rule: &Rule,
     (name, arguments, position): (&str, usize, Position),
-) -> Option<Option<Diagnostic>> {
-    let (wanted, example) = match name {
-        "tell" => (2, "tell(\"CLOSURES\", #{ door: report.door })"),
-        "forget" => (1, "forget(report)"),
-        _ => return None,
-    };
+) -> Option<Diagnostic> {
     let place = || rule.file.source.place(position);
     if !matches!(rule.action, Action::React(_)) {
         let message = format!("`{name}` belongs to `on`: rules conclude, and `on` tells");
         let help = "a rule sets a property, as in `door.closed = true`, and takes it back by itself";
-        return Some(Some(Diagnostic::error(Code::Assignment, &place(), message).help(help)));
+        return Some(Diagnostic::error(Code::Assignment, &place(), message).help(help));
     }
-    (arguments == wanted).then_some(None).or_else(|| {
-        let message = format!("`{name}` takes {wanted} values here, as in `{example}`");
-        Some(Some(Diagnostic::error(Code::Syntax, &place(), message)))
-    })
+    let (wanted, what) = if name == "tell" {
+        (2, "a class and what the new object is like, as in `tell(\"CLOSURES\", #{ door: 3 })`")
+    } else {
+        (1, "one object, as in `forget(report)`")
+    };
+    let message = || format!("`{name}` takes {what}");
+    (arguments != wanted).then(|| Diagnostic::error(Code::Syntax, &place(), message()))
+}
+
+/// The engine's own functions for bodies.
+pub(super) fn is_own(name: &str) -> bool {
+    matches!(name, "tell" | "forget")
 }
 
 /// What is wrong with the objects that are forgotten: only what a clause binds can be.
@@ -85,17 +102,24 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
         let problem = Diagnostic::error(Code::Assignment, &place, message);
         let Expr::Variable(variable, ..) = object else { return problems.push(problem) };
         let name = variable.1.as_str();
-        match rule.clauses.iter().find(|clause| clause.variable == name) {
-            Some(clause) if clause.quantifier == Quantifier::None => {
-                problems.push(problem.help(format!("`none {name}` binds nothing: there is no such object")));
-            }
-            Some(_) => {}
-            None => {
-                let variables = rule.clauses.iter().map(|clause| clause.variable.as_str());
-                problems.push(problem.did_you_mean(nearest(name, variables)));
-            }
+        let bound = || rule.clauses.iter().filter(|clause| clause.quantifier.binds());
+        if bound().all(|clause| clause.variable != name) {
+            let variables = bound().map(|clause| clause.variable.as_str());
+            let unbound = rule.clauses.iter().find(|clause| clause.variable == name);
+            problems.push(match unbound {
+                Some(clause) => {
+                    problem.help(format!("`{} {name}` binds no object", clause.quantifier.word()))
+                }
+                None => problem.did_you_mean(nearest(name, variables)),
+            });
         }
     };
+    calls(reaction, &mut look);
+    problems
+}
+
+/// Every call in a body.
+fn calls(reaction: &Reaction, look: &mut dyn FnMut(&FnCallExpr)) {
     for stmt in reaction.body.statements() {
         stmt.walk(&mut vec![], &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) =
@@ -106,12 +130,11 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             true
         });
     }
-    problems
 }
 
 /// `tell` and `forget` are the engine's own.
 pub(super) fn taken_names(file: &FileScope, position: Position) -> Option<Diagnostic> {
-    let taken = file.function_names.iter().find(|(name, _)| matches!(name.as_str(), "tell" | "forget"))?;
+    let taken = file.function_names.iter().find(|(name, _)| is_own(name))?;
     let message = format!("this file has a function `{}` of its own, which hides the engine's", taken.0);
     Some(Diagnostic::error(Code::DuplicateName, &file.source.place(position), message).help("rename it"))
 }

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use rhai::{AST, ASTFlags, Engine, Expr, ParseErrorType, Position, Stmt};
 
+use super::reaction::told_by_functions;
 use super::source::{MAX_FILE_BYTES, SourceFile};
 use super::syntax::{Word, start_file, starts_item};
 use crate::declared::build::{ClassItem, PropertyItem};
@@ -168,7 +169,9 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
     }
     let function_names =
         ast.iter_functions().map(|function| (function.name.to_owned(), function.params.len())).collect();
-    FileScope { source: source.clone(), constants, functions: ast.shared_lib().clone(), function_names }
+    let functions = ast.shared_lib().clone();
+    let tells = told_by_functions(&functions);
+    FileScope { source: source.clone(), constants, functions, function_names, tells }
 }
 
 fn constant(expr: &Expr) -> Option<Constant> {

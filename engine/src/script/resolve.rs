@@ -141,7 +141,13 @@ fn unused(rule: &Rule, names: &Names) -> Vec<Diagnostic> {
     for (index, clause) in rule.clauses.iter().enumerate() {
         let (name, position) = match &clause.number {
             Some((number, position)) if !names.numbers.contains_key(number) => (number, *position),
-            None if clause.quantifier.binds() && clause.link.is_none() && !used(index, clause) => {
+            // That there is one may be all that counts: for `some`, and for rules that react.
+            None if clause.quantifier.binds()
+                && clause.quantifier != Quantifier::Some
+                && clause.link.is_none()
+                && !rule.reacts()
+                && !used(index, clause) =>
+            {
                 (&clause.variable, clause.position)
             }
             _ => continue,
@@ -271,8 +277,8 @@ fn call_complaints(rule: &Rule, names: &Names, known: &BTreeSet<String>) -> Vec<
         if own.contains(&(name.clone(), *count)) || known.contains(name) {
             continue;
         }
-        if let Some(complaint) = reaction::complaint(rule, (name, *count, *position)) {
-            problems.extend(complaint);
+        if reaction::is_own(name) {
+            problems.extend(reaction::call_complaint(rule, (name, *count, *position)));
             continue;
         }
         let candidates = own.iter().map(|(name, _)| name).chain(known).map(String::as_str);

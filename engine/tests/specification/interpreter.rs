@@ -136,6 +136,36 @@ proptest! {
         }
     }
 
+    /// Reactions have an evaluator of their own, for one binding at a time.
+    #[test]
+    fn reactions_match_where_rules_do(number in numbers(), text in texts(), truth in truths(), which in 0..5) {
+        let rows = ROWS.map(|(x, y, s, b)| (
+            x.filter(|_| which != 0), y.filter(|_| which != 1), s.filter(|_| which != 2), b.filter(|_| which != 3),
+        ));
+        let (number, text, truth) = (of_object(&number), of_object(&text), of_object(&truth));
+        let mut script = String::new();
+        for (nth, condition) in
+            [truth, format!("{number} > t.x"), format!("{text} >= \"b\""), format!("known({number}) || {text} == t.s")]
+                .iter()
+                .enumerate()
+        {
+            write!(script, "rule \"{nth}\" each t in T where {condition} then {{ t.c{nth} = true; }}
+                on \"on {nth}\" each t in T where {condition} then {{ }}\n").unwrap();
+        }
+        let rules = rules(&script);
+        let (mut base, _) = concluded(&script, [class(&rows)]);
+        let agenda = base.agenda(&rules);
+        for nth in 0..4 {
+            let name = format!("on {nth}");
+            let activated = agenda.iter().filter(|activation| activation.rule == name);
+            let activated: Vec<&str> = activated.map(|activation| activation.witnesses[0].key.as_str()).collect();
+            let concluded = values(&base, &format!("c{nth}"));
+            let concluded = (1..).zip(concluded).filter(|(_, value)| value.is_some());
+            let concluded: Vec<String> = concluded.map(|(row, _): (u32, _)| row.to_string()).collect();
+            prop_assert_eq!(activated, concluded, "{}", script);
+        }
+    }
+
     #[test]
     fn an_action_is_compiled_as_it_is_interpreted(
         a in numbers(), b in numbers(), c in truths(), d in truths()

@@ -123,7 +123,7 @@ fn action(
     }
     if let Some(then) = block(Slot::Then) {
         if item.word() == Word::On {
-            return Some(reaction(then, clauses));
+            return Some(reaction(*then, clauses));
         }
         return Some(Action::Conclude { then, otherwise: block(Slot::Else) });
     }

@@ -1,0 +1,203 @@
+//! Runs the body of a reaction, and prepares the classes that bodies tell.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use rhai::{Dynamic, Scope};
+
+use super::KnowledgeBase;
+use super::react::Run;
+use super::undo::Edit;
+use crate::agenda::Binding;
+use crate::agenda::script::{dynamic, plain};
+use crate::agenda::world::Facts;
+use crate::class::Class;
+use crate::column::Column;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::plan::fragment::{Fragment, Source};
+use crate::plan::reaction::told;
+use crate::plan::{Key, Kind, Kinds};
+use crate::rule::{PropertyName, Rule};
+use crate::rule_base::RuleBase;
+use crate::script::failure::failure;
+use crate::script::interpreter::start_run;
+use crate::script::reactor::{Object, Write, reactor, with_run};
+use crate::told::NamesTold;
+use crate::value::{Type, Value};
+
+impl Facts for KnowledgeBase {
+    fn has(&self, class: &str) -> bool {
+        self.held.contains_key(class)
+    }
+
+    fn count(&self, class: &str) -> usize {
+        self.len(class).unwrap_or(0)
+    }
+
+    fn column(&self, name: &PropertyName) -> Option<&Column> {
+        Self::column(self, name)
+    }
+}
+
+/// The properties that there are, and those that rules may tell some day.
+pub(crate) struct Tellable<'k> {
+    pub(crate) base: &'k KnowledgeBase,
+    pub(crate) told: &'k NamesTold<'k>,
+}
+
+impl Kinds for Tellable<'_> {
+    fn kind(&self, name: &PropertyName) -> Kind {
+        match self.base.view(name, None) {
+            Some(column) => Kind::Holds(Some(column.kind())),
+            None if self.told.properties.contains_key(name) => Kind::Holds(None),
+            None => Kind::Missing,
+        }
+    }
+
+    fn declared(&self, name: &PropertyName) -> Option<Type> {
+        self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.base.held.get(class).map_or(Key::Unsaid, |held| {
+            let table = &held.table;
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
+    }
+
+    fn properties(&self, class: &str) -> Vec<String> {
+        self.base.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+    }
+}
+
+impl KnowledgeBase {
+    /// Makes the classes that bodies tell, and the properties whose type can be seen, so that rules that read them
+    /// do not wait.
+    pub(super) fn prepare(&mut self, rules: &RuleBase) {
+        let names = NamesTold::of(&rules.rules);
+        for class in names.classes.keys().filter(|class| !self.has(class)).copied().collect::<Vec<_>>() {
+            // A class without properties is always right.
+            self.assert(Class::new(class, &[])).unwrap_or_default();
+        }
+        let missing = |base: &Self| {
+            names.properties.keys().any(|name| base.has(&name.class) && base.view(name, None).is_none())
+        };
+        if !missing(self) {
+            return;
+        }
+        for rule in &rules.rules {
+            let Some(reaction) = rule.reaction() else { continue };
+            let kinds = Tellable { base: self, told: &names };
+            for (name, kind, _) in told(rule, reaction, &kinds, &self.symbols) {
+                let Some(kind) = kind.filter(|_| self.view(&name, None).is_none()) else { continue };
+                if let Some(held) = self.held.get_mut(&name.class) {
+                    held.table.widen(&name.property, kind);
+                    self.network.recheck = true;
+                }
+            }
+        }
+    }
+
+    /// Runs a body; what it asks for, or why it failed.
+    pub(super) fn body(
+        &self,
+        number: usize,
+        binding: &Binding,
+        rows: &[Option<usize>],
+        run: &Run,
+    ) -> Result<Vec<Edit>, Box<Diagnostic>> {
+        let rule = &run.rules.rules[number];
+        let outside = self.outside(run);
+        let Some((body, columns, bound)) = self.agenda.body(&outside, number, binding) else {
+            return Ok(vec![]);
+        };
+        let known = self.known(rule, body, columns, &bound.ids);
+        let mut scope = Scope::new();
+        for (name, constant) in &body.constants {
+            scope.push_dynamic(name.as_str(), constant.clone());
+        }
+        for (name, clause) in &body.numbers {
+            let number = bound.numbers[*clause];
+            scope.push_dynamic(name.as_str(), if number.is_nan() { Dynamic::UNIT } else { number.into() });
+        }
+        let bound = rule.clauses.iter().enumerate().filter(|(_, clause)| clause.quantifier.binds());
+        for (variable, clause) in bound {
+            scope.push_dynamic(clause.variable.as_str(), Dynamic::from(Object(variable)));
+        }
+        start_run(run.until.min(Instant::now() + self.limits.rule));
+        let (done, writes) = with_run(known, || {
+            let evaluate = || reactor().eval_ast_with_scope::<Dynamic>(&mut scope, &body.script);
+            catch_unwind(AssertUnwindSafe(evaluate))
+        });
+        match done {
+            Ok(Ok(_)) => {}
+            Ok(Err(error)) => return Err(failure(rule, body.position, &error).0.into()),
+            Err(_) => {
+                let message = format!("rule \"{}\" failed inside the engine", rule.name);
+                let place = rule.file.source.place(rule.position);
+                return Err(Diagnostic::error(Code::Panic, &place, message).into());
+            }
+        }
+        let edits = writes.into_iter().filter_map(|write| edit(rule, body, rows, write).transpose());
+        edits.collect()
+    }
+
+    /// For each variable the known properties that the body looks at.
+    fn known(
+        &self,
+        rule: &Rule,
+        body: &Fragment,
+        columns: &[usize],
+        ids: &[u32],
+    ) -> Vec<BTreeMap<String, Dynamic>> {
+        let symbols = self.symbols.borrow();
+        let mut known = vec![BTreeMap::new(); rule.clauses.len()];
+        for object in body.objects.values() {
+            for (property, source) in &object.properties {
+                let Source::Column(column) = source else { continue };
+                let cell = self.agenda.world.cell(columns[*column], ids[object.variable]);
+                let value = dynamic(cell, &symbols).map(|value| (property.clone(), value));
+                known[object.variable].extend(value);
+            }
+        }
+        known
+    }
+}
+
+/// What a body asked for, with objects as rows; nothing where the object is gone.
+fn edit(
+    rule: &Rule,
+    body: &Fragment,
+    rows: &[Option<usize>],
+    write: Write,
+) -> Result<Option<Edit>, Box<Diagnostic>> {
+    let value = |property: &str, value: &Dynamic| -> Result<Option<Value>, Box<Diagnostic>> {
+        plain(value).map_err(|kind| {
+            let place = rule.file.source.place(body.position);
+            let message = format!("rule \"{}\": `{property}` cannot hold a value of type {kind}", rule.name);
+            let problem = Diagnostic::error(Code::Evaluation, &place, message);
+            problem.help("nothing of this action was done").into()
+        })
+    };
+    let object = |variable: usize| {
+        let row = rows.get(variable).copied().flatten()?;
+        Some((rule.clauses[variable].class.clone(), row))
+    };
+    Ok(match write {
+        Write::Value { variable, property, value: given } => {
+            let value = value(&property, &given)?;
+            object(variable).map(|(class, row)| Edit::Value { class, row, property, value })
+        }
+        Write::Gone { variable } => object(variable).map(|(class, row)| Edit::Gone { class, row }),
+        Write::Object { class, properties } => {
+            let mut known = BTreeMap::new();
+            for (property, given) in properties {
+                if let Some(value) = value(&property, &given)? {
+                    known.insert(property.to_string(), value);
+                }
+            }
+            Some(Edit::Object { class, properties: known })
+        }
+    })
+}

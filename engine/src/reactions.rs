@@ -1,0 +1,87 @@
+//! What a run of reactions reports to the host.
+
+use std::collections::BTreeMap;
+
+use crate::changes::Changes;
+use crate::conclusions::Witness;
+use crate::diagnostic::Diagnostic;
+use crate::value::Value;
+
+/// The outcome of a run of reactions.
+#[derive(Clone, Debug, Default, serde::Serialize)]
+pub struct Reactions {
+    /// What was carried out, in that order.
+    pub firings: Vec<Firing>,
+    /// What is different now from after the last update, told and concluded.
+    pub changes: Changes,
+    /// What failed, and what the rules' author should look at.
+    #[serde(skip)]
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Reactions {
+    /// All that was told, in order: what [`replay`](crate::KnowledgeBase::replay) tells again.
+    pub fn log(&self) -> Vec<Told> {
+        self.firings.iter().flat_map(|firing| firing.told.iter().cloned()).collect()
+    }
+}
+
+/// A rule that was carried out for the objects that its clauses bound.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Firing {
+    /// The number of the state that it left: one more than that before.
+    pub generation: u64,
+    /// The rule.
+    pub rule: String,
+    /// Its version.
+    pub version: String,
+    /// The objects, as they were called then.
+    pub witnesses: Vec<Witness>,
+    /// What it told.
+    pub told: Vec<Told>,
+}
+
+/// A rule that may be carried out for the objects that its clauses bind.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Activation {
+    /// The rule.
+    pub rule: String,
+    /// Its version.
+    pub version: String,
+    /// Its priority.
+    pub priority: i64,
+    /// The objects.
+    pub witnesses: Vec<Witness>,
+}
+
+/// Something that a rule told. Keys are those at that moment; an object of a class without a key is called by
+/// its row from 1.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Told {
+    /// A new object.
+    Object {
+        /// The class.
+        class: String,
+        /// Its properties that are known.
+        properties: BTreeMap<String, Value>,
+    },
+    /// A value of an object; `None` takes back what was told.
+    Value {
+        /// The class.
+        class: String,
+        /// The object's key.
+        key: String,
+        /// The property.
+        property: String,
+        /// The value.
+        value: Option<Value>,
+    },
+    /// An object that is forgotten.
+    Gone {
+        /// The class.
+        class: String,
+        /// The object's key.
+        key: String,
+    },
+}
