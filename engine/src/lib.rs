@@ -173,6 +173,11 @@
 //! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
 //! | never | `eval`, `import`, `sleep`, printing |
 
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod agenda;
 mod changes;
 mod check;
