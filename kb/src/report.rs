@@ -6,7 +6,7 @@ use adit_db::Tx;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::tree::{Start, TreeRow};
-use adit_engine::Conclusions;
+use adit_engine::{Conclusions, Dominated};
 use adit_planners::read::MapReport;
 use serde::Serialize;
 
@@ -226,6 +226,8 @@ pub struct Report {
     pub notes: Vec<String>,
     /// What routes need and no rule gave.
     pub gaps: Vec<String>,
+    /// Rows of tables that no rule can ever choose.
+    pub dominated: Vec<Dominated>,
 }
 
 impl Report {
@@ -233,7 +235,7 @@ impl Report {
         before: &Before,
         graph: &SiteGraph,
         routes: Routes,
-        derived: Derived,
+        mut derived: Derived,
         inputs: &Inputs,
         generation: u64,
     ) -> Self {
@@ -262,6 +264,7 @@ impl Report {
             map: inputs.map_report.clone(),
             notes: inputs.notes.clone(),
             gaps: gaps(&derived.conclusions, graph),
+            dominated: derived.knowledge.dominated(&inputs.rules),
         }
     }
 

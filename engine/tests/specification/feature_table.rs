@@ -46,10 +46,14 @@ fn every_yes_names_a_test_that_is_there() {
         assert!(answer.starts_with("yes") || answer.starts_with("left out: "), "{feature}: {answer}");
         for (file, test) in tests {
             let text = fs::read_to_string(source(file)).unwrap_or_else(|_| panic!("{feature}: {file}"));
-            let (before, _) =
-                text.split_once(&format!("fn {test}(")).unwrap_or_else(|| panic!("{feature}: {file}::{test}"));
+            let (before, _) = text
+                .split_once(&format!("fn {test}("))
+                .unwrap_or_else(|| panic!("{feature}: {file}::{test}"));
             let attribute = before.trim_end().lines().last().unwrap_or_default().trim();
-            assert!(attribute.starts_with("#["), "{feature}: {file}::{test} is no test but follows `{attribute}`");
+            assert!(
+                attribute.starts_with("#["),
+                "{feature}: {file}::{test} is no test but follows `{attribute}`"
+            );
         }
     }
 }

@@ -6,6 +6,7 @@
 mod asking;
 mod conflicts;
 mod declarations;
+mod dominated;
 mod doors;
 mod explanation;
 mod feature_table;
@@ -17,6 +18,7 @@ mod joins;
 mod limits;
 mod manners;
 mod order;
+mod order_of_edits;
 mod priority;
 mod quantifiers;
 mod reaction_limits;
