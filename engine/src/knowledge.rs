@@ -85,17 +85,13 @@ impl KnowledgeBase {
 
     /// Takes a table as what is told of its class.
     fn hold(&mut self, table: Table) {
-        match self.held.get_mut(&table.name) {
-            Some(held) => {
-                let difference = difference::difference(&held.table, &table);
-                held.pending.join(difference);
-                self.network.recheck |= held.pending.anew;
-                held.table = table;
-            }
-            None => {
-                self.network.recheck = true;
-                self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
-            }
+        if let Some(held) = self.held.get_mut(&table.name) {
+            held.pending.join(difference::difference(&held.table, &table));
+            self.network.recheck |= held.pending.anew;
+            held.table = table;
+        } else {
+            self.network.recheck = true;
+            self.held.insert(table.name.clone(), Held { table, pending: Pending::anew() });
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A host asserts classes of objects ([`Class`], [`KnowledgeBase::assert`]), compiles rule files
 //! ([`RuleBase::compile`]), lets the rules conclude ([`KnowledgeBase::conclude`]), reads values back, and asks why
-//! ([`KnowledgeBase::why`]).
+//! ([`KnowledgeBase::why`]), or why not ([`KnowledgeBase::why_not`]). Tests of rules are data ([`RuleTests`]).
 //!
 //! ```
 //! use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile, Value};

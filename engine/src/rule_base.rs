@@ -32,6 +32,9 @@ pub struct RuleBase {
     pub(crate) warnings: Vec<Diagnostic>,
 }
 
+/// How many rule bases were compiled: the next one's number.
+static COMPILED: AtomicU64 = AtomicU64::new(1);
+
 impl RuleBase {
     /// Reads rule files. All files are reported; after an error of syntax a file is read on from its next item, for
     /// more such errors only.
@@ -59,7 +62,6 @@ impl RuleBase {
         }
         rules.extend(defaults(&declared));
         let order = order(&rules, &declared).map_err(Diagnostics)?;
-        static COMPILED: AtomicU64 = AtomicU64::new(1);
         Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
     }
 

@@ -1,6 +1,7 @@
 //! Which objects of its first clause a rule has to look at again after a change: never too few, and as few as can be
 //! told without evaluating it.
 
+use std::cmp::Ordering;
 use std::collections::HashSet;
 
 use super::KnowledgeBase;
@@ -207,7 +208,9 @@ fn resting_on(memory: &Memory, number: usize, rows: &[u32], size: usize) -> Dirt
         [row] => dirty.extend(witnesses.filter(|(witness, _)| *witness == row).map(|(_, driver)| driver)),
         rows => {
             let mut among = vec![false; size];
-            rows.iter().for_each(|&row| among[row as usize] = true);
+            for &row in rows {
+                among[row as usize] = true;
+            }
             let hit = |witness: u32| among.get(witness as usize) == Some(&true);
             dirty.extend(witnesses.filter(|(witness, _)| hit(**witness)).map(|(_, driver)| driver));
         }
@@ -239,9 +242,12 @@ fn reached(
             let frame = one(number, memory.witnesses.len(), &all);
             let values = machine.evaluate(by, batch(&frame)).numbers();
             let value = |row: u32| values.at(row as usize) + 0.0;
-            let before = |a: u32, b: u32| match quantifier {
-                Quantifier::Most => value(a) > value(b) || (value(a) == value(b) && a <= b),
-                _ => value(a) < value(b) || (value(a) == value(b) && a <= b),
+            let before = |a: u32, b: u32| match (quantifier, value(a).partial_cmp(&value(b))) {
+                (Quantifier::Most, Some(Ordering::Greater)) | (Quantifier::Least, Some(Ordering::Less)) => {
+                    true
+                }
+                (_, Some(Ordering::Equal)) => a <= b,
+                _ => false,
             };
             // Unknown values are no candidates, but are counted as such.
             let wins = |a: u32, b: u32| before(a, b) || value(a).is_nan() || value(b).is_nan();
@@ -319,9 +325,8 @@ fn one(variable: usize, clauses: usize, rows: &[u32]) -> Frame {
 fn bound(memory: &Memory, number: usize, drivers: &[u32]) -> Frame {
     let mut rows = vec![Rows::Unbound; memory.witnesses.len()];
     rows[0] = Rows::Each(drivers.to_vec());
-    for clause in 1..number {
-        let column = &memory.witnesses[clause];
-        rows[clause] = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
+    for (rows, column) in rows.iter_mut().zip(&memory.witnesses).take(number).skip(1) {
+        *rows = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
     }
     Frame { len: drivers.len(), rows }
 }

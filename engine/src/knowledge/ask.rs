@@ -93,17 +93,14 @@ impl KnowledgeBase {
             (PropertyName::new(class, *property), rows)
         });
         let asked = self.asked(rules, wanted.collect(), run.until);
-        if !asked.is_empty() {
-            let mut second = Run::new(rules, run.until);
-            second.asked = Some(asked);
-            self.advance_on(&mut second);
-            run.follow(second);
+        if asked.is_empty() {
+            return self.noted(&run);
         }
-        let changes = self.changes(&run);
-        if self.agenda.is_used() {
-            self.agenda.note(&changes);
-        }
-        changes
+        let mut second = Run::new(rules, run.until);
+        second.asked = Some(asked);
+        self.advance_on(&mut second);
+        run.follow(second);
+        self.noted(&run)
     }
 
     /// From the values that are wanted back to the objects for which rules have to be evaluated.
@@ -178,7 +175,7 @@ impl KnowledgeBase {
         let keys = clause.joins.iter().map(|join| join.key.variables() | 1);
         let Dirty::Rows(rows) = drivers else { return Dirty::All };
         let decided = !clause.joins.is_empty()
-            && !clause.by.as_ref().is_some_and(|_| !clause.by_own)
+            && (clause.by.is_none() || clause.by_own)
             && keys.fold(0, |all, key| all | key) == 1
             && planned.uses.matching[number].iter().all(|column| told(number, column))
             && planned.uses.anywhere[0].iter().all(|column| told(0, column));

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use super::ask::Asked;
 use super::dirty::Dirty;
+use super::evaluate::below;
 use super::pending::Pending;
 use super::{KnowledgeBase, memory::Memory};
 use crate::changes::{Changes, ClassChanges};
@@ -81,8 +82,7 @@ impl KnowledgeBase {
         let evaluated: Vec<String> =
             run.evaluated.iter().map(|&(rule, _)| rules.rules[rule].name.clone()).collect();
         if self.agenda.is_used() {
-            let changes = self.changes(&run);
-            self.agenda.note(&changes);
+            self.noted(&run);
         }
         Conclusions { evaluated, ..self.report(rules) }
     }
@@ -96,9 +96,16 @@ impl KnowledgeBase {
 
     /// Makes everything right, and passes on what changed: to the agenda, and to the host's next question.
     pub(super) fn follow(&mut self, rules: &RuleBase) {
-        let changes = self.renew(rules);
-        self.agenda.note(&changes);
+        let run = self.infer(rules);
+        let changes = self.noted(&run);
         self.unreported.absorb(changes);
+    }
+
+    /// What an inference changed; the agenda takes note of it.
+    pub(super) fn noted(&mut self, run: &Run) -> Changes {
+        let changes = self.changes(run);
+        self.agenda.note(&changes);
+        changes
     }
 
     /// Makes everything right, and tells what changed since the last inference.
@@ -217,7 +224,11 @@ impl KnowledgeBase {
             None if memory.unasked > 0 => dirty.extend(memory.waiting()),
             None => {}
         }
-        let dirty = dirty.settle(memory.statuses.len());
+        let dirty = match dirty.settle(memory.statuses.len()) {
+            // Taking out many costs more than doing all.
+            Dirty::Rows(rows) if memory.unasked == 0 && rows.len() * 4 > memory.statuses.len() => Dirty::All,
+            dirty => dirty,
+        };
         if !dirty.is_none() || memory.statuses.is_empty() {
             let rows = match &dirty {
                 Dirty::Rows(rows) => rows.len(),
@@ -272,7 +283,9 @@ impl KnowledgeBase {
             }
             let told = || self.held[&name.class].table.column(&name.property).is_some();
             let there = match self.derived.get(name) {
-                Some(derived) => derived.complete && !derived.stages.is_empty(),
+                Some(derived) => {
+                    derived.complete[derived.stage(below(rule, name))] && !derived.stages.is_empty()
+                }
                 None => told(),
             };
             if !there {

@@ -14,6 +14,7 @@ pub(crate) struct Writer {
 
 /// A property with what rules make of it, stage by stage: concluded first, then revised level by level.
 #[derive(Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is a fact by itself, none excludes another
 pub(crate) struct Derived {
     /// The rules that conclude it: the greatest priority first, then in the order of the rule base.
     pub(crate) writers: Vec<Writer>,
@@ -31,8 +32,8 @@ pub(crate) struct Derived {
     pub(crate) fresh: bool,
     /// Rows on which rules disagree.
     pub(crate) disputes: BTreeSet<u32>,
-    /// Whether every rule that gives it was evaluated.
-    pub(crate) complete: bool,
+    /// For each stage whether every rule up to it was evaluated.
+    pub(crate) complete: Vec<bool>,
 }
 
 impl Derived {

@@ -127,8 +127,12 @@ impl Memory {
             .filter(|&(row, _)| (row as usize) < rows)
             .collect();
         let mut starts = vec![0_u32; rows + 1];
-        set.iter().for_each(|&(row, _)| starts[row as usize + 1] += 1);
-        (0..rows).for_each(|row| starts[row + 1] += starts[row]);
+        for &(row, _) in &set {
+            starts[row as usize + 1] += 1;
+        }
+        for row in 0..rows {
+            starts[row + 1] += starts[row];
+        }
         let mut next = starts.clone();
         let mut firings = vec![0; set.len()];
         for (row, firing) in set {
@@ -162,7 +166,7 @@ impl Memory {
                 self.replace_all(output);
                 vec![Dirty::All; self.given.len()]
             }
-            (Shape::Single, drivers) => self.replace_some(&drivers.rows(self.statuses.len()), output),
+            (Shape::Single, drivers) => self.replace_some(&drivers.rows(self.statuses.len()), &output),
             (Shape::Many, Dirty::Rows(rows)) => self.splice(rows, output),
             _ => {
                 self.ways = output.statuses;
@@ -262,7 +266,7 @@ impl Memory {
         }
     }
 
-    fn replace_some(&mut self, rows: &[u32], output: Output) -> Vec<Dirty> {
+    fn replace_some(&mut self, rows: &[u32], output: &Output) -> Vec<Dirty> {
         self.make_room();
         let variables: Vec<usize> = self.given.iter().map(|given| given.variable).collect();
         let state = |memory: &Self, at: usize, row: u32| {
@@ -334,7 +338,9 @@ impl Memory {
                 .chain(more.written.iter().copied())
                 .collect();
             let mut values = given.values.empty();
-            kept.iter().for_each(|&firing| values.push(given.values.cell(firing)));
+            for &firing in &kept {
+                values.push(given.values.cell(firing));
+            }
             values.append(&more.values);
             given.values = values;
         }
@@ -356,7 +362,9 @@ impl Memory {
         for given in &mut self.given {
             given.written = order.iter().map(|&firing| given.written[firing]).collect();
             let mut values = given.values.empty();
-            order.iter().for_each(|&firing| values.push(given.values.cell(firing)));
+            for &firing in &order {
+                values.push(given.values.cell(firing));
+            }
             given.values = values;
         }
     }

@@ -65,9 +65,7 @@ impl KnowledgeBase {
         let told = held.table.column(&name.property);
         let done = |&rule: &usize| self.network.nodes[rule].needs.is_empty();
         let writers: Vec<usize> = derived.writers.iter().map(|writer| writer.rule).collect();
-        let revisers = derived.levels.iter().flat_map(|(_, rules)| rules);
-        let concluded = writers.iter().all(done);
-        derived.complete = concluded && revisers.clone().all(done);
+        derived.complete[0] = writers.iter().all(done);
         if told.is_none() && !writers.iter().any(done) {
             if !derived.stages.is_empty() {
                 run.changed(name, (0, derived.stages.len()), &Dirty::All);

@@ -165,18 +165,20 @@ fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<crate::column::Colu
         }
     }
     writers.sort_by_key(|writer| (std::cmp::Reverse(writer.priority), writer.rule));
-    levels.values_mut().for_each(|rules| rules.sort_by(|&a, &b| base.rules[a].name.cmp(&base.rules[b].name)));
+    for rules in levels.values_mut() {
+        rules.sort_by(|&a, &b| base.rules[a].name.cmp(&base.rules[b].name));
+    }
     let levels: Vec<(i64, Vec<usize>)> = levels.into_iter().collect();
     let stages = if stages.len() == levels.len() + 1 { stages } else { vec![] };
     Derived {
         writers,
         pending: vec![Dirty::All; levels.len() + 1],
+        complete: vec![false; levels.len() + 1],
         levels,
         hypothesis: base.hypotheses().contains(name),
         stages,
         rules_first: base.declared.rules_first(name),
         fresh: false,
         disputes: BTreeSet::new(),
-        complete: false,
     }
 }

@@ -37,7 +37,9 @@ impl Pending {
         let added = std::mem::take(&mut self.added);
         let known = moved.len() - added.len();
         let mut first = self.moved.take().unwrap_or_else(|| (0..known as u32).map(Some).collect());
-        first.iter_mut().for_each(|row| *row = row.and_then(to));
+        for row in &mut first {
+            *row = row.and_then(to);
+        }
         self.moved = Some(first);
         self.added = added.into_iter().filter_map(to).collect();
         for rows in self.changed.values_mut() {

@@ -45,7 +45,7 @@ impl KnowledgeBase {
                 .diagnostics
                 .extend(conflicts.first().and_then(|first| disagreement(base, first, conflicts.len())));
             report.conflicts.extend(conflicts);
-            if derived.complete {
+            if derived.complete.last() == Some(&true) {
                 report.gaps.extend(self.gap(base, name, derived));
             }
         }

@@ -15,6 +15,10 @@ impl KnowledgeBase {
     pub(super) fn revise(&mut self, run: &mut Run, name: &PropertyName, level: i64) {
         let Some(mut derived) = self.derived.remove(name) else { return };
         let stage = derived.stage(Some(level)) + 1;
+        if run.recheck {
+            let done = |&rule: &usize| self.network.nodes[rule].needs.is_empty();
+            derived.complete[stage] = derived.complete[stage - 1] && derived.levels[stage - 1].1.iter().all(done);
+        }
         if derived.stages.is_empty() || derived.pending[stage].is_none() {
             self.derived.insert(name.clone(), derived);
             return;

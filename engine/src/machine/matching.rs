@@ -261,7 +261,9 @@ fn narrow(passes: &mut [u64], comparison: Comparison, candidate: f64, bindings: 
     match comparison {
         Comparison::Equal => with(passes, bindings, |value| candidate == value),
         // Nothing is unequal to the unknown.
-        Comparison::Unequal => with(passes, bindings, |value| (candidate < value) | (candidate > value)),
+        Comparison::Unequal => with(passes, bindings, |value: f64| {
+            candidate.partial_cmp(&value).is_some_and(std::cmp::Ordering::is_ne)
+        }),
         Comparison::Less => with(passes, bindings, |value| candidate < value),
         Comparison::AtMost => with(passes, bindings, |value| candidate <= value),
         Comparison::Greater => with(passes, bindings, |value| candidate > value),

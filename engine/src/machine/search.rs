@@ -355,16 +355,13 @@ impl<'s> Search<'s> {
                 continue;
             }
             let of = |target: &&Target| target.variable == given.variable && target.name == given.name;
-            match action.targets.iter().find(of) {
-                Some(target) => {
-                    given.values.extend(&values[target.slot], frame.len);
-                    written[target.slot].extend(&mut given.written, frame.len);
-                }
-                None => {
-                    let len = given.values.len() + frame.len;
-                    given.values.resize(len);
-                    given.written.resize(len, false);
-                }
+            if let Some(target) = action.targets.iter().find(of) {
+                given.values.extend(&values[target.slot], frame.len);
+                written[target.slot].extend(&mut given.written, frame.len);
+            } else {
+                let len = given.values.len() + frame.len;
+                given.values.resize(len);
+                given.written.resize(len, false);
             }
         }
         Ok(())

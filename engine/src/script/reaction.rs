@@ -114,6 +114,12 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             });
         }
     };
+    calls(reaction, &mut look);
+    problems
+}
+
+/// Every call in a body.
+fn calls(reaction: &Reaction, look: &mut dyn FnMut(&FnCallExpr)) {
     for stmt in reaction.body.statements() {
         stmt.walk(&mut vec![], &mut |path| {
             if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) =
@@ -124,7 +130,6 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             true
         });
     }
-    problems
 }
 
 /// `tell` and `forget` are the engine's own.

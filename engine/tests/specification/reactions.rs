@@ -382,7 +382,7 @@ fn names_of_what_is_told_are_checked() {
     "#;
     assert_eq!(said(right), []);
     assert_eq!(
-        said(r#"on "a" each lamp in LAMPS then { tell("LAMP", #{ lamp: "d" }); }"#),
+        said(r#"on "a" each lamp in LAMPS then { tell("LAMP", #{ lamp: lamp.lamp }); }"#),
         [(Code::UnknownClass, "there is no class LAMP / did you mean `LAMPS`?".to_owned())]
     );
     assert_eq!(
@@ -431,4 +431,16 @@ fn reactions_look_through_links_and_at_classes_by_condition() {
     assert_eq!(fired(&base.react(&rules)), [("switch on", "a"), ("dark", "hall")]);
     base.add("ROOMS", &[("room", "cellar".into()), ("light", 0.0.into())]).unwrap();
     assert_eq!(fired(&base.react(&rules)), [("switch on", "c"), ("dark", "cellar")]);
+}
+
+#[test]
+fn asking_for_a_value_does_not_hide_a_change_from_the_agenda() {
+    let rules = rules(r#"on "seen" each lamp in LAMPS where lamp.level > 1 then { lamp.note = "seen"; }"#);
+    let mut base = lamps([0.0, 0.0, 0.0]);
+    base.react(&rules);
+    set(&mut base, "a", 5.0);
+    base.ask_rows(&rules, "LAMPS", &[1], &["level"]);
+    set(&mut base, "b", 5.0);
+    base.conclude(&rules);
+    assert_eq!(fired(&base.react(&rules)), [("seen", "a"), ("seen", "b")]);
 }

@@ -1,8 +1,8 @@
 //! Revisions: level by level, each with one operator.
 
-use adit_engine::{Class, Code, RuleBase, SourceFile};
+use adit_engine::{Class, Code, KnowledgeBase, RuleBase, SourceFile};
 
-use crate::support::{concluded, number, things};
+use crate::support::{concluded, number, rules, things};
 
 fn spots(order: [usize; 3]) -> Class {
     let (names, at) = (["p", "q", "r"], [1.0, 1.0, 2.0]);
@@ -91,4 +91,25 @@ fn taking_a_revision_away_takes_its_effect_away() {
     assert_eq!(number(&base, "THINGS", "1", "cost"), Some(6.0));
     base.conclude(&crate::support::rules(COST));
     assert_eq!(number(&base, "THINGS", "1", "cost"), Some(2.0));
+}
+
+/// Found by a journey: a revision waited for itself when its class came after a first inference.
+#[test]
+fn a_revision_that_had_to_wait_goes_on_when_its_class_comes() {
+    let text = r#"
+        rule "hard" each r in ROOMS some s in STATES where s.state == r.state then { r.hardness = s.hardness; }
+        revise "wet" each r in ROOMS some w in WET where w.x < r.x set r.hardness by * 1.5 level 10
+        rule "reads" each r in ROOMS where r.hardness > 1 then { r.hard = true; }"#;
+    let states = Class::new("STATES", &["state"]).texts("state", [Some("a")]).numbers("hardness", [Some(2.0)]);
+    let wet = Class::new("WET", &[]).numbers("x", [Some(1.0)]);
+    let rooms = Class::new("ROOMS", &[]).texts("state", [Some("a")]).numbers("x", [Some(5.0)]);
+    let rules = rules(text);
+    let mut base = KnowledgeBase::new();
+    base.assert(states).unwrap();
+    base.assert(wet).unwrap();
+    assert_eq!(base.conclude(&rules).waiting.len(), 3);
+    base.assert(rooms).unwrap();
+    assert!(base.conclude(&rules).waiting.is_empty());
+    assert_eq!(base.numbers("ROOMS", "hardness"), Some(vec![Some(3.0)]));
+    assert_eq!(base.truths("ROOMS", "hard"), Some(vec![Some(true)]));
 }
