@@ -17,7 +17,8 @@ impl KnowledgeBase {
         let stage = derived.stage(Some(level)) + 1;
         if run.recheck {
             let done = |&rule: &usize| self.network.nodes[rule].needs.is_empty();
-            derived.complete[stage] = derived.complete[stage - 1] && derived.levels[stage - 1].1.iter().all(done);
+            derived.complete[stage] =
+                derived.complete[stage - 1] && derived.levels[stage - 1].1.iter().all(done);
         }
         if derived.stages.is_empty() || derived.pending[stage].is_none() {
             self.derived.insert(name.clone(), derived);

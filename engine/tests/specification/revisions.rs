@@ -100,7 +100,8 @@ fn a_revision_that_had_to_wait_goes_on_when_its_class_comes() {
         rule "hard" each r in ROOMS some s in STATES where s.state == r.state then { r.hardness = s.hardness; }
         revise "wet" each r in ROOMS some w in WET where w.x < r.x set r.hardness by * 1.5 level 10
         rule "reads" each r in ROOMS where r.hardness > 1 then { r.hard = true; }"#;
-    let states = Class::new("STATES", &["state"]).texts("state", [Some("a")]).numbers("hardness", [Some(2.0)]);
+    let states =
+        Class::new("STATES", &["state"]).texts("state", [Some("a")]).numbers("hardness", [Some(2.0)]);
     let wet = Class::new("WET", &[]).numbers("x", [Some(1.0)]);
     let rooms = Class::new("ROOMS", &[]).texts("state", [Some("a")]).numbers("x", [Some(5.0)]);
     let rules = rules(text);
