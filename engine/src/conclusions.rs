@@ -67,6 +67,20 @@ pub enum Reason {
         /// The clause's variable.
         variable: String,
     },
+    /// A `none` of the rule was not met: there is such an object.
+    Found {
+        /// The rule.
+        rule: String,
+        /// The clause's variable.
+        variable: String,
+    },
+    /// An `all` of the rule was not met: an object that passes lacks what it asks.
+    NotAll {
+        /// The rule.
+        rule: String,
+        /// The clause's variable.
+        variable: String,
+    },
     /// A clause of the rule was not met, and for some candidates that could not be decided.
     Undecided {
         /// The rule.
@@ -88,8 +102,14 @@ impl fmt::Display for Reason {
         match self {
             Self::Conflict => out.write_str("rules disagree"),
             Self::Unmet { rule, variable } => write!(out, "rule \"{rule}\" found no `{variable}`"),
+            Self::Found { rule, variable } => {
+                write!(out, "rule \"{rule}\" found a `{variable}`, and needs that there is none")
+            }
+            Self::NotAll { rule, variable } => {
+                write!(out, "rule \"{rule}\" found a `{variable}` that has not what it needs of all")
+            }
             Self::Undecided { rule, variable } => {
-                write!(out, "rule \"{rule}\" could not decide which is `{variable}`: something is unknown")
+                write!(out, "rule \"{rule}\" could not decide about `{variable}`: something is unknown")
             }
             Self::Unknown { rule } => write!(out, "rule \"{rule}\" computed with something unknown"),
             Self::NoRule => out.write_str("no rule applied"),

@@ -7,6 +7,7 @@ mod conclude;
 mod derived;
 mod difference;
 mod dirty;
+pub(crate) mod dominated;
 mod evaluate;
 pub(crate) mod facts;
 mod memory;

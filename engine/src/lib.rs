@@ -173,6 +173,11 @@
 //! | values in it | text of 64 KiB, array of 10,000, map of 1,000 |
 //! | never | `eval`, `import`, `sleep`, printing |
 
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod agenda;
 mod changes;
 mod check;
@@ -209,6 +214,7 @@ pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::ask::{Answer, Question};
+pub use knowledge::dominated::Dominated;
 pub use knowledge::facts::FactError;
 pub use reactions::{Activation, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};

@@ -204,6 +204,7 @@ impl KnowledgeBase {
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
         problems.extend(notes.map(|note| miette::Report::new(Note(note))));
         problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
+        problems.extend(lint::never_chosen(&report.dominated).into_iter().map(miette::Report::new));
         Ok(problems)
     }
 

@@ -1,9 +1,10 @@
-//! What a rule base says that nothing will ever read: mostly a slip of the pen.
+//! What a rule base says that nothing will ever read, and what stands in tables that no rule will ever choose: mostly
+//! a slip of the pen.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
-use adit_engine::RuleBase;
+use adit_engine::{Dominated, RuleBase};
 use adit_planners::planner::Planner;
 use miette::{Diagnostic, Severity};
 
@@ -57,6 +58,53 @@ pub fn unread(rules: &RuleBase, planners: &[Box<dyn Planner>]) -> Vec<Unread> {
                 help: did_you_mean(&property, read.iter().map(String::as_str)),
                 property,
             });
+        }
+    }
+    found
+}
+
+/// A row of a table that a rule can never choose.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error(
+    "{class} {key} can never be {} in rule \"{rule}\": {by} comes before it, and fits wherever it fits",
+    listed(variables)
+)]
+#[diagnostic(
+    code("rule/never-chosen"),
+    severity(warning),
+    help("one of the two is out of place: make {key} better or easier to fit, or {by} worse")
+)]
+pub struct NeverChosen {
+    rule: String,
+    class: String,
+    key: String,
+    by: String,
+    variables: Vec<String>,
+}
+
+fn listed(variables: &[String]) -> String {
+    let quoted: Vec<String> = variables.iter().map(|variable| format!("`{variable}`")).collect();
+    match quoted.split_last() {
+        Some((last, before)) if !before.is_empty() => format!("{} or {last}", before.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
+/// One warning for each object and rule, though several of its clauses may never choose it.
+pub fn never_chosen(dominated: &[Dominated]) -> Vec<NeverChosen> {
+    let mut places = BTreeMap::new();
+    let mut found: Vec<NeverChosen> = Vec::new();
+    for Dominated { rule, variable, class, key, by } in dominated {
+        let place = *places.entry((rule, class, key, by)).or_insert(found.len());
+        match found.get_mut(place) {
+            Some(said) => said.variables.push(variable.clone()),
+            None => found.push(NeverChosen {
+                rule: rule.clone(),
+                class: class.clone(),
+                key: key.clone(),
+                by: by.clone(),
+                variables: vec![variable.clone()],
+            }),
         }
     }
     found

@@ -7,7 +7,7 @@ use adit_db::conclusion::Witness;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::tree::{Start, TreeRow};
-use adit_engine::Conclusions;
+use adit_engine::{Conclusions, Dominated};
 use adit_planners::read::MapReport;
 use serde::Serialize;
 
@@ -230,6 +230,8 @@ pub struct Report {
     pub notes: Vec<String>,
     /// What routes need and no rule gave.
     pub gaps: Vec<String>,
+    /// Rows of tables that no rule can ever choose.
+    pub dominated: Vec<Dominated>,
 }
 
 impl Report {
@@ -237,7 +239,7 @@ impl Report {
         before: &Before,
         graph: &SiteGraph,
         routes: Routes,
-        derived: Derived,
+        mut derived: Derived,
         inputs: &Inputs,
         generation: u64,
     ) -> Self {
@@ -266,6 +268,7 @@ impl Report {
             map: inputs.map_report.clone(),
             notes: inputs.notes.clone(),
             gaps: gaps(&derived.conclusions, graph),
+            dominated: derived.knowledge.dominated(&inputs.rules),
         }
     }
 

@@ -115,6 +115,26 @@ fn a_misspelt_property_is_found_by_check() {
 }
 
 #[test]
+fn a_state_that_another_one_beats_everywhere_is_found_by_check() {
+    let site = TestSite::example("paper").built();
+    site.adit("check", &[]).expecting(0);
+    // lying down fits wherever squatting fits, and now it is less hard
+    site.adit("tune", &["robots", "LIE-FACE-DOWN", "hardness", "3"]).expecting(0);
+    let said = site.adit("check", &[]).expecting(1);
+    said.complains(&["robot/SQUAT can never be `first`, `second` or `through` in rule \"weigh a door\""]);
+    let problems = site.adit("check", &["--json"]).expecting(1).json();
+    let never: Vec<&str> = problems
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|problem| problem["code"] == "rule/never-chosen" && problem["severity"] == "warning")
+        .map(|problem| problem["message"].as_str().unwrap())
+        .collect();
+    assert_eq!(never.len(), 2, "one a rule: {problems:#}");
+    assert!(never.iter().all(|said| said.contains("robot/LIE-FACE-DOWN comes before it")), "{never:?}");
+}
+
+#[test]
 fn rules_that_disagree_close_a_room_instead_of_making_it_free() {
     // an expert added a second rule for the hardness of some rooms: unknown was walked for nothing
     let site = TestSite::example("hospital");

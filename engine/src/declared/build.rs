@@ -149,8 +149,10 @@ fn property(
         };
         if declared.classes.contains_key(&link.class) {
             let place = link.file.source.place(link.class_position);
-            let message =
-                format!("a property names objects of a class itself; {} is a part of one", link.class);
+            let message = format!(
+                "a link leads to a class of objects, and {} is a part of one, by a condition",
+                link.class
+            );
             let root = declared.root(&link.class).to_owned();
             problems.push(Diagnostic::error(Code::Declaration, &place, message).did_you_mean(Some(&root)));
         } else if declared.links.insert(name.clone(), link).is_some() {

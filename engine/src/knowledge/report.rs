@@ -12,6 +12,7 @@ use crate::machine::candidates::Candidates;
 use crate::machine::output::{Buffer, Status};
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
+use crate::script::syntax::Quantifier;
 use crate::value::Cell;
 
 impl KnowledgeBase {
@@ -181,11 +182,13 @@ impl KnowledgeBase {
             let Some(clause) = memory.statuses.get(row as usize).and_then(|status| status.unmet()) else {
                 continue;
             };
-            let (rule, variable) = (rule.name.clone(), rule.clauses[clause].variable.clone());
-            return if memory.undecided.contains_key(&row) {
-                Reason::Undecided { rule, variable }
-            } else {
-                Reason::Unmet { rule, variable }
+            let clause = &rule.clauses[clause];
+            let (rule, variable) = (rule.name.clone(), clause.variable.clone());
+            return match clause.quantifier {
+                _ if memory.undecided.contains_key(&row) => Reason::Undecided { rule, variable },
+                Quantifier::None => Reason::Found { rule, variable },
+                Quantifier::All => Reason::NotAll { rule, variable },
+                _ => Reason::Unmet { rule, variable },
             };
         }
         Reason::NoRule

@@ -174,7 +174,7 @@ impl<'r> Lowering<'r> {
         };
         for part in parts {
             let other = self.lower(part)?;
-            let (a, b, kind) = self.unify(typed, other, position)?;
+            let (a, b, kind) = self.unify(typed, other, position, stand_in)?;
             typed = (Node::Coalesce(Box::new(a), Box::new(b)), kind);
         }
         Ok(typed)
@@ -205,7 +205,7 @@ impl<'r> Lowering<'r> {
                 let typed = self.lower(&flow.expr)?;
                 let condition = self.narrow(typed, Type::Truth, flow.expr.start_position())?;
                 let (yes, no) = (self.value_of(&flow.body)?, self.value_of(&flow.branch)?);
-                let (yes, no, kind) = self.unify(yes, no, *position)?;
+                let (yes, no, kind) = self.unify(yes, no, *position, branches)?;
                 Ok((Node::Choose(Box::new(condition), Box::new(yes), Box::new(no)), kind))
             }
             _ => Err(Stop::Interpret),
@@ -285,17 +285,17 @@ impl<'r> Lowering<'r> {
         }
     }
 
-    /// Two nodes brought to one type.
-    pub(crate) fn unify(
+    /// Two nodes brought to one type; `differ` words what is wrong where they hold two.
+    fn unify(
         &mut self,
         (a, kind_a): Typed,
         (b, kind_b): Typed,
         position: Position,
+        differ: fn(&str, &str) -> String,
     ) -> Result<(Node, Node, Option<Type>), Stop> {
         match (kind_a, kind_b) {
             (Some(kind), Some(other)) if kind != other => {
-                let message = format!("{} cannot stand beside {}", kind.plural(), other.plural());
-                self.problem(Code::Type, position, message);
+                self.problem(Code::Type, position, differ(kind.plural(), other.plural()));
                 Err(Stop::Wrong)
             }
             (Some(kind), None) => Ok((a, Node::Narrow(kind, Box::new(b)), Some(kind))),
@@ -312,7 +312,7 @@ impl<'r> Lowering<'r> {
         position: Position,
     ) -> Result<Typed, Stop> {
         let (a, b) = (self.lower(a)?, self.lower(b)?);
-        let (a, b, kind) = self.unify(a, b, position)?;
+        let (a, b, kind) = self.unify(a, b, position, compared)?;
         let ordered = !matches!(comparison, Comparison::Equal | Comparison::Unequal);
         if ordered && kind == Some(Type::Truth) {
             self.problem(Code::Type, position, "truth values have no order");
@@ -408,4 +408,16 @@ fn dynamic(constant: &Constant) -> Dynamic {
         Constant::Cell(Cell::Truth(truth)) => (*truth).into(),
         Constant::Cell(_) => Dynamic::UNIT,
     }
+}
+
+fn compared(these: &str, those: &str) -> String {
+    format!("{these} cannot be compared with {those}")
+}
+
+fn stand_in(these: &str, those: &str) -> String {
+    format!("{those} cannot stand in for {these} that are unknown")
+}
+
+fn branches(these: &str, those: &str) -> String {
+    format!("this gives {these} in one case and {those} in the other")
 }

@@ -128,10 +128,17 @@ fn syntax_message(error: &ParseErrorType) -> String {
         }
         ParseErrorType::BadInput(error) => match error {
             rhai::LexError::ImproperSymbol(_, message) if !message.is_empty() => message.clone(),
+            rhai::LexError::UnexpectedInput(text) => format!("`{text}` cannot stand here"),
             other => other.to_string(),
         },
         ParseErrorType::MissingSymbol(message) if message.contains("string") => {
             "the rule's name belongs here, in double quotes".to_owned()
+        }
+        ParseErrorType::MissingToken(token, _) if token == ";" => {
+            "a `;` belongs before this, to part it from the statement before".to_owned()
+        }
+        ParseErrorType::MissingToken(token, _) if token == "}" => {
+            "a `}` is missing: what a `{` has opened is not closed".to_owned()
         }
         ParseErrorType::UnexpectedEOF => "the file ends in the middle of a rule".to_owned(),
         other => other.to_string(),
@@ -161,7 +168,8 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
                 Diagnostic::error(
                     Code::Statement,
                     &source.place(other.position()),
-                    "a rule file holds rules, revisions, reactions, functions and constants, nothing that runs by itself",
+                    "a rule file holds rules, revisions, reactions, tables, classes, properties, functions and constants; nothing \
+                     in it runs by itself",
                 )
                 .label("not one of them"),
             ),

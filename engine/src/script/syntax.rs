@@ -134,8 +134,11 @@ impl Shape {
             None => ahead,
         };
         // What is no token comes as the reader's complaint about it.
-        if ahead.starts_with("Unexpected ") {
-            return wrong(format!("{ahead}: names have letters a to z, digits and _ only"));
+        if let Some(letter) = ahead.strip_prefix("Unexpected ") {
+            let letter = letter.trim_matches('\'');
+            return wrong(format!(
+                "`{letter}` cannot stand here: names have letters a to z, digits and _ only"
+            ));
         }
         if ahead.contains("not terminated") {
             return wrong("this text is not closed by a double quote on its line".into());
@@ -188,6 +191,9 @@ impl Shape {
             At::Operator => match ahead {
                 "*" | "+" | "-" => self.input(Slot::Operator, At::Amount, "$symbol$"),
                 "max" | "min" => self.input(Slot::Operator, At::Amount, "$ident$"),
+                "/" => {
+                    wrong("a revision goes by *, +, -, max or min: `by * 0.5` in place of `by / 2`".into())
+                }
                 _ => wrong(format!("a revision goes by *, +, -, max or min, not `{ahead}`")),
             },
             At::Amount => self.input(Slot::Amount, At::AfterAmount, "$expr$"),

@@ -65,3 +65,21 @@ fn objects_that_got_nothing_are_listed_with_the_reason() {
         ]
     );
 }
+
+#[test]
+fn an_object_that_stands_in_the_way_is_not_called_missing() {
+    let reason = |clause: &str| {
+        let text = format!("rule \"r\" each t in THINGS {clause} then {{ t.free = true; }}");
+        let (_, report) = concluded(&text, [robots(), things("size", &[Some(3.0)])]);
+        report.gaps[0].reasons[0].0.to_string()
+    };
+    assert_eq!(
+        reason("none s in ROBOTS where s.height > t.size"),
+        "rule \"r\" found a `s`, and needs that there is none"
+    );
+    assert_eq!(
+        reason("all s in ROBOTS have s.height > t.size"),
+        "rule \"r\" found a `s` that has not what it needs of all"
+    );
+    assert_eq!(reason("some s in ROBOTS where s.height > 99"), "rule \"r\" found no `s`");
+}

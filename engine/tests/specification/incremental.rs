@@ -4,7 +4,7 @@ use adit_engine::{Class, Conclusions, KnowledgeBase, RuleBase, Schema, SourceFil
 use proptest::prelude::*;
 
 /// Rules to choose from. T and U have a key, numbers x and y, a text s and a truth b, any of which may be unknown.
-const RULES: [&str; 36] = [
+pub const RULES: [&str; 36] = [
     "rule \"own\" each t in T where t.x > 0 then { t.twice = t.x * 2; t.name = t.s + \"!\"; }",
     "rule \"least\" each t in T least u in U by x where u.y < t.x then { t.least = u.x + t.y; t.who = u.s; }",
     "rule \"least of two\" each t in T least u in U by x where u.y < t.x && u.x <= t.y then { t.two = u.y; } else { t.two = -1; }",
@@ -43,7 +43,7 @@ const RULES: [&str; 36] = [
     "fn f(a, b) { if a > b { a } else { b + 1 } }\nrule \"script\" each t in T some u in U where u.s == t.s then { t.f = f(t.x, u.x); }",
 ];
 
-type Row = (Option<i32>, Option<i32>, Option<usize>, Option<bool>);
+pub type Row = (Option<i32>, Option<i32>, Option<usize>, Option<bool>);
 
 #[derive(Clone, Debug)]
 enum Edit {
@@ -55,7 +55,7 @@ enum Edit {
     Ask,
 }
 
-fn row() -> impl Strategy<Value = Row> {
+pub fn row() -> impl Strategy<Value = Row> {
     let number = || prop::option::weighted(0.9, -2..5_i32);
     (number(), number(), prop::option::weighted(0.9, 0..3_usize), prop::option::weighted(0.9, any::<bool>()))
 }
@@ -75,7 +75,7 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 const TEXTS: [&str; 3] = ["a", "b", "c"];
-const PROPERTIES: [&str; 5] = ["x", "y", "s", "b", "z"];
+pub const PROPERTIES: [&str; 5] = ["x", "y", "s", "b", "z"];
 
 /// What is told, kept beside the knowledge base.
 #[derive(Clone, Debug, Default)]
@@ -84,12 +84,12 @@ struct Facts {
     next: f64,
 }
 
-fn cells(row: &Row) -> Vec<Option<Value>> {
+pub fn cells(row: &Row) -> Vec<Option<Value>> {
     let number = |n: i32| Value::from(f64::from(n) / 2.0);
     vec![row.0.map(number), row.1.map(number), row.2.map(|s| TEXTS[s].into()), row.3.map(Into::into), None]
 }
 
-fn class_name(class: bool) -> &'static str {
+pub fn class_name(class: bool) -> &'static str {
     if class { "T" } else { "U" }
 }
 
@@ -156,7 +156,7 @@ impl Facts {
     }
 }
 
-fn compiled(chosen: &[bool]) -> RuleBase {
+pub fn compiled(chosen: &[bool]) -> RuleBase {
     // Functions stand in files of their own rules.
     let files: Vec<SourceFile> = (0..RULES.len())
         .filter(|&nth| chosen[nth])
@@ -166,7 +166,7 @@ fn compiled(chosen: &[bool]) -> RuleBase {
 }
 
 /// All that can be seen: values, reports, reasons.
-fn seen(base: &KnowledgeBase, rules: &RuleBase, report: &Conclusions) -> Vec<String> {
+pub fn seen(base: &KnowledgeBase, rules: &RuleBase, report: &Conclusions) -> Vec<String> {
     let mut out = vec![];
     for class in ["T", "U"] {
         let concluded = rules.concluded();
