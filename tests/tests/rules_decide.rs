@@ -117,9 +117,9 @@ fn a_misspelt_property_is_found_by_check() {
 #[test]
 fn a_state_that_another_one_beats_everywhere_is_found_by_check() {
     let site = TestSite::example("paper").built();
-    site.adit("check", &[]).expecting(0);
+    site.adit("check", &[]).expect_status(0);
     // lying down fits wherever squatting fits, and now it is less hard
-    site.adit("tune", &["robots", "LIE-FACE-DOWN", "hardness", "3"]).expecting(0);
+    site.adit("tune", &["robots", "LIE-FACE-DOWN", "hardness", "3"]).expect_status(0);
     let said = site.adit("check", &[]).expecting(1);
     said.complains(&["robot/SQUAT can never be `first`, `second` or `through` in rule \"weigh a door\""]);
     let problems = site.adit("check", &["--json"]).expecting(1).json();

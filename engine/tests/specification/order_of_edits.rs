@@ -91,7 +91,9 @@ fn told(rules: &RuleBase, equals: Equals, facts: &[Fact]) -> KnowledgeBase {
         )
         .unwrap();
     }
-    facts.iter().for_each(|fact| tell(&mut base, rules, equals, fact));
+    for fact in facts {
+        tell(&mut base, rules, equals, fact);
+    }
     base
 }
 

@@ -1,15 +1,22 @@
-//! The table of features in the README promises nothing that no test shows.
+//! The README promises nothing that no test shows, and the rules in it are rules. Its example runs as a test of the
+//! documentation.
 
 use std::fs;
 use std::path::{Path, PathBuf};
+
+use adit_engine::{RuleBase, Schema, SourceFile, Type};
 
 fn engine() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The rows of the table, each in its three cells.
-fn features(readme: &str) -> Vec<[&str; 3]> {
-    let table = readme.split("| feature | here | shown by |").nth(1).expect("the table of features");
+fn readme() -> String {
+    fs::read_to_string(engine().join("README.md")).unwrap()
+}
+
+/// The rows of the table with this head, each in its three cells.
+fn table<'r>(readme: &'r str, head: &str) -> Vec<[&'r str; 3]> {
+    let (_, table) = readme.split_once(head).unwrap_or_else(|| panic!("no table {head}"));
     table
         .lines()
         .skip(2)
@@ -37,8 +44,8 @@ fn source(file: &str) -> PathBuf {
 
 #[test]
 fn every_yes_names_a_test_that_is_there() {
-    let readme = fs::read_to_string(engine().join("README.md")).unwrap();
-    let features = features(&readme);
+    let readme = readme();
+    let features = table(&readme, "| feature | here | shown by |");
     assert_eq!(features.len(), 22);
     for [feature, answer, shown_by] in features {
         let tests = tests_named(shown_by);
@@ -56,4 +63,31 @@ fn every_yes_names_a_test_that_is_there() {
             );
         }
     }
+}
+
+#[test]
+fn every_form_that_it_shows_can_be_read() {
+    let readme = readme();
+    let forms = table(&readme, "| form | what it is for | it looks like |");
+    let shown: Vec<&str> = forms
+        .iter()
+        .flat_map(|[_, _, example]| example.split('`').skip(1).step_by(2))
+        .filter(|example| !example.contains('…'))
+        .collect();
+    assert!(shown.len() >= 8, "{shown:?}");
+    for example in shown {
+        RuleBase::compile(&[SourceFile::new("form.rhai", example)])
+            .unwrap_or_else(|wrong| panic!("{example}\n{wrong}"));
+    }
+}
+
+#[test]
+fn the_decision_table_that_it_shows_has_no_faults() {
+    let readme = readme();
+    let (_, block) = readme.split_once("```rhai\n").unwrap();
+    let (block, _) = block.split_once("```").unwrap();
+    let rules = RuleBase::compile(&[SourceFile::new("table.rhai", block)]).unwrap();
+    let plants = Schema::default().class("PLANTS", &[("kind", Type::Text), ("days_dry", Type::Number)]);
+    let problems = rules.check(&plants);
+    assert!(problems.is_empty(), "{problems:?}");
 }
