@@ -46,6 +46,21 @@ impl Changes {
 impl Changes {
     /// What changed over both steps, this one and the next.
     pub(crate) fn absorb(&mut self, next: Self) {
+        for (class, reasons) in &mut self.reasons {
+            let Some(moved) = next.classes.get(class).and_then(|changes| changes.moved.as_ref()) else {
+                continue;
+            };
+            for rows in reasons.values_mut() {
+                *rows = rows.iter().filter_map(|&row| moved.get(row as usize).copied().flatten()).collect();
+                rows.sort_unstable();
+            }
+        }
+        for (class, reasons) in next.reasons {
+            let own = self.reasons.entry(class).or_default();
+            for (property, rows) in reasons {
+                merge(own.entry(property).or_default(), rows);
+            }
+        }
         for (class, changes) in next.classes {
             self.classes.entry(class).or_default().absorb(changes);
         }
