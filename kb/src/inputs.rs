@@ -41,6 +41,8 @@ impl Inputs {
         let (world, map_report, notes) = site.world()?;
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
         let unread = lint::unread(&rules, planners).into_iter().map(|problem| problem.to_string());
+        let idle = lint::not_carried_out(&rules).into_iter().map(|problem| problem.to_string());
+        let unread = unread.chain(idle);
         let notes = unread.chain(notes.into_iter().map(|note| note.to_string())).collect();
         Ok(Self { rules, tests, world, map_report, notes, stage })
     }

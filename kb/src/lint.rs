@@ -63,6 +63,34 @@ pub fn unread(rules: &RuleBase, planners: &[Box<dyn Planner>]) -> Vec<Unread> {
     found
 }
 
+/// A rule that waits in vain: a site concludes, and does not carry out reactions yet.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+#[error(
+    "rule \"{rule}\" ({file}, line {line}) reacts, and sites do not carry out reactions yet: it does nothing"
+)]
+#[diagnostic(
+    code("rule/not-carried-out"),
+    severity(warning),
+    help("say it with `rule`, or carry it out in a program by KnowledgeBase::react of adit-engine")
+)]
+pub struct NotCarriedOut {
+    rule: String,
+    file: String,
+    line: usize,
+}
+
+/// The rules that react.
+pub fn not_carried_out(rules: &RuleBase) -> Vec<NotCarriedOut> {
+    let reacts = rules.rules().iter().filter(|rule| rule.reacts());
+    reacts
+        .map(|rule| NotCarriedOut {
+            rule: rule.name().to_owned(),
+            file: rule.file().to_owned(),
+            line: rule.line(),
+        })
+        .collect()
+}
+
 /// A row of a table that a rule can never choose.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 #[error(

@@ -135,6 +135,20 @@ fn a_state_that_another_one_beats_everywhere_is_found_by_check() {
 }
 
 #[test]
+fn rules_that_react_are_not_passed_over_in_silence() {
+    let site = example_with_own_rules();
+    site.write(
+        "rules/mine.rhai",
+        "on \"a door is noted\" each door in DOORS where door.width < 1 then { tell(\"NOTES\", #{ door: door.door }); }\n",
+    );
+    site.adit("build", &[]).expecting(0).complains(&["\"a door is noted\"", "do not carry out reactions"]);
+    let problems = site.adit("check", &["--json"]).json();
+    let codes: Vec<&str> =
+        problems.as_array().unwrap().iter().filter_map(|problem| problem["code"].as_str()).collect();
+    assert_eq!(codes.iter().filter(|code| **code == "rule/not-carried-out").count(), 1, "{problems:#}");
+}
+
+#[test]
 fn rules_that_disagree_close_a_room_instead_of_making_it_free() {
     // an expert added a second rule for the hardness of some rooms: unknown was walked for nothing
     let site = TestSite::example("hospital");
