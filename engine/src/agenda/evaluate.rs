@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 
 use super::script::Scripts;
 use super::world::World;
+use crate::machine::evaluate::holds;
 use crate::plan::node::{Arithmetic, Comparison, Function, Node};
 use crate::script::interpreter::MAX_TEXT;
 use crate::symbols::{Symbol, Symbols};
@@ -132,15 +133,7 @@ impl Evaluator<'_> {
             (Cell::Truth(a), Cell::Truth(b)) => a.cmp(&b),
             _ => return Truth::Unknown,
         };
-        let holds = match comparison {
-            Comparison::Equal => order.is_eq(),
-            Comparison::Unequal => order.is_ne(),
-            Comparison::Less => order.is_lt(),
-            Comparison::AtMost => order.is_le(),
-            Comparison::Greater => order.is_gt(),
-            Comparison::AtLeast => order.is_ge(),
-        };
-        holds.into()
+        holds(comparison, order).into()
     }
 
     fn concat(&self, a: Cell, b: Cell) -> Cell {

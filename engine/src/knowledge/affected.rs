@@ -148,54 +148,11 @@ impl KnowledgeBase {
         dirty.extend(memory.undecided.keys().copied());
         let reached = reached(machine, planned, memory, number, &matching, change, size);
         if clause.joins.is_empty() {
-            self.tried(machine, clause, memory, number, &matching, &reached, &mut dirty);
+            tried(machine, clause, memory, number, &matching, &reached, &mut dirty);
         } else {
             joined(machine, clause, memory, number, &matching, &reached, &mut dirty);
         }
         dirty
-    }
-
-    #[allow(clippy::too_many_arguments, clippy::unused_self)] // one step of `through`
-    fn tried(
-        &self,
-        machine: &Machine,
-        clause: &ClausePlan,
-        memory: &Memory,
-        number: usize,
-        matching: &[u32],
-        reached: &[u32],
-        dirty: &mut Dirty,
-    ) {
-        if matching.len() > TRIED {
-            dirty.extend(reached.iter().copied());
-            return;
-        }
-        let own = one(number, memory.witnesses.len(), matching);
-        let passing: Vec<u32> = match &clause.own {
-            Some(test) => {
-                let truths = machine.evaluate(test, batch(&own)).truths();
-                (0..own.len).filter(|&at| truths.at(at) != Truth::False).map(|at| matching[at]).collect()
-            }
-            None => matching.to_vec(),
-        };
-        for chunk in reached.chunks(BATCH) {
-            let mut frame = bound(memory, number, chunk);
-            for &row in &passing {
-                let Some(test) = &clause.test else {
-                    dirty.extend(chunk.iter().copied());
-                    break;
-                };
-                frame.rows[number] = Rows::Same(row);
-                let truths = machine.evaluate(test, batch(&frame)).truths();
-                dirty.extend(
-                    chunk
-                        .iter()
-                        .enumerate()
-                        .filter(|&(at, _)| truths.at(at) != Truth::False)
-                        .map(|(_, &row)| row),
-                );
-            }
-        }
     }
 }
 
@@ -278,6 +235,48 @@ fn reached(
         if witness == NO_ROW { unmet } else { beaten.get(witness as usize) != Some(&false) }
     })
     .collect()
+}
+
+/// Objects for which one of the candidates passes now, or may.
+fn tried(
+    machine: &Machine,
+    clause: &ClausePlan,
+    memory: &Memory,
+    number: usize,
+    matching: &[u32],
+    reached: &[u32],
+    dirty: &mut Dirty,
+) {
+    if matching.len() > TRIED {
+        dirty.extend(reached.iter().copied());
+        return;
+    }
+    let own = one(number, memory.witnesses.len(), matching);
+    let passing: Vec<u32> = match &clause.own {
+        Some(test) => {
+            let truths = machine.evaluate(test, batch(&own)).truths();
+            (0..own.len).filter(|&at| truths.at(at) != Truth::False).map(|at| matching[at]).collect()
+        }
+        None => matching.to_vec(),
+    };
+    for chunk in reached.chunks(BATCH) {
+        let mut frame = bound(memory, number, chunk);
+        for &row in &passing {
+            let Some(test) = &clause.test else {
+                dirty.extend(chunk.iter().copied());
+                break;
+            };
+            frame.rows[number] = Rows::Same(row);
+            let truths = machine.evaluate(test, batch(&frame)).truths();
+            dirty.extend(
+                chunk
+                    .iter()
+                    .enumerate()
+                    .filter(|&(at, _)| truths.at(at) != Truth::False)
+                    .map(|(_, &row)| row),
+            );
+        }
+    }
 }
 
 /// Objects whose key is that of one of the candidates.

@@ -56,18 +56,15 @@ impl Kinds for Tellable<'_> {
     }
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+        self.base.told_type(name)
     }
 
     fn key(&self, class: &str) -> Key {
-        self.base.held.get(class).map_or(Key::Unsaid, |held| {
-            let table = &held.table;
-            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
-        })
+        self.base.told_key(class)
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        self.base.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+        self.base.told_properties(class)
     }
 }
 

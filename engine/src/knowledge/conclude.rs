@@ -246,6 +246,8 @@ impl KnowledgeBase {
             };
             run.evaluated.push((index, rows));
             let output = self.evaluate(run, rule, &planned.plan, &mut memory, &dirty);
+            // Nothing is left of a rule that was stopped, for no object.
+            let dirty = if output.stopped { Dirty::All } else { dirty };
             let touched = memory.replace(&dirty, output);
             for (given, touched) in memory.given.iter().zip(touched) {
                 self.pend(&given.name, rule.level(), &touched);

@@ -73,8 +73,7 @@ impl KnowledgeBase {
             // What was found until then is not whole, and would hang on the order of the search.
             let problem = output.problem.take();
             *memory = Memory::new(rule, plan, memory.statuses.len());
-            output = memory.nothing();
-            output.problem = problem;
+            output = Output { problem, stopped: true, ..memory.nothing() };
         }
         memory.problem = output.problem.take().map(|problem| match output.problems {
             0 | 1 => problem,
@@ -118,6 +117,24 @@ impl KnowledgeBase {
     }
 }
 
+impl KnowledgeBase {
+    /// The type that a property was told with.
+    pub(super) fn told_type(&self, name: &PropertyName) -> Option<Type> {
+        self.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+    }
+
+    pub(super) fn told_key(&self, class: &str) -> Key {
+        self.held.get(class).map_or(Key::Unsaid, |held| {
+            let table = &held.table;
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
+    }
+
+    pub(super) fn told_properties(&self, class: &str) -> Vec<String> {
+        self.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+    }
+}
+
 fn failed_inside(rule: &Rule) -> Diagnostic {
     let place = rule.file.source.place(rule.position);
     Diagnostic::error(Code::Panic, &place, format!("rule \"{}\" failed inside the engine", rule.name))
@@ -143,17 +160,14 @@ impl Kinds for Known<'_> {
     }
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.base.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
+        self.base.told_type(name)
     }
 
     fn key(&self, class: &str) -> Key {
-        self.base.held.get(class).map_or(Key::Unsaid, |held| {
-            let table = &held.table;
-            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
-        })
+        self.base.told_key(class)
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        self.base.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+        self.base.told_properties(class)
     }
 }

@@ -231,7 +231,8 @@ fn numbers(comparison: Comparison, a: &Lane<f64>, b: &Lane<f64>) -> Lane<'static
     }
 }
 
-fn holds(comparison: Comparison, order: Ordering) -> bool {
+/// Whether an order is the one that a comparison asks for.
+pub(crate) fn holds(comparison: Comparison, order: Ordering) -> bool {
     match comparison {
         Comparison::Equal => order.is_eq(),
         Comparison::Unequal => order.is_ne(),

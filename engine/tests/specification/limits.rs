@@ -103,3 +103,26 @@ fn what_nests_too_deep_is_refused_and_the_deepest_that_is_allowed_runs() {
     );
     assert_eq!(problems(&deep), []);
 }
+
+/// Found in review: the objects that an edit did not concern kept their values in a rule that was stopped by it.
+#[test]
+fn a_rule_that_an_edit_makes_endless_leaves_nothing_and_comes_back_with_the_edit_undone() {
+    let rules = rules(
+        "fn stuck(x) { while x == 3.0 { } x } rule \"r\" each t in THINGS then { t.y = stuck(t.x); }
+         rule \"s\" each t in THINGS where t.y > 0 then { t.z = t.y; }",
+    );
+    let limits = Limits { rule: Duration::from_millis(200), ..Limits::default() };
+    let things = |second: f64| things("x", &[Some(1.0), Some(second), Some(4.0)]);
+    let concluded = |base: &KnowledgeBase| ["y", "z"].map(|property| base.numbers("THINGS", property));
+    let mut base = KnowledgeBase::with_limits(limits);
+    base.assert(things(2.0)).unwrap();
+    base.conclude(&rules);
+    let before = concluded(&base);
+    base.tell("THINGS", "2", "x", Some(3.0.into())).unwrap();
+    assert_eq!(base.conclude(&rules).diagnostics[0].code, Code::Deadline);
+    let unknown = Some(vec![None; 3]);
+    assert_eq!(concluded(&base), [unknown.clone(), unknown]);
+    base.tell("THINGS", "2", "x", Some(2.0.into())).unwrap();
+    assert!(base.conclude(&rules).diagnostics.is_empty());
+    assert_eq!(concluded(&base), before);
+}
