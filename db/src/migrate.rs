@@ -11,18 +11,21 @@ use crate::error::{Error, Result};
 pub(crate) const APPLICATION: i64 = 0x4164_6974;
 
 /// What makes version n of version n - 1; the first makes a database of an empty file. Never edited once released.
-pub(crate) const STEPS: &[&[&str]] = &[&[
-    include_str!("../sql/v1/01-site.sql"),
-    include_str!("../sql/v1/02-rules.sql"),
-    include_str!("../sql/v1/03-areas.sql"),
-    include_str!("../sql/v1/04-rooms.sql"),
-    include_str!("../sql/v1/05-doors.sql"),
-    include_str!("../sql/v1/06-conclusions.sql"),
-    include_str!("../sql/v1/07-stale.sql"),
-    include_str!("../sql/v1/08-routes.sql"),
-    include_str!("../sql/v1/09-action-sequence.sql"),
-    include_str!("../sql/v1/10-history.sql"),
-]];
+pub(crate) const STEPS: &[&[&str]] = &[
+    &[
+        include_str!("../sql/v1/01-site.sql"),
+        include_str!("../sql/v1/02-rules.sql"),
+        include_str!("../sql/v1/03-areas.sql"),
+        include_str!("../sql/v1/04-rooms.sql"),
+        include_str!("../sql/v1/05-doors.sql"),
+        include_str!("../sql/v1/06-conclusions.sql"),
+        include_str!("../sql/v1/07-stale.sql"),
+        include_str!("../sql/v1/08-routes.sql"),
+        include_str!("../sql/v1/09-action-sequence.sql"),
+        include_str!("../sql/v1/10-history.sql"),
+    ],
+    &[include_str!("../sql/v2/01-anew.sql")],
+];
 
 /// The newest schema version.
 pub const VERSION: i64 = STEPS.len() as i64;

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use adit_db::{Error, Store};
+use adit_db::{Error, Store, VERSION};
 
 use crate::clients::outside;
 use crate::paper;
@@ -23,9 +23,8 @@ fn message<T>(result: Result<T, Error>) -> String {
 fn a_newer_database_is_left_alone() {
     let (_folder, path) = altered("PRAGMA user_version = 99");
     let before = std::fs::read(&path).unwrap();
-    assert!(
-        message(Store::open(&path)).contains("has schema version 99; this program knows versions up to 1")
-    );
+    let known = format!("has schema version 99; this program knows versions up to {VERSION}");
+    assert!(message(Store::open(&path)).contains(&known));
     assert!(message(Store::open_read_only(&path)).contains("schema version 99"));
     assert_eq!(std::fs::read(&path).unwrap(), before);
 }
@@ -152,7 +151,7 @@ fn the_doctor_counts_and_a_backup_is_a_database() {
     let (folder, mut store) = paper::site();
     let health = store.doctor().unwrap();
     assert!(health.is_sound());
-    assert_eq!((health.schema, health.journal.as_str()), (1, "delete"));
+    assert_eq!((health.schema, health.journal.as_str()), (VERSION, "delete"));
     assert!(health.rows.contains(&("doors".to_owned(), 8)));
     let copy = folder.path().join("copy.db");
     store.backup(&copy).unwrap();
