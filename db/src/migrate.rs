@@ -24,7 +24,12 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v1/09-action-sequence.sql"),
         include_str!("../sql/v1/10-history.sql"),
     ],
-    &[include_str!("../sql/v2/01-anew.sql")],
+    &[
+        include_str!("../sql/v2/01-anew.sql"),
+        include_str!("../sql/v2/20-prime-areas.sql"),
+        include_str!("../sql/v2/21-rooms-passable.sql"),
+        include_str!("../sql/v2/22-conclusions.sql"),
+    ],
 ];
 
 /// The newest schema version.

@@ -70,8 +70,8 @@ fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> 
     if invalid.is_none() && !is_line {
         return Some(Shape::Polygon(points));
     }
-    problems.push(match crossing_edges(&points) {
-        Some((i, j)) => {
+    problems.push(match (crossing_edges(&points), invalid.filter(|_| !is_line)) {
+        (Some((i, j)), _) => {
             let (a, b) = (edge(&points, i), edge(&points, j));
             let message = format!("this polygon crosses itself: its edge {a} meets its edge {b}");
             problem(Code::SelfCrossing, message)
@@ -79,16 +79,14 @@ fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> 
                 .and_at(&corners[j].span, "the other one here")
                 .with_help(format!("list the corners in order around the {}, each once", thing(item)))
         }
-        None => match invalid.filter(|_| !is_line) {
-            Some(invalid) => {
-                problem(Code::SelfCrossing, format!("this polygon is not a simple outline: {invalid}"))
-                    .with_help(format!("list the corners in order around the {}, each once", thing(item)))
-            }
-            None => {
-                let message = "this polygon has no area: its corners lie on one line".to_owned();
-                problem(Code::Degenerate, message)
-            }
-        },
+        (None, Some(invalid)) => {
+            problem(Code::SelfCrossing, format!("this polygon is not a simple outline: {invalid}"))
+                .with_help(format!("list the corners in order around the {}, each once", thing(item)))
+        }
+        (None, None) => {
+            let message = "this polygon has no area: its corners lie on one line".to_owned();
+            problem(Code::Degenerate, message)
+        }
     });
     None
 }
