@@ -168,7 +168,7 @@ fn an_edit_after_a_build_keeps_the_rooms_and_their_areas() {
     site.adit("tune", &["robots", "LOW", "hardness", "2.5"]).expect_status(0);
     let stages = site.adit("build", &["--json"]).expecting(0).json();
     let kept =
-        stages["stages"].as_array().unwrap().iter().find(|stage| stage["name"] == "rooms by state").cloned();
+        stages["stages"].as_array().unwrap().iter().find(|stage| stage["stage"] == "rooms by state").cloned();
     assert_eq!(kept.map(|stage| stage["kept"].clone()), Some(serde_json::json!(true)), "{stages}");
     assert_eq!((site.sqlite3(count), cost(&site)), before);
 }
