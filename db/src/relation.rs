@@ -11,7 +11,6 @@ use crate::transaction::Tx;
 /// Our own tables and views.
 pub(crate) const OWN: &[&str] = &[
     "action_sequence",
-    "areas",
     "changes",
     "conclusions",
     "derivations",
@@ -20,6 +19,7 @@ pub(crate) const OWN: &[&str] = &[
     "frames",
     "history",
     "places",
+    "prime_area_strips",
     "prime_areas",
     "robots",
     "rooms",

@@ -79,7 +79,7 @@ fn cell(text: &str) -> Cell {
 }
 
 const TUNABLE: [&str; 2] = ["robots", "changes"];
-const DERIVED: [&str; 12] = [
+const DERIVED: [&str; 15] = [
     "rooms",
     "doors",
     "routes",
@@ -91,6 +91,9 @@ const DERIVED: [&str; 12] = [
     "frames",
     "strips",
     "areas",
+    "named_doors",
+    "area_rooms",
+    "door_rooms",
     "history",
 ];
 

@@ -12,6 +12,7 @@ use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
+use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::Planner;
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
@@ -67,17 +68,20 @@ impl KnowledgeBase {
         let database = site.database();
         let mode = site.rooms;
         let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
+        knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(PaperRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
             Rooms::Minimum => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(MinimumRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
         }
         Ok(knowledge)
