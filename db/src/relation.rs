@@ -19,6 +19,7 @@ pub(crate) const OWN: &[&str] = &[
     "ends",
     "frames",
     "history",
+    "loads",
     "places",
     "prime_areas",
     "robots",

@@ -67,7 +67,7 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
         match mode {
-            Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
+            Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
@@ -277,6 +277,7 @@ impl KnowledgeBase {
         let mut told = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
+            ("LOADS".to_owned(), tables::loads(&tx.loads()?)),
         ]);
         let planned = self.planned_classes();
         for table in tx.user_tables()? {

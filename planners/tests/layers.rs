@@ -16,7 +16,8 @@ const GRID: f64 = 0.1;
 const BOUNDS: Rect = Rect::new(0.0, 0.0, 7.0, 5.0);
 
 fn states() -> Vec<State> {
-    let state = |state: &str, height, width| State { robot: None, state: state.into(), height, width };
+    let state =
+        |state: &str, height, width| State { robot: None, state: state.into(), height, width, length: None };
     vec![state("STAND", 1.7, 0.6), state("SIDE-STAND", 1.7, 0.35), state("SQUAT", 1.1, 0.8)]
 }
 
