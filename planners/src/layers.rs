@@ -6,6 +6,7 @@
 
 mod bottleneck;
 mod cells;
+mod changes;
 mod clearance;
 mod cut;
 mod footprint;
@@ -24,7 +25,8 @@ mod transform;
 use std::sync::Arc;
 
 use cells::CellRect;
-use footprint::{FACINGS, STEP_DEGREES, largest_within};
+use changes::changes;
+use footprint::{FACINGS, STEP_DEGREES};
 use layer::{Layer, Size};
 use neighbours::boundary;
 use rayon::prelude::*;
@@ -111,7 +113,8 @@ pub struct Layers {
 /// # Returns
 /// Within a layer the rooms are disjoint and free throughout. They cover the free space up to a cell's diagonal from
 /// its limit, but for rooms one cell thin along the limit, dropped within two cells of a thicker one where that
-/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only. The error is one sentence.
+/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only; an
+/// overlap one or two cells thin has none beside a thicker one of the same room. The error is one sentence.
 ///
 /// # Complexity
 /// Near-linear in the number of cells, times the number of states of different size.
@@ -202,58 +205,7 @@ fn doors(lattice: Lattice, stack: &[Placed]) -> Vec<Crossing> {
             let rect = lattice.rect(boundary(layer.rooms[a], layer.rooms[b]));
             Crossing { kind: Kind::Door, room1: first + a, room2: first + b, rect }
         };
-        layer.owners.beside().into_iter().map(door).collect::<Vec<_>>()
+        layer.beside.iter().copied().map(door).collect::<Vec<_>>()
     };
     stack.par_iter().map(of_layer).collect::<Vec<_>>().concat()
-}
-
-fn changes(lattice: Lattice, states: &[State], stack: &[Placed]) -> Vec<Crossing> {
-    let pairs = (0..stack.len()).flat_map(|from| (from + 1..stack.len()).map(move |to| (from, to)));
-    let pairs: Vec<_> = pairs.filter(|&(from, to)| may_change(states, &stack[from], &stack[to])).collect();
-    let of_pair = |&(from, to): &(usize, usize)| changes_between(lattice, &stack[from], &stack[to]);
-    pairs.par_iter().map(of_pair).collect::<Vec<_>>().concat()
-}
-
-/// Whether a robot may come from one layer into the other by changing its shape, or by turning to the next facing. A
-/// disc faces nowhere, and so may become a body of any facing.
-fn may_change(states: &[State], a: &Placed, b: &Placed) -> bool {
-    let same_robot = states[a.state].robot == states[b.state].robot;
-    same_robot
-        && match (a.facing, b.facing) {
-            (Some(from), Some(to)) if a.state == b.state => turned_from(from, to).is_some(),
-            (Some(from), Some(to)) => from == to,
-            _ => true,
-        }
-}
-
-/// The one of two facings from which the other is the next one.
-fn turned_from(a: usize, b: usize) -> Option<usize> {
-    let next = |facing: usize| (facing + 1) % FACINGS;
-    if next(a) == b {
-        Some(a)
-    } else if next(b) == a {
-        Some(b)
-    } else {
-        None
-    }
-}
-
-fn changes_between(lattice: Lattice, from: &Placed, to: &Placed) -> Vec<Crossing> {
-    let turns = (from.state == to.state).then(|| from.facing.zip(to.facing)).flatten();
-    let turning = turns.and_then(|(a, b)| turned_from(a, b)).and_then(|facing| {
-        let first = if from.facing == Some(facing) { from } else { to };
-        first.layer.turning.as_ref()
-    });
-    let mut found = Vec::new();
-    for (a, b) in from.layer.owners.over(&to.layer.owners) {
-        let (a, b) = (a as usize, b as usize);
-        let common = boundary(from.layer.rooms[a], to.layer.rooms[b]);
-        let common = turning.map_or(Some(common), |turning| largest_within(turning, common));
-        let Some(rect) = common.map(|common| lattice.rect(common)) else { continue };
-        let (room1, room2) = (from.first + a, to.first + b);
-        let kind = Kind::Change;
-        found.push(Crossing { kind, room1, room2, rect });
-        found.push(Crossing { kind, room1: room2, room2: room1, rect });
-    }
-    found
 }

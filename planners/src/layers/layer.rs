@@ -34,6 +34,10 @@ impl Size {
 pub(super) struct Layer {
     pub(super) rooms: Vec<CellRect>,
     pub(super) owners: Owners,
+    /// The pairs of rooms (a < b) that have a common boundary; ordered.
+    pub(super) beside: Vec<(u32, u32)>,
+    /// The same, by room.
+    pub(super) neighbours: Vec<Vec<u32>>,
     /// Where a body can turn to the next facing; `None` for a disc.
     pub(super) turning: Option<Cells>,
 }
@@ -53,7 +57,13 @@ impl Layer {
         };
         let rooms = slivers::drop_slivers(&free, &cut::cut(&free));
         let owners = Owners::new(lattice.columns(), lattice.rows(), &rooms);
-        Self { rooms, owners, turning }
+        let beside = owners.beside();
+        let mut neighbours = vec![Vec::new(); rooms.len()];
+        for &(a, b) in &beside {
+            neighbours[a as usize].push(b);
+            neighbours[b as usize].push(a);
+        }
+        Self { rooms, owners, beside, neighbours, turning }
     }
 }
 
