@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::robot::State;
-use adit_db::{Store, Tx};
+use adit_db::{Cell, Store, Tx};
 use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts};
@@ -216,10 +216,27 @@ impl KnowledgeBase {
         Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
 
-    /// The states of a robot, as the database has them.
+    /// The states of a robot, as the database has them, with the sizes that rules made of those in the table.
     pub fn states(&self, robot: &str) -> Result<Vec<State>> {
-        let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states())?;
-        Ok(states.into_iter().filter(|state| state.robot == robot).collect())
+        let mut store = Store::open_read_only(&self.database)?;
+        store.snapshot(|tx| -> Result<_> {
+            let mut states = tx.states()?;
+            states.retain(|state| state.robot == robot);
+            for state in &mut states {
+                let key = Cell::from(format!("{robot}/{}", state.state).as_str());
+                for concluded in tx.conclusions("robots", &key)? {
+                    let size = match concluded.property.as_str() {
+                        "height" => &mut state.height,
+                        "width" => &mut state.width,
+                        _ => continue,
+                    };
+                    if let Cell::Real(metres) = concluded.value {
+                        *size = metres;
+                    }
+                }
+            }
+            Ok(states)
+        })
     }
 
     /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
