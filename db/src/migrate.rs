@@ -24,7 +24,12 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v1/09-action-sequence.sql"),
         include_str!("../sql/v1/10-history.sql"),
     ],
-    &[include_str!("../sql/v2/01-anew.sql"), include_str!("../sql/v2/40-fleet.sql")],
+    &[
+        include_str!("../sql/v2/01-anew.sql"),
+        include_str!("../sql/v2/10-routes.sql"),
+        include_str!("../sql/v2/11-waypoints.sql"),
+        include_str!("../sql/v2/40-fleet.sql"),
+    ],
 ];
 
 /// The newest schema version.

@@ -33,6 +33,7 @@ pub(crate) const OWN: &[&str] = &[
     "step_parts",
     "strips",
     "tree_rows",
+    "waypoints",
     "witnesses",
     "writer",
 ];
