@@ -31,6 +31,7 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/20-prime-areas.sql"),
         include_str!("../sql/v2/21-rooms-passable.sql"),
         include_str!("../sql/v2/22-conclusions.sql"),
+        include_str!("../sql/v2/40-fleet.sql"),
     ],
 ];
 

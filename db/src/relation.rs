@@ -18,6 +18,7 @@ pub(crate) const OWN: &[&str] = &[
     "ends",
     "frames",
     "history",
+    "loads",
     "places",
     "prime_area_strips",
     "prime_areas",
