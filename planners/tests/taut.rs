@@ -22,7 +22,7 @@ fn hall(blocks: &[(u8, u8, u8, u8)]) -> World {
 }
 
 fn state(name: &str, width: f64) -> State {
-    State { robot: None, state: name.to_owned(), height: 1.0, width }
+    State { robot: None, state: name.to_owned(), height: 1.0, width, length: None }
 }
 
 /// The graph of all layers; a metre of each state weighs as given, a change `change`.
