@@ -191,7 +191,13 @@ impl RouteGraph {
     /// The best of the ways to a goal that were found, pulled tight.
     fn best(&self, outcome: &Outcome, start: &Start, goal: usize) -> Option<Way> {
         let ways = outcome.goals[goal].iter().map(|found| Way::of(self, &outcome.nodes, start, found));
-        ways.min_by(|one, two| one.cost.total_cmp(&two.cost))
+        ways.reduce(|best, way| {
+            // of ways that cost the same to a rounding, the one that passes fewer doors
+            let rounding = 1e-9 * best.cost;
+            let is_better = way.cost < best.cost - rounding
+                || way.cost <= best.cost + rounding && way.legs.len() < best.legs.len();
+            if is_better { way } else { best }
+        })
     }
 
     /// The best ways to all goals; and to all rooms, where asked for.
