@@ -16,6 +16,7 @@ pub mod edit;
 mod error;
 mod guard;
 pub mod history;
+pub mod hours;
 pub mod kept;
 mod migrate;
 pub mod place;
@@ -29,7 +30,9 @@ pub mod site;
 pub mod stale;
 mod store;
 mod transaction;
+pub mod told;
 pub mod tree;
+pub mod tuning;
 
 pub use cell::Cell;
 pub use error::{Error, Result};

@@ -24,7 +24,13 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v1/09-action-sequence.sql"),
         include_str!("../sql/v1/10-history.sql"),
     ],
-    &[include_str!("../sql/v2/01-anew.sql")],
+    &[
+        include_str!("../sql/v2/01-anew.sql"),
+        include_str!("../sql/v2/31-told.sql"),
+        include_str!("../sql/v2/32-hours.sql"),
+        include_str!("../sql/v2/33-tunings.sql"),
+        include_str!("../sql/v2/34-route-status.sql"),
+    ],
 ];
 
 /// The newest schema version.
