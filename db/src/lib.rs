@@ -29,8 +29,8 @@ pub mod route;
 pub mod site;
 pub mod stale;
 mod store;
-mod transaction;
 pub mod told;
+mod transaction;
 pub mod tree;
 pub mod tuning;
 

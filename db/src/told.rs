@@ -58,11 +58,8 @@ pub async fn told(connection: &mut SqliteConnection) -> Result<Vec<Told>> {
     for row in query.fetch_all(connection).await? {
         let at: (Option<f64>, Option<f64>) = (row.try_get(3)?, row.try_get(4)?);
         let ends: [Option<f64>; 4] = [row.try_get(5)?, row.try_get(6)?, row.try_get(7)?, row.try_get(8)?];
-        let segment = if let [Some(x0), Some(y0), Some(x1), Some(y1)] = ends {
-            Some([x0, y0, x1, y1])
-        } else {
-            None
-        };
+        let segment =
+            if let [Some(x0), Some(y0), Some(x1), Some(y1)] = ends { Some([x0, y0, x1, y1]) } else { None };
         facts.push(Told {
             id: row.try_get(0)?,
             class: row.try_get(1)?,

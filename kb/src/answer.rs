@@ -55,9 +55,23 @@ pub struct Answer {
 impl KnowledgeBase {
     /// The route of least hardness between two places, rooms or points (`x,y`).
     ///
-    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
+    /// Where tables, `site.toml` or the map were edited since the last build, or the time is over up to which it holds,
+    /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
+    /// leaves the site as it is.
     pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
+        if self.asks_about_another_moment() {
+            return self.rehearsed(|tx| self.answer(tx, start, goal, robot));
+        }
         self.fresh()?.snapshot(|tx| self.answer(tx, start, goal, robot))
+    }
+
+    /// Does `work` on what would be derived now, and takes all of it back.
+    pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
+        let inputs = self.inputs(&crate::progress::Silent)?;
+        Store::open(self.database())?.rehearse(|tx| {
+            self.follow(tx, &inputs, &crate::progress::Silent)?;
+            work(tx)
+        })
     }
 
     /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
@@ -66,7 +80,7 @@ impl KnowledgeBase {
         let mut store = Store::open_read_only(self.database())?;
         let texts = self.site().texts().to_string();
         let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
-            Ok(!tx.stale_marks()?.is_empty() || tx.site_value("texts")?.is_some_and(|built| built != texts))
+            Ok(tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
         };
         if store.snapshot(is_old)? {
             drop(store);

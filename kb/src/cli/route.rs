@@ -8,7 +8,11 @@ use crate::error::Result;
 
 /// Prints the route; `false` where there is none.
 pub fn run(args: &RouteArgs) -> Result<Outcome> {
-    let answer = open(&args.site)?.route(&args.start, &args.goal, args.robot.as_deref())?;
+    let knowledge = open(&args.site)?.at(args.at.as_deref())?;
+    let answer = knowledge.route(&args.start, &args.goal, args.robot.as_deref())?;
+    for lost in knowledge.lost()? {
+        remark(&format!("note: {lost}"));
+    }
     if args.site.json {
         json(&answer)?;
         if let Some(reason) = &answer.reason {
