@@ -111,6 +111,7 @@ impl Tell {
             let named = rule.reads().chain(rule.sets()).filter(|name| name.class == class);
             known.extend(named.map(|name| name.property.as_str()));
         }
+        known.extend(KINDS.iter().filter(|(of, _, _)| *of == class).map(|(_, name, _)| *name));
         if self.new_property || known.contains(&property) {
             return Ok(());
         }
