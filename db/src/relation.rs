@@ -12,7 +12,6 @@ use crate::transaction::Tx;
 pub(crate) const OWN: &[&str] = &[
     "action_sequence",
     "active_tunings",
-    "areas",
     "attachments",
     "cells_in_force",
     "changes",
@@ -27,6 +26,7 @@ pub(crate) const OWN: &[&str] = &[
     "hours",
     "opening_hours",
     "places",
+    "prime_area_strips",
     "prime_areas",
     "robots",
     "robots_in_force",

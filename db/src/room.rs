@@ -29,6 +29,8 @@ pub struct Room {
     pub hardness: Derived<f64>,
     /// How to move in it.
     pub action: Derived<String>,
+    /// Whether it is entered.
+    pub passable: Derived<bool>,
 }
 
 /// What rules say about a room.
@@ -40,6 +42,16 @@ pub struct RoomWeight {
     pub hardness: Derived<f64>,
     /// How to move in it.
     pub action: Derived<String>,
+    /// Whether it is entered.
+    pub passable: Derived<bool>,
+}
+
+impl Room {
+    /// What rules say about it.
+    pub fn weight(&self) -> RoomWeight {
+        let Self { room, hardness, action, passable, .. } = self.clone();
+        RoomWeight { room, hardness, action, passable }
+    }
 }
 
 impl Record for &Room {
@@ -61,6 +73,9 @@ impl Record for &Room {
         "hardness_witness",
         "action_rule",
         "action_witness",
+        "passable",
+        "passable_rule",
+        "passable_witness",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -75,6 +90,8 @@ impl Record for &Room {
         values.text(self.action.value.as_deref());
         self.hardness.bind_reason(values);
         self.action.bind_reason(values);
+        values.truth(self.passable.value);
+        self.passable.bind_reason(values);
     }
 }
 
@@ -93,6 +110,7 @@ pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
             width: row.try_get(9)?,
             hardness: Derived::of(&row, 10, 12)?,
             action: Derived::of(&row, 11, 14)?,
+            passable: Derived::of(&row, 16, 17)?,
         });
     }
     Ok(rooms)
@@ -115,7 +133,7 @@ pub async fn reweigh(connection: &mut SqliteConnection, weights: &[RoomWeight]) 
     let differs = |weight: &&RoomWeight| {
         known
             .binary_search_by_key(&weight.room, |room| room.room)
-            .is_ok_and(|at| known[at].hardness != weight.hardness || known[at].action != weight.action)
+            .is_ok_and(|at| known[at].weight() != **weight)
     };
     let changed: Vec<&RoomWeight> = weights.iter().filter(differs).collect();
     put_weights(connection, changed.iter().copied()).await?;
@@ -132,8 +150,18 @@ pub async fn put_weights(
 
 impl Record for &RoomWeight {
     const TABLE: &'static str = "rooms";
-    const COLUMNS: &'static [&'static str] =
-        &["room", "hardness", "hardness_rule", "hardness_witness", "action", "action_rule", "action_witness"];
+    const COLUMNS: &'static [&'static str] = &[
+        "room",
+        "hardness",
+        "hardness_rule",
+        "hardness_witness",
+        "action",
+        "action_rule",
+        "action_witness",
+        "passable",
+        "passable_rule",
+        "passable_witness",
+    ];
 
     fn bind(&self, values: &mut Values) {
         values.integer(self.room);
@@ -141,6 +169,8 @@ impl Record for &RoomWeight {
         self.hardness.bind_reason(values);
         values.text(self.action.value.as_deref());
         self.action.bind_reason(values);
+        values.truth(self.passable.value);
+        self.passable.bind_reason(values);
     }
 }
 

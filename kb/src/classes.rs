@@ -9,10 +9,12 @@ use crate::error::{Error, Result};
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
 
 /// Classes whose key is not their first property alone.
-const KEYS: [(&str, &[&str]); 3] = [
+const KEYS: [(&str, &[&str]); 5] = [
     ("ROBOTS", &["robot", "state"]),
     ("CHANGES", &["robot", "from_state", "to_state"]),
     ("STRIPS", &["axis", "strip"]),
+    ("AREA_ROOMS", &["room", "area"]),
+    ("DOOR_ROOMS", &["room", "door"]),
 ];
 
 /// The properties that tell objects of a class with a longer key apart; none of other classes.

@@ -137,7 +137,7 @@ fn cell(text: &str) -> Cell {
 }
 
 const TUNABLE: [&str; 3] = ["robots", "changes", "hours"];
-const DERIVED: [&str; 14] = [
+const DERIVED: [&str; 17] = [
     "rooms",
     "doors",
     "routes",
@@ -149,6 +149,9 @@ const DERIVED: [&str; 14] = [
     "frames",
     "strips",
     "areas",
+    "named_doors",
+    "area_rooms",
+    "door_rooms",
     "history",
     "site_hours",
     "opening_hours",

@@ -146,7 +146,7 @@ impl SiteGraph {
     }
 }
 
-/// Whether a room can be walked in, just as a door of unknown hardness is not passed.
+/// Whether a room can be walked in: its hardness is known and it is passable, as with doors.
 pub fn is_weighed(room: &Room) -> bool {
     walking(room) != Walking::Unknown
 }
@@ -157,8 +157,11 @@ fn rect_of(room: &Room) -> Rect {
 }
 
 /// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh
-/// metres only where a rule says so.
+/// metres only where a rule says so. Rooms that are not passable, or not known to be, are not entered.
 fn walking(room: &Room) -> Walking {
+    if room.passable.value != Some(true) {
+        return Walking::Unknown;
+    }
     match (room.hardness.value, &room.layer) {
         (Some(hardness), _) => Walking::PerMetre(hardness),
         (None, Some(_)) => Walking::Unknown,

@@ -12,6 +12,7 @@ use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
+use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::Planner;
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
@@ -84,17 +85,20 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let mut knowledge =
             Self { site, planners: Vec::new(), database, rules: None, reseed: false, at: None };
+        knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(PaperRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
             Rooms::Minimum => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(MinimumRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
         }
         Ok(knowledge)
@@ -302,9 +306,10 @@ impl KnowledgeBase {
         self.sign(tx, &inputs.rules)?;
         told.sign(tx)?;
         let lost = told.lost(&derived.attached);
+        let idle = told.idle_hours(&derived.knowledge);
         let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
         report.lost = lost;
-        report.notes.extend(told.notes.iter().cloned());
+        report.notes.extend(told.notes.iter().cloned().chain(idle));
         if graph.rooms.is_empty() {
             report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }

@@ -7,7 +7,8 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::{Store, Tx};
-use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
+use adit_engine::{Changes, KnowledgeBase as Inference, Severity, Value};
+use adit_planners::facts::{Column, Facts};
 
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
@@ -19,7 +20,7 @@ use crate::knowledge::{KnowledgeBase, keep_standings};
 use crate::progress::Silent;
 use crate::report::Before;
 use crate::store::{LastBuild, Tables, places};
-use crate::told::{Attached, Tell, Told, tell_row};
+use crate::told::{Attached, Tell, Told};
 use crate::{classes, trees, weights};
 use kept::{Kept, Written};
 use routes::KeptRoutes;
@@ -41,7 +42,9 @@ struct Memory {
     told: Told,
     /// Which objects facts are about.
     attached: Attached,
-    /// The same of an edit that is not committed yet.
+    /// What planners said of classes other than rooms and doors.
+    planned: Facts,
+    /// What facts of an edit that is not committed yet are about.
     pending: Option<Attached>,
     knowledge: Inference,
     numbering: Numbering,
@@ -216,7 +219,8 @@ impl Memory {
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
         let routes = KeptRoutes::read(tx, graph, plan)?;
-        let (knowledge, attached) = (derived.knowledge, derived.attached);
+        let (knowledge, attached, mut planned) = (derived.knowledge, derived.attached, derived.facts);
+        planned.retain(|class, _| !["ROOMS", "DOORS"].contains(&class.as_str()));
         let pending = None;
         Ok(Some(Self {
             inputs,
@@ -224,6 +228,7 @@ impl Memory {
             generation,
             told,
             attached,
+            planned,
             pending,
             knowledge,
             numbering,
@@ -325,12 +330,13 @@ impl Memory {
                 classes::split(name.trim()) == (class, property)
             })
         };
-        // what a planner said before is not in memory any more
+        // what a planner said of rooms and doors is not in memory any more
         let differ = before
             .iter()
             .filter(|fact| !now.contains(fact))
             .chain(now.iter().filter(|f| !before.contains(f)));
-        if differ.into_iter().any(|fact| is_given(&fact.class, &fact.property)) {
+        let is_forgotten = |class: &str| !self.planned.contains_key(class);
+        if differ.into_iter().any(|fact| is_forgotten(&fact.class) && is_given(&fact.class, &fact.property)) {
             return Err(Stop::Anew);
         }
         let mut attached = Attached::default();
@@ -346,12 +352,16 @@ impl Memory {
         for ((class, row, property), fact) in
             now.cells().iter().filter(|((class, _, _), _)| is_planned(class))
         {
-            tell_row(&mut self.knowledge, class, *row, property, Some(fact))?;
+            fact.tell_row(&mut self.knowledge, class, *row, property)?;
         }
         for cell in
             before.cells().keys().filter(|cell| is_planned(&cell.0) && !now.cells().contains_key(*cell))
         {
-            tell_row(&mut self.knowledge, &cell.0, cell.1, &cell.2, None)?;
+            let (class, row, property) = cell;
+            let said = self.planned.get(class).and_then(|table| table.column(property));
+            let value = said.and_then(|column| value_of(column, *row));
+            let told = self.knowledge.tell_row(class, *row, property, value);
+            told.map_err(|error| Error::said("tell/refused", error.to_string(), None))?;
         }
         Ok(())
     }
@@ -389,6 +399,15 @@ impl Memory {
         self.knowledge.update(&self.inputs.rules);
         self.routes.take_back();
         Ok(())
+    }
+}
+
+/// A value of a column as it is told.
+fn value_of(column: &Column, row: usize) -> Option<Value> {
+    match column {
+        Column::Number(values) => values[row].map(Value::Number),
+        Column::Text(values) => values[row].as_deref().map(Value::from),
+        Column::Truth(values) => values[row].map(Value::Truth),
     }
 }
 

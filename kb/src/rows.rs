@@ -64,6 +64,7 @@ pub fn rooms(table: &Table) -> Result<Vec<Room>> {
         width: widths[index].unwrap_or_default(),
         hardness: Derived::default(),
         action: Derived::default(),
+        passable: Derived::default(),
     };
     Ok((0..table.len()).map(row).collect())
 }

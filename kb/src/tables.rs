@@ -97,9 +97,23 @@ fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     })
 }
 
+/// What a planner gave and is kept under this name; nothing where there is no such table, or it is no planner's.
+pub fn kept(tx: &mut Tx<'_>, name: &str) -> Result<Table> {
+    let is_kept = tx.site_value(&mark(name))?.is_some();
+    if is_kept && tx.user_tables()?.iter().any(|known| known.name == name) {
+        return read(&tx.read_table(name)?);
+    }
+    Ok(Table::default())
+}
+
+/// The site's value that says that a table is a planner's.
+fn mark(name: &str) -> String {
+    format!("class.{name}")
+}
+
 /// Keeps what a planner gave as a table of the database, in place of what it gave before.
 pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
-    let mark = format!("class.{name}");
+    let mark = mark(name);
     let taken = tx.user_tables()?.iter().any(|known| known.name == name);
     if taken && tx.site_value(&mark)?.is_none() {
         let message = format!(
@@ -107,6 +121,9 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
             name.to_uppercase()
         );
         return Err(Error::said("table/taken", message, Some("rename one of them".to_owned())));
+    }
+    if taken && kept(tx, name).is_ok_and(|kept| kept == *table) {
+        return Ok(());
     }
     let columns: Vec<(&str, &str)> = table
         .columns

@@ -8,10 +8,11 @@ use std::hash::{DefaultHasher, Hash};
 use adit_db::told::{Standing, Told as Row};
 use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
-use adit_planners::facts::Facts;
+use adit_planners::facts::{Column, Facts};
 
 use crate::error::{Error, Result};
 use crate::number::number;
+use crate::suggest::did_you_mean;
 pub use attach::Attached;
 pub use resolve::Tell;
 
@@ -99,6 +100,15 @@ impl Fact {
 }
 
 impl Fact {
+    /// Tells it of one object.
+    pub fn tell_row(&self, knowledge: &mut Inference, class: &str, row: usize, property: &str) -> Result<()> {
+        let told = knowledge.tell_row(class, row, property, Some(self.value.clone()));
+        told.map_err(|error| {
+            let help = "take it back with `adit tell SITE --retract ID`".to_owned();
+            Error::said("tell/refused", format!("{}: {error}", self.name()), Some(help))
+        })
+    }
+
     /// That it no longer finds what it is about.
     pub fn lost(&self) -> String {
         let why = match &self.object {
@@ -140,7 +150,7 @@ impl Told {
         let mut here = Attached::default();
         self.attach(knowledge, |of| of == class, &mut here);
         for ((class, row, property), fact) in here.cells() {
-            tell_row(knowledge, class, *row, property, Some(fact))?;
+            fact.tell_row(knowledge, class, *row, property)?;
         }
         attached.join(here);
         Ok(())
@@ -169,6 +179,27 @@ impl Told {
         lost.map(Fact::lost).collect()
     }
 
+    /// Hours of what is no named area or door, in sentences: mostly a slip of the pen.
+    pub fn idle_hours(&self, knowledge: &Inference) -> Vec<String> {
+        let Some(Column::Text(names)) = self.classes.get("HOURS").and_then(|hours| hours.column("name"))
+        else {
+            return Vec::new();
+        };
+        let known: Vec<String> = ["AREAS", "NAMED_DOORS"]
+            .iter()
+            .flat_map(|class| {
+                (0..knowledge.len(class).unwrap_or(0)).filter_map(|row| knowledge.key(class, row))
+            })
+            .collect();
+        let idle = names.iter().flatten().filter(|name| !known.contains(name));
+        idle.map(|name| {
+            let meant = did_you_mean(name, known.iter().map(String::as_str));
+            let meant = meant.map_or_else(String::new, |meant| format!("; {meant}"));
+            format!("`{name}` has opening hours, and is no named area or door{meant}")
+        })
+        .collect()
+    }
+
     /// Says in the database from when and until when what was derived holds.
     pub fn sign(&self, tx: &mut Tx<'_>) -> Result<()> {
         for (key, value) in [("valid_from", &self.valid_from), ("valid_until", &self.valid_until)] {
@@ -189,19 +220,4 @@ impl Told {
             }
         }
     }
-}
-
-/// Tells one property of one object, or takes back what was told of it.
-pub fn tell_row(
-    knowledge: &mut Inference,
-    class: &str,
-    row: usize,
-    property: &str,
-    fact: Option<&Fact>,
-) -> Result<()> {
-    let told = knowledge.tell_row(class, row, property, fact.map(|fact| fact.value.clone()));
-    told.map_err(|error| {
-        let said = fact.map_or_else(|| error.to_string(), |fact| format!("{}: {error}", fact.name()));
-        Error::said("tell/refused", said, Some("take it back with `adit tell SITE --retract ID`".to_owned()))
-    })
 }

@@ -10,6 +10,7 @@ mod cut;
 mod free_space;
 mod gap;
 mod headroom;
+mod labels;
 mod lattice;
 mod maximal;
 mod narrowest;
@@ -19,6 +20,7 @@ mod slivers;
 mod transform;
 
 use cells::CellRect;
+use labels::{Label, Labels};
 use neighbours::{Owners, boundary};
 use rayon::prelude::*;
 
@@ -86,12 +88,19 @@ pub struct Layers {
     pub rooms: Vec<Room>,
     /// By (room1, room2); there is at most one from a room into another.
     pub crossings: Vec<Crossing>,
+    /// Which room lies in which area of the world, both by index; by room.
+    pub area_rooms: Vec<(usize, usize)>,
+    /// Which room lies in which named door of the world, both by index; by room.
+    pub door_rooms: Vec<(usize, usize)>,
 }
 
 /// Cuts one layer a state. States of equal width that the same bridges block are computed once.
 ///
 /// The side of a cell is the world's [`grid`](World::grid); where it has none, the image's resolution; for a vector
 /// map the largest of 1, 2, 5 steps not above a seventh of the slimmest state's width.
+///
+/// Rooms are cut along the outlines of named areas: a cell, and so a room, lies in an area if its middle does. A named
+/// door is a band of rooms one cell thick, and whoever passes it enters one of them.
 ///
 /// # Returns
 /// Within a layer the rooms are disjoint and free throughout. They cover the free space up to a cell's diagonal from
@@ -103,6 +112,7 @@ pub struct Layers {
 pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
     let lattice = Lattice::new(world.bounds, side(world, states)?)?;
     let solid = Solid::new(world, lattice);
+    let labels = Labels::new(world, lattice)?;
     let sizes: Vec<Size> = states.iter().map(|state| Size::of(world, state)).collect();
     let mut distinct: Vec<&Size> = Vec::new();
     for size in &sizes {
@@ -111,7 +121,7 @@ pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
         }
     }
     let layers: Vec<Layer> =
-        distinct.par_iter().map(|size| Layer::cut(world, &solid, lattice, size)).collect();
+        distinct.par_iter().map(|size| Layer::cut(world, &solid, (lattice, labels.as_ref()), size)).collect();
     let index = |size: &Size| distinct.iter().position(|known| *known == size);
     let of_state: Vec<&Layer> = sizes.iter().filter_map(index).map(|layer| &layers[layer]).collect();
     let first_room: Vec<usize> = of_state
@@ -126,7 +136,12 @@ pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
     let mut crossings = doors(lattice, &of_state, &first_room);
     crossings.extend(changes(lattice, states, &of_state, &first_room));
     crossings.sort_by_key(|crossing| (crossing.room1, crossing.room2));
-    Ok(Layers { lattice, rooms, crossings })
+    let members = |of: fn(&Label) -> &[usize]| match &labels {
+        Some(labels) => members(labels, &of_state, of),
+        None => Vec::new(),
+    };
+    let (area_rooms, door_rooms) = (members(|label| &label.areas), members(|label| &label.doors));
+    Ok(Layers { lattice, rooms, crossings, area_rooms, door_rooms })
 }
 
 fn side(world: &World, states: &[State]) -> Result<f64, String> {
@@ -167,10 +182,15 @@ struct Layer {
 }
 
 impl Layer {
-    fn cut(world: &World, solid: &Solid<'_>, lattice: Lattice, size: &Size) -> Self {
+    fn cut(
+        world: &World,
+        solid: &Solid<'_>,
+        (lattice, labels): (Lattice, Option<&Labels>),
+        size: &Size,
+    ) -> Self {
         let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
         let free = solid.free_cells(size.width / 2.0 + world.clearance, &low);
-        let rooms = slivers::drop_slivers(&free, &cut::cut(&free));
+        let rooms = slivers::drop_slivers(&free, &cut::cut_along(&free, labels), labels);
         let owners = Owners::new(lattice.columns(), lattice.rows(), &rooms);
         Self { rooms, owners }
     }
@@ -188,6 +208,12 @@ fn room_records(world: &World, lattice: Lattice, states: &[State], layers: &[&La
         })
     };
     (0..states.len()).flat_map(of_state).collect()
+}
+
+/// For each room, by index, what of its label is asked for.
+fn members(labels: &Labels, layers: &[&Layer], of: fn(&Label) -> &[usize]) -> Vec<(usize, usize)> {
+    let rooms = layers.iter().flat_map(|layer| &layer.rooms).enumerate();
+    rooms.flat_map(|(room, &block)| of(labels.of(block)).iter().map(move |&named| (room, named))).collect()
 }
 
 fn doors(lattice: Lattice, layers: &[&Layer], first_room: &[usize]) -> Vec<Crossing> {

@@ -112,3 +112,17 @@ fn a_site_with_hours_and_without_a_time_zone_says_how_they_are_read() {
     let site = with_hours(&HOURS.replace("timezone = \"Europe/Berlin\"\n", ""));
     site.adit("build", &[]).expecting(0).complains(&["opening hours are read in UTC"]);
 }
+
+#[test]
+fn a_named_door_and_a_named_area_are_shut_out_of_hours() {
+    for (named, kind) in [
+        ("[[door]]\nname = \"corridor\"\nfrom = [6.0, 3.0]\nto = [6.0, 4.0]\n", "NAMED_DOORS"),
+        ("[[area]]\nname = \"corridor\"\nrect = [6.5, 0.0, 12.0, 8.0]\n", "AREAS"),
+    ] {
+        let site = TestSite::example("starter");
+        site.write("site.toml", format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{HOURS}{named}"));
+        let site = site.built();
+        let route = |at: &str| site.adit("route", &["home", "11,2", "--at", at]).status;
+        assert_eq!((route("2026-11-20T12:00"), route("2026-11-20T19:00")), (0, 1), "{kind}");
+    }
+}

@@ -35,7 +35,10 @@ fn content(site: &TestSite) -> Vec<String> {
 
 /// Does the same edits in memory and as a plain edit does, and compares the databases after each.
 fn same_after(example: &str, edits: &[Edit]) {
-    let (plain, held) = (TestSite::example(example).built(), TestSite::example(example).built());
+    same_for((TestSite::example(example).built(), TestSite::example(example).built()), example, edits);
+}
+
+fn same_for((plain, held): (TestSite, TestSite), example: &str, edits: &[Edit]) {
     let site = at_one_moment(&plain);
     let mut live = Live::open(at_one_moment(&held)).unwrap();
     for edit in edits {
@@ -140,6 +143,26 @@ fn facts_that_are_told_and_retracted() {
             Edit::Retract(2),
         ],
     );
+}
+
+#[test]
+fn facts_about_named_doors_and_areas() {
+    let named = "name = \"named\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\n[[door]]\nname = \"gate\"\nfrom = [6.0, 3.0]\n\
+                 to = [6.0, 4.0]\nhardness = 3.0\n[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    let edits = [
+        tell("named_doors", "gate", "closed", "true"),
+        tell("areas", "east", "hardness_factor", "3"),
+        tell("named_doors", "gate", "hardness", "9"),
+        Edit::Retract(1),
+        Edit::Retract(3),
+        Edit::Retract(2),
+    ];
+    let site = || TestSite::example("starter").with("site.toml", named).built();
+    same_for((site(), site()), "starter", &edits);
+    let held = site();
+    let mut live = Live::open(at_one_moment(&held)).unwrap();
+    assert!(!live.edit(&edits[0], &author()).unwrap().anew, "a door is closed without a build");
+    assert!(!live.edit(&Edit::Retract(1), &author()).unwrap().anew);
 }
 
 #[test]

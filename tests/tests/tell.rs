@@ -179,3 +179,37 @@ fn what_cannot_be_told_is_refused_with_what_was_meant() {
     assert!(site.sqlite3("SELECT * FROM told").is_empty());
     assert!(site.sqlite3("SELECT * FROM history").is_empty());
 }
+
+/// The starter's two rooms, with the doorway named and the west room an area.
+fn with_names() -> TestSite {
+    let site = TestSite::example("starter");
+    let text = "map = \"map.toml\"\nrobots = \"robots.toml\"\n[[door]]\nname = \"gate\"\nfrom = [6.0, 3.0]\n\
+                to = [6.0, 4.0]\n[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    site.write("site.toml", text);
+    site
+}
+
+#[test]
+fn a_named_door_is_closed_in_every_layer_and_stays_so_when_the_map_changes() {
+    let site = with_names().built();
+    let status =
+        |site: &TestSite| site.sqlite3("SELECT status FROM route WHERE start = 'home' AND goal = 'window'");
+    assert_eq!(status(&site), ["ok"]);
+    site.adit("tell", &["named_doors", "gate", "closed", "true"]).expect_status(0);
+    assert_eq!(status(&site), ["no_route"]);
+    site.edit("map.toml", "rect = [5.9, 0.0, 6.1, 3.0]", "rect = [5.8, 0.0, 6.2, 2.9]");
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(status(&site), ["no_route"]);
+    site.edit("site.toml", "\"gate\"", "\"door\"");
+    site.adit("build", &[]).expecting(0).complains(&["NAMED_DOORS has no `gate` any more"]);
+    assert_eq!(status(&site), ["ok"]);
+}
+
+#[test]
+fn a_named_area_is_told_to_be_kept_out_of() {
+    let site = with_names().built();
+    site.adit("tell", &["AREAS", "east", "kind", "keep-out", "--until", "2h"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT DISTINCT x0 >= 6.4 FROM rooms WHERE NOT passable"), ["1"]);
+    site.adit("route", &["home", "11,2"]).expect_status(1);
+    site.adit("route", &["home", "11,2", "--at", "3h"]).expect_status(0);
+}

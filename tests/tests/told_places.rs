@@ -164,7 +164,9 @@ fn what_a_wall_took_away_is_closed_again_when_the_wall_is_gone() {
 
 #[test]
 fn a_fact_about_a_room_is_about_what_holds_its_point_in_every_layer() {
-    let site = TestSite::example("starter").built();
+    let site = TestSite::example("starter");
+    Map { obstacles: Vec::new(), grid: 0.05 }.write(&site);
+    let site = site.built();
     site.adit("tell", &["ROOMS", "9.5,2", "hardness", "7"]).expect_status(0);
     let rooms = "SELECT DISTINCT state FROM rooms WHERE hardness = 7 ORDER BY state";
     assert_eq!(site.sqlite3(rooms), ["SIDE-STAND", "SQUAT", "STAND"]);

@@ -65,7 +65,7 @@ fn two_tunings_that_disagree_are_not_on_together() {
     site.adit("tuning", &["night", "on"]).expect_status(0);
     site.adit("tuning", &["loaded", "on"])
         .expecting(2)
-        .complains(&["`loaded` and `night` are both on", "3 and 6"]);
+        .complains(&["`loaded` and `night` are both on", "6 and 3"]);
     assert_eq!(site.sqlite3("SELECT tuning FROM active_tunings"), ["night"]);
     site.adit("tuning", &["loaded", "set", "robots", "SQUAT", "hardness", "3"]).expect_status(0);
     site.adit("tuning", &["loaded", "on"]).expect_status(0);
@@ -81,7 +81,7 @@ fn routes_of_two_tunings_stand_side_by_side() {
     assert!(routes.iter().all(|route| route["one"].as_f64() <= route["other"].as_f64()));
     assert!(routes.iter().any(|route| route["one"].as_f64() < route["other"].as_f64()));
     assert!(site.sqlite3("SELECT * FROM active_tunings").is_empty(), "nothing was switched");
-    site.adit("tuning", &["compare", "base", "nihgt"]).expecting(2).complains(&["did you mean `night`?"]);
+    site.adit("tuning", &["compare", "base", "nigt"]).expecting(2).complains(&["did you mean `night`?"]);
 }
 
 #[test]

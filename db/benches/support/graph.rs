@@ -150,6 +150,7 @@ fn room(index: usize) -> Room {
         width: 3.0,
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
+        passable: Derived { value: Some(true), rule: None, witness: None },
     }
 }
 

@@ -299,7 +299,9 @@ fn key(tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told, text: &str) -
     match meant.as_slice() {
         [key] => Ok((*key).clone()),
         [] => {
-            let help = did_you_mean(text, keys.iter().map(String::as_str));
+            let short = keys.iter().filter(|_| parts[0] == "robot").filter_map(|key| key.split_once('/'));
+            let names = short.map(|(_, rest)| rest).chain(keys.iter().map(String::as_str));
+            let help = did_you_mean(text, names);
             Err(Error::said("tell/unknown-object", format!("{class} has no object `{text}`"), help))
         }
         [one, other, ..] => {

@@ -3,6 +3,7 @@
 use super::{Kind, Layers, Room, State, cut_layers};
 use crate::facts::{Column, Facts, Table};
 use crate::names::room_name;
+use crate::overlays::{MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::GIVES;
 use crate::world::World;
@@ -14,7 +15,7 @@ const NAME: &str = "rooms by state";
 /// Gives ROOMS by robot (in the order in which the table first names them), state and then as made; and DOORS of
 /// kind `door` (within a layer) and `change` (one way, a pair where rooms of two states of a robot overlap), all
 /// numbered by (room1, room2). `width` is a room's smaller side, a door's length, the smaller side of the overlap
-/// of a change.
+/// of a change. `AREA_ROOMS` and `DOOR_ROOMS` say which room lies in which named area or door: rooms are cut along them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RoomsByState;
 
@@ -25,7 +26,8 @@ impl Planner for RoomsByState {
 
     fn signature(&self) -> Signature {
         let needs = ["robot", "state", "height", "width", "moves"].map(|p| format!("ROBOTS.{p}"));
-        Signature { needs: needs.into(), gives: GIVES.iter().map(|given| (*given).to_owned()).collect() }
+        let gives = GIVES.iter().chain(&MEMBERS_GIVE).map(|given| (*given).to_owned()).collect();
+        Signature { needs: needs.into(), gives }
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
@@ -37,7 +39,13 @@ impl Planner for RoomsByState {
         let layers = cut_layers(world, &states)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
         let rooms = rooms_table(&layers, &states);
-        Ok(Facts::from([("ROOMS".to_owned(), rooms), ("DOORS".to_owned(), doors_table(&layers))]))
+        let keyed = |pairs: &[(usize, usize)]| -> Vec<(usize, usize)> {
+            pairs.iter().map(|&(room, named)| (room + 1, named)).collect()
+        };
+        let mut facts = member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms));
+        facts.insert("ROOMS".to_owned(), rooms);
+        facts.insert("DOORS".to_owned(), doors_table(&layers));
+        Ok(facts)
     }
 }
 
