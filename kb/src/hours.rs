@@ -242,8 +242,8 @@ mod tests {
 
     #[test]
     fn the_clock_of_summer_is_the_one_on_the_wall() {
-        assert_eq!(at(&[hours("mon-sun", "08:00", "09:00")], "2026-07-01T06:00:00Z").0, true);
-        assert_eq!(at(&[hours("mon-sun", "08:00", "09:00")], "2026-11-21T06:00:00Z").0, false);
+        assert!(at(&[hours("mon-sun", "08:00", "09:00")], "2026-07-01T06:00:00Z").0);
+        assert!(!at(&[hours("mon-sun", "08:00", "09:00")], "2026-11-21T06:00:00Z").0);
     }
 
     #[test]

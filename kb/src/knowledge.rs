@@ -328,11 +328,11 @@ impl KnowledgeBase {
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
     pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Told> {
-        let mut told = Told::default();
-        told.classes = Facts::from([
+        let classes = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
         ]);
+        let mut told = Told { classes, ..Told::default() };
         let keys = |table: &Table, parts: &[&str]| {
             classes::keys(table, &parts.iter().map(ToString::to_string).collect::<Vec<_>>())
         };

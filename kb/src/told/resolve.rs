@@ -82,7 +82,7 @@ impl Tell {
             }
         }
         if let Some(until) = &self.until {
-            row.push(("until", self.end(site, until)?.as_str().into()));
+            row.push(("until", Self::end(site, until)?.as_str().into()));
         }
         Ok(row)
     }
@@ -166,7 +166,7 @@ impl Tell {
         }
     }
 
-    fn end(&self, site: &KnowledgeBase, until: &str) -> Result<String> {
+    fn end(site: &KnowledgeBase, until: &str) -> Result<String> {
         let clock = site.clock();
         let end = clock.parse(until)?;
         if end <= clock.now() {
