@@ -45,6 +45,7 @@ pub(crate) const OWN: &[&str] = &[
     "told_states",
     "tree_rows",
     "tuning_cells",
+    "waypoints",
     "witnesses",
     "writer",
 ];

@@ -8,8 +8,9 @@ use crate::error::Result;
 
 /// Prints the route; `false` where there is none.
 pub fn run(args: &RouteArgs) -> Result<Outcome> {
+    let goals: Vec<String> = std::iter::once(&args.goal).chain(&args.others).cloned().collect();
     let knowledge = open(&args.site)?.at(args.at.as_deref())?;
-    let answer = knowledge.route(&args.start, &args.goal, args.robot.as_deref())?;
+    let answer = knowledge.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
     for lost in knowledge.lost()? {
         remark(&format!("note: {lost}"));
     }
@@ -45,7 +46,10 @@ pub enum Outcome {
 fn head(answer: &Answer) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
     match answer.status {
-        Status::Ok => line(&format!("{start} to {goal}, hardness {}:", maybe(answer.cost))),
+        Status::Ok => {
+            let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));
+            line(&format!("{start} to {goal}, hardness {}{metres}:", maybe(answer.cost)));
+        }
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
         Status::NoRoute => {
             line(&format!(
