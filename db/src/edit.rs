@@ -59,6 +59,31 @@ pub async fn set_cell(
     Ok(Edited { id, key, old, new })
 }
 
+/// What a cell would hold after [`set_cell`], and the row's whole key; nothing is changed. A part of the key is refused,
+/// since with it a row would be another one.
+pub async fn try_cell(
+    connection: &mut SqliteConnection,
+    (table, key, column): (&str, &str, &str),
+    value: &Cell,
+) -> Result<(String, Cell)> {
+    let what = format!("{table}.{key}.{column}");
+    let table = Table::editable(connection, table).await?;
+    let quoted = table.column(column)?;
+    if table.keys().contains(&quoted) {
+        return Err(Error::Refused { what, reason: "it is a part of the key".to_owned() });
+    }
+    let found = table.locate(connection, key).await?;
+    let old = table.read(connection, &quoted, &found).await?;
+    let sql = format!("UPDATE {} SET {quoted} = ? WHERE {}", identifier(table.name), table.found());
+    let mut values = vec![value.clone()];
+    values.extend(found.iter().cloned());
+    dynamic::execute(connection, sql.clone(), &values).await.map_err(|e| e.refusing(what))?;
+    let new = table.read(connection, &quoted, &found).await?;
+    values[0] = old;
+    dynamic::execute(connection, sql, &values).await?;
+    Ok((joined(&found), new))
+}
+
 /// Adds a row; columns not named take their defaults.
 pub async fn add_row(
     connection: &mut SqliteConnection,
@@ -123,6 +148,12 @@ impl Tx<'_> {
     /// one row. The table's types and ranges decide what is taken. The routes are stale until the next build.
     pub fn set_cell(&mut self, cell: (&str, &str, &str), value: &Cell, author: &Author) -> Result<Edited> {
         self.run(async |connection| set_cell(connection, cell, value, author).await)
+    }
+
+    /// What a cell would hold after [`Tx::set_cell`], and the row's whole key; nothing is changed. A part of the key is
+    /// refused, since with it a row would be another one.
+    pub fn try_cell(&mut self, cell: (&str, &str, &str), value: &Cell) -> Result<(String, Cell)> {
+        self.run(async |connection| try_cell(connection, cell, value).await)
     }
 
     /// Adds a row; columns not named take their defaults.

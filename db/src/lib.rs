@@ -16,6 +16,7 @@ pub mod edit;
 mod error;
 mod guard;
 pub mod history;
+pub mod hours;
 pub mod kept;
 pub mod load;
 mod migrate;
@@ -29,8 +30,10 @@ pub mod route;
 pub mod site;
 pub mod stale;
 mod store;
+pub mod told;
 mod transaction;
 pub mod tree;
+pub mod tuning;
 
 pub use cell::Cell;
 pub use error::{Error, Result};

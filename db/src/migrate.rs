@@ -26,12 +26,16 @@ pub(crate) const STEPS: &[&[&str]] = &[
     ],
     &[
         include_str!("../sql/v2/01-anew.sql"),
+        include_str!("../sql/v2/09-staleness.sql"),
         include_str!("../sql/v2/10-routes.sql"),
         include_str!("../sql/v2/11-waypoints.sql"),
         include_str!("../sql/v2/20-prime-areas.sql"),
         include_str!("../sql/v2/21-rooms-passable.sql"),
         include_str!("../sql/v2/22-conclusions.sql"),
-        include_str!("../sql/v2/40-fleet.sql"),
+        include_str!("../sql/v2/30-fleet.sql"),
+        include_str!("../sql/v2/31-told.sql"),
+        include_str!("../sql/v2/32-hours.sql"),
+        include_str!("../sql/v2/33-tunings.sql"),
     ],
 ];
 

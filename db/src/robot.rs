@@ -72,11 +72,23 @@ impl Record for &Change {
 
 /// All states: by robot, then in row order.
 pub async fn states(connection: &mut SqliteConnection) -> Result<Vec<State>> {
-    let rows = sqlx::query(
+    let query = sqlx::query(
         "SELECT robot, state, action, height, width, length, hardness, position FROM robots
          ORDER BY robot, position, state",
     );
-    let rows = rows.fetch_all(connection).await?;
+    read(&query.fetch_all(connection).await?)
+}
+
+/// All states as they count, with the named tunings that are on: by robot, then in row order.
+pub async fn states_in_force(connection: &mut SqliteConnection) -> Result<Vec<State>> {
+    let query = sqlx::query(
+        "SELECT robot, state, action, height, width, length, hardness, position FROM robots_in_force
+         ORDER BY robot, position, state",
+    );
+    read(&query.fetch_all(connection).await?)
+}
+
+fn read(rows: &[sqlx::sqlite::SqliteRow]) -> Result<Vec<State>> {
     let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<State> {
         Ok(State {
             robot: row.try_get(0)?,
@@ -120,6 +132,11 @@ impl Tx<'_> {
     /// All states: by robot, then in row order.
     pub fn states(&mut self) -> Result<Vec<State>> {
         self.run(states)
+    }
+
+    /// All states as they count, with the named tunings that are on: by robot, then in row order.
+    pub fn states_in_force(&mut self) -> Result<Vec<State>> {
+        self.run(states_in_force)
     }
 
     /// All changes, by key.

@@ -27,6 +27,11 @@ pub async fn marks(connection: &mut SqliteConnection) -> Result<Vec<Mark>> {
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
 }
 
+/// Whether what is stored does not hold any more: by an edit, or by the clock.
+pub async fn is_stale(connection: &mut SqliteConnection) -> Result<bool> {
+    Ok(sqlx::query_scalar("SELECT stale FROM staleness").fetch_one(connection).await?)
+}
+
 /// Takes all marks away: what is stored now follows from the tables as they are.
 pub async fn mark_fresh(connection: &mut SqliteConnection) -> Result<()> {
     sqlx::query("DELETE FROM stale_marks").execute(connection).await?;
@@ -96,6 +101,11 @@ impl Tx<'_> {
     /// The edits that no build has followed up yet, by table and key.
     pub fn stale_marks(&mut self) -> Result<Vec<Mark>> {
         self.run(marks)
+    }
+
+    /// Whether what is stored does not hold any more: by an edit, or by the clock.
+    pub fn is_stale(&mut self) -> Result<bool> {
+        self.run(is_stale)
     }
 
     /// Says that what is stored now follows from the tables as they are: the last step of a build.

@@ -13,7 +13,7 @@ use crate::gauge::Gauge;
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
-use crate::{generation, reason};
+use crate::{generation, reason, states};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -62,16 +62,30 @@ pub struct Answer {
 impl KnowledgeBase {
     /// The route of least hardness between two places, rooms or points (`x,y`).
     ///
-    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
+    /// As [`route_to_nearest`](Self::route_to_nearest), with one goal.
     pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
         self.route_to_nearest(start, &[goal.to_owned()], robot)
     }
 
     /// The route to the one of several goals that costs least; the answer's `goal` says which.
     ///
-    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
+    /// Where tables, `site.toml` or the map were edited since the last build, or the time is over up to which it holds,
+    /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
+    /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        if self.asks_about_another_moment() {
+            return self.rehearsed(|tx| self.answer(tx, start, goals, robot));
+        }
         self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
+    }
+
+    /// Does `work` on what would be derived now, and takes all of it back.
+    pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
+        let inputs = self.inputs(&crate::progress::Silent)?;
+        Store::open(self.database())?.rehearse(|tx| {
+            self.follow(tx, &inputs, &crate::progress::Silent)?;
+            work(tx)
+        })
     }
 
     /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
@@ -80,7 +94,7 @@ impl KnowledgeBase {
         let mut store = Store::open_read_only(self.database())?;
         let texts = self.site().texts().to_string();
         let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
-            Ok(!tx.stale_marks()?.is_empty() || tx.site_value("texts")?.is_some_and(|built| built != texts))
+            Ok(tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
         };
         if store.snapshot(is_old)? {
             drop(store);
@@ -149,7 +163,7 @@ impl KnowledgeBase {
         };
         answer.goal.clone_from(&names[goal]);
         answer.steps = steps::steps(graph, rules, &way, goals[goal].at.is_some());
-        answer.waypoints = steps::waypoints(graph, &way, &Gauge::new(&world, &tx.states()?));
+        answer.waypoints = steps::waypoints(graph, &way, &Gauge::new(&world, &states::in_force(tx)?));
         answer.cost = Some(way.cost);
         answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
         answer.status = if way.legs.len() == 1 { Status::SameRoom } else { Status::Ok };

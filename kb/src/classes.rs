@@ -18,6 +18,11 @@ const KEYS: [(&str, &[&str]); 6] = [
     ("DOOR_ROOMS", &["room", "door"]),
 ];
 
+/// The properties that tell objects of a class with a longer key apart; none of other classes.
+pub fn key_of(class: &str) -> &'static [&'static str] {
+    KEYS.iter().find(|(name, _)| *name == class).map_or(&[], |(_, key)| key)
+}
+
 /// Asserts a class; its key is its first property, where that tells the objects apart.
 pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()> {
     let composite = KEYS.iter().find(|(class, _)| *class == name).map(|(_, key)| key.to_vec());
@@ -49,6 +54,21 @@ fn first_if_unique(table: &Table) -> Vec<&str> {
     keys.sort_unstable();
     keys.dedup();
     if all && keys.len() == column.len() { vec![name] } else { Vec::new() }
+}
+
+/// The keys of a table's rows as people write them: the values of these columns, joined by `/`.
+pub fn keys(table: &Table, parts: &[String]) -> Vec<String> {
+    let part = |name: &String, row: usize| {
+        let text = |cell: Option<String>| cell.unwrap_or_default();
+        match table.column(name) {
+            Some(Column::Text(values)) => text(values[row].clone()),
+            Some(Column::Number(values)) => text(values[row].map(|number| number.to_string())),
+            Some(Column::Truth(values)) => text(values[row].map(|truth| truth.to_string())),
+            None => String::new(),
+        }
+    };
+    let key = |row: usize| parts.iter().map(|name| part(name, row)).collect::<Vec<_>>().join("/");
+    (0..table.len()).map(key).collect()
 }
 
 /// A property as `CLASS.property`, split.

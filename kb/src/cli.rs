@@ -8,8 +8,10 @@ mod output;
 mod picture;
 mod route;
 mod sql;
+mod tell;
 mod test;
 mod tune;
+mod tuning;
 mod watch;
 mod why;
 
@@ -40,6 +42,10 @@ pub enum Verb {
     Route(RouteArgs),
     /// Edit one cell of a table as a transaction, and show what changes
     Tune(TuneArgs),
+    /// Tell a fact about one object, with an end if it has one; list and retract what was told
+    Tell(TellArgs),
+    /// Named sets of edits: list, set, switch on and off, preview, compare
+    Tuning(TuningArgs),
     /// Lint rules, tables and map without building
     Check(CheckArgs),
     /// Run the tests of the site's rules
@@ -114,6 +120,9 @@ pub struct BuildArgs {
     /// Take the robot table from the file again, instead of the database's
     #[arg(long)]
     pub reseed: bool,
+    /// As if it were this time: `2026-11-21T18:00`, `18:00`, `2h`
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
 }
 
 /// `adit route`.
@@ -137,6 +146,9 @@ pub struct RouteArgs {
     /// Print every step, not only where the action changes
     #[arg(long)]
     pub steps: bool,
+    /// The route as it would be at this time: `2026-11-21T18:00`, `18:00`, `2h`
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
 }
 
 /// `adit tune`.
@@ -161,6 +173,65 @@ pub struct TuneArgs {
     /// Remove the row
     #[arg(long)]
     pub remove: bool,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+}
+
+/// `adit tell`.
+#[derive(Args, Debug)]
+pub struct TellArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The class: DOORS, ROOMS, ROBOTS, or any that rules read
+    pub class: Option<String>,
+    /// The object: its name, a point `x,y`, `door 7` or `room d`
+    #[arg(allow_hyphen_values = true)]
+    pub object: Option<String>,
+    /// The property
+    pub property: Option<String>,
+    /// The value: a number, a text, `true` or `false`
+    #[arg(allow_hyphen_values = true)]
+    pub value: Option<String>,
+    /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+    /// Show what would change and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Tell a property that no rule reads yet
+    #[arg(long)]
+    pub new: bool,
+    /// Show what is told
+    #[arg(long, conflicts_with_all = ["class", "retract"])]
+    pub list: bool,
+    /// Take a fact back, by its number in the list
+    #[arg(long, value_name = "ID", conflicts_with = "class")]
+    pub retract: Option<i64>,
+    /// As if it were this time
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
+}
+
+/// `adit tuning`.
+#[derive(Args, Debug)]
+#[command(after_help = "adit tuning SITE                                  lists the tunings\n\
+adit tuning SITE NAME                             shows one\n\
+adit tuning SITE NAME set TABLE KEY COLUMN VALUE  a cell that counts while it is on\n\
+adit tuning SITE NAME unset TABLE KEY COLUMN      takes the cell out\n\
+adit tuning SITE NAME on | off | preview          switches it, or shows what that would change\n\
+adit tuning SITE compare A B                      routes between places, side by side; `base` is none")]
+pub struct TuningArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The tuning, and what to do with it
+    #[arg(allow_negative_numbers = true)]
+    pub words: Vec<String>,
     /// Why, for the history
     #[arg(long, value_name = "TEXT")]
     pub why: Option<String>,
@@ -306,6 +377,8 @@ pub fn run(cli: &Cli) -> ExitCode {
             route::Outcome::Unknown => 2,
         }),
         Verb::Tune(args) => tune::tune(args).map(|()| 0),
+        Verb::Tell(args) => tell::run(args).map(|()| 0),
+        Verb::Tuning(args) => tuning::run(args).map(|()| 0),
         Verb::Check(args) => doctor::check(args).map(|sound| u8::from(!sound)),
         Verb::Test(args) => test::run(args).map(|passed| u8::from(!passed)),
         Verb::Watch(args) => watch::run(args).map(|()| 0),
@@ -343,6 +416,8 @@ impl Verb {
             Self::Build(args) => args.site.json,
             Self::Route(args) => args.site.json,
             Self::Tune(args) => args.site.json,
+            Self::Tell(args) => args.site.json,
+            Self::Tuning(args) => args.site.json,
             Self::Check(args) => args.site.json,
             Self::Test(args) => args.site.json,
             Self::Watch(args) => args.site.json,

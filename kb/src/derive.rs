@@ -11,6 +11,7 @@ use adit_planners::world::World;
 use crate::classes;
 use crate::error::{Error, Result};
 use crate::progress::Progress;
+use crate::told::{Attached, Told};
 
 /// A stage of the work and how long it took.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,8 @@ pub struct Derived {
     pub knowledge: Inference,
     /// What planners gave, by class.
     pub facts: Facts,
+    /// Which objects each fact that was told is about.
+    pub attached: Attached,
     /// Which planner gave which facts, from inputs with which fingerprint.
     pub fingerprints: Vec<(String, u64)>,
     /// What the rules concluded, and where they could not.
@@ -46,25 +49,29 @@ pub struct Derived {
 /// Runs planners and rules until everything is concluded that can be.
 pub fn derive(
     world: &World,
-    told: &Facts,
+    told: &Told,
     planners: &[Box<dyn Planner>],
     rules: &RuleBase,
     memory: &mut dyn Memory,
     progress: &dyn Progress,
 ) -> Result<Derived> {
     let mut knowledge = Inference::new();
-    for (class, table) in told {
+    let mut attached = Attached::default();
+    for (class, table) in &told.classes {
         classes::assert(&mut knowledge, class, table)?;
+        told.tell(&mut knowledge, class, &mut attached)?;
     }
     let mut run = Run {
         derived: Derived {
             conclusions: conclude(&mut knowledge, rules)?,
             knowledge,
+            attached,
             facts: Facts::new(),
             fingerprints: Vec::new(),
             stages: Vec::new(),
         },
         world,
+        told,
         rules,
     };
     let mut waiting: Vec<&dyn Planner> = planners.iter().map(AsRef::as_ref).collect();
@@ -84,6 +91,7 @@ pub fn derive(
 struct Run<'a> {
     derived: Derived,
     world: &'a World,
+    told: &'a Told,
     rules: &'a RuleBase,
 }
 
@@ -111,6 +119,7 @@ impl Run<'_> {
         };
         for (class, table) in facts {
             classes::assert(&mut self.derived.knowledge, &class, &table)?;
+            self.told.tell(&mut self.derived.knowledge, &class, &mut self.derived.attached)?;
             self.derived.facts.insert(class, table);
         }
         self.derived.fingerprints.push((planner.name().to_owned(), fingerprint));

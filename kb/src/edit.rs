@@ -6,9 +6,18 @@ use adit_db::history::Author;
 use adit_db::relation::RelationColumn;
 use serde::Serialize;
 
+use adit_engine::RuleBase;
+
 use crate::error::{Error, Result};
+use crate::knowledge::KnowledgeBase;
 use crate::robots::ONLY_ROBOT;
 use crate::suggest::did_you_mean;
+use crate::told::Tell;
+use crate::tunings;
+
+mod tuning;
+
+pub(crate) use tuning::known as known_tuning;
 
 /// What is to be edited. Values are as people write them; the column says what they must be.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +28,16 @@ pub enum Edit {
     Add(String, String, Vec<(String, String)>),
     /// A row that goes: table, key.
     Remove(String, String),
+    /// A fact about one object.
+    Tell(Tell),
+    /// A fact, by its number, that is no longer told.
+    Retract(i64),
+    /// A cell of a named tuning: the tuning, then table, key, column, value.
+    SetInTuning(String, [String; 4]),
+    /// A cell of a named tuning that goes: the tuning, then table, key, column.
+    UnsetInTuning(String, [String; 3]),
+    /// A named tuning that is switched on or off.
+    Switch(String, bool),
     /// An entry of the history that is taken back; the latest one without a number.
     Undo(Option<i64>),
 }
@@ -38,7 +57,13 @@ pub struct Done {
 
 impl Edit {
     /// Carries it out and writes the history.
-    pub fn apply(&self, tx: &mut Tx<'_>, author: &Author) -> Result<Done> {
+    pub fn apply(
+        &self,
+        tx: &mut Tx<'_>,
+        site: &KnowledgeBase,
+        rules: &RuleBase,
+        author: &Author,
+    ) -> Result<Done> {
         let done = match self {
             Self::Set(table, key, column, value) => {
                 let columns = columns(tx, table)?;
@@ -57,6 +82,23 @@ impl Edit {
                 let gone = tx.remove_row(table, key, author);
                 gone.map_err(|error| explain(tx, &error, table, key, ""))?
             }
+            Self::Tell(tell) => {
+                let row = tell.row(tx, site, rules, author)?;
+                tx.add_row("told", &row, author)?
+            }
+            Self::Retract(id) => {
+                let gone = tx.remove_row("told", &id.to_string(), author);
+                gone.map_err(|error| match error {
+                    adit_db::Error::UnknownKey { .. } => {
+                        let help = "`adit tell SITE --list` shows what is told".to_owned();
+                        Error::said("tell/unknown-fact", format!("there is no fact {id}"), Some(help))
+                    }
+                    error => error.into(),
+                })?
+            }
+            Self::SetInTuning(tuning, cell) => tuning::set(tx, tuning, cell, author)?,
+            Self::UnsetInTuning(tuning, cell) => tuning::unset(tx, tuning, cell, author)?,
+            Self::Switch(tuning, on) => tuning::switch(tx, tuning, *on, author)?,
             Self::Undo(Some(id)) => tx.undo(*id, author)?,
             Self::Undo(None) => match tx.undoable(1)?.first() {
                 Some(id) => tx.undo(*id, author)?,
@@ -64,6 +106,22 @@ impl Edit {
             },
         };
         Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new })
+    }
+}
+
+impl Edit {
+    /// A word about a cell that was set and does not count, since a tuning that is on says otherwise.
+    pub(crate) fn overridden(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+        let Self::Set(table, _, column, _) = self else { return Ok(None) };
+        let cells = tunings::in_force(tx)?;
+        let cell =
+            cells.iter().find(|cell| cell.table == *table && cell.key == done.key && cell.column == *column);
+        Ok(cell.map(|cell| {
+            format!(
+                "{table}.{}.{column} is {} while the tuning `{}` is on: what was set counts when it is off",
+                done.key, cell.value, cell.tuning
+            )
+        }))
     }
 }
 
@@ -78,8 +136,8 @@ fn cell(text: &str) -> Cell {
     }
 }
 
-const TUNABLE: [&str; 3] = ["robots", "changes", "loads"];
-const DERIVED: [&str; 15] = [
+const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
+const DERIVED: [&str; 17] = [
     "rooms",
     "doors",
     "routes",
@@ -95,6 +153,8 @@ const DERIVED: [&str; 15] = [
     "area_rooms",
     "door_rooms",
     "history",
+    "site_hours",
+    "opening_hours",
 ];
 
 /// The columns of a table that may be edited, its key's first.

@@ -4,12 +4,12 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use adit_db::Tx;
 use adit_engine::RuleBase;
-use adit_planners::facts::Facts;
 use adit_planners::world::World;
 
 use crate::derive::content;
 use crate::error::Result;
 use crate::site::Site;
+use crate::told::Told;
 
 /// The number of the state that the database is in; 0 where it was never built.
 pub fn read(tx: &mut Tx<'_>) -> Result<u64> {
@@ -26,7 +26,7 @@ pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
 }
 
 /// A text that is equal where everything is that a derivation starts from.
-pub fn basis(site: &Site, world: &World, rules: &RuleBase, told: &Facts) -> String {
+pub fn basis(site: &Site, world: &World, rules: &RuleBase, told: &Told) -> String {
     Basis::new(site, world, rules).with(told)
 }
 
@@ -45,12 +45,13 @@ impl Basis {
         Self(hasher)
     }
 
-    /// The whole basis, with these tables.
-    pub fn with(&self, told: &Facts) -> String {
+    /// The whole basis, with what is told.
+    pub fn with(&self, told: &Told) -> String {
         let mut hasher = self.0.clone();
-        for (class, table) in told {
+        for (class, table) in &told.classes {
             (class, content(std::slice::from_ref(table))).hash(&mut hasher);
         }
+        told.hash(&mut hasher);
         format!("{:016x}", hasher.finish())
     }
 }

@@ -9,20 +9,24 @@ use adit_db::robot::State;
 use adit_db::{Cell, Store, Tx};
 use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
-use adit_planners::facts::{Column, Facts};
+use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
 use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::Planner;
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
+use jiff::Timestamp;
+use jiff::tz::TimeZone;
 
+use crate::clock::{Clock, stored};
 use crate::derive::{Derived, Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::gauge::Gauge;
 use crate::graph::SiteGraph;
 use crate::grounds::Numbering;
+use crate::hours::Opening;
 use crate::inputs::Inputs;
 use crate::progress::{Progress, Silent};
 use crate::report::{Before, PlaceCosts, Report, Routes};
@@ -30,7 +34,9 @@ use crate::robots::RobotFile;
 use crate::rules::Rules;
 use crate::site::{Rooms, Site};
 use crate::store::{LastBuild, Tables};
-use crate::{classes, generation, lint, rules, tables, trees};
+use crate::told::{Attached, Fact, Told};
+use crate::tunings::{self, RowKeys};
+use crate::{classes, generation, lint, rules, states, tables, trees};
 
 /// Something that the expert should know, though nothing is wrong.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -43,6 +49,16 @@ struct Note(String);
 #[error("{0}")]
 #[diagnostic(code("rule/gap"), severity(warning))]
 struct Gap(String);
+
+/// A fact that no longer finds what it is about.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(
+    code("tell/lost"),
+    severity(warning),
+    help("tell it again where it now is, or take it back with `adit tell SITE --retract ID`")
+)]
+struct Lost(String);
 
 /// What the tests of a rule base gave.
 pub struct Tested {
@@ -59,6 +75,7 @@ pub struct KnowledgeBase {
     database: PathBuf,
     rules: Option<PathBuf>,
     reseed: bool,
+    at: Option<Timestamp>,
 }
 
 impl KnowledgeBase {
@@ -67,7 +84,8 @@ impl KnowledgeBase {
         let site = Site::open(folder)?;
         let database = site.database();
         let mode = site.rooms;
-        let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
+        let mut knowledge =
+            Self { site, planners: Vec::new(), database, rules: None, reseed: false, at: None };
         knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
@@ -106,6 +124,29 @@ impl KnowledgeBase {
     pub fn with_rules(mut self, folder: Option<&Path>) -> Self {
         self.rules = folder.map(Path::to_owned);
         self
+    }
+
+    /// Asks about another moment than the present: facts that end and opening hours are told as they are then.
+    ///
+    /// # Arguments
+    /// `time` is written as [`moment`](Self::moment) reads it.
+    pub fn at(mut self, time: Option<&str>) -> Result<Self> {
+        self.at = time.map(|time| self.moment(time)).transpose()?;
+        Ok(self)
+    }
+
+    /// A time as people write it: `2026-11-21T18:00` of the site's time zone, `2026-11-21` (its begin), `18:00` (the
+    /// next one), `2h` or `3 days` (from now), or an instant with its offset (`2026-11-21T18:00:00Z`).
+    pub fn moment(&self, text: &str) -> Result<Timestamp> {
+        self.clock().parse(text)
+    }
+
+    pub(crate) fn clock(&self) -> Clock {
+        Clock::new(self.at, self.site.zone.as_ref().unwrap_or(&TimeZone::UTC))
+    }
+
+    pub(crate) fn asks_about_another_moment(&self) -> bool {
+        self.at.is_some()
     }
 
     /// Whether the next build takes the robot table from its file again.
@@ -186,8 +227,9 @@ impl KnowledgeBase {
         let inputs = self.inputs(progress)?;
         let mut store = Store::open(&self.database)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
-            let done = edit.apply(tx, author)?;
-            let report = self.follow(tx, &inputs, progress)?;
+            let done = edit.apply(tx, self, &inputs.rules, author)?;
+            let mut report = self.follow(tx, &inputs, progress)?;
+            report.notes.extend(edit.overridden(tx, &done)?);
             Ok((done, report))
         };
         if rehearse { store.rehearse(work) } else { store.transaction(work) }
@@ -211,6 +253,7 @@ impl KnowledgeBase {
         let report = self.build_at(&scratch, &Silent)?;
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
         problems.extend(notes.map(|note| miette::Report::new(Note(note))));
+        problems.extend(report.lost.into_iter().map(|lost| miette::Report::new(Lost(lost))));
         problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
         problems.extend(lint::never_chosen(&report.dominated).into_iter().map(miette::Report::new));
         Ok(problems)
@@ -221,31 +264,16 @@ impl KnowledgeBase {
         Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
 
-    /// The states of a robot, as the database has them, with the sizes that rules made of those in the table.
+    /// The states of a robot as they count: with the named tunings that are on, and the sizes that rules made of those in the
+    /// table.
     pub fn states(&self, robot: &str) -> Result<Vec<State>> {
-        let mut store = Store::open_read_only(&self.database)?;
-        store.snapshot(|tx| -> Result<_> {
-            let mut states = tx.states()?;
-            states.retain(|state| state.robot == robot);
-            for state in &mut states {
-                let key = Cell::from(format!("{robot}/{}", state.state).as_str());
-                for concluded in tx.conclusions("robots", &key)? {
-                    let size = match concluded.property.as_str() {
-                        "height" => &mut state.height,
-                        "width" => &mut state.width,
-                        _ => continue,
-                    };
-                    if let Cell::Real(metres) = concluded.value {
-                        *size = metres;
-                    }
-                }
-            }
-            Ok(states)
-        })
+        let mut states = Store::open_read_only(&self.database)?.snapshot(states::in_force)?;
+        states.retain(|state| state.robot == robot);
+        Ok(states)
     }
 
     /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
-    fn follow(&self, tx: &mut Tx<'_>, inputs: &Inputs, progress: &dyn Progress) -> Result<Report> {
+    pub(crate) fn follow(&self, tx: &mut Tx<'_>, inputs: &Inputs, progress: &dyn Progress) -> Result<Report> {
         let before = Before::read(tx)?;
         let told = self.told(tx, &inputs.rules)?;
         self.vet(&inputs.rules, &inputs.tests, &told)?;
@@ -265,12 +293,14 @@ impl KnowledgeBase {
         let began = Instant::now();
         made.write(tx, &inputs.world, &derived)?;
         keep_planned_classes(tx, &derived.facts)?;
+        tx.replace_site_hours(&self.site.hours)?;
+        keep_standings(tx, &told, &derived.attached)?;
         let database = Stage { name: "database".to_owned(), took: began.elapsed(), kept: false };
 
         progress.stage("routes");
         let began = Instant::now();
         let graph = SiteGraph::new(made.rooms, made.doors, tx.places()?);
-        let gauge = Gauge::new(&inputs.world, &tx.states()?);
+        let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
         let routes = self.keep_routes(tx, (&graph, &gauge), &robots, &before, progress)?;
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
@@ -278,7 +308,12 @@ impl KnowledgeBase {
         let basis = generation::basis(&self.site, &inputs.world, &inputs.rules, &told);
         let generation = generation::renew(tx, same, &basis)?;
         self.sign(tx, &inputs.rules)?;
+        told.sign(tx)?;
+        let lost = told.lost(&derived.attached);
+        let idle = told.idle_hours(&derived.knowledge);
         let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
+        report.lost = lost;
+        report.notes.extend(told.notes.iter().cloned().chain(idle));
         if graph.rooms.is_empty() {
             report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }
@@ -296,21 +331,70 @@ impl KnowledgeBase {
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
-    pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Facts> {
-        let mut told = Facts::from([
+    pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Told> {
+        let classes = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
             ("LOADS".to_owned(), tables::loads(&tx.loads()?)),
         ]);
+        let mut told = Told { classes, ..Told::default() };
+        let keys = |table: &Table, parts: &[&str]| {
+            classes::keys(table, &parts.iter().map(ToString::to_string).collect::<Vec<_>>())
+        };
+        let mut row_keys = RowKeys::new();
+        for (class, table) in &told.classes {
+            row_keys.insert(class.clone(), keys(table, classes::key_of(class)));
+        }
         let planned = self.planned_classes();
         for table in tx.user_tables()? {
             let class = table.name.to_uppercase();
             let named = rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
             if named && !planned.contains(&class) {
-                told.insert(class, tables::read(&tx.read_table(&table.name)?)?);
+                let relation = tx.read_table(&table.name)?;
+                let read = tables::read(&relation)?;
+                row_keys.insert(class.clone(), tables::keys(&relation));
+                told.classes.insert(class, read);
             }
         }
+        told.notes = tunings::lay_over(&mut told.classes, &row_keys, &tunings::in_force(tx)?)?;
+        self.tell_by_the_clock(tx, &mut told)?;
         Ok(told)
+    }
+
+    /// What holds at the moment only: opening hours, and facts that end.
+    fn tell_by_the_clock(&self, tx: &mut Tx<'_>, told: &mut Told) -> Result<()> {
+        let clock = self.clock();
+        let mut hours = self.site.hours.clone();
+        hours.extend(tx.hours()?);
+        let opening = Opening::new(&hours)?;
+        told.classes.insert("HOURS".to_owned(), opening.class(&clock));
+        if self.site.zone.is_none() && !hours.is_empty() {
+            told.notes.push("opening hours are read in UTC, since site.toml names no `timezone`".to_owned());
+        }
+        let now = stored(clock.now());
+        let mut ends = Vec::from_iter(opening.next_change(&clock).map(stored));
+        for row in tx.facts_told()? {
+            match &row.until {
+                Some(until) if *until <= now => told.expired.push(row.id),
+                until => {
+                    ends.extend(until.clone());
+                    told.facts.push(Fact::of(&row)?);
+                }
+            }
+        }
+        told.valid_until = ends.into_iter().min();
+        told.valid_from = clock.is_ahead().then_some(now);
+        Ok(())
+    }
+
+    /// Facts that the last build could not attach to anything, in sentences.
+    pub fn lost(&self) -> Result<Vec<String>> {
+        let (rows, standings) = Store::open_read_only(&self.database)?
+            .snapshot(|tx| -> Result<_> { Ok((tx.facts_told()?, tx.standings()?)) })?;
+        let is_lost =
+            |id: i64| standings.iter().any(|standing| standing.told == id && standing.state == "lost");
+        let facts = rows.iter().filter(|row| is_lost(row.id)).map(Fact::of).collect::<Result<Vec<_>>>()?;
+        Ok(facts.iter().map(Fact::lost).collect())
     }
 
     fn planned_classes(&self) -> Vec<String> {
@@ -320,9 +404,9 @@ impl KnowledgeBase {
         classes
     }
 
-    fn schema(&self, told: &Facts) -> Schema {
+    pub(crate) fn schema(&self, told: &Told) -> Schema {
         let mut schema = Schema::default();
-        for (class, table) in told {
+        for (class, table) in &told.classes {
             schema = schema.class(class, &[]);
             for (property, column) in &table.columns {
                 let kind = match column {
@@ -337,11 +421,12 @@ impl KnowledgeBase {
         for planner in &self.planners {
             classes::declare(&mut schema, &planner.signature().gives);
         }
+        told.declare(&mut schema);
         schema
     }
 
     /// Refuses rules with names or types that cannot be right, and rules that fail a test beside them.
-    fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Facts) -> Result<()> {
+    fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<()> {
         let failures: Vec<_> =
             self.run_tests(rules, tests, told)?.into_iter().flat_map(|outcome| outcome.failures).collect();
         if failures.is_empty() {
@@ -350,7 +435,7 @@ impl KnowledgeBase {
         Err(Error::all(failures.into_iter().map(|failure| failure.diagnostic)))
     }
 
-    fn run_tests(&self, rules: &RuleBase, tests: &RuleTests, told: &Facts) -> Result<Vec<TestOutcome>> {
+    fn run_tests(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<Vec<TestOutcome>> {
         let schema = self.schema(told);
         let problems = rules.check(&schema);
         let errors: Vec<_> =
@@ -368,7 +453,7 @@ impl KnowledgeBase {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
         } else {
-            (tables::unbuilt(), 0)
+            (Told { classes: tables::unbuilt(), ..Told::default() }, 0)
         };
         Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
     }
@@ -451,6 +536,15 @@ impl KnowledgeBase {
         tx.mark_fresh()?;
         Ok(())
     }
+}
+
+/// Keeps which objects facts are about, where that differs from what was kept.
+pub(crate) fn keep_standings(tx: &mut Tx<'_>, told: &Told, attached: &Attached) -> Result<()> {
+    let standings = told.standings(attached);
+    if tx.standings()? != standings {
+        tx.replace_standings(&standings)?;
+    }
+    Ok(())
 }
 
 /// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner

@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::{Store, Tx};
-use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
-use adit_planners::facts::Facts;
+use adit_engine::{Changes, KnowledgeBase as Inference, Severity, Value};
+use adit_planners::facts::{Column, Facts};
 
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
@@ -17,11 +17,12 @@ use crate::gauge::Gauge;
 use crate::generation::{self, Basis};
 use crate::grounds::Numbering;
 use crate::inputs::Inputs;
-use crate::knowledge::KnowledgeBase;
+use crate::knowledge::{KnowledgeBase, keep_standings};
 use crate::progress::Silent;
 use crate::report::Before;
 use crate::store::{LastBuild, Tables, places};
-use crate::{classes, trees, weights};
+use crate::told::{Attached, Tell, Told};
+use crate::{classes, states, trees, weights};
 use kept::{Kept, Written};
 use routes::KeptRoutes;
 
@@ -39,7 +40,13 @@ struct Memory {
     inputs: Inputs,
     basis: Basis,
     generation: u64,
-    told: Facts,
+    told: Told,
+    /// Which objects facts are about.
+    attached: Attached,
+    /// What planners said of classes other than rooms and doors.
+    planned: Facts,
+    /// What facts of an edit that is not committed yet are about.
+    pending: Option<Attached>,
     knowledge: Inference,
     numbering: Numbering,
     kept: Kept,
@@ -143,6 +150,16 @@ impl Live {
         }
     }
 
+    /// Tells a fact about one object, as [`Live::edit`] does.
+    pub fn tell(&mut self, fact: Tell, author: &Author) -> Result<Outcome> {
+        self.edit(&Edit::Tell(fact), author)
+    }
+
+    /// Takes a fact back, by its number.
+    pub fn retract(&mut self, fact: i64, author: &Author) -> Result<Outcome> {
+        self.edit(&Edit::Retract(fact), author)
+    }
+
     /// The edit by way of everything, as `adit tune` does it.
     fn edit_anew(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         let (done, report) = self.site.edit(edit, author, false, &Silent)?;
@@ -165,7 +182,8 @@ impl Live {
 
 /// What is accepted once it is committed.
 struct Step {
-    told: Facts,
+    told: Told,
+    attached: Attached,
     generation: u64,
     numbering: Numbering,
     written: Written,
@@ -203,9 +221,24 @@ impl Memory {
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
         let routes = KeptRoutes::read(tx, graph, plan)?;
-        let gauge = Gauge::new(&inputs.world, &tx.states()?);
-        let knowledge = derived.knowledge;
-        Ok(Some(Self { inputs, basis, generation, told, knowledge, numbering, kept, routes, gauge }))
+        let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
+        let (knowledge, attached, mut planned) = (derived.knowledge, derived.attached, derived.facts);
+        planned.retain(|class, _| !["ROOMS", "DOORS"].contains(&class.as_str()));
+        let pending = None;
+        Ok(Some(Self {
+            inputs,
+            basis,
+            generation,
+            told,
+            attached,
+            planned,
+            pending,
+            knowledge,
+            numbering,
+            kept,
+            routes,
+            gauge,
+        }))
     }
 
     /// Edits, and writes what follows.
@@ -219,10 +252,10 @@ impl Memory {
         if generation::read(tx)? != self.generation || !tx.stale_marks()?.is_empty() {
             return Err(Stop::Anew);
         }
-        let done = edit.apply(tx, author)?;
+        let done = edit.apply(tx, site, &self.inputs.rules, author)?;
         let told = site.told(tx, &self.inputs.rules)?;
         clock.lap("edit");
-        self.tell(&told)?;
+        let attached = self.tell(&told, site)?;
         let changes = self.knowledge.update(&self.inputs.rules);
         let failed = self.knowledge.problems(&self.inputs.rules);
         if failed.iter().any(|problem| problem.severity == Severity::Error) {
@@ -253,31 +286,88 @@ impl Memory {
         KeptRoutes::write(tx, &routes)?;
         let same = written.rooms.is_empty() && written.doors.is_empty();
         let generation = generation::renew(tx, same, &self.basis.with(&told))?;
+        keep_standings(tx, &told, &attached)?;
+        told.sign(tx)?;
         tx.mark_fresh()?;
         clock.lap("rows of routes");
-        Ok((done, Step { told, generation, numbering, written, routes }))
+        Ok((done, Step { told, attached, generation, numbering, written, routes }))
     }
 
-    /// Tells the classes that differ. Other columns than before have to be looked at as a build does.
-    fn tell(&mut self, told: &Facts) -> std::result::Result<(), Stop> {
-        if told.len() != self.told.len() {
+    /// Tells the classes and facts that differ. Other columns than before have to be looked at as a build does.
+    ///
+    /// # Returns
+    /// Which objects facts are now about.
+    fn tell(&mut self, told: &Told, site: &KnowledgeBase) -> std::result::Result<Attached, Stop> {
+        if told.classes.len() != self.told.classes.len() {
             return Err(Stop::Anew);
         }
-        for (class, table) in told {
-            let Some(before) = self.told.get(class) else { return Err(Stop::Anew) };
-            if before == table {
-                continue;
-            }
-            let kinds = |table: &adit_planners::facts::Table| -> Vec<_> {
-                let kind = |(name, column): &(String, adit_planners::facts::Column)| {
-                    (name.clone(), std::mem::discriminant(column))
-                };
-                table.columns.iter().map(kind).collect()
+        let kinds = |table: &adit_planners::facts::Table| -> Vec<_> {
+            let kind = |(name, column): &(String, adit_planners::facts::Column)| {
+                (name.clone(), std::mem::discriminant(column))
             };
+            table.columns.iter().map(kind).collect()
+        };
+        let mut attached = self.told_of_planned(told, site)?;
+        for (class, table) in &told.classes {
+            let Some(before) = self.told.classes.get(class) else { return Err(Stop::Anew) };
             if kinds(before) != kinds(table) {
                 return Err(Stop::Anew);
             }
-            classes::assert(&mut self.knowledge, class, table)?;
+            if before != table || !self.told.facts_of(class).eq(told.facts_of(class)) {
+                classes::assert(&mut self.knowledge, class, table)?;
+            }
+            told.tell(&mut self.knowledge, class, &mut attached)?;
+        }
+        Ok(attached)
+    }
+
+    /// Tells the facts about what planners give.
+    fn told_of_planned(&mut self, told: &Told, site: &KnowledgeBase) -> std::result::Result<Attached, Stop> {
+        let planned = |told: &Told| -> Vec<_> {
+            let facts = told.facts.iter().filter(|fact| !told.classes.contains_key(&fact.class));
+            facts.cloned().collect()
+        };
+        let (before, now) = (planned(&self.told), planned(told));
+        let given: Vec<String> =
+            site.planners().iter().flat_map(|planner| planner.signature().gives).collect();
+        let is_given = |class: &str, property: &str| {
+            given.iter().any(|given| {
+                let name = given.split(':').next().unwrap_or(given);
+                classes::split(name.trim()) == (class, property)
+            })
+        };
+        // what a planner said of rooms and doors is not in memory any more
+        let differ = before
+            .iter()
+            .filter(|fact| !now.contains(fact))
+            .chain(now.iter().filter(|f| !before.contains(f)));
+        let is_forgotten = |class: &str| !self.planned.contains_key(class);
+        if differ.into_iter().any(|fact| is_forgotten(&fact.class) && is_given(&fact.class, &fact.property)) {
+            return Err(Stop::Anew);
+        }
+        let mut attached = Attached::default();
+        told.attach(&self.knowledge, |class| !told.classes.contains_key(class), &mut attached);
+        self.pending = Some(attached.clone());
+        self.change_planned(&self.attached.clone(), &attached, told)?;
+        Ok(attached)
+    }
+
+    /// Tells of each object of a planner's class what counts now instead of before.
+    fn change_planned(&mut self, before: &Attached, now: &Attached, told: &Told) -> Result<()> {
+        let is_planned = |class: &str| !told.classes.contains_key(class);
+        for ((class, row, property), fact) in
+            now.cells().iter().filter(|((class, _, _), _)| is_planned(class))
+        {
+            fact.tell_row(&mut self.knowledge, class, *row, property)?;
+        }
+        for cell in
+            before.cells().keys().filter(|cell| is_planned(&cell.0) && !now.cells().contains_key(*cell))
+        {
+            let (class, row, property) = cell;
+            let said = self.planned.get(class).and_then(|table| table.column(property));
+            let value = said.and_then(|column| value_of(column, *row));
+            let told = self.knowledge.tell_row(class, *row, property, value);
+            told.map_err(|error| Error::said("tell/refused", error.to_string(), None))?;
         }
         Ok(())
     }
@@ -296,6 +386,7 @@ impl Memory {
         let (rooms, doors) = (step.written.rooms.len(), step.written.doors.len());
         let tree_rows = step.routes.rows();
         (self.told, self.generation, self.numbering) = (step.told, step.generation, step.numbering);
+        (self.attached, self.pending) = (step.attached, None);
         self.routes.accept(&step.written, step.routes);
         self.kept.accept(step.written, &mut self.numbering);
         Outcome { done, generation: step.generation, rooms, doors, tree_rows, anew: false, stages }
@@ -303,12 +394,26 @@ impl Memory {
 
     /// Makes an edit undone that was not committed.
     fn take_back(&mut self) -> Result<()> {
-        for (class, table) in &self.told {
+        let told = self.told.clone();
+        if let Some(pending) = self.pending.take() {
+            self.change_planned(&pending, &self.attached.clone(), &told)?;
+        }
+        for (class, table) in &told.classes {
             classes::assert(&mut self.knowledge, class, table)?;
+            told.tell(&mut self.knowledge, class, &mut Attached::default())?;
         }
         self.knowledge.update(&self.inputs.rules);
         self.routes.take_back();
         Ok(())
+    }
+}
+
+/// A value of a column as it is told.
+fn value_of(column: &Column, row: usize) -> Option<Value> {
+    match column {
+        Column::Number(values) => values[row].map(Value::Number),
+        Column::Text(values) => values[row].as_deref().map(Value::from),
+        Column::Truth(values) => values[row].map(Value::Truth),
     }
 }
 

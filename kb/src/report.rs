@@ -230,6 +230,8 @@ pub struct Report {
     pub map: MapReport,
     /// What the expert should know.
     pub notes: Vec<String>,
+    /// Facts that no longer find what they are about.
+    pub lost: Vec<String>,
     /// What routes need and no rule gave.
     pub gaps: Vec<String>,
     /// Rows of tables that no rule can ever choose.
@@ -269,6 +271,7 @@ impl Report {
             stages: derived.stages,
             map: inputs.map_report.clone(),
             notes: inputs.notes.clone(),
+            lost: Vec::new(),
             gaps: gaps(&derived.conclusions, graph),
             dominated: derived.knowledge.dominated(&inputs.rules),
         }
@@ -295,6 +298,7 @@ impl Report {
                 "free": self.map.free,
             },
             "notes": self.notes,
+            "lost": self.lost,
             "gaps": self.gaps,
         })
     }

@@ -144,7 +144,7 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
             open: area.open.value,
         });
     }
-    for state in tx.states()? {
+    for state in tx.states_in_force()? {
         if !scene.actions.contains(&state.action) {
             scene.actions.push(state.action);
         }

@@ -8,9 +8,12 @@ use adit_planners::read::{
     Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map,
 };
 use adit_planners::world::World;
+use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
 use crate::error::{Error, Result};
+use crate::hours;
+use crate::suggest::did_you_mean;
 
 /// How a map is cut into rooms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -69,13 +72,29 @@ pub struct Site {
     pub rooms: Rooms,
     /// From where routes are kept; `None`: not said.
     pub starts: Option<Starts>,
+    /// When what is open, as the file says.
+    pub hours: Vec<adit_db::hours::Hours>,
+    /// In which time zone times are read; UTC where the file names none.
+    pub zone: Option<TimeZone>,
     settings: MapSettings,
     overlay: Overlay,
     text: String,
 }
 
-const KEYS: [&str; 10] =
-    ["name", "map", "robots", "rules", "rooms", "starts", "unknown", "speck_area", "grid", "clearance"];
+const KEYS: [&str; 12] = [
+    "name",
+    "map",
+    "robots",
+    "rules",
+    "rooms",
+    "starts",
+    "unknown",
+    "speck_area",
+    "grid",
+    "clearance",
+    "hours",
+    "timezone",
+];
 
 impl Site {
     /// Reads `site.toml` of a folder.
@@ -100,6 +119,8 @@ impl Site {
             rules: optional_text(&fields, "rules", &mut problems).map(|rules| folder.join(rules)),
             rooms: rooms(&fields, &mut problems),
             starts: starts(&fields, &mut problems),
+            hours: hours::read(&fields, &mut problems),
+            zone: zone(&fields, &mut problems),
             settings: settings(&fields, &mut problems),
             overlay: Overlay::from_fields(&fields, &mut problems),
             text: text.clone(),
@@ -193,6 +214,21 @@ fn choice(fields: &Fields<'_, '_>, key: &str, names: &[&str], problems: &mut Vec
         problems.push(fields.text.problem(Code::WrongType, &text.span, message));
     }
     found
+}
+
+fn zone(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<TimeZone> {
+    fields.get("timezone")?;
+    let name = fields.string("timezone", problems)?;
+    TimeZone::get(&name.value)
+        .map_err(|_| {
+            let known: Vec<String> = jiff::tz::db().available().map(|zone| zone.to_string()).collect();
+            let help = did_you_mean(&name.value, known.iter().map(String::as_str));
+            let message = format!("there is no time zone `{}`", name.value);
+            let problem = fields.text.problem(Code::WrongType, &name.span, message);
+            problems
+                .push(problem.with_help(help.unwrap_or_else(|| "write one like Europe/Berlin".to_owned())));
+        })
+        .ok()
 }
 
 fn starts(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Starts> {

@@ -40,12 +40,18 @@ pub fn loads(loads: &[Load]) -> Table {
         .with("carried", loads.iter().map(|row| row.carried).collect::<Column>())
 }
 
+/// The class HOURS of a site where nothing has hours.
+fn hours() -> Table {
+    Table::default().with("name", Column::Text(Vec::new())).with("open", Column::Truth(Vec::new()))
+}
+
 /// The classes that every site tells, of one that was never built: without objects.
 pub fn unbuilt() -> Facts {
     Facts::from([
         ("ROBOTS".to_owned(), robots(&[])),
         ("CHANGES".to_owned(), changes(&[])),
         ("LOADS".to_owned(), loads(&[])),
+        ("HOURS".to_owned(), hours()),
     ])
 }
 
@@ -57,6 +63,17 @@ pub fn read(relation: &Relation) -> Result<Table> {
         table.columns.push((column.name.clone(), values(&relation.name, column)?));
     }
     Ok(table)
+}
+
+/// The keys of a table's rows as edits name them: the values of the primary key, joined by `/`. A table without one has
+/// rows that nobody can name.
+pub fn keys(relation: &Relation) -> Vec<String> {
+    let mut parts: Vec<&RelationColumn> = relation.columns.iter().filter(|column| column.key > 0).collect();
+    parts.sort_by_key(|column| column.key);
+    let rows = parts.first().map_or(0, |column| column.values.len());
+    let key =
+        |row: usize| parts.iter().map(|part| part.values[row].to_string()).collect::<Vec<_>>().join("/");
+    (0..rows).map(key).collect()
 }
 
 fn values(table: &str, column: &RelationColumn) -> Result<Column> {

@@ -4,7 +4,7 @@
 use std::process::Command;
 
 use adit::edit::Edit;
-use adit::{KnowledgeBase, Live, Silent};
+use adit::{KnowledgeBase, Live, Silent, Tell};
 use adit_db::history::Author;
 use adit_tests::{Ran, TestSite};
 
@@ -14,6 +14,11 @@ fn author() -> Author {
 
 fn set(state: &str, column: &str, value: &str) -> Edit {
     Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value.to_owned())
+}
+
+/// What is told stands there with its time: both sites are asked about the same moment.
+fn at_one_moment(site: &TestSite) -> KnowledgeBase {
+    KnowledgeBase::open(site.path()).unwrap().at(Some("2030-01-01T00:00:00Z")).unwrap()
 }
 
 /// Every row of every table, but for the times in the history.
@@ -30,9 +35,12 @@ fn content(site: &TestSite) -> Vec<String> {
 
 /// Does the same edits in memory and as a plain edit does, and compares the databases after each.
 fn same_after(example: &str, edits: &[Edit]) {
-    let (plain, held) = (TestSite::example(example).built(), TestSite::example(example).built());
-    let site = KnowledgeBase::open(plain.path()).unwrap();
-    let mut live = Live::open(KnowledgeBase::open(held.path()).unwrap()).unwrap();
+    same_for((TestSite::example(example).built(), TestSite::example(example).built()), example, edits);
+}
+
+fn same_for((plain, held): (TestSite, TestSite), example: &str, edits: &[Edit]) {
+    let site = at_one_moment(&plain);
+    let mut live = Live::open(at_one_moment(&held)).unwrap();
     for edit in edits {
         let expected = site.edit(edit, &author(), false, &Silent);
         let found = live.edit(edit, &author());
@@ -94,6 +102,110 @@ fn rooms_by_state() {
         "hospital",
         &[set("SQUAT", "hardness", "9"), set("SQUAT", "hardness", "2"), set("SQUAT", "hardness", "4")],
     );
+}
+
+fn tell(class: &str, object: &str, property: &str, value: &str) -> Edit {
+    let [class, object, property, value] = [class, object, property, value].map(str::to_owned);
+    Edit::Tell(Tell { class, object, property, value, ..Tell::default() })
+}
+
+#[test]
+fn facts_that_are_told_and_retracted() {
+    same_after(
+        "paper",
+        &[
+            tell("doors", "door 7", "passable", "false"),
+            tell("doors", "door 7", "passable", "false"),
+            tell("doors", "door 3", "hardness", "99"),
+            Edit::Retract(1),
+            Edit::Retract(2),
+            tell("rooms", "room d", "action", "TIPTOE"),
+            tell("robots", "SQUAT", "hardness", "3"),
+            set("SQUAT", "hardness", "8"),
+            Edit::Retract(5),
+            tell("doors", "door 7", "passable", "perhaps"),
+            tell("doors", "door 3", "hardness", "-1"),
+            tell("robots", "SQUAT", "height", "16"),
+            Edit::Undo(None),
+            Edit::Retract(99),
+            Edit::Undo(Some(1)),
+            Edit::Retract(3),
+            Edit::Retract(4),
+        ],
+    );
+    same_after(
+        "hospital",
+        &[
+            tell("rooms", "5,5", "hardness", "30"),
+            tell("rooms", "5,5", "hardness", "2"),
+            Edit::Retract(1),
+            Edit::Undo(None),
+            Edit::Retract(2),
+        ],
+    );
+}
+
+#[test]
+fn facts_about_named_doors_and_areas() {
+    let named = "name = \"named\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\n[[door]]\nname = \"gate\"\nfrom = [6.0, 3.0]\n\
+                 to = [6.0, 4.0]\nhardness = 3.0\n[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    let edits = [
+        tell("named_doors", "gate", "closed", "true"),
+        tell("areas", "east", "hardness_factor", "3"),
+        tell("named_doors", "gate", "hardness", "9"),
+        Edit::Retract(1),
+        Edit::Retract(3),
+        Edit::Retract(2),
+    ];
+    let site = || TestSite::example("starter").with("site.toml", named).built();
+    same_for((site(), site()), "starter", &edits);
+    let held = site();
+    let mut live = Live::open(at_one_moment(&held)).unwrap();
+    assert!(!live.edit(&edits[0], &author()).unwrap().anew, "a door is closed without a build");
+    assert!(!live.edit(&Edit::Retract(1), &author()).unwrap().anew);
+}
+
+#[test]
+fn tunings_that_are_switched() {
+    let night = |value: &str| {
+        let cell = ["robots", "SQUAT", "hardness", value].map(str::to_owned);
+        Edit::SetInTuning("night".to_owned(), cell)
+    };
+    let switch = |on| Edit::Switch("night".to_owned(), on);
+    same_after(
+        "paper",
+        &[
+            night("3"),
+            switch(true),
+            night("2.5"),
+            set("SQUAT", "hardness", "9"),
+            switch(false),
+            Edit::Undo(None),
+        ],
+    );
+}
+
+/// A commit that fails, since another program holds the file for reading, leaves database and memory as before.
+#[test]
+fn a_commit_that_fails_leaves_everything_as_it_was() {
+    let (plain, held) = (TestSite::example("paper").built(), TestSite::example("paper").built());
+    let mut live = Live::open(at_one_moment(&held)).unwrap();
+    let before = content(&held);
+    let mut reader = adit_db::Store::open_read_only(held.path().join("site.db")).unwrap();
+    let failed = reader.snapshot(|tx| -> adit_db::Result<_> {
+        tx.rooms()?;
+        Ok(live.edit(&tell("doors", "door 7", "passable", "false"), &author()))
+    });
+    assert!(failed.unwrap().unwrap_err().to_string().contains("locked"));
+    assert_eq!(content(&held), before);
+    let edits =
+        [set("SQUAT", "hardness", "3"), tell("doors", "door 3", "passable", "false"), Edit::Undo(None)];
+    let site = at_one_moment(&plain);
+    for edit in edits {
+        site.edit(&edit, &author(), false, &Silent).unwrap();
+        assert!(!live.edit(&edit, &author()).unwrap().anew, "{edit:?}");
+        assert_eq!(content(&held), content(&plain), "{edit:?}");
+    }
 }
 
 #[test]

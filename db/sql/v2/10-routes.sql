@@ -25,7 +25,7 @@ DROP VIEW route;
 CREATE VIEW route AS
 SELECT b.robot AS robot, a.name AS start, e.name AS goal,
   CASE WHEN s.tree IS NULL OR e.kept = 0 THEN 'not_kept'
-       WHEN EXISTS (SELECT 1 FROM stale_marks) THEN 'stale'
+       WHEN (SELECT stale FROM staleness) THEN 'stale'
        WHEN t.hops IS NULL THEN 'no_route'
        WHEN t.hops = 0 THEN 'same_room'
        ELSE 'ok' END AS status,

@@ -15,7 +15,7 @@ pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
 
 /// `adit build`.
 pub fn run(args: &BuildArgs) -> Result<()> {
-    let knowledge = open(&args.site)?.reseeding(args.reseed);
+    let knowledge = open(&args.site)?.at(args.at.as_deref())?.reseeding(args.reseed);
     let report = {
         let spinner = Spinner::new();
         knowledge.build(&spinner)?
@@ -72,7 +72,7 @@ fn free_space(report: &Report) {
 
 /// What the expert should know.
 pub fn notes(report: &Report) {
-    for note in report.notes.iter().chain(&report.gaps) {
+    for note in report.notes.iter().chain(&report.lost).chain(&report.gaps) {
         remark(&format!("note: {note}"));
     }
 }

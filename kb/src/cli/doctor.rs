@@ -37,8 +37,11 @@ pub fn doctor(args: &DoctorArgs) -> Result<bool> {
     if let Some(file) = &args.backup {
         store.backup(file)?;
     }
+    let lost = knowledge.lost()?;
     if args.site.json {
-        json(&health)?;
+        let mut value = serde_json::json!(health);
+        value["lost"] = lost.into();
+        json(&value)?;
         return Ok(health.is_sound());
     }
     line(&format!(
@@ -53,6 +56,9 @@ pub fn doctor(args: &DoctorArgs) -> Result<bool> {
     }
     for mark in &health.stale {
         line(&format!("  edited since the last build: {} {}", mark.table, mark.key));
+    }
+    for lost in &lost {
+        line(&format!("  {lost}"));
     }
     for damage in health.damages.iter().chain(&health.dangling) {
         line(&format!("  damage: {damage}"));

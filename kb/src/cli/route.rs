@@ -9,7 +9,11 @@ use crate::error::Result;
 /// Prints the route; `false` where there is none.
 pub fn run(args: &RouteArgs) -> Result<Outcome> {
     let goals: Vec<String> = std::iter::once(&args.goal).chain(&args.others).cloned().collect();
-    let answer = open(&args.site)?.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
+    let knowledge = open(&args.site)?.at(args.at.as_deref())?;
+    let answer = knowledge.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
+    for lost in knowledge.lost()? {
+        remark(&format!("note: {lost}"));
+    }
     if args.site.json {
         json(&answer)?;
         if let Some(reason) = &answer.reason {

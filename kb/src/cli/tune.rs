@@ -5,21 +5,22 @@ use adit_db::history::Author;
 
 use super::build::{changes, notes, open};
 use super::output::{json, line, table};
-use super::{HistoryArgs, SiteArgs, TuneArgs, UndoArgs};
+use super::{HistoryArgs, TuneArgs, UndoArgs};
 use crate::edit::Edit;
 use crate::error::{Error, Result};
+use crate::knowledge::KnowledgeBase;
 use crate::progress::Spinner;
 
 /// `adit tune`.
 pub fn tune(args: &TuneArgs) -> Result<()> {
     let edit = edit_of(args)?;
-    apply(&args.site, &edit, args.why.as_deref().unwrap_or_default(), args.dry_run)
+    apply(&open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
 }
 
 /// `adit undo`.
 pub fn undo(args: &UndoArgs) -> Result<()> {
     let why = args.edit.map_or("undo".to_owned(), |edit| format!("undo {edit}"));
-    apply(&args.site, &Edit::Undo(args.edit), &why, false)
+    apply(&open(&args.site)?, &Edit::Undo(args.edit), Some(&why), (false, args.site.json))
 }
 
 fn edit_of(args: &TuneArgs) -> Result<Edit> {
@@ -45,16 +46,21 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
     }
 }
 
-fn apply(site: &SiteArgs, edit: &Edit, why: &str, rehearse: bool) -> Result<()> {
-    let knowledge = open(site)?;
+/// Carries out an edit, or only shows what it would change, and prints that.
+pub fn apply(
+    knowledge: &KnowledgeBase,
+    edit: &Edit,
+    why: Option<&str>,
+    (rehearse, as_json): (bool, bool),
+) -> Result<()> {
     let who =
         std::env::var("USER").or_else(|_| std::env::var("LOGNAME")).unwrap_or_else(|_| "cli".to_owned());
-    let author = Author { who, why: why.to_owned() };
+    let author = Author { who, why: why.unwrap_or_default().to_owned() };
     let (done, report) = {
         let spinner = Spinner::new();
         knowledge.edit(edit, &author, rehearse, &spinner)?
     };
-    if site.json {
+    if as_json {
         let mut value = report.json();
         value["edit"] = serde_json::json!(done);
         value["dry_run"] = rehearse.into();

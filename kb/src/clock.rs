@@ -1,0 +1,110 @@
+//! What time it is for a derivation, and times as people write them.
+
+use jiff::civil::{Date, DateTime, Time};
+use jiff::tz::TimeZone;
+use jiff::{Span, Timestamp, Zoned};
+
+use crate::error::{Error, Result};
+
+/// The moment for which facts are told, and the site's time zone.
+#[derive(Clone, Debug)]
+pub struct Clock {
+    now: Timestamp,
+    zone: TimeZone,
+}
+
+impl Clock {
+    /// The present, or another moment to ask about.
+    pub fn new(at: Option<Timestamp>, zone: &TimeZone) -> Self {
+        Self { now: at.unwrap_or_else(Timestamp::now), zone: zone.clone() }
+    }
+
+    /// The moment.
+    pub fn now(&self) -> Timestamp {
+        self.now
+    }
+
+    /// The moment as the site's clocks show it.
+    pub fn local(&self) -> Zoned {
+        self.now.to_zoned(self.zone.clone())
+    }
+
+    /// Whether the moment is still to come.
+    pub fn is_ahead(&self) -> bool {
+        self.now > Timestamp::now()
+    }
+
+    /// A time as people write it: `2026-11-21T18:00` of the site's time zone, `2026-11-21` (its begin), `18:00` (the
+    /// next one), `2h` or `3 days` (from now), or an instant with its offset (`2026-11-21T18:00:00Z`).
+    pub fn parse(&self, text: &str) -> Result<Timestamp> {
+        let zoned = |local: DateTime| local.to_zoned(self.zone.clone()).ok().map(|zoned| zoned.timestamp());
+        // a text with an offset must not be taken for a local time without it
+        if let Ok(instant) = text.parse::<Timestamp>() {
+            return Ok(instant);
+        }
+        let found = if let Ok(date) = text.parse::<Date>()
+            && !text.contains([':', 'T', ' '])
+        {
+            zoned(date.at(0, 0, 0, 0))
+        } else if let Ok(local) = text.parse::<DateTime>() {
+            zoned(local)
+        } else if let Ok(time) = text.parse::<Time>() {
+            self.next(time).and_then(zoned)
+        } else if let Ok(span) = text.parse::<Span>() {
+            self.local().checked_add(span).ok().map(|zoned| zoned.timestamp())
+        } else {
+            None
+        };
+        found.ok_or_else(|| {
+            let help = "write 2026-11-21T18:00, 2026-11-21, 18:00, 2h or 2026-11-21T18:00:00Z".to_owned();
+            Error::said("time/unreadable", format!("`{text}` is no time"), Some(help))
+        })
+    }
+
+    /// The next moment at which clocks show this time.
+    fn next(&self, time: Time) -> Option<DateTime> {
+        let local = self.local().datetime();
+        let today = local.date().to_datetime(time);
+        if today > local { Some(today) } else { Some(local.date().tomorrow().ok()?.to_datetime(time)) }
+    }
+}
+
+/// A moment as the database keeps it: in UTC, to the second.
+pub fn stored(moment: Timestamp) -> String {
+    moment.strftime("%Y-%m-%dT%H:%M:%SZ").to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clock() -> Clock {
+        let zone = TimeZone::get("Europe/Berlin").unwrap();
+        Clock::new(Some("2026-11-21T11:30:00Z".parse().unwrap()), &zone)
+    }
+
+    fn utc(text: &str) -> String {
+        stored(clock().parse(text).unwrap())
+    }
+
+    #[test]
+    fn times_are_of_the_sites_zone_unless_they_say_otherwise() {
+        assert_eq!(utc("2026-11-21T18:00"), "2026-11-21T17:00:00Z");
+        assert_eq!(utc("2026-07-01 18:00"), "2026-07-01T16:00:00Z");
+        assert_eq!(utc("2026-11-21T18:00:00Z"), "2026-11-21T18:00:00Z");
+        assert_eq!(utc("2026-11-22"), "2026-11-21T23:00:00Z");
+    }
+
+    #[test]
+    fn a_time_of_day_is_the_next_one_and_a_span_counts_from_now() {
+        assert_eq!(utc("13:00"), "2026-11-21T12:00:00Z");
+        assert_eq!(utc("12:00"), "2026-11-22T11:00:00Z");
+        assert_eq!(utc("2h"), "2026-11-21T13:30:00Z");
+        assert_eq!(utc("3 days"), "2026-11-24T11:30:00Z");
+    }
+
+    #[test]
+    fn what_is_no_time_is_refused_with_examples() {
+        assert!(clock().parse("tomorrow").unwrap_err().to_string().contains("`tomorrow` is no time"));
+    }
+}

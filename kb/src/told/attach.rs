@@ -1,0 +1,155 @@
+//! Which objects a fact is about, after each build anew: by name, or by what lies at its point.
+
+use std::collections::BTreeMap;
+
+use adit_engine::{KnowledgeBase as Inference, Value};
+use adit_planners::geometry::{Point, Rect};
+
+use super::{Fact, Object};
+
+/// How far from its point a fact about a door still finds the door, metres.
+pub const REACH: f64 = 0.5;
+
+/// Two segments have one direction where the angle between them is at most this, as its cosine: 20 degrees.
+const SAME_DIRECTION: f64 = 0.94;
+
+/// The objects that facts are about.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attached {
+    keys: BTreeMap<i64, Vec<String>>,
+    /// Of each property of each object, the fact that counts.
+    cells: BTreeMap<(String, usize, String), Fact>,
+}
+
+impl Attached {
+    /// Notes that a fact is about the object in a row.
+    pub fn add(&mut self, fact: &Fact, row: usize, key: Option<String>) {
+        self.keys.entry(fact.id).or_default().extend(key);
+        let cell = (fact.class.clone(), row, fact.property.clone());
+        self.cells.insert(cell, fact.clone());
+    }
+
+    /// Takes in what was found of another class.
+    pub fn join(&mut self, other: Self) {
+        self.keys.extend(other.keys);
+        self.cells.extend(other.cells);
+    }
+
+    /// Keys of the objects that a fact is about.
+    pub fn keys(&self, fact: i64) -> Vec<String> {
+        self.keys.get(&fact).cloned().unwrap_or_default()
+    }
+
+    /// What is told of each property of each object: class, row, property.
+    pub fn cells(&self) -> &BTreeMap<(String, usize, String), Fact> {
+        &self.cells
+    }
+}
+
+/// The rows of the objects that a fact is about, ascending.
+///
+/// A name means the object with that key. A point means every object with a rectangle that holds the point; of those of
+/// one robot and state the first one. A door is found by its segment: [`is_same_door`].
+pub fn rows(knowledge: &Inference, fact: &Fact) -> Vec<usize> {
+    match &fact.object {
+        Object::Key(key) => knowledge.row(&fact.class, key).into_iter().collect(),
+        Object::Point([x, y], Some(segment)) => {
+            doors_like(knowledge, &fact.class, Point::new(*x, *y), *segment)
+        }
+        Object::Point([x, y], None) => holding(knowledge, &fact.class, Point::new(*x, *y)),
+    }
+}
+
+fn rects(knowledge: &Inference, class: &str) -> Option<Vec<[f64; 4]>> {
+    let [x0, y0, x1, y1] = ["x0", "y0", "x1", "y1"].map(|side| knowledge.numbers(class, side));
+    let (x0, y0, x1, y1) = (x0?, y0?, x1?, y1?);
+    let side = |side: Option<f64>| side.unwrap_or(f64::NAN);
+    Some((0..x0.len()).map(|row| [side(x0[row]), side(y0[row]), side(x1[row]), side(y1[row])]).collect())
+}
+
+fn holding(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
+    let mut layers = Vec::new();
+    let mut found = Vec::new();
+    for (row, [x0, y0, x1, y1]) in rects(knowledge, class).unwrap_or_default().into_iter().enumerate() {
+        if !Rect::new(x0, y0, x1, y1).contains(at) {
+            continue;
+        }
+        let layer = ["robot", "state"].map(|part| match knowledge.value_at(class, row, part) {
+            Some(Value::Text(name)) => Some(name),
+            _ => None,
+        });
+        if !layers.contains(&layer) {
+            layers.push(layer);
+            found.push(row);
+        }
+    }
+    found
+}
+
+fn doors_like(knowledge: &Inference, class: &str, at: Point, told: [f64; 4]) -> Vec<usize> {
+    let is_door = |row: usize| match knowledge.value_at(class, row, "kind") {
+        Some(Value::Text(kind)) => &*kind == "door",
+        _ => true,
+    };
+    let segments = rects(knowledge, class).unwrap_or_default();
+    let alike = segments.into_iter().enumerate().filter(|(_, found)| is_same_door(at, told, *found));
+    alike.map(|(row, _)| row).filter(|row| is_door(*row)).collect()
+}
+
+/// Whether a door's segment is where a door was told about: it passes within [`REACH`] of the point, has the same
+/// direction, shares at least half of the shorter of both lengths, and is not more than a metre longer than twice what
+/// it was (the wall is gone where it is).
+pub fn is_same_door(at: Point, told: [f64; 4], found: [f64; 4]) -> bool {
+    let ends = |[x0, y0, x1, y1]: [f64; 4]| (Point::new(x0, y0), Point::new(x1, y1));
+    let ((a, b), (c, d)) = (ends(told), ends(found));
+    let (length, other) = (a.distance(b), c.distance(d));
+    if length == 0.0 || other == 0.0 || other.is_nan() {
+        return false;
+    }
+    let (ux, uy) = ((b.x - a.x) / length, (b.y - a.y) / length);
+    let cosine = ((d.x - c.x) * ux + (d.y - c.y) * uy) / other;
+    if cosine.abs() < SAME_DIRECTION || nearest(at, found).distance(at) > REACH {
+        return false;
+    }
+    let along = |p: Point| (p.x - a.x) * ux + (p.y - a.y) * uy;
+    let (low, high) = (along(c).min(along(d)), along(c).max(along(d)));
+    let shared = high.min(length) - low.max(0.0);
+    shared >= 0.5 * length.min(other) && other <= 2.0 * length + 1.0
+}
+
+/// The point of a segment nearest to another point.
+pub fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {
+    let (dx, dy) = (x1 - x0, y1 - y0);
+    let squared = dx * dx + dy * dy;
+    if squared == 0.0 {
+        return Point::new(x0, y0);
+    }
+    let share = (((at.x - x0) * dx + (at.y - y0) * dy) / squared).clamp(0.0, 1.0);
+    Point::new(x0 + share * dx, y0 + share * dy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLD: [f64; 4] = [5.0, 2.0, 5.0, 2.6];
+
+    fn is_found(found: [f64; 4]) -> bool {
+        is_same_door(Point::new(5.0, 2.3), TOLD, found)
+    }
+
+    #[test]
+    fn the_door_of_another_state_is_the_same_door() {
+        assert!(is_found([5.2, 2.2, 5.2, 2.4]), "of a wider state, in front of the wall");
+        assert!(is_found([4.8, 1.9, 4.8, 2.7]), "of a slimmer state, behind it");
+        assert!(is_found([5.0, 2.6, 5.0, 2.0]), "drawn the other way");
+    }
+
+    #[test]
+    fn what_lies_elsewhere_or_goes_elsewhere_is_another_door() {
+        assert!(!is_found([5.6, 2.0, 5.6, 2.6]), "farther than the reach");
+        assert!(!is_found([4.7, 2.3, 5.3, 2.3]), "across it");
+        assert!(!is_found([5.0, 2.5, 5.0, 3.1]), "beside it: a sixth is shared");
+        assert!(!is_found([5.0, 0.0, 5.0, 9.0]), "the wall is gone");
+    }
+}
