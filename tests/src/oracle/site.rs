@@ -1,0 +1,71 @@
+//! A site of a test, built and asked by the library.
+
+use std::path::Path;
+
+use adit::{KnowledgeBase, Silent, Status};
+use adit_planners::geometry::Point;
+use adit_planners::world::World;
+
+use super::body::Body;
+use super::driven::Driven;
+use super::plan::Plan;
+use crate::TestSite;
+
+/// A built site.
+pub struct Built {
+    folder: TestSite,
+    knowledge: KnowledgeBase,
+    body: Body,
+    /// The world as the site reads it.
+    pub world: World,
+}
+
+impl Built {
+    /// A floor plan with a robot; `grid` is the side of the layers' cells, metres.
+    #[track_caller]
+    pub fn of_plan(plan: &Plan, body: &Body, grid: f64) -> Self {
+        let folder = TestSite::empty().with("map.toml", &plan.to_toml());
+        Self::of(folder, &format!("map = \"map.toml\"\ngrid = {grid:?}\n"), body)
+    }
+
+    /// Somebody's map with a robot, its cells those of the image.
+    #[track_caller]
+    pub fn of_map(map: &Path, body: &Body) -> Self {
+        Self::of(TestSite::empty(), &format!("map = \"{}\"\n", map.display()), body)
+    }
+
+    #[track_caller]
+    fn of(folder: TestSite, settings: &str, body: &Body) -> Self {
+        let folder = folder
+            .with("robots.toml", &body.to_toml())
+            .with("site.toml", &format!("name = \"a test\"\nrobots = \"robots.toml\"\n{settings}"));
+        let knowledge = KnowledgeBase::open(folder.path()).expect("a site");
+        knowledge.build(&Silent).unwrap_or_else(|error| panic!("{error:?}\n{}", folder.path().display()));
+        let (world, _, _) = knowledge.site().world().expect("the map is readable");
+        Self { folder, knowledge, body: body.clone(), world }
+    }
+
+    /// The site's folder.
+    pub fn folder(&self) -> &TestSite {
+        &self.folder
+    }
+
+    /// The robot.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The route between two points; `None` where there is none.
+    #[track_caller]
+    pub fn route(&self, start: Point, goal: Point) -> Option<Driven> {
+        let name = |p: Point| format!("{:?},{:?}", p.x, p.y);
+        let answer = self.knowledge.route(&name(start), &name(goal), None).expect("an answer");
+        match answer.status {
+            Status::Ok | Status::SameRoom => {
+                let json = serde_json::to_value(&answer).expect("an answer is JSON");
+                Some(Driven::read(&json, start, &self.body))
+            }
+            _ => None,
+        }
+    }
+}
