@@ -13,6 +13,8 @@ pub struct Driven {
     pub cost: f64,
     /// The way that it says to drive.
     pub way: Way,
+    /// What about its waypoints cannot be right.
+    pub faults: Vec<String>,
     /// The answer itself.
     pub json: Value,
 }
@@ -32,6 +34,6 @@ impl Driven {
             way.points.push(Point::new(x, y));
             way.states.push(state);
         }
-        Self { cost, way, json: json.clone() }
+        Self { cost, way, faults: Vec::new(), json: json.clone() }
     }
 }
