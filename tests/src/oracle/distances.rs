@@ -81,24 +81,28 @@ mod tests {
         [segment_to_rect(a, b, &SQUARE), segment_to_polygon(a, b, &outline)]
     }
 
-    #[test]
-    fn a_way_beside_a_square_is_as_near_as_its_nearest_side() {
-        assert_eq!(to_square(-1.0, 1.5, 3.0, 1.5), [0.5; 2]);
-        assert_eq!(to_square(2.0, -9.0, 2.0, 9.0), [1.0; 2]);
-    }
-
-    #[test]
-    fn a_slanting_way_is_as_near_as_the_corner() {
-        let expected = 0.5f64.sqrt();
-        for near in to_square(1.0, 2.0, 2.0, 1.0) {
-            assert!((near - expected).abs() < 1e-12, "{near}");
+    #[track_caller]
+    fn expect(way: [f64; 4], distance: f64) {
+        for near in to_square(way[0], way[1], way[2], way[3]) {
+            assert!((near - distance).abs() < 1e-12, "{near}, not {distance}");
         }
     }
 
     #[test]
+    fn a_way_beside_a_square_is_as_near_as_its_nearest_side() {
+        expect([-1.0, 1.5, 3.0, 1.5], 0.5);
+        expect([2.0, -9.0, 2.0, 9.0], 1.0);
+    }
+
+    #[test]
+    fn a_slanting_way_is_as_near_as_the_corner() {
+        expect([1.0, 2.0, 2.0, 1.0], 0.5f64.sqrt());
+    }
+
+    #[test]
     fn what_goes_through_or_lies_within_is_not_apart() {
-        assert_eq!(to_square(-1.0, -1.0, 2.0, 2.1), [0.0; 2]);
-        assert_eq!(to_square(0.2, 0.2, 0.4, 0.7), [0.0; 2]);
-        assert_eq!(to_square(0.5, 0.5, 5.0, 0.5), [0.0; 2]);
+        expect([-1.0, -1.0, 2.0, 2.1], 0.0);
+        expect([0.2, 0.2, 0.4, 0.7], 0.0);
+        expect([0.5, 0.5, 5.0, 0.5], 0.0);
     }
 }

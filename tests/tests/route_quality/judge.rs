@@ -69,8 +69,8 @@ fn between_two_weights_the_way_is_refracted() {
     // Under a low roof from x = 4 on only the low state fits; the tall one keeps its radius from it.
     let plan = Plan::hall(10.0, 8.0).with_bridge(4.3, 0.0, 10.0, 8.0, 1.2);
     let body = Body::new(&[("STAND", 1.7, 0.6, 1.0), ("SQUAT", 1.0, 0.6, 2.0)]);
-    let (start, goal) = ((1.0, 1.0), (7.0, 7.0));
-    let cost = |y: f64| (4.0 - start.0 as f64).hypot(y - start.1) + 2.0 * (goal.0 - 4.0f64).hypot(goal.1 - y);
+    let (start, goal): ((f64, f64), (f64, f64)) = ((1.0, 1.0), (7.0, 7.0));
+    let cost = |y: f64| (4.0 - start.0).hypot(y - start.1) + 2.0 * (goal.0 - 4.0f64).hypot(goal.1 - y);
     // The sine of the angle is twice as large in the lighter half (Snell): where both terms' slopes cancel.
     let (mut low, mut high) = (start.1, goal.1);
     for _ in 0..100 {

@@ -13,7 +13,8 @@ fn judged(seeds: std::ops::Range<u64>, goals: usize) -> Findings {
     let mut found = Findings::default();
     for seed in seeds {
         let mut chance = Chance::new(seed);
-        let plan = if seed % 2 == 0 { buildings::hall(&mut chance) } else { buildings::wards(&mut chance) };
+        let plan =
+            if seed.is_multiple_of(2) { buildings::hall(&mut chance) } else { buildings::wards(&mut chance) };
         let body = buildings::body(&mut chance);
         let built = Built::of_plan(&plan, &body, GRID);
         let judge = Judge::new(&built, GRID);

@@ -1,6 +1,6 @@
 //! Maps as images, turned: the same routes.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use adit_planners::geometry::Point;
 use adit_tests::oracle::body::Body;
@@ -53,7 +53,8 @@ fn the_warehouse_as_scanned_and_as_turned_has_the_same_routes() {
     let images = names.map(|name| shared(&format!("data/aws-robomaker/small_warehouse_005_{name}")));
     let [Some(scanned), Some(turned), Some(quarter)] = images else { return };
     let folders = [TestSite::empty(), TestSite::empty(), TestSite::empty()];
-    let sites: Vec<Built> = folders.iter().zip([scanned, turned, quarter]).map(|(f, i)| site(f, i)).collect();
+    let sites: Vec<Built> =
+        folders.iter().zip([scanned, turned, quarter]).map(|(folder, image)| site(folder, &image)).collect();
     let (sin, cos) = 2.65f64.to_radians().sin_cos();
     let (x, y) = (-18.580 * 0.05, -18.626 * 0.05);
     let to_turned = |p: Point| Point::new(p.x * cos - p.y * sin + x, p.x * sin + p.y * cos + y);
@@ -91,7 +92,7 @@ fn the_warehouse_as_scanned_and_as_turned_has_the_same_routes() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-fn site(folder: &TestSite, image: PathBuf) -> Built {
+fn site(folder: &TestSite, image: &Path) -> Built {
     let yaml = format!(
         "image: {}\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
         image.display()
