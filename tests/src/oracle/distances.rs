@@ -51,14 +51,28 @@ fn is_inside(p: Point, corners: &[Point]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Whether a segment meets a closed rectangle (Liang and Barsky's clipping).
+/// How much of a segment lies inside a rectangle, metres; what runs along its outline does not.
+pub fn within(a: Point, b: Point, rect: &Rect) -> f64 {
+    let same = |p: f64, q: f64| (p - q).abs() < 1e-9;
+    let along_outline = |p, q, low, high| same(p, q) && (same(p, low) || same(p, high));
+    if along_outline(a.x, b.x, rect.x0, rect.x1) || along_outline(a.y, b.y, rect.y0, rect.y1) {
+        return 0.0;
+    }
+    clipped(a, b, rect).map_or(0.0, |(from, to)| (to - from) * a.distance(b))
+}
+
 fn meets(a: Point, b: Point, rect: &Rect) -> bool {
+    clipped(a, b, rect).is_some()
+}
+
+/// The part of a segment in a closed rectangle, as shares of its length (Liang and Barsky's clipping).
+fn clipped(a: Point, b: Point, rect: &Rect) -> Option<(f64, f64)> {
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for (start, delta, low, high) in [(a.x, b.x - a.x, rect.x0, rect.x1), (a.y, b.y - a.y, rect.y0, rect.y1)]
     {
         if delta == 0.0 {
             if start < low || start > high {
-                return false;
+                return None;
             }
             continue;
         }
@@ -66,7 +80,7 @@ fn meets(a: Point, b: Point, rect: &Rect) -> bool {
         from = from.max(enter.min(leave));
         to = to.min(enter.max(leave));
     }
-    from <= to
+    (from <= to).then_some((from, to))
 }
 
 #[cfg(test)]

@@ -23,6 +23,8 @@ pub struct Grid<'a> {
     states: usize,
     /// By how much each state fits at each point: point by point, then state by state.
     spare: Vec<f32>,
+    /// The least that a metre is multiplied by.
+    lightest: f64,
     directions: Vec<(i32, i32, f64)>,
 }
 
@@ -42,7 +44,16 @@ impl<'a> Grid<'a> {
                 }
             }
         }
-        let mut grid = Self { space, step, columns, rows, states, spare: Vec::new(), directions };
+        let mut grid = Self {
+            space,
+            step,
+            columns,
+            rows,
+            states,
+            spare: Vec::new(),
+            lightest: space.lightest(),
+            directions,
+        };
         grid.spare = (0..columns * rows)
             .flat_map(|node| space.spares_at(grid.point(node)).map(|spare| spare as f32).collect::<Vec<_>>())
             .collect();
@@ -85,8 +96,7 @@ impl<'a> Grid<'a> {
                 for state in 0..self.states {
                     let here = self.point(node);
                     if self.space.is_free(state, here, p) {
-                        let hardness = self.space.body().states[state].hardness;
-                        labels.push((node * self.states + state, here.distance(p) * hardness));
+                        labels.push((node * self.states + state, self.space.weigh(state, here, p)));
                     }
                 }
             }
@@ -125,6 +135,7 @@ impl<'a> Grid<'a> {
                 ways.offer(next, cost + body.change(state, other), label as u32, queue);
             }
         }
+        let here = self.point(node);
         let (column, row) = ((node % self.columns) as i32, (node / self.columns) as i32);
         for &(dx, dy, length) in &self.directions {
             let (x, y) = (column + dx, row + dy);
@@ -132,7 +143,11 @@ impl<'a> Grid<'a> {
                 continue;
             }
             let next = (y as usize * self.columns + x as usize) * self.states + state;
-            let after = cost + length * body.states[state].hardness;
+            let least = cost + length * body.states[state].hardness * self.lightest;
+            if least >= ways.cost[next] {
+                continue;
+            }
+            let after = cost + self.space.weigh(state, here, self.point(next / self.states));
             if after < ways.cost[next] && self.fits(next) && self.is_open(label, next, length) {
                 ways.offer(next, after, label as u32, queue);
             }

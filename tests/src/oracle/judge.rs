@@ -79,7 +79,7 @@ impl<'a> Judge<'a> {
     /// A judge of a site whose layers have cells of `side` metres.
     pub fn new(built: &'a Built, side: f64) -> Self {
         let diagonal = side * 2f64.sqrt();
-        let space = |margin: f64| Space::new(&built.world, built.body(), margin);
+        let space = |margin: f64| Space::new(&built.world, built.body(), margin).with_areas(&built.areas);
         Self { built, side, exact: space(0.0), fair: space(diagonal), surely: space(3.0 * diagonal) }
     }
 
@@ -99,15 +99,14 @@ impl<'a> Judge<'a> {
     /// Judges the routes from one point to others. `step` is that of the grids, metres.
     #[track_caller]
     pub fn judge(&self, name: &str, start: Point, goals: &[Point], step: f64) -> Findings {
-        let grids = [&self.exact, &self.fair, &self.surely].map(|space| Grid::new(space, step));
-        let [exact, fair, surely] = grids.each_ref().map(|grid| grid.ways_from(start));
+        let grids = [&self.exact, &self.fair].map(|space| Grid::new(space, step));
+        let [exact, fair] = grids.each_ref().map(|grid| grid.ways_from(start));
         let mut found = Findings::default();
-        let body = self.built.body();
         for &goal in goals {
             let of = format!("{name}: {},{} to {},{}", start.x, start.y, goal.x, goal.y);
             let Some(driven) = self.built.route(start, goal) else {
                 found.cut_off += 1;
-                if surely.over_the_grid(goal).is_some() {
+                if Grid::new(&self.surely, step).ways_from(start).over_the_grid(goal).is_some() {
                     found.wrong.push(format!("{of}: no route, though there is a way"));
                 }
                 continue;
@@ -117,7 +116,7 @@ impl<'a> Judge<'a> {
             found.silly.extend(
                 held.iter().map(|Silly { at, what }| format!("{of}: {what} at {:.3},{:.3}", at.x, at.y)),
             );
-            let Some(best) = exact.to(goal).map(|way| way.cost(body)) else {
+            let Some(best) = exact.to(goal).map(|way| way.cost(&self.exact)) else {
                 found.wrong.push(format!("{of}: a route, though the judge knows no way"));
                 continue;
             };
@@ -128,7 +127,7 @@ impl<'a> Judge<'a> {
             }
             found.exact.add(driven.cost / best, of.clone());
             if let Some(way) = fair.to(goal) {
-                found.fair.add(driven.cost / way.cost(body), of);
+                found.fair.add(driven.cost / way.cost(&self.exact), of);
             }
         }
         found
@@ -141,7 +140,7 @@ impl<'a> Judge<'a> {
         if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
             faults.push(format!("{depth:.6} m too near to a wall on {piece:?}"));
         }
-        let sum = way.cost(self.built.body());
+        let sum = way.cost(&self.exact);
         if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
             faults.push(format!("costs {}, its way {sum}", driven.cost));
         }

@@ -16,12 +16,14 @@ pub struct Plan {
     pub obstacles: Vec<Shape>,
     /// What low states pass: outline and clear height.
     pub bridges: Vec<(Rect, f64)>,
+    /// Where a metre weighs so many times as much; they do not overlap.
+    pub areas: Vec<(Rect, f64)>,
 }
 
 impl Plan {
     /// An empty hall.
     pub fn hall(width: f64, depth: f64) -> Self {
-        Self { width, depth, obstacles: Vec::new(), bridges: Vec::new() }
+        Self { width, depth, obstacles: Vec::new(), bridges: Vec::new(), areas: Vec::new() }
     }
 
     /// The same with a rectangle more.
@@ -35,6 +37,13 @@ impl Plan {
     #[must_use]
     pub fn with_bridge(mut self, x0: f64, y0: f64, x1: f64, y1: f64, height: f64) -> Self {
         self.bridges.push((Rect::new(x0, y0, x1, y1), height));
+        self
+    }
+
+    /// The same with an area more in which a metre weighs `factor` times as much.
+    #[must_use]
+    pub fn with_area(mut self, x0: f64, y0: f64, x1: f64, y1: f64, factor: f64) -> Self {
+        self.areas.push((Rect::new(x0, y0, x1, y1), factor));
         self
     }
 
@@ -70,6 +79,10 @@ impl Plan {
         for (Rect { x0, y0, x1, y1 }, height) in &self.bridges {
             add(format!("[[bridge]]\nrect = [{x0:?}, {y0:?}, {x1:?}, {y1:?}]\nheight = {height:?}"));
         }
+        for (number, (Rect { x0, y0, x1, y1 }, factor)) in self.areas.iter().enumerate() {
+            let rect = format!("rect = [{x0:?}, {y0:?}, {x1:?}, {y1:?}]");
+            add(format!("[[area]]\nname = \"area {number}\"\n{rect}\nhardness_factor = {factor:?}"));
+        }
         text
     }
 
@@ -85,20 +98,24 @@ impl Plan {
             Shape::Rect(rect) => Shape::Rect(turn_rect(rect)),
             Shape::Polygon(corners) => Shape::Polygon(corners.iter().map(|&p| turn(p)).collect()),
         });
-        let bridges = self.bridges.iter().map(|(rect, height)| (turn_rect(rect), *height));
+        let turned = |rects: &[(Rect, f64)]| rects.iter().map(|(rect, of)| (turn_rect(rect), *of)).collect();
         let turned = Self {
             width: self.depth,
             depth: self.width,
             obstacles: obstacles.collect(),
-            bridges: bridges.collect(),
+            bridges: turned(&self.bridges),
+            areas: turned(&self.areas),
         };
         (turned, turn)
     }
 
     /// Turned by an angle inside of a larger hall whose additional floor is solid, and how a point turns with it.
-    /// Bridges cannot be turned; there must be none.
+    /// Bridges and areas cannot be turned; there must be none.
     pub fn turned(&self, degrees: f64) -> (Self, impl Fn(Point) -> Point + use<>) {
-        assert!(self.bridges.is_empty(), "a bridge is a rectangle along the axes");
+        assert!(
+            self.bridges.is_empty() && self.areas.is_empty(),
+            "bridges and areas are rectangles along the axes"
+        );
         let (sin, cos) = degrees.to_radians().sin_cos();
         let side = (self.width.hypot(self.depth) + 1.0).ceil();
         let (from, to) = (Point::new(self.width / 2.0, self.depth / 2.0), side / 2.0);
@@ -116,7 +133,16 @@ impl Plan {
         let edges = edges.map(|(x0, y0, x1, y1)| Shape::Rect(Rect::new(x0, y0, x1, y1)));
         let all = self.obstacles.iter().chain(&edges);
         let turned = all.map(|shape| Shape::Polygon(outline(shape).into_iter().map(turn).collect()));
-        (Self { width: side, depth: side, obstacles: turned.collect(), bridges: Vec::new() }, turn)
+        (
+            Self {
+                width: side,
+                depth: side,
+                obstacles: turned.collect(),
+                bridges: Vec::new(),
+                areas: Vec::new(),
+            },
+            turn,
+        )
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use adit::{KnowledgeBase, Silent, Status};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::World;
 
 use super::body::Body;
@@ -18,6 +18,8 @@ pub struct Built {
     body: Body,
     /// The world as the site reads it.
     pub world: World,
+    /// Areas in which a metre weighs so many times as much.
+    pub areas: Vec<(Rect, f64)>,
 }
 
 impl Built {
@@ -25,7 +27,8 @@ impl Built {
     #[track_caller]
     pub fn of_plan(plan: &Plan, body: &Body, grid: f64) -> Self {
         let folder = TestSite::empty().with("map.toml", &plan.to_toml());
-        Self::of(folder, &format!("map = \"map.toml\"\ngrid = {grid:?}\n"), body)
+        let built = Self::of(folder, &format!("map = \"map.toml\"\ngrid = {grid:?}\n"), body);
+        Self { areas: plan.areas.clone(), ..built }
     }
 
     /// Somebody's map with a robot, its cells those of the image.
@@ -42,7 +45,7 @@ impl Built {
         let knowledge = KnowledgeBase::open(folder.path()).expect("a site");
         knowledge.build(&Silent).unwrap_or_else(|error| panic!("{error:?}\n{}", folder.path().display()));
         let (world, _, _) = knowledge.site().world().expect("the map is readable");
-        Self { folder, knowledge, body: body.clone(), world }
+        Self { folder, knowledge, body: body.clone(), world, areas: Vec::new() }
     }
 
     /// The site's folder.

@@ -4,6 +4,7 @@ use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::World;
 
 use super::body::Body;
+use super::distances::within;
 use super::walls::Walls;
 
 /// What decimal fractions lose in binary, metres.
@@ -15,6 +16,7 @@ pub struct Space {
     body: Body,
     /// Kept free by each state, metres.
     keep: Vec<f64>,
+    areas: Vec<(Rect, f64)>,
 }
 
 impl Space {
@@ -24,7 +26,25 @@ impl Space {
         let keep: Vec<f64> =
             body.states.iter().map(|state| state.width / 2.0 + world.clearance + margin).collect();
         let reach = keep.iter().copied().fold(0.0, f64::max) + 0.3;
-        Self { walls: Walls::new(world, reach), body: body.clone(), keep }
+        Self { walls: Walls::new(world, reach), body: body.clone(), keep, areas: Vec::new() }
+    }
+
+    /// The same with areas, that do not overlap, in which a metre weighs so many times as much.
+    #[must_use]
+    pub fn with_areas(mut self, areas: &[(Rect, f64)]) -> Self {
+        self.areas = areas.to_vec();
+        self
+    }
+
+    /// The least that a metre's weight is multiplied by anywhere.
+    pub fn lightest(&self) -> f64 {
+        self.areas.iter().map(|area| area.1).fold(1.0, f64::min)
+    }
+
+    /// What the straight way from `a` to `b` weighs in a state.
+    pub fn weigh(&self, state: usize, a: Point, b: Point) -> f64 {
+        let more = self.areas.iter().map(|(rect, factor)| (factor - 1.0) * within(a, b, rect));
+        (a.distance(b) + more.sum::<f64>()) * self.body.states[state].hardness
     }
 
     /// The robot.

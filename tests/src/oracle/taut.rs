@@ -16,13 +16,13 @@ pub fn taut(space: &Space, way: &Way, step: f64) -> Way {
     let mut way = way.without_idle_points(space.body());
     let mut reach = step;
     for _ in 0..ROUNDS {
-        let before = way.cost(space.body());
+        let before = way.cost(space);
         way = shortcut(space, &way).without_idle_points(space.body());
         let mut moved = false;
         for point in 1..way.points.len() - 1 {
             moved |= settle(space, &mut way, point, reach);
         }
-        let gained = before - way.cost(space.body());
+        let gained = before - way.cost(space);
         if !moved || gained < 1e-4 * before {
             reach /= 2.0;
         }
@@ -44,20 +44,20 @@ fn shortcut(space: &Space, way: &Way) -> Way {
         if number > 0 && way.states[number - 1] != piece.state {
             own += body.change(way.states[number - 1], piece.state);
         }
-        own += piece.from.distance(piece.to) * body.states[piece.state].hardness;
+        own += space.weigh(piece.state, piece.from, piece.to);
         cost[number + 1][piece.state] = own;
         before[number + 1][piece.state] =
             (number, if number > 0 { way.states[number - 1] } else { piece.state });
     }
     for from in 0..count {
         for to in from + 1..count.min(from + SIGHT) {
-            let length = way.points[from].distance(way.points[to]);
+            let ends = (way.points[from], way.points[to]);
             for state in 0..states {
                 let ready =
                     |was: &usize| if from == 0 { 0.0 } else { cost[from][*was] + change(body, *was, state) };
                 let Some(was) = (0..states).min_by(|a, b| ready(a).total_cmp(&ready(b))) else { continue };
-                let total = ready(&was) + length * body.states[state].hardness;
-                if total < cost[to][state] - 1e-12 && space.is_free(state, way.points[from], way.points[to]) {
+                let total = ready(&was) + space.weigh(state, ends.0, ends.1);
+                if total < cost[to][state] - 1e-12 && space.is_free(state, ends.0, ends.1) {
                     cost[to][state] = total;
                     before[to][state] = (from, was);
                 }
@@ -85,8 +85,7 @@ fn change(body: &super::body::Body, from: usize, to: usize) -> f64 {
 fn settle(space: &Space, way: &mut Way, point: usize, reach: f64) -> bool {
     let (a, b) = (way.points[point - 1], way.points[point + 1]);
     let (into, out) = (way.states[point - 1], way.states[point]);
-    let weight = |state: usize| space.body().states[state].hardness;
-    let cost = |p: Point| a.distance(p) * weight(into) + p.distance(b) * weight(out);
+    let cost = |p: Point| space.weigh(into, a, p) + space.weigh(out, p, b);
     let mut moved = false;
     for _ in 0..8 {
         let here = way.points[point];

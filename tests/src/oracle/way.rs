@@ -33,9 +33,9 @@ impl Way {
     }
 
     /// Metres times hardness, and the changes of shape.
-    pub fn cost(&self, body: &Body) -> f64 {
-        let metres =
-            self.pieces().map(|piece| piece.from.distance(piece.to) * body.states[piece.state].hardness);
+    pub fn cost(&self, space: &Space) -> f64 {
+        let body = space.body();
+        let metres = self.pieces().map(|piece| space.weigh(piece.state, piece.from, piece.to));
         let changes = self.states.windows(2).filter(|pair| pair[0] != pair[1]);
         metres.sum::<f64>() + changes.map(|pair| body.change(pair[0], pair[1])).sum::<f64>()
     }

@@ -16,13 +16,13 @@ fn disc(width: f64) -> Body {
 
 /// Costs of the best way: over the grid, drawn taut, and as the program drives it.
 fn costs(plan: &Plan, body: &Body, start: Point, goal: Point) -> [f64; 3] {
-    let space = Space::new(&plan.world(), body, 0.0);
+    let space = Space::new(&plan.world(), body, 0.0).with_areas(&plan.areas);
     let grid = Grid::new(&space, STEP);
     let ways = grid.ways_from(start);
     let built = Built::of_plan(plan, body, 0.05);
     [
-        ways.over_the_grid(goal).unwrap().cost(body),
-        ways.to(goal).unwrap().cost(body),
+        ways.over_the_grid(goal).unwrap().cost(&space),
+        ways.to(goal).unwrap().cost(&space),
         built.route(start, goal).unwrap().cost,
     ]
 }
@@ -80,6 +80,18 @@ fn between_two_weights_the_way_is_refracted() {
     let sines = [(low - 1.0) / 3.0f64.hypot(low - 1.0), (7.0 - low) / 3.0f64.hypot(7.0 - low)];
     assert!((sines[0] / sines[1] - 2.0).abs() < 1e-6);
     expect(&plan, &body, start, goal, cost(low));
+}
+
+#[test]
+fn in_a_wet_half_of_a_hall_the_way_is_refracted_too() {
+    let plan = Plan::hall(10.0, 8.0).with_area(4.0, 0.0, 10.0, 8.0, 2.0);
+    let (start, goal) = (Point::new(1.0, 1.0), Point::new(7.0, 7.0));
+    let cost = |y: f64| 3.0f64.hypot(y - 1.0) + 2.0 * 3.0f64.hypot(7.0 - y);
+    let best = (0..=60_000).map(|step| cost(1.0 + f64::from(step) / 1e4)).fold(f64::INFINITY, f64::min);
+    let space = Space::new(&plan.world(), &disc(0.6), 0.0).with_areas(&plan.areas);
+    let grid = Grid::new(&space, STEP);
+    let taut = grid.ways_from(start).to(goal).unwrap().cost(&space);
+    assert!((-1e-6..0.001).contains(&(taut / best - 1.0)), "best {best}, taut {taut}");
 }
 
 #[test]

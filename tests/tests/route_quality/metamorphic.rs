@@ -10,6 +10,7 @@ use adit_tests::oracle::plan::Plan;
 use adit_tests::oracle::random::Chance;
 use adit_tests::oracle::site::Built;
 use adit_tests::oracle::space::Space;
+use adit_tests::oracle::way::Way;
 
 /// Side of the layers' cells, metres.
 const GRID: f64 = 0.025;
@@ -42,7 +43,7 @@ fn cases(seeds: std::ops::Range<u64>, level: bool) -> Vec<Case> {
         let spaces = [space(0.0), space(3.0 * GRID * 2f64.sqrt())];
         let grids = spaces.each_ref().map(|space| Grid::new(space, 2.0 * GRID));
         let [ways, shy] = grids.each_ref().map(|grid| grid.ways_from(start));
-        let cost = |way: Option<adit_tests::oracle::way::Way>| way.map(|way| way.cost(&body));
+        let cost = |way: Option<Way>| way.map(|way| way.cost(&spaces[0]));
         // Where a passage is so narrow that it may be one or none, both answers are right.
         let plain = |goal: &Point| match (cost(ways.over_the_grid(*goal)), cost(shy.over_the_grid(*goal))) {
             (Some(best), Some(shy)) => shy < 1.03 * best,

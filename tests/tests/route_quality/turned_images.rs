@@ -70,8 +70,12 @@ fn the_warehouse_as_scanned_and_as_turned_has_the_same_routes() {
     let ways: Vec<_> = grids.iter().zip(poses(start)).map(|(grid, start)| grid.ways_from(start)).collect();
     let (mut wrong, mut compared) = (Vec::new(), 0);
     for &goal in &points[1..] {
-        let best: Vec<Option<f64>> =
-            ways.iter().zip(poses(goal)).map(|(ways, p)| Some(ways.to(p)?.cost(&body()))).collect();
+        let best: Vec<Option<f64>> = ways
+            .iter()
+            .zip(&spaces)
+            .zip(poses(goal))
+            .map(|((ways, space), p)| Some(ways.to(p)?.cost(space)))
+            .collect();
         let Some(best) = best.into_iter().collect::<Option<Vec<f64>>>() else { continue };
         if best.iter().any(|cost| (cost / best[0] - 1.0).abs() > SAME / 2.0) {
             continue;
