@@ -31,6 +31,17 @@ impl Built {
         Self { areas: plan.areas.clone(), ..built }
     }
 
+    /// The same with named places, from which routes are kept.
+    #[track_caller]
+    pub fn of_plan_and_places(plan: &Plan, body: &Body, grid: f64, places: &[(&str, Point)]) -> Self {
+        let folder = TestSite::empty().with("map.toml", &plan.to_toml());
+        let place = |(name, at): &(&str, Point)| {
+            format!("[[place]]\nname = \"{name}\"\nat = [{:?}, {:?}]\n", at.x, at.y)
+        };
+        let places: String = places.iter().map(place).collect();
+        Self::of(folder, &format!("map = \"map.toml\"\ngrid = {grid:?}\n{places}"), body)
+    }
+
     /// Somebody's map with a robot, its cells those of the image.
     #[track_caller]
     pub fn of_map(map: &Path, body: &Body) -> Self {
@@ -62,11 +73,17 @@ impl Built {
     #[track_caller]
     pub fn route(&self, start: Point, goal: Point) -> Option<Driven> {
         let name = |p: Point| format!("{:?},{:?}", p.x, p.y);
-        let answer = self.knowledge.route(&name(start), &name(goal), None).expect("an answer");
+        self.route_by_name(&name(start), &name(goal), start)
+    }
+
+    /// The route between two places, or points as `x,y`; the start is at `at`. `None` where there is none.
+    #[track_caller]
+    pub fn route_by_name(&self, start: &str, goal: &str, at: Point) -> Option<Driven> {
+        let answer = self.knowledge.route(start, goal, None).expect("an answer");
         match answer.status {
             Status::Ok | Status::SameRoom => {
                 let json = serde_json::to_value(&answer).expect("an answer is JSON");
-                Some(Driven::read(&json, start, &self.body))
+                Some(Driven::read(&json, at, &self.body))
             }
             _ => None,
         }

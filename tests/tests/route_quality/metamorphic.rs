@@ -175,6 +175,35 @@ fn the_order_of_states_means_nothing() {
 }
 
 #[test]
+fn a_kept_route_between_places_is_that_between_their_points() {
+    let mut wrong = Vec::new();
+    for case in cases(80..84, false) {
+        let names = ["one", "two", "three", "four"];
+        let places: Vec<(&str, Point)> = std::iter::once(("here", case.start))
+            .chain(names.into_iter().zip(case.goals.iter().copied()))
+            .collect();
+        let built = Built::of_plan_and_places(&case.plan, &case.body, GRID, &places);
+        let by_name = |(name, _): &(&str, Point)| Some(built.route_by_name("here", name, case.start)?.cost);
+        let now: Vec<Option<f64>> = places[1..].iter().map(by_name).collect();
+        wrong.extend(differences(&case, &now, 1e-6));
+    }
+    expect_none(&wrong);
+}
+
+#[test]
+fn the_way_back_costs_the_same_where_changes_cost_nothing() {
+    let mut wrong = Vec::new();
+    for case in cases(90..96, false) {
+        let case = Case { body: case.body.clone().with_changes(&[]), ..case };
+        let built = Built::of_plan(&case.plan, &case.body, GRID);
+        let back = |&goal: &Point| built.route(goal, case.start).map(|route| route.cost);
+        let now: Vec<Option<f64>> = case.goals.iter().map(back).collect();
+        wrong.extend(differences(&case, &now, SAME));
+    }
+    expect_none(&wrong);
+}
+
+#[test]
 fn one_more_obstacle_makes_no_route_cheaper() {
     let mut wrong = Vec::new();
     for (seed, case) in (0..).zip(cases(60..68, false)) {
