@@ -2,6 +2,7 @@
 
 use adit_planners::geometry::Point;
 
+use super::driven::Driven;
 use super::grid::Grid;
 use super::random::Chance;
 use super::silly::{self, Silly};
@@ -134,19 +135,20 @@ impl<'a> Judge<'a> {
     }
 
     /// What cannot be right about a route by itself.
-    fn faults(&self, driven: &super::driven::Driven, of: &str, (start, goal): (Point, Point)) -> Vec<String> {
-        let mut faults = driven.faults.clone();
-        let way = &driven.way;
-        if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
-            faults.push(format!("{depth:.6} m too near to a wall on {piece:?}"));
-        }
-        let sum = way.cost(&self.exact);
-        if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
-            faults.push(format!("costs {}, its way {sum}", driven.cost));
-        }
-        let ends = [way.points[0].distance(start), way.points[way.points.len() - 1].distance(goal)];
-        if ends.iter().any(|off| *off > TRESPASS) {
-            faults.push(format!("begins and ends {ends:?} m off"));
+    fn faults(&self, driven: &Driven, of: &str, (start, goal): (Point, Point)) -> Vec<String> {
+        let mut faults = driven.faults(&self.exact);
+        for (way, kind) in [(&driven.way, "waypoints"), (&driven.steps, "steps")] {
+            if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
+                faults.push(format!("{kind} are {depth:.6} m too near to a wall on {piece:?}"));
+            }
+            let sum = way.cost(&self.exact);
+            if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
+                faults.push(format!("costs {}, its {kind} {sum}", driven.cost));
+            }
+            let ends = [way.points[0].distance(start), way.points[way.points.len() - 1].distance(goal)];
+            if ends.iter().any(|off| *off > TRESPASS) {
+                faults.push(format!("{kind} begin and end {ends:?} m off"));
+            }
         }
         faults.into_iter().map(|fault| format!("{of}: {fault}")).collect()
     }
