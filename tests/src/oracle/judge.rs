@@ -112,11 +112,7 @@ impl<'a> Judge<'a> {
                 }
                 continue;
             };
-            found.wrong.extend(self.faults(&driven, &of, (start, goal)));
-            let held = silly::find(&driven.way, [&self.exact, &self.fair], self.side);
-            found.silly.extend(
-                held.iter().map(|Silly { at, what }| format!("{of}: {what} at {:.3},{:.3}", at.x, at.y)),
-            );
+            self.look_at(&driven, &of, (start, goal), &mut found);
             let Some(best) = exact.to(goal).map(|way| way.cost(&self.exact)) else {
                 found.wrong.push(format!("{of}: a route, though the judge knows no way"));
                 continue;
@@ -132,6 +128,14 @@ impl<'a> Judge<'a> {
             }
         }
         found
+    }
+
+    /// Adds what is wrong and silly about a route by itself.
+    pub fn look_at(&self, driven: &Driven, of: &str, ends: (Point, Point), found: &mut Findings) {
+        found.wrong.extend(self.faults(driven, of, ends));
+        let seen = silly::find(&driven.way, [&self.exact, &self.fair], self.side);
+        let say = |Silly { at, what }: Silly| format!("{of}: {what} at {:.3},{:.3}", at.x, at.y);
+        found.silly.extend(seen.into_iter().map(say));
     }
 
     /// What cannot be right about a route by itself.

@@ -8,6 +8,9 @@ use super::way::{Piece, Way};
 /// A state that is held for less is a stumble, unless it has to be, metres.
 const STUMBLE: f64 = 0.3;
 
+/// What a turn must save if left out before anybody would see it, metres.
+const SEEN: f64 = 0.01;
+
 /// Something that no person would do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Silly {
@@ -25,7 +28,7 @@ pub fn find(way: &Way, [exact, fair]: [&Space; 2], side: f64) -> Vec<Silly> {
     for pair in pieces.windows(2).filter(|pair| pair[0].state == pair[1].state) {
         let (a, b) = (pair[0].from, pair[1].to);
         let gain = a.distance(pair[0].to) + pair[1].from.distance(b) - a.distance(b);
-        if gain > 1e-3 && fair.is_free(pair[0].state, a, b) {
+        if gain > SEEN && fair.is_free(pair[0].state, a, b) {
             let what = format!("a turn that saves {gain:.3} m if left out");
             found.push(Silly { at: pair[0].to, what });
         }
