@@ -22,8 +22,8 @@ pub async fn starts(connection: &mut SqliteConnection) -> Result<Vec<Start>> {
 /// The rows of one tree, by node.
 pub async fn tree_rows(connection: &mut SqliteConnection, tree: i64) -> Result<Vec<TreeRow>> {
     let query = sqlx::query(
-        "SELECT node, prev, from_room, door, hops, reach, leg, x, y, heading FROM tree_rows
-         WHERE tree = ? ORDER BY node",
+        "SELECT node, prev, from_room, door, hops, reach, leg, x, y, heading, distance, clearance, bend
+         FROM tree_rows WHERE tree = ? ORDER BY node",
     );
     let rows = query.bind(tree).fetch_all(connection).await?;
     let read = |row: &SqliteRow| -> sqlx::Result<TreeRow> {
@@ -39,6 +39,9 @@ pub async fn tree_rows(connection: &mut SqliteConnection, tree: i64) -> Result<V
             leg: row.try_get(6)?,
             at: at.0.zip(at.1).map(|(x, y)| [x, y]),
             heading: heading.map(|hundredths| hundredths as f64 / 100.0),
+            distance: row.try_get(10)?,
+            clearance: row.try_get(11)?,
+            bend: row.try_get(12)?,
         })
     };
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)

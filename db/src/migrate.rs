@@ -24,7 +24,11 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v1/09-action-sequence.sql"),
         include_str!("../sql/v1/10-history.sql"),
     ],
-    &[include_str!("../sql/v2/01-anew.sql")],
+    &[
+        include_str!("../sql/v2/01-anew.sql"),
+        include_str!("../sql/v2/10-routes.sql"),
+        include_str!("../sql/v2/11-waypoints.sql"),
+    ],
 ];
 
 /// The newest schema version.

@@ -32,6 +32,7 @@ pub(crate) const OWN: &[&str] = &[
     "step_parts",
     "strips",
     "tree_rows",
+    "waypoints",
     "witnesses",
     "writer",
 ];

@@ -39,6 +39,8 @@ pub struct Route {
     pub cost: Option<f64>,
     /// Rows of its action sequence.
     pub steps: Option<i64>,
+    /// Metres; `None` where ways are not measured.
+    pub distance: Option<f64>,
 }
 
 /// A row of the view `action_sequence`.
@@ -66,6 +68,57 @@ pub struct Step {
     pub heading: Option<f64>,
     /// The rule that set the door's hardness or the room's action.
     pub rule: Option<String>,
+}
+
+/// A row of the view `waypoints`: where a route bends, changes shape, starts or ends.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Waypoint {
+    /// From 1.
+    pub waypoint: i64,
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+    /// Direction of the movement into that point, degrees counterclockwise from +x; `None` where nothing moves.
+    pub heading: Option<f64>,
+    /// The state in which the robot comes there; at the start, in which it leaves.
+    pub state: Option<String>,
+    /// What it does on the way there.
+    pub action: Option<String>,
+    /// The least metres between the robot's rim and anything solid on the way there; `None`: not measured.
+    pub clearance: Option<f64>,
+    /// Metres from the start; `None` where ways are not measured.
+    pub distance: Option<f64>,
+    /// Cost so far, with what is passed at that point.
+    pub cost: f64,
+}
+
+/// The waypoints of a route, in order; none where there is no route or no such name.
+pub async fn waypoints(
+    connection: &mut SqliteConnection,
+    robot: &str,
+    start: &str,
+    goal: &str,
+) -> Result<Vec<Waypoint>> {
+    let query = sqlx::query(
+        "SELECT waypoint, x, y, heading, state, action, clearance, distance, cost FROM waypoints
+         WHERE robot = ? AND start = ? AND goal = ? ORDER BY waypoint",
+    );
+    let read = |row: &SqliteRow| -> sqlx::Result<Waypoint> {
+        Ok(Waypoint {
+            waypoint: row.try_get(0)?,
+            x: row.try_get(1)?,
+            y: row.try_get(2)?,
+            heading: row.try_get(3)?,
+            state: row.try_get(4)?,
+            action: row.try_get(5)?,
+            clearance: row.try_get(6)?,
+            distance: row.try_get(7)?,
+            cost: row.try_get(8)?,
+        })
+    };
+    let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;
+    Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
 }
 
 fn step(row: &SqliteRow) -> sqlx::Result<Step> {
@@ -107,7 +160,7 @@ pub async fn route(
     goal: &str,
 ) -> Result<Option<Route>> {
     let query = sqlx::query(
-        "SELECT robot, start, goal, status, cost, steps FROM route
+        "SELECT robot, start, goal, status, cost, steps, distance FROM route
          WHERE robot = ? AND start = ? AND goal = ?",
     );
     let row = query.bind(robot).bind(start).bind(goal).fetch_optional(connection).await?;
@@ -119,6 +172,7 @@ pub async fn route(
             status: row.try_get(3)?,
             cost: row.try_get(4)?,
             steps: row.try_get(5)?,
+            distance: row.try_get(6)?,
         })
     };
     Ok(row.map(read).transpose()?)
@@ -148,6 +202,11 @@ impl Tx<'_> {
     /// The steps of a route, in order; none where there is no route or no such name.
     pub fn action_sequence(&mut self, robot: &str, start: &str, goal: &str) -> Result<Vec<Step>> {
         self.run(async |connection| action_sequence(connection, robot, start, goal).await)
+    }
+
+    /// The waypoints of a route, in order; none where there is no route or no such name.
+    pub fn waypoints(&mut self, robot: &str, start: &str, goal: &str) -> Result<Vec<Waypoint>> {
+        self.run(async |connection| waypoints(connection, robot, start, goal).await)
     }
 
     /// Whether there is a route, and what it costs; `None` where a name is unknown.

@@ -37,6 +37,8 @@ pub struct End {
     pub node: i64,
     /// What it stands for.
     pub kind: EndKind,
+    /// Whether trees lead to it.
+    pub kept: bool,
 }
 
 /// The last step of the least-cost route into one node. A node is a room's key, or a negative number for a place
@@ -63,6 +65,12 @@ pub struct TreeRow {
     /// Direction of the movement into that point: degrees counterclockwise from +x, kept to 0.01 degrees; `None`
     /// where nothing moves.
     pub heading: Option<f64>,
+    /// Metres from the start; `None` where ways are not measured.
+    pub distance: Option<f64>,
+    /// The least metres between the robot's rim and anything solid since the last bend; `None`: not measured.
+    pub clearance: Option<f64>,
+    /// Whether the robot turns or changes its shape where the step begins.
+    pub bend: bool,
 }
 
 impl Record for &Start {
@@ -78,7 +86,7 @@ impl Record for &Start {
 
 impl Record for &End {
     const TABLE: &'static str = "ends";
-    const COLUMNS: &'static [&'static str] = &["name", "node", "kind"];
+    const COLUMNS: &'static [&'static str] = &["name", "node", "kind", "kept"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.name);
@@ -87,6 +95,7 @@ impl Record for &End {
             EndKind::Place => "place",
             EndKind::Room => "room",
         });
+        values.integer(i64::from(self.kept));
     }
 }
 
@@ -97,8 +106,22 @@ struct Rooted {
 
 impl Record for Rooted {
     const TABLE: &'static str = "tree_rows";
-    const COLUMNS: &'static [&'static str] =
-        &["tree", "node", "prev", "from_room", "door", "hops", "reach", "leg", "x", "y", "heading"];
+    const COLUMNS: &'static [&'static str] = &[
+        "tree",
+        "node",
+        "prev",
+        "from_room",
+        "door",
+        "hops",
+        "reach",
+        "leg",
+        "x",
+        "y",
+        "heading",
+        "distance",
+        "clearance",
+        "bend",
+    ];
 
     fn bind(&self, values: &mut Values) {
         let row = &self.row;
@@ -113,6 +136,9 @@ impl Record for Rooted {
         values.real(row.at.map(|at| at[0]));
         values.real(row.at.map(|at| at[1]));
         values.integer(row.heading.map(|degrees| (degrees * 100.0).round() as i64));
+        values.real(row.distance);
+        values.real(row.clearance);
+        values.integer(i64::from(row.bend));
     }
 }
 

@@ -1,17 +1,19 @@
 //! Answers to "how do I get from here to there": from the kept routes, or computed where none is kept.
 
-use adit_db::door::DoorKind;
-use adit_db::route::Step;
+mod steps;
+
+use adit_db::route::{Route, Step, Waypoint};
 use adit_db::{Store, Tx};
-use adit_planners::geometry::Point;
-use adit_planners::routes::Arrival;
+use adit_planners::routes::Goal;
+use adit_planners::world::World;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
+use crate::gauge::Gauge;
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
-use crate::{generation, reason, trees};
+use crate::{generation, reason};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -45,11 +47,16 @@ pub struct Answer {
     /// Total hardness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
+    /// Metres; only where rooms weigh them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
     /// Why there is no route, or which name is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// The rows of `action_sequence`.
     pub steps: Vec<Step>,
+    /// The rows of `waypoints`: where the way bends, changes shape, starts and ends.
+    pub waypoints: Vec<Waypoint>,
 }
 
 impl KnowledgeBase {
@@ -57,7 +64,14 @@ impl KnowledgeBase {
     ///
     /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
-        self.fresh()?.snapshot(|tx| self.answer(tx, start, goal, robot))
+        self.route_to_nearest(start, &[goal.to_owned()], robot)
+    }
+
+    /// The route to the one of several goals that costs least; the answer's `goal` says which.
+    ///
+    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
+    pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
     }
 
     /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
@@ -76,87 +90,103 @@ impl KnowledgeBase {
         Ok(store)
     }
 
-    fn answer(&self, tx: &mut Tx<'_>, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
+    fn answer(&self, tx: &mut Tx<'_>, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = pick_robot(tx, robot)?;
         let generation = generation::read(tx)?;
         let mut answer = Answer {
             status: Status::Ok,
             robot: robot.clone(),
             start: start.to_owned(),
-            goal: goal.to_owned(),
+            goal: goals.join(" "),
             generation,
             cost: None,
+            distance: None,
             reason: None,
             steps: Vec::new(),
+            waypoints: Vec::new(),
         };
-        if let Some(route) = tx.route(&robot, start, goal)?
-            && ["ok", "same_room"].contains(&route.status.as_str())
-        {
+        if let Some(route) = kept(tx, &robot, start, goals)? {
             answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
-            answer.cost = route.cost;
-            answer.steps = tx.action_sequence(&robot, start, goal)?;
+            (answer.cost, answer.distance) = (route.cost, route.distance);
+            answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
+            answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+            answer.goal = route.goal;
             return Ok(answer);
         }
         let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
         let rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
-        self.search(&graph, &rules, answer)
+        self.search(tx, (&graph, &rules), goals, answer)
     }
 
-    fn search(&self, graph: &SiteGraph, rules: &Rules, mut answer: Answer) -> Result<Answer> {
+    fn search(
+        &self,
+        tx: &mut Tx<'_>,
+        (graph, rules): (&SiteGraph, &Rules),
+        names: &[String],
+        mut answer: Answer,
+    ) -> Result<Answer> {
         let mut ends = Vec::new();
-        let names = [answer.start.clone(), answer.goal.clone()];
-        for (name, status) in names.iter().zip([Status::UnknownStart, Status::UnknownGoal]) {
+        for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
             let Some(end) = graph.end(name) else {
                 let meant =
                     did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
                 answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
-                answer.status = status;
+                answer.status = if index == 0 { Status::UnknownStart } else { Status::UnknownGoal };
                 return Ok(answer);
             };
             ends.push(end);
         }
+        let (world, _, _) = self.site().world()?;
         for end in &ends {
-            self.check_point(end)?;
+            check_point(&world, end)?;
         }
-        let (start, goals) =
-            (graph.start(&ends[0], Some(&answer.robot)), graph.rooms_of(&ends[1], Some(&answer.robot)));
-        let goal = match ends[1] {
-            End::Room(_) => None,
-            _ => Some(graph.point(&ends[1])),
-        };
-        let tree = graph.graph().tree_until(&start, &goals, goal);
-        let reached = match goal {
-            Some(goal) => tree.best_at(graph.graph(), &goals, goal),
-            None => goals.iter().find_map(|&room| tree.of_room[room].first()).map(|&arrival| (arrival, 0.0)),
-        };
-        let Some((arrival, leg)) = reached else {
+        let start = graph.start(&ends[0], Some(&answer.robot));
+        let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(&answer.robot))).collect();
+        let Some((goal, way)) = graph.graph().way(&start, &goals) else {
             answer.status = Status::NoRoute;
             answer.reason = Some(reason::no_route(self, graph, rules, &start, &ends, &answer.robot)?);
             return Ok(answer);
         };
-        let last = goal.map(|goal| (goal, leg));
-        answer.steps = steps(graph, rules, &tree.way(arrival), last);
-        answer.cost = answer.steps.last().map(|step| step.cost);
-        let doors = answer.steps.iter().filter(|step| step.kind != "room").count();
-        answer.status = if doors == 0 { Status::SameRoom } else { Status::Ok };
+        answer.goal.clone_from(&names[goal]);
+        answer.steps = steps::steps(graph, rules, &way, goals[goal].at.is_some());
+        answer.waypoints = steps::waypoints(graph, &way, &Gauge::new(&world, &tx.states()?));
+        answer.cost = Some(way.cost);
+        answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
+        answer.status = if way.legs.len() == 1 { Status::SameRoom } else { Status::Ok };
         Ok(answer)
     }
+}
 
-    /// A point of the command line must lie on the floor.
-    fn check_point(&self, end: &End) -> Result<()> {
-        let End::Point(point) = end else { return Ok(()) };
-        let (world, _, _) = self.site().world()?;
-        let named = format!("{},{}", point.x, point.y);
-        if !world.bounds.contains(*point) {
-            let b = world.bounds;
-            let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
-            return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
+/// The kept route that costs least, if routes to all of the goals are kept.
+fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<Option<Route>> {
+    let mut best: Option<Route> = None;
+    for goal in goals {
+        let Some(route) = tx.route(robot, start, goal)? else { return Ok(None) };
+        match route.status.as_str() {
+            "ok" | "same_room" => {}
+            "no_route" if goals.len() > 1 => continue,
+            _ => return Ok(None),
         }
-        if world.is_solid(*point) {
-            return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
+        if best.as_ref().is_none_or(|best| route.cost < best.cost) {
+            best = Some(route);
         }
-        Ok(())
     }
+    Ok(best)
+}
+
+/// A point of the command line must lie on the floor.
+fn check_point(world: &World, end: &End) -> Result<()> {
+    let End::Point(point) = end else { return Ok(()) };
+    let named = format!("{},{}", point.x, point.y);
+    if !world.bounds.contains(*point) {
+        let b = world.bounds;
+        let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
+        return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
+    }
+    if world.is_solid(*point) {
+        return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
+    }
+    Ok(())
 }
 
 /// The robot that is meant, or the only one.
@@ -181,67 +211,5 @@ pub(crate) fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String
                 Some("run `adit build` first".to_owned()),
             )
         }),
-    }
-}
-
-/// The rows of `action_sequence` of a route that is not kept; `last` is a goal point and the hardness of the way to it.
-fn steps(graph: &SiteGraph, rules: &Rules, way: &[&Arrival], last: Option<(Point, f64)>) -> Vec<Step> {
-    let mut steps: Vec<Step> = Vec::with_capacity(way.len() * 2);
-    for pair in way.windows(2) {
-        let (entry, exit) = (pair[0], pair[1]);
-        let Some(door) = exit.from.and_then(|(_, door)| graph.door(i64::from(door))) else { continue };
-        let heading = trees::heading(entry.at, exit.at);
-        steps.push(room_step(graph, rules, entry.room, exit.leg, entry.cost + exit.leg, exit.at, heading));
-        let (kind, layer_of) = match door.kind {
-            DoorKind::Door => ("door", entry.room),
-            DoorKind::Change => ("change", exit.room),
-        };
-        steps.push(Step {
-            step: 0,
-            kind: kind.to_owned(),
-            place: door.door.to_string(),
-            state: graph.rooms[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
-            action: door.action.value.clone(),
-            hardness: door.hardness.value,
-            cost: exit.cost,
-            x: Some(exit.at.x),
-            y: Some(exit.at.y),
-            heading,
-            rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
-        });
-    }
-    if let Some(arrival) = way.last() {
-        let (at, leg) = last.unwrap_or((arrival.at, 0.0));
-        let heading = last.and_then(|(goal, _)| trees::heading(arrival.at, goal));
-        steps.push(room_step(graph, rules, arrival.room, leg, arrival.cost + leg, at, heading));
-    }
-    for (number, step) in (1..).zip(&mut steps) {
-        step.step = number;
-    }
-    steps
-}
-
-fn room_step(
-    graph: &SiteGraph,
-    rules: &Rules,
-    room: usize,
-    hardness: f64,
-    cost: f64,
-    at: Point,
-    heading: Option<f64>,
-) -> Step {
-    let room = &graph.rooms[room];
-    Step {
-        step: 0,
-        kind: "room".to_owned(),
-        place: room.name.clone(),
-        state: room.layer.as_ref().map(|(_, state)| state.clone()),
-        action: room.action.value.clone(),
-        hardness: Some(hardness),
-        cost,
-        x: Some(at.x),
-        y: Some(at.y),
-        heading,
-        rule: room.action.rule.and_then(|rule| rules.get(&rule).cloned()),
     }
 }

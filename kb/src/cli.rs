@@ -128,6 +128,9 @@ pub struct RouteArgs {
     /// A place, a room or `x,y`
     #[arg(allow_hyphen_values = true)]
     pub goal: String,
+    /// Another goal, as often as you like; the route leads to the one that costs least
+    #[arg(long = "or", value_name = "GOAL", allow_hyphen_values = true)]
+    pub others: Vec<String>,
     /// Which robot, where the site has several
     #[arg(long)]
     pub robot: Option<String>,

@@ -6,7 +6,7 @@ use adit_db::door::Door;
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
 pub struct SiteGraph {
@@ -138,6 +138,12 @@ impl SiteGraph {
             End::Room(index) => self.rooms[*index].room == room.room,
             _ => rect_of(room).contains(self.point(end)),
         }
+    }
+
+    /// Where a search for this end leads: for a room, to anywhere in it.
+    pub fn goal(&self, end: &End, robot: Option<&str>) -> Goal {
+        let at = (!matches!(end, End::Room(_))).then(|| self.point(end));
+        Goal { rooms: self.rooms_of(end, robot), at }
     }
 
     /// Where a search from this end begins.

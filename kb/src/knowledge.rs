@@ -19,6 +19,7 @@ use adit_planners::rooms::PaperRooms;
 use crate::derive::{Derived, Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
+use crate::gauge::Gauge;
 use crate::graph::SiteGraph;
 use crate::grounds::Numbering;
 use crate::inputs::Inputs;
@@ -248,7 +249,8 @@ impl KnowledgeBase {
         progress.stage("routes");
         let began = Instant::now();
         let graph = SiteGraph::new(made.rooms, made.doors, tx.places()?);
-        let routes = self.keep_routes(tx, &graph, &robots, &before, progress)?;
+        let gauge = Gauge::new(&inputs.world, &tx.states()?);
+        let routes = self.keep_routes(tx, (&graph, &gauge), &robots, &before, progress)?;
         derived.stages.push(database);
         derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
         let same = before.rooms == graph.rooms && before.doors == graph.doors && routes.changed == Some(0);
@@ -367,7 +369,7 @@ impl KnowledgeBase {
     fn keep_routes(
         &self,
         tx: &mut Tx<'_>,
-        graph: &SiteGraph,
+        (graph, gauge): (&SiteGraph, &Gauge),
         robots: &[String],
         before: &Before,
         progress: &dyn Progress,
@@ -385,7 +387,7 @@ impl KnowledgeBase {
         tx.replace_ends(&ends)?;
         for (batch, roots) in plan.roots.chunks(64).enumerate() {
             progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
-            let made = trees::rows(graph, roots);
+            let made = trees::rows(graph, roots, gauge);
             let numbered = (batch as i64 * 64 + 1..).zip(made);
             if comparable {
                 for (tree, rows) in numbered {

@@ -23,6 +23,7 @@ mod derive;
 pub mod draw;
 pub mod edit;
 mod error;
+mod gauge;
 mod generation;
 mod graph;
 mod grounds;

@@ -13,6 +13,7 @@ use adit_planners::facts::Facts;
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
+use crate::gauge::Gauge;
 use crate::generation::{self, Basis};
 use crate::grounds::Numbering;
 use crate::inputs::Inputs;
@@ -43,6 +44,7 @@ struct Memory {
     numbering: Numbering,
     kept: Kept,
     routes: KeptRoutes,
+    gauge: Gauge,
 }
 
 /// What an edit did.
@@ -201,8 +203,9 @@ impl Memory {
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
         let routes = KeptRoutes::read(tx, graph, plan)?;
+        let gauge = Gauge::new(&inputs.world, &tx.states()?);
         let knowledge = derived.knowledge;
-        Ok(Some(Self { inputs, basis, generation, told, knowledge, numbering, kept, routes }))
+        Ok(Some(Self { inputs, basis, generation, told, knowledge, numbering, kept, routes, gauge }))
     }
 
     /// Edits, and writes what follows.
@@ -243,7 +246,9 @@ impl Memory {
         clock.lap("rows of rooms and doors");
         let robots = site.robots(tx)?;
         let wanted = site.site().starts.as_ref();
-        let Some(routes) = self.routes.renew(&written, &robots, wanted)? else { return Err(Stop::Anew) };
+        let Some(routes) = self.routes.renew(&written, &robots, wanted, &self.gauge)? else {
+            return Err(Stop::Anew);
+        };
         clock.lap("search");
         KeptRoutes::write(tx, &routes)?;
         let same = written.rooms.is_empty() && written.doors.is_empty();

@@ -1,11 +1,15 @@
 //! Which routes are kept, and their trees as rows: for each start the last step into each room and place.
 
+mod measured;
+mod on_doors;
+
 use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
 use adit_planners::geometry::Point;
-use adit_planners::routes::{Start, Tree};
+use adit_planners::routes::Start;
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
+use crate::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 use crate::report::PlaceCosts;
 use crate::site::Starts;
@@ -97,6 +101,13 @@ fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
     Ok(names.iter().map(String::as_str).collect())
 }
 
+/// Whether routes are kept to rooms, not to places only.
+///
+/// Where rooms are by state and there are many, who asks names a place or a point, not a piece of a layer.
+fn keeps_rooms(graph: &SiteGraph) -> bool {
+    graph.graph().is_on_doors() || graph.rooms.len() <= ALL_STARTS_UP_TO
+}
+
 /// The names that routes may start and end at. A room's node is its key, a place's is negative.
 pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
     let mut ends = Vec::with_capacity(graph.rooms.len() + graph.places.len());
@@ -111,12 +122,18 @@ pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
                 Some("rooms are named a, b, ... z, aa, ...: give the place a longer name".to_owned()),
             ));
         }
-        ends.push(EndRow { name: place.place.clone(), node: place_node(index), kind: EndKind::Place });
+        ends.push(EndRow {
+            name: place.place.clone(),
+            node: place_node(index),
+            kind: EndKind::Place,
+            kept: true,
+        });
     }
     ends.extend(graph.rooms.iter().map(|room| EndRow {
         name: room.name.clone(),
         node: room.room,
         kind: EndKind::Room,
+        kept: keeps_rooms(graph),
     }));
     Ok(ends)
 }
@@ -127,124 +144,11 @@ pub fn place_node(index: usize) -> i64 {
 }
 
 /// The rows of some trees, computed side by side, each in the order of its nodes.
-pub fn rows(graph: &SiteGraph, roots: &[(String, Start)]) -> Vec<Vec<TreeRow>> {
-    let rooms_of: Vec<(&String, Vec<Vec<usize>>)> = {
-        let mut robots: Vec<&String> = roots.iter().map(|(robot, _)| robot).collect();
-        robots.sort_unstable();
-        robots.dedup();
-        let places = |robot: &str| {
-            (0..graph.places.len()).map(|index| graph.rooms_of(&End::Place(index), Some(robot))).collect()
-        };
-        robots.into_iter().map(|robot| (robot, places(robot))).collect()
-    };
-    let one = |(robot, start): &(String, Start)| {
-        let places = rooms_of.iter().find(|(of, _)| *of == robot).map_or(&[][..], |(_, rooms)| rooms);
-        tree_rows(graph, start, places)
-    };
-    roots.par_iter().map(one).collect()
-}
-
-fn tree_rows(graph: &SiteGraph, start: &Start, place_rooms: &[Vec<usize>]) -> Vec<TreeRow> {
-    let tree = graph.graph().tree(start);
-    let goals: Vec<(usize, Point, usize, f64)> = place_rooms
-        .iter()
-        .enumerate()
-        .filter_map(|(index, rooms)| {
-            let goal = graph.point(&End::Place(index));
-            let (arrival, leg) = tree.best_at(graph.graph(), rooms, goal)?;
-            Some((index, goal, arrival, leg))
-        })
-        .collect();
-    let nodes = Nodes::new(graph, &tree, goals.iter().map(|goal| goal.2));
-    let mut rows: Vec<TreeRow> =
-        nodes.kept.iter().map(|&arrival| arrival_row(graph, &tree, &nodes, arrival)).collect();
-    rows.extend(goals.into_iter().map(|(index, goal, arrival, leg)| {
-        let before = &tree.arrivals[arrival];
-        TreeRow {
-            node: place_node(index),
-            prev: Some(nodes.of[arrival]),
-            from_room: nodes.room_of(graph, &tree, arrival),
-            door: None,
-            hops: i64::from(before.hops),
-            reach: before.cost + leg,
-            leg,
-            at: Some([goal.x, goal.y]),
-            heading: heading(before.at, goal),
-        }
-    }));
-    rows.sort_by_key(|row| row.node);
-    rows
-}
-
-/// The arrivals that are kept, with their nodes: a room's cheapest arrival has the room's key, others that routes lead
-/// through have negative numbers below those of the places.
-struct Nodes {
-    of: Vec<i64>,
-    kept: Vec<usize>,
-}
-
-impl Nodes {
-    fn new(graph: &SiteGraph, tree: &Tree, goals: impl Iterator<Item = usize>) -> Self {
-        let best = tree.of_room.iter().filter_map(|arrivals| arrivals.first().copied());
-        let mut wanted: Vec<usize> = best.chain(goals).collect();
-        let mut is_kept = vec![false; tree.arrivals.len()];
-        while let Some(arrival) = wanted.pop() {
-            if !std::mem::replace(&mut is_kept[arrival], true) {
-                wanted.extend(tree.arrivals[arrival].from.map(|(before, _)| before));
-            }
-        }
-        let kept: Vec<usize> = (0..is_kept.len()).filter(|&arrival| is_kept[arrival]).collect();
-        let mut of = vec![0; tree.arrivals.len()];
-        let mut next = place_node(graph.places.len());
-        for &arrival in &kept {
-            let room = tree.arrivals[arrival].room;
-            if tree.of_room[room].first() == Some(&arrival) {
-                of[arrival] = graph.rooms[room].room;
-            } else {
-                of[arrival] = next;
-                next -= 1;
-            }
-        }
-        Self { of, kept }
+pub fn rows(graph: &SiteGraph, roots: &[(String, Start)], gauge: &Gauge) -> Vec<Vec<TreeRow>> {
+    if graph.graph().is_on_doors() {
+        return roots.par_iter().map(|root| on_doors::rows(graph, root)).collect();
     }
-
-    /// The key of an arrival's room, where its node is not that key.
-    fn room_of(&self, graph: &SiteGraph, tree: &Tree, arrival: usize) -> Option<i64> {
-        let key = graph.rooms[tree.arrivals[arrival].room].room;
-        (self.of[arrival] != key).then_some(key)
-    }
-}
-
-fn arrival_row(graph: &SiteGraph, tree: &Tree, nodes: &Nodes, index: usize) -> TreeRow {
-    let arrival = &tree.arrivals[index];
-    let (at, node) = ([arrival.at.x, arrival.at.y], nodes.of[index]);
-    let Some((before, door)) = arrival.from else {
-        let from_room = nodes.room_of(graph, tree, index);
-        return TreeRow {
-            node,
-            prev: None,
-            from_room,
-            door: None,
-            hops: 0,
-            reach: 0.0,
-            leg: 0.0,
-            at: Some(at),
-            heading: None,
-        };
-    };
-    let entry = &tree.arrivals[before];
-    let walked = graph.graph().rooms()[entry.room].walking.per_m().is_some();
-    TreeRow {
-        node,
-        prev: Some(nodes.of[before]),
-        from_room: nodes.room_of(graph, tree, before),
-        door: Some(i64::from(door)),
-        hops: i64::from(arrival.hops),
-        reach: entry.cost + arrival.leg,
-        leg: arrival.leg,
-        at: walked.then_some(at),
-        heading: heading(entry.at, arrival.at),
-    }
+    roots.par_iter().map(|root| measured::rows(graph, root, gauge)).collect()
 }
 
 /// Degrees counterclockwise from x; `None` where nothing moves.

@@ -4,7 +4,7 @@ use adit_db::Tx;
 use adit_db::door::Door;
 use adit_engine::Rejected;
 use adit_planners::geometry::Point;
-use adit_planners::routes::{Start, Tree};
+use adit_planners::routes::{Goal, Start};
 use serde::Serialize;
 
 use crate::answer::pick_robot;
@@ -16,8 +16,8 @@ use crate::subject::Subject;
 use crate::suggest::did_you_mean;
 use crate::why::{Reasoned, conclusions};
 
-/// Arrivals in a room from which a way on is tried; the cheapest come first.
-const ARRIVALS: usize = 8;
+/// Points of a room or a door over which a way is tried.
+const POINTS: usize = 9;
 
 /// Why a route does not lead through a room or door.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -106,9 +106,8 @@ impl KnowledgeBase {
 /// Ways from a start to a goal.
 struct Question<'g> {
     graph: &'g SiteGraph,
-    tree: Tree,
-    goals: Vec<usize>,
-    goal: Option<Point>,
+    start: Start,
+    goal: Goal,
 }
 
 impl<'g> Question<'g> {
@@ -120,48 +119,58 @@ impl<'g> Question<'g> {
             })
         };
         let (start, goal) = (end(start)?, end(goal)?);
-        let at = if matches!(goal, End::Room(_)) { None } else { Some(graph.point(&goal)) };
-        let tree = graph.graph().tree(&graph.start(&start, Some(robot)));
-        Ok(Self { graph, tree, goals: graph.rooms_of(&goal, Some(robot)), goal: at })
+        Ok(Self { graph, start: graph.start(&start, Some(robot)), goal: graph.goal(&goal, Some(robot)) })
     }
 
     fn best(&self) -> Option<f64> {
-        self.cost(&self.tree)
+        self.cost(&self.start, &self.goal)
     }
 
-    /// What reaching the goal costs.
-    fn cost(&self, tree: &Tree) -> Option<f64> {
-        match self.goal {
-            Some(goal) => {
-                let (arrival, leg) = tree.best_at(self.graph.graph(), &self.goals, goal)?;
-                Some(tree.arrivals[arrival].cost + leg)
-            }
-            None => self.goals.iter().find_map(|&room| tree.best(room)).map(|arrival| arrival.cost),
-        }
+    fn cost(&self, start: &Start, goal: &Goal) -> Option<f64> {
+        self.graph.graph().way(start, std::slice::from_ref(goal)).map(|(_, way)| way.cost)
     }
 
+    /// What it costs to come to a point in a room.
+    fn to(&self, room: usize, at: Point) -> Option<f64> {
+        self.cost(&self.start, &Goal { rooms: vec![room], at: Some(at) })
+    }
+
+    /// What it costs to go on from a point in a room.
     fn on(&self, room: usize, at: Point) -> Option<f64> {
-        let start = Start { rooms: vec![room], at };
-        self.cost(&self.graph.graph().tree_until(&start, &self.goals, self.goal))
+        self.cost(&Start { rooms: vec![room], at }, &self.goal)
     }
 
+    /// By where it is entered at least cost, by its middle, or by one of its doors.
     fn through_room(&self, room: usize) -> Option<f64> {
-        let arrivals = self.tree.of_room[room].iter().take(ARRIVALS).map(|&index| self.tree.arrivals[index]);
-        arrivals.filter_map(|arrival| Some(arrival.cost + self.on(room, arrival.at)?)).min_by(f64::total_cmp)
+        let first = Goal { rooms: vec![room], at: None };
+        let entered =
+            self.graph.graph().way(&self.start, &[first]).and_then(|(_, way)| way.legs.last().copied());
+        let middle = self.graph.point(&End::Room(room));
+        let doors = self.graph.graph().doors().iter();
+        let doors = doors.filter(|door| !door.is_change() && (door.room1 == room || door.room2 == room));
+        let points = entered.map(|leg| leg.to).into_iter().chain([middle]);
+        let points = points.chain(doors.map(|door| door.crossing.centre())).take(POINTS);
+        points.filter_map(|at| Some(self.to(room, at)? + self.on(room, at)?)).min_by(f64::total_cmp)
     }
 
-    /// By the point that stands for the door; both ways, unless it is passed one way only.
+    /// By one of some points of the door; both ways, unless it is passed one way only.
     fn through_door(&self, door: &Door) -> Option<f64> {
         let hardness = door.hardness.value.filter(|_| door.passable.value == Some(true))?;
-        let at = Point::new(door.at[0], door.at[1]);
         let (one, two) = (self.graph.room(door.side1.room)?, self.graph.room(door.side2.room)?);
         let ways = [(one, two), (two, one)];
         let ways = if door.one_way { &ways[..1] } else { &ways[..] };
-        let cost = |&(from, to): &(usize, usize)| {
-            let (arrival, leg) = self.tree.best_at(self.graph.graph(), &[from], at)?;
-            Some(self.tree.arrivals[arrival].cost + leg + hardness + self.on(to, at)?)
+        let [x0, y0, x1, y1] = door.segment;
+        let share = |part: usize| part as f64 / (POINTS - 1) as f64;
+        let along = |part| Point::new(x0 + (x1 - x0) * share(part), y0 + (y1 - y0) * share(part));
+        let points: Vec<Point> = if self.graph.graph().is_on_doors() {
+            vec![Point::new(door.at[0], door.at[1])]
+        } else {
+            (0..POINTS).map(along).collect()
         };
-        ways.iter().filter_map(cost).min_by(f64::total_cmp)
+        let cost =
+            |(from, to): (usize, usize), at: Point| Some(self.to(from, at)? + hardness + self.on(to, at)?);
+        let all = ways.iter().flat_map(|&way| points.iter().filter_map(move |&at| cost(way, at)));
+        all.min_by(f64::total_cmp)
     }
 }
 

@@ -69,5 +69,5 @@ fn petgraph_distances_only(bencher: Bencher, side: usize) {
 #[divan::bench(args = [32, 100])]
 fn ours_by_metres(bencher: Bencher, side: usize) {
     let graph = building(side, Walking::PerMetre(1.0));
-    bencher.bench(|| graph.tree(&start()));
+    bencher.bench(|| graph.ways(&start(), &[], true));
 }

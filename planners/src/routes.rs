@@ -1,28 +1,38 @@
 //! Routes of least total hardness over rooms and doors.
 //!
+//! Where all hardness lies on the doors (the paper's Table 6), the search is Dijkstra's ([`Tree`]);
 //! [petgraph](https://docs.rs/petgraph) holds the graph and is the reference that tests compare with. Its `dijkstra`
-//! returns no predecessors and cannot tell two doors between the same rooms apart, so the search here is a loop of
-//! our own over petgraph's edges that keeps how each room was entered, by which door and where.
+//! returns no predecessors and cannot tell two doors between the same rooms apart, so the loop is our own.
 //!
-//! Where a room weighs its metres, it matters where it was entered: the robot squats down just before the pipe, not
-//! where it enters the corridor. So a room keeps every arrival that no other one makes superfluous. Rooms are convex:
-//! an arrival is superfluous if walking over from another one costs no more.
+//! Where rooms weigh their metres, a [`Way`] is measured as it is driven: from point to point, straight where nothing
+//! is in the way. The search is any-angle over the mesh of rooms, and what it finds is pulled tight.
 
 mod blocked;
 mod compact;
-mod crossing;
+mod cone;
+mod gates;
 mod lazy;
-mod search;
-mod tree;
+mod mesh;
+mod on_doors;
+mod pull;
+mod taut;
+mod way;
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::geometry::{Point, Rect};
+use cone::Segment;
+use mesh::Mesh;
+use taut::{Outcome, Search, Wanted};
 
 pub use blocked::{Blockage, blockage};
 pub use compact::{CompactGraph, CompactTree, NONE};
 pub use lazy::LazyRoute;
-pub use tree::{Arrival, Tree};
+pub use on_doors::{Arrival, Tree};
+pub use way::{Leg, Way};
 
 /// A room as the search sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,16 +52,6 @@ pub enum Walking {
     PerMetre(f64),
     /// Unknown: no route enters.
     Unknown,
-}
-
-impl Walking {
-    /// Hardness of a metre, where metres are weighed.
-    pub fn per_m(self) -> Option<f64> {
-        match self {
-            Self::PerMetre(hardness) => Some(hardness),
-            Self::OnDoors | Self::Unknown => None,
-        }
-    }
 }
 
 /// A door as the search sees it.
@@ -96,12 +96,37 @@ pub struct Start {
     pub at: Point,
 }
 
-/// Rooms joined by the doors that can be passed.
+/// Where a search may end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Rooms that hold it.
+    pub rooms: Vec<usize>,
+    /// The point; `None`: anywhere in one of the rooms.
+    pub at: Option<Point>,
+}
+
+/// The ways from one start.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Ways {
+    /// To each goal, in their order; `None` where it is not reached.
+    pub goals: Vec<Option<Way>>,
+    /// To each room, by index: to where it is reached first. Empty unless asked for.
+    pub rooms: Vec<Option<Way>>,
+}
+
+/// Rooms joined by doors.
 #[derive(Clone, Debug)]
 pub struct RouteGraph {
     rooms: Vec<RouteRoom>,
     doors: Vec<RouteDoor>,
     graph: DiGraph<(), u32>,
+    mesh: Mesh,
+    /// For each end of a door whether a way may bend there.
+    bends: Vec<bool>,
+    /// For each change whether all changes between its two layers weigh the same.
+    is_even: Vec<bool>,
+    /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
+    gates: Vec<[OnceLock<Box<[Segment]>>; 2]>,
 }
 
 impl RouteGraph {
@@ -121,14 +146,107 @@ impl RouteGraph {
                 }
             }
         }
-        Self { rooms, doors, graph }
+        let mesh = Mesh::new(&rooms, &doors);
+        let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
+        let mut all = Self { rooms, doors, graph, mesh, bends: Vec::new(), is_even: Vec::new(), gates };
+        all.weigh();
+        all
+    }
+
+    /// Finds what hangs on the weights.
+    fn weigh(&mut self) {
+        let is_open = |door: usize| self.passage(door).is_some();
+        self.bends = self.mesh.bends(&self.rooms, &self.doors, |door| self.is_free(door), is_open);
+        let mut weights: BTreeMap<(u32, u32), Option<Option<u64>>> = BTreeMap::new();
+        let layers = |door: &RouteDoor| (self.mesh.layer[door.room1], self.mesh.layer[door.room2]);
+        for (index, door) in self.doors.iter().enumerate().filter(|(_, door)| door.is_change()) {
+            let weight = self.passage(index).map(f64::to_bits);
+            let known = weights.entry(layers(door)).or_insert(Some(weight));
+            if *known != Some(weight) {
+                *known = None;
+            }
+        }
+        let is_even =
+            |door: &RouteDoor| door.is_change() && weights.get(&layers(door)).is_some_and(Option::is_some);
+        self.is_even = self.doors.iter().map(is_even).collect();
+    }
+
+    /// Weighs rooms and doors anew, by index; what is not named stays as it is.
+    pub fn reweigh(
+        &mut self,
+        rooms: impl IntoIterator<Item = (usize, Walking)>,
+        doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
+    ) {
+        for (room, walking) in rooms {
+            self.rooms[room].walking = walking;
+        }
+        for (door, hardness, passable) in doors {
+            (self.doors[door].hardness, self.doors[door].passable) = (hardness, passable);
+        }
+        self.gates = vec![[OnceLock::new(), OnceLock::new()]; self.doors.len()];
+        self.weigh();
+    }
+
+    /// The best way to the goal that costs least, with that goal's index.
+    ///
+    /// Where rooms weigh metres, the way is the shortest one of its kind to within the rounding of numbers between
+    /// points where hardness changes or a shape is changed, and those points are the best ones near the
+    /// best of points at most 0.75 m apart.
+    pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
+        if self.is_on_doors() {
+            let all = self.ways(start, goals, false).goals.into_iter().enumerate();
+            let ways = all.filter_map(|(goal, way)| Some((goal, way?)));
+            return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
+        }
+        let outcome = Search::find(self, start, goals, Wanted::One);
+        let ways = (0..goals.len()).filter_map(|goal| Some((goal, self.best(&outcome, start, goal)?)));
+        ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))
+    }
+
+    /// The best of the ways to a goal that were found, pulled tight.
+    fn best(&self, outcome: &Outcome, start: &Start, goal: usize) -> Option<Way> {
+        let ways = outcome.goals[goal].iter().map(|found| Way::of(self, &outcome.nodes, start, found));
+        ways.min_by(|one, two| one.cost.total_cmp(&two.cost))
+    }
+
+    /// The best ways to all goals; and to all rooms, where asked for.
+    pub fn ways(&self, start: &Start, goals: &[Goal], rooms: bool) -> Ways {
+        if self.is_on_doors() {
+            return self.tree(start).ways(self, start, goals, rooms);
+        }
+        let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
+        let outcome = Search::find(self, start, goals, wanted);
+        let way = |found: &Option<taut::Found>| {
+            found.as_ref().map(|found| Way::of(self, &outcome.nodes, start, found))
+        };
+        Ways {
+            goals: (0..goals.len()).map(|goal| self.best(&outcome, start, goal)).collect(),
+            rooms: outcome.rooms.iter().map(way).collect(),
+        }
+    }
+
+    /// Whether no room weighs its metres.
+    pub fn is_on_doors(&self) -> bool {
+        !self.rooms.iter().any(|room| matches!(room.walking, Walking::PerMetre(_)))
+    }
+
+    /// For each room whether open doors join it with one of these.
+    fn joined_with(&self, rooms: &[usize]) -> Vec<bool> {
+        let mut joined = vec![false; self.rooms.len()];
+        let mut waiting: Vec<usize> = rooms.iter().copied().filter(|&room| self.is_entered(room)).collect();
+        while let Some(room) = waiting.pop() {
+            if !std::mem::replace(&mut joined[room], true) {
+                let open = |exit: &&mesh::Exit| self.is_open(exit.door as usize);
+                let exits = self.mesh.portals.of(room).iter().chain(self.mesh.changes.of(room));
+                waiting.extend(exits.filter(open).map(|exit| exit.to as usize));
+            }
+        }
+        joined
     }
 
     /// Whether a route may pass the door, by index.
     fn is_open(&self, door: usize) -> bool {
-        let known = |room: usize| self.rooms[room].walking != Walking::Unknown;
-        let door = &self.doors[door];
-        door.weight().is_some() && known(door.room1) && known(door.room2)
+        self.passage(door).is_some()
     }
 
     /// The rooms, by index.

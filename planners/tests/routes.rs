@@ -2,7 +2,7 @@
 #![allow(clippy::float_cmp)] // sums of small whole numbers are exact
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Blockage, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage};
+use adit_planners::routes::{Blockage, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage};
 use petgraph::algo::{bellman_ford, dijkstra};
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
@@ -50,7 +50,7 @@ proptest! {
             graph.petgraph().map(|_, ()| (), |_, door| graph.doors()[*door as usize].hardness.unwrap());
         let other = bellman_ford(&weighted, NodeIndex::new(0)).unwrap();
         for room in 0..12 {
-            let ours = tree.best(room).map(|arrival| arrival.cost);
+            let ours = tree.rooms[room].map(|arrival| arrival.cost);
             prop_assert_eq!(ours, reference.get(&NodeIndex::new(room)).copied());
             prop_assert_eq!(ours.unwrap_or(f64::INFINITY), other.distances[room]);
         }
@@ -60,9 +60,9 @@ proptest! {
     fn each_arrival_adds_up_door_by_door(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors);
         let tree = graph.tree(&start(3));
-        for arrival in &tree.arrivals {
-            let Some((before, number)) = arrival.from else { continue };
-            let (before, through) = (tree.arrivals[before], graph.doors()[number as usize - 1]);
+        for arrival in tree.rooms.iter().flatten() {
+            let Some((before, door)) = arrival.from else { continue };
+            let (before, through) = (tree.rooms[before].unwrap(), graph.doors()[door]);
             prop_assert!(through.passable);
             prop_assert_eq!(arrival.cost, before.cost + through.hardness.unwrap());
             prop_assert_eq!(arrival.hops, before.hops + 1);
@@ -76,10 +76,10 @@ proptest! {
             Blockage::Doors(shut) => {
                 let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..*d };
                 let opened = RouteGraph::new(rooms(12), doors.iter().map(open).collect());
-                prop_assert!(opened.tree(&start(0)).best(11).is_some());
-                prop_assert_eq!(shut.is_empty(), graph.tree(&start(0)).best(11).is_some());
+                prop_assert!(opened.tree(&start(0)).rooms[11].is_some());
+                prop_assert_eq!(shut.is_empty(), graph.tree(&start(0)).rooms[11].is_some());
             }
-            Blockage::Apart => prop_assert!(graph.tree(&start(0)).best(11).is_none()),
+            Blockage::Apart => prop_assert!(graph.tree(&start(0)).rooms[11].is_none()),
         }
     }
 }
@@ -87,20 +87,20 @@ proptest! {
 #[test]
 fn of_two_parallel_doors_the_easier_one_is_passed() {
     let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 5.0), door(2, 0, 1, 3.0)]);
-    assert_eq!(graph.tree(&start(0)).best(1).unwrap().from, Some((0, 2)));
+    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((0, 1)));
 }
 
 #[test]
 fn of_two_equal_doors_the_lower_number_is_passed() {
     let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 3.0), door(2, 0, 1, 3.0)]);
-    assert_eq!(graph.tree(&start(0)).best(1).unwrap().from, Some((0, 1)));
+    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((0, 0)));
 }
 
 #[test]
 fn a_one_way_door_is_passed_from_its_first_room_only() {
     let graph = RouteGraph::new(rooms(2), vec![RouteDoor { one_way: true, ..door(1, 0, 1, 1.0) }]);
-    assert!(graph.tree(&start(0)).best(1).is_some());
-    assert!(graph.tree(&start(1)).best(0).is_none());
+    assert!(graph.tree(&start(0)).rooms[1].is_some());
+    assert!(graph.tree(&start(1)).rooms[0].is_none());
     assert_eq!(blockage(&graph, &start(1), &[0]), Blockage::Apart);
 }
 
@@ -108,7 +108,7 @@ fn a_one_way_door_is_passed_from_its_first_room_only() {
 fn a_door_without_hardness_is_not_passed_but_named() {
     let unknown = RouteDoor { hardness: None, ..door(7, 0, 1, 0.0) };
     let graph = RouteGraph::new(rooms(2), vec![unknown]);
-    assert!(graph.tree(&start(0)).best(1).is_none());
+    assert!(graph.tree(&start(0)).rooms[1].is_none());
     assert_eq!(blockage(&graph, &start(0), &[1]), Blockage::Doors(vec![7]));
 }
 
@@ -121,11 +121,12 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
     let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
-    let tree = graph.tree(&Start { rooms: vec![0], at: Point::new(7.0, 4.0) });
-    let arrival = tree.best(1).unwrap();
-    assert_eq!((arrival.at, arrival.leg, arrival.cost), (Point::new(10.0, 8.0), 5.0, 5.5));
-    let (arrival, last) = tree.best_at(&graph, &[1], Point::new(13.0, 8.0)).unwrap();
-    assert_eq!((tree.arrivals[arrival].room, last), (1, 6.0));
+    let start = Start { rooms: vec![0], at: Point::new(7.0, 4.0) };
+    let goal = Goal { rooms: vec![1], at: Some(Point::new(13.0, 8.0)) };
+    let (_, way) = graph.way(&start, &[goal]).unwrap();
+    let legs: Vec<_> = way.legs.iter().map(|leg| (leg.room, leg.to, leg.hardness, leg.cost)).collect();
+    let bend = Point::new(10.0, 8.0);
+    assert_eq!(legs, [(0, bend, 5.0, 5.5), (1, Point::new(13.0, 8.0), 6.0, 11.5)]);
 }
 
 #[test]
@@ -143,11 +144,12 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     };
     let doors = vec![change(1, 0, 2, 0.0, 9.0), change(2, 2, 1, 10.0, 20.0)];
     let graph = RouteGraph::new(rooms, doors);
-    let tree = graph.tree(&Start { rooms: vec![0], at: Point::new(1.0, 1.0) });
-    let (arrival, last) = tree.best_at(&graph, &[1], Point::new(19.0, 1.0)).unwrap();
-    assert!((tree.arrivals[arrival].cost + last - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
-    let at: Vec<Point> = tree.way(arrival).iter().map(|arrival| arrival.at).collect();
-    assert_eq!(at, [Point::new(1.0, 1.0), Point::new(9.0, 1.0), Point::new(10.0, 1.0)]);
+    let start = Start { rooms: vec![0], at: Point::new(1.0, 1.0) };
+    let goal = Goal { rooms: vec![1], at: Some(Point::new(19.0, 1.0)) };
+    let (_, way) = graph.way(&start, &[goal]).unwrap();
+    assert!((way.cost - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
+    let at: Vec<Point> = way.legs.iter().map(|leg| leg.to).collect();
+    assert_eq!(at, [Point::new(9.0, 1.0), Point::new(10.0, 1.0), Point::new(19.0, 1.0)]);
 }
 
 #[test]
@@ -157,7 +159,7 @@ fn a_room_of_unknown_hardness_is_not_entered_and_its_door_is_named() {
     rooms[1].walking = Walking::Unknown;
     let graph = RouteGraph::new(rooms, vec![door(1, 0, 1, 1.0), door(2, 1, 2, 1.0)]);
     let tree = graph.tree(&start(0));
-    assert!(tree.best(1).is_none() && tree.best(2).is_none());
+    assert!(tree.rooms[1].is_none() && tree.rooms[2].is_none());
     assert_eq!(blockage(&graph, &start(0), &[2]), Blockage::Doors(vec![1, 2]));
-    assert!(graph.tree(&start(1)).best(1).is_none());
+    assert!(graph.tree(&start(1)).rooms[1].is_none());
 }

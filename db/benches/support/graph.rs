@@ -87,7 +87,7 @@ impl Graph {
             tx.replace_rules(&[rule(1, "weigh a door"), rule(2, "walk in a room")], &[])?;
             tx.replace_rooms(&(0..self.rooms).map(room).collect::<Vec<_>>())?;
             tx.replace_doors(&self.edges.iter().enumerate().map(door).collect::<Vec<_>>())?;
-            let end = |room| End { name: name(room), node: key(room), kind: EndKind::Room };
+            let end = |room| End { name: name(room), node: key(room), kind: EndKind::Room, kept: true };
             tx.replace_ends(&(0..self.rooms).map(end).collect::<Vec<_>>())?;
             let start = |&room: &usize| Start { name: name(room), robot: ROBOT.into(), tree: key(room) };
             tx.replace_starts(&starts.iter().map(start).collect::<Vec<_>>())?;
@@ -116,6 +116,9 @@ pub fn root(start: usize) -> TreeRow {
         leg: 0.0,
         at: None,
         heading: None,
+        distance: None,
+        clearance: None,
+        bend: true,
     }
 }
 

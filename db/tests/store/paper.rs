@@ -144,6 +144,9 @@ pub const START: TreeRow = TreeRow {
     leg: 0.0,
     at: Some([9.55, 8.25]),
     heading: None,
+    distance: None,
+    clearance: None,
+    bend: true,
 };
 
 /// A step of the paper's modes: doors bear the cost, rooms are the nodes.
@@ -176,8 +179,8 @@ fn trees(tx: &mut Tx<'_>) -> Result<()> {
     tx.put_tree(6, tree)?;
     let start = |name: &str| Start { name: name.into(), robot: ROBOT.into(), tree: 6 };
     tx.replace_starts(&[start("f"), start("home")])?;
-    let room = |room: Room| End { name: room.name, node: room.room, kind: EndKind::Room };
+    let room = |room: Room| End { name: room.name, node: room.room, kind: EndKind::Room, kept: true };
     let mut ends: Vec<End> = rooms().into_iter().map(room).collect();
-    ends.push(End { name: "home".into(), node: 6, kind: EndKind::Place });
+    ends.push(End { name: "home".into(), node: 6, kind: EndKind::Place, kept: true });
     tx.replace_ends(&ends)
 }

@@ -7,7 +7,7 @@ use adit_db::{Derived, Error, Store};
 use crate::paper::{self, START, door, step};
 
 fn end(name: &str, node: i64) -> End {
-    End { name: name.into(), node, kind: if node > 0 { EndKind::Room } else { EndKind::Place } }
+    End { name: name.into(), node, kind: if node > 0 { EndKind::Room } else { EndKind::Place }, kept: true }
 }
 
 fn start(name: &str, robot: &str, tree: i64) -> Start {

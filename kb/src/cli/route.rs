@@ -8,7 +8,8 @@ use crate::error::Result;
 
 /// Prints the route; `false` where there is none.
 pub fn run(args: &RouteArgs) -> Result<Outcome> {
-    let answer = open(&args.site)?.route(&args.start, &args.goal, args.robot.as_deref())?;
+    let goals: Vec<String> = std::iter::once(&args.goal).chain(&args.others).cloned().collect();
+    let answer = open(&args.site)?.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
     if args.site.json {
         json(&answer)?;
         if let Some(reason) = &answer.reason {
@@ -41,7 +42,10 @@ pub enum Outcome {
 fn head(answer: &Answer) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
     match answer.status {
-        Status::Ok => line(&format!("{start} to {goal}, hardness {}:", maybe(answer.cost))),
+        Status::Ok => {
+            let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));
+            line(&format!("{start} to {goal}, hardness {}{metres}:", maybe(answer.cost)));
+        }
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
         Status::NoRoute => {
             line(&format!(

@@ -7,6 +7,7 @@ use adit_planners::routes::{CompactGraph, CompactTree, NONE};
 
 use super::kept::Written;
 use crate::error::Result;
+use crate::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 use crate::site::Starts;
 use crate::trees::{self, Plan};
@@ -78,6 +79,7 @@ impl KeptRoutes {
         written: &Written,
         robots: &[String],
         wanted: Option<&Starts>,
+        gauge: &Gauge,
     ) -> Result<Option<Renewed>> {
         if written.doors.is_empty() && written.rooms.is_empty() {
             return Ok(Some(Renewed { changes: Vec::new(), trees: None }));
@@ -97,7 +99,7 @@ impl KeptRoutes {
                 });
                 Ok(Some(Renewed { changes: changes.collect(), trees: Some(NewTrees::OnDoors(now)) }))
             }
-            _ => self.renew_rows(written, robots, wanted),
+            _ => self.renew_rows(written, robots, wanted, gauge),
         }
     }
 
@@ -106,6 +108,7 @@ impl KeptRoutes {
         written: &Written,
         robots: &[String],
         wanted: Option<&Starts>,
+        gauge: &Gauge,
     ) -> Result<Option<Renewed>> {
         let (mut rooms, mut doors) = (self.graph.rooms.clone(), self.graph.doors.clone());
         for (row, weight) in &written.rooms {
@@ -121,7 +124,7 @@ impl KeptRoutes {
         if plan.starts != self.plan.starts {
             return Ok(None);
         }
-        let now = trees::rows(&graph, &plan.roots);
+        let now = trees::rows(&graph, &plan.roots, gauge);
         let changes = now.iter().zip(before).map(|(now, before)| row_differences(before, now)).collect();
         Ok(Some(Renewed { changes, trees: Some(NewTrees::Rows(now)) }))
     }
@@ -192,6 +195,9 @@ fn differences(
                 leg: 0.0,
                 at: Some([goal.x, goal.y]),
                 heading: trees::heading(arrival(graph, tree, room, start), goal),
+                distance: None,
+                clearance: None,
+                bend: true,
             })
         };
         note(&mut change, node, row(before), row(now));
@@ -255,6 +261,9 @@ fn room_row(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) ->
         leg: 0.0,
         at: None,
         heading: None,
+        distance: None,
+        clearance: None,
+        bend: true,
     };
     if tree.before[room] == NONE {
         return Some(TreeRow { at: Some([at.x, at.y]), ..row });

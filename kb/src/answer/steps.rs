@@ -1,0 +1,100 @@
+//! The rows of `action_sequence` and of `waypoints` of a route that is not kept.
+
+use adit_db::door::DoorKind;
+use adit_db::route::{Step, Waypoint};
+use adit_planners::routes::{Leg, Way};
+
+use crate::gauge::{Gauge, bends, headings};
+use crate::graph::{Rules, SiteGraph};
+use crate::trees::heading;
+
+/// The steps of a way; where it does not lead to a point, nothing is walked in the last room.
+pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool) -> Vec<Step> {
+    let mut steps: Vec<Step> = Vec::with_capacity(way.legs.len() * 2);
+    for (index, leg) in way.legs.iter().enumerate() {
+        let weight = leg.door.and_then(|door| graph.graph().doors()[door].weight()).unwrap_or(0.0);
+        let is_goal = leg.door.is_none();
+        let heading = heading(leg.from, leg.to).filter(|_| !is_goal || to_point);
+        steps.push(Step { heading, ..room_step(graph, rules, leg, leg.cost - weight) });
+        let Some(door) = leg.door else { continue };
+        let Some(door) = graph.door(i64::from(graph.graph().doors()[door].door)) else { continue };
+        let (kind, layer_of) = match door.kind {
+            DoorKind::Door => ("door", leg.room),
+            DoorKind::Change => ("change", way.legs.get(index + 1).map_or(leg.room, |next| next.room)),
+        };
+        steps.push(Step {
+            step: 0,
+            kind: kind.to_owned(),
+            place: door.door.to_string(),
+            state: graph.rooms[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
+            action: door.action.value.clone(),
+            hardness: door.hardness.value,
+            cost: leg.cost,
+            x: Some(leg.to.x),
+            y: Some(leg.to.y),
+            heading,
+            rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
+        });
+    }
+    for (number, step) in (1..).zip(&mut steps) {
+        step.step = number;
+    }
+    steps
+}
+
+fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
+    let room = &graph.rooms[leg.room];
+    Step {
+        step: 0,
+        kind: "room".to_owned(),
+        place: room.name.clone(),
+        state: room.layer.as_ref().map(|(_, state)| state.clone()),
+        action: room.action.value.clone(),
+        hardness: Some(leg.hardness),
+        cost,
+        x: Some(leg.to.x),
+        y: Some(leg.to.y),
+        heading: None,
+        rule: room.action.rule.and_then(|rule| rules.get(&rule).cloned()),
+    }
+}
+
+/// Where a way bends, changes shape, starts and ends.
+pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: &Gauge) -> Vec<Waypoint> {
+    let is_measured = !graph.graph().is_on_doors();
+    let bends = if is_measured { bends(graph, way) } else { vec![true; way.legs.len()] };
+    let (clearances, headings) = (gauge.clearances(graph, way, &bends), headings(way, &bends));
+    let mut points: Vec<Waypoint> = Vec::new();
+    let mut distance = 0.0;
+    for (index, leg) in way.legs.iter().enumerate() {
+        let room = &graph.rooms[leg.room];
+        let here = Waypoint {
+            waypoint: 1,
+            x: leg.from.x,
+            y: leg.from.y,
+            heading: None,
+            state: room.layer.as_ref().map(|(_, state)| state.clone()),
+            action: room.action.value.clone(),
+            clearance: None,
+            distance: is_measured.then_some(0.0),
+            cost: 0.0,
+        };
+        if index == 0 {
+            points.push(here.clone());
+        }
+        distance += leg.length();
+        if bends.get(index + 1).is_none_or(|bends| *bends) {
+            points.push(Waypoint {
+                waypoint: points.len() as i64 + 1,
+                x: leg.to.x,
+                y: leg.to.y,
+                heading: headings[index],
+                clearance: clearances[index],
+                distance: is_measured.then_some(distance),
+                cost: leg.cost,
+                ..here
+            });
+        }
+    }
+    points
+}

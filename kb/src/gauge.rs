@@ -1,0 +1,88 @@
+//! How near to anything solid a robot comes on its way.
+
+use std::collections::BTreeMap;
+
+use adit_db::robot::State;
+use adit_planners::clearance::Solids;
+use adit_planners::geometry::Point;
+use adit_planners::routes::Way;
+use adit_planners::world::World;
+
+use crate::graph::SiteGraph;
+use crate::trees::heading;
+
+/// Everything solid of a map, and the sizes of the states.
+pub struct Gauge {
+    solids: Solids,
+    /// By robot and state: half the width, and the height; metres.
+    sizes: BTreeMap<(String, String), (f64, f64)>,
+}
+
+impl Gauge {
+    /// What is solid in the world, for robots of these states.
+    pub fn new(world: &World, states: &[State]) -> Self {
+        let size =
+            |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
+        Self { solids: Solids::new(world), sizes: states.iter().map(size).collect() }
+    }
+
+    /// For each leg of a way the least metres between the robot's rim and anything solid since the last bend; `None`
+    /// in rooms of no state.
+    pub fn clearances(&self, graph: &SiteGraph, way: &Way, bends: &[bool]) -> Vec<Option<f64>> {
+        let mut since: Option<f64> = None;
+        let mut all = Vec::with_capacity(way.legs.len());
+        for (leg, bends) in way.legs.iter().zip(bends) {
+            if *bends {
+                since = None;
+            }
+            let here = self.clearance(graph, leg.room, leg.from, leg.to);
+            since = match (since, here) {
+                (Some(since), Some(here)) => Some(since.min(here)),
+                (since, here) => since.or(here),
+            };
+            all.push(since);
+        }
+        all
+    }
+
+    fn clearance(&self, graph: &SiteGraph, room: usize, from: Point, to: Point) -> Option<f64> {
+        let (half, height) = self.sizes.get(graph.rooms[room].layer.as_ref()?)?;
+        Some((self.solids.gap(from, to, *height) - half).max(0.0))
+    }
+}
+
+/// For each leg of a way whether the robot turns or changes its shape where it begins; at the first one it starts.
+pub fn bends(graph: &SiteGraph, way: &Way) -> Vec<bool> {
+    /// Radians by which a straight way may seem to turn.
+    const STRAIGHT: f64 = 1e-6;
+    let mut last: Option<f64> = None;
+    let mut bends = Vec::with_capacity(way.legs.len());
+    let mut changes = true;
+    for leg in &way.legs {
+        let heading = (leg.length() > 1e-9).then(|| (leg.to.y - leg.from.y).atan2(leg.to.x - leg.from.x));
+        let turn = match (last, heading) {
+            (Some(last), Some(heading)) => {
+                let turn = (heading - last).rem_euclid(std::f64::consts::TAU);
+                turn.min(std::f64::consts::TAU - turn) > STRAIGHT
+            }
+            _ => false,
+        };
+        bends.push(changes || turn);
+        if changes {
+            last = None;
+        }
+        last = heading.or(last);
+        changes = leg.door.is_some_and(|door| graph.graph().doors()[door].is_change());
+    }
+    bends
+}
+
+/// For each leg of a way the heading with which it ends; a leg of no length goes on as the one before.
+pub fn headings(way: &Way, bends: &[bool]) -> Vec<Option<f64>> {
+    let mut last = None;
+    let all = way.legs.iter().zip(bends).map(|(leg, bends)| {
+        last = heading(leg.from, leg.to).or(last.filter(|_| !bends));
+        last
+    });
+    all.collect()
+}

@@ -1,0 +1,71 @@
+//! Trees where all hardness lies on the doors: a row a room, since every way into a room goes on from its best one.
+
+use adit_db::tree::TreeRow;
+use adit_planners::geometry::Point;
+use adit_planners::routes::{Start, Tree};
+
+use super::{heading, place_node};
+use crate::graph::{End, SiteGraph};
+
+pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start)) -> Vec<TreeRow> {
+    let tree = graph.graph().tree(start);
+    let mut rows: Vec<TreeRow> =
+        (0..graph.rooms.len()).filter_map(|room| room_row(graph, &tree, room, start.at)).collect();
+    for index in 0..graph.places.len() {
+        let rooms = graph.rooms_of(&End::Place(index), Some(robot));
+        let Some((room, arrival)) = rooms.first().and_then(|&room| Some((room, tree.rooms[room]?))) else {
+            continue;
+        };
+        let goal = graph.point(&End::Place(index));
+        rows.push(TreeRow {
+            node: place_node(index),
+            prev: Some(graph.rooms[room].room),
+            hops: i64::from(arrival.hops),
+            reach: arrival.cost,
+            at: Some([goal.x, goal.y]),
+            heading: heading(entry(graph, &tree, room, start.at), goal),
+            ..blank(place_node(index))
+        });
+    }
+    rows.sort_by_key(|row| row.node);
+    rows
+}
+
+/// Where a room is entered.
+fn entry(graph: &SiteGraph, tree: &Tree, room: usize, start: Point) -> Point {
+    let from = tree.rooms[room].and_then(|arrival| arrival.from);
+    from.map_or(start, |(_, door)| graph.graph().doors()[door].at)
+}
+
+fn room_row(graph: &SiteGraph, tree: &Tree, room: usize, start: Point) -> Option<TreeRow> {
+    let arrival = tree.rooms[room]?;
+    let row = blank(graph.rooms[room].room);
+    let Some((before, door)) = arrival.from else {
+        return Some(TreeRow { at: Some([start.x, start.y]), ..row });
+    };
+    Some(TreeRow {
+        prev: Some(graph.rooms[before].room),
+        door: Some(i64::from(graph.graph().doors()[door].door)),
+        hops: i64::from(arrival.hops),
+        reach: tree.rooms[before]?.cost,
+        heading: heading(entry(graph, tree, before, start), entry(graph, tree, room, start)),
+        ..row
+    })
+}
+
+fn blank(node: i64) -> TreeRow {
+    TreeRow {
+        node,
+        prev: None,
+        from_room: None,
+        door: None,
+        hops: 0,
+        reach: 0.0,
+        leg: 0.0,
+        at: None,
+        heading: None,
+        distance: None,
+        clearance: None,
+        bend: true,
+    }
+}

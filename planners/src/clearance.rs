@@ -1,0 +1,90 @@
+//! How near to anything solid a straight way comes.
+
+use geo::{Coord, Distance, Euclidean, Line, Polygon, Rect as GeoRect};
+use rstar::{AABB, RTree, RTreeObject};
+
+use crate::geometry::{Point, Rect};
+use crate::world::{Shape, World};
+
+/// Walls, obstacles and bridges of a world, found by where they are.
+pub struct Solids {
+    bounds: Rect,
+    tree: RTree<Solid>,
+}
+
+struct Solid {
+    outline: Outline,
+    envelope: AABB<[f64; 2]>,
+    /// The clear height under it; `None` where there is none.
+    height: Option<f64>,
+}
+
+enum Outline {
+    Rect(Rect),
+    Polygon(Polygon<f64>),
+}
+
+impl RTreeObject for Solid {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        self.envelope
+    }
+}
+
+impl Solid {
+    fn new(shape: &Shape, height: Option<f64>) -> Self {
+        let rect = shape.enclosing_rect();
+        let outline = match shape {
+            Shape::Rect(rect) => Outline::Rect(*rect),
+            Shape::Polygon(_) => Outline::Polygon(shape.to_geo()),
+        };
+        Self { outline, envelope: AABB::from_corners([rect.x0, rect.y0], [rect.x1, rect.y1]), height }
+    }
+
+    fn distance(&self, line: &Line<f64>) -> f64 {
+        match &self.outline {
+            Outline::Rect(r) => {
+                let rect = GeoRect::new(Coord { x: r.x0, y: r.y0 }, Coord { x: r.x1, y: r.y1 });
+                Euclidean.distance(line, &rect)
+            }
+            Outline::Polygon(polygon) => Euclidean.distance(line, polygon),
+        }
+    }
+}
+
+impl Solids {
+    /// Everything solid of a world.
+    pub fn new(world: &World) -> Self {
+        let drawn = world.obstacles.iter().map(|obstacle| Solid::new(&obstacle.shape, None));
+        let pictured = world.occupancy.iter().flat_map(|cells| cells.rectangles());
+        let pictured = pictured.map(|rect| Solid::new(&Shape::Rect(rect), None));
+        let bridges =
+            world.bridges.iter().map(|bridge| Solid::new(&Shape::Rect(bridge.rect), Some(bridge.height)));
+        Self { bounds: world.bounds, tree: RTree::bulk_load(drawn.chain(pictured).chain(bridges).collect()) }
+    }
+
+    /// Metres between the straight way from `a` to `b` and the nearest thing that a robot of a height does not pass
+    /// under; the edge of the map is one.
+    pub fn gap(&self, a: Point, b: Point, height: f64) -> f64 {
+        let edge = [a, b].into_iter().map(|p| {
+            let b = &self.bounds;
+            (p.x - b.x0).min(b.x1 - p.x).min(p.y - b.y0).min(b.y1 - p.y)
+        });
+        let edge = edge.fold(f64::INFINITY, f64::min).max(0.0);
+        let line = Line::new(Coord { x: a.x, y: a.y }, Coord { x: b.x, y: b.y });
+        let (low, high) = ([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]);
+        // what is nearer than the reach is certainly found; farther than the edge nothing needs to be looked for
+        let mut reach = edge.min(1.0);
+        loop {
+            let around = AABB::from_corners(low.map(|low| low - reach), high.map(|high| high + reach));
+            let near = self.tree.locate_in_envelope_intersecting(around);
+            let solid = near.filter(|solid| solid.height.is_none_or(|clear| clear <= height));
+            let gap = solid.map(|solid| solid.distance(&line)).fold(edge, f64::min);
+            if gap <= reach || reach >= edge {
+                return gap;
+            }
+            reach = (reach * 2.0).min(edge);
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! What is seen from a point through a gap.
+
+use super::mesh::{EPSILON, NONE};
+use crate::geometry::{Point, Rect};
+
+/// A segment, from one end to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Segment {
+    pub a: Point,
+    pub b: Point,
+}
+
+/// A part of a door as it is seen, with the door's ends where they are seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Gap {
+    pub left: Point,
+    pub right: Point,
+    /// Number of the door's end at `left`; [`NONE`] where the view is cut off before.
+    pub left_end: u32,
+    pub right_end: u32,
+}
+
+/// In which directions a point looks into a room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum View {
+    /// All.
+    All,
+    /// To one side of the line on which it was reached from `from`.
+    Side { from: Point, left: bool },
+    /// Through a gap.
+    Through(Gap),
+}
+
+impl Segment {
+    /// The diagonal of a rectangle: of a degenerate one, the segment.
+    pub fn of(rect: &Rect) -> Self {
+        Self { a: Point::new(rect.x0, rect.y0), b: Point::new(rect.x1, rect.y1) }
+    }
+
+    pub fn length(&self) -> f64 {
+        self.a.distance(self.b)
+    }
+
+    /// The point at a share of its length.
+    pub fn at(&self, share: f64) -> Point {
+        let Self { a, b } = *self;
+        Point::new(a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share)
+    }
+
+    /// The point nearest to another one.
+    pub fn nearest_to(&self, p: Point) -> Point {
+        let Self { a, b } = *self;
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let square = dx * dx + dy * dy;
+        if square <= 0.0 {
+            return a;
+        }
+        self.at((((p.x - a.x) * dx + (p.y - a.y) * dy) / square).clamp(0.0, 1.0))
+    }
+
+    /// Whether the point lies on the segment's line.
+    pub fn is_in_line_with(&self, p: Point) -> bool {
+        cross(self.a, self.b, p).abs() <= EPSILON * self.length().max(1.0)
+    }
+
+    /// Where the way from `from` to `to` passes, or comes nearest to passing, the segment.
+    pub fn passed_at(&self, from: Point, to: Point) -> Point {
+        let (one, two) = (cross(from, to, self.a), cross(from, to, self.b));
+        if (one - two).abs() <= f64::MIN_POSITIVE {
+            return self.nearest_to(from);
+        }
+        let share = one / (one - two);
+        let at = self.at(share.clamp(0.0, 1.0));
+        // the end itself, where the way leads to the end
+        if share <= 1e-12 {
+            self.a
+        } else if share >= 1.0 - 1e-12 {
+            self.b
+        } else {
+            at
+        }
+    }
+
+    /// The part where `side` is not negative; `None` where that is less than a point.
+    fn clipped(self, side: impl Fn(Point) -> f64) -> Option<Self> {
+        let (one, two) = (side(self.a), side(self.b));
+        if one < 0.0 && two < 0.0 {
+            return None;
+        }
+        let limit = || self.at(one / (one - two));
+        let a = if one < 0.0 { limit() } else { self.a };
+        let b = if two < 0.0 { limit() } else { self.b };
+        Some(Self { a, b })
+    }
+}
+
+/// More than 0 where `p` lies to the left of the way from `a` to `b`.
+pub(super) fn cross(a: Point, b: Point, p: Point) -> f64 {
+    (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)
+}
+
+impl View {
+    /// The part of a segment that is seen from `root`.
+    pub fn of(&self, root: Point, segment: Segment) -> Option<Segment> {
+        match self {
+            Self::All => Some(segment),
+            Self::Side { from, left } => {
+                let sign = if *left { 1.0 } else { -1.0 };
+                segment.clipped(|p| sign * cross(*from, root, p) + EPSILON * EPSILON)
+            }
+            Self::Through(gap) => segment
+                .clipped(|p| cross(root, gap.right, p) + EPSILON * EPSILON)?
+                .clipped(|p| -cross(root, gap.left, p) + EPSILON * EPSILON),
+        }
+    }
+
+    /// Whether a point is seen from `root`.
+    pub fn sees(&self, root: Point, p: Point) -> bool {
+        let slack = EPSILON * root.distance(p).max(EPSILON);
+        match self {
+            Self::All => true,
+            Self::Side { from, left } => {
+                let sign = if *left { 1.0 } else { -1.0 };
+                sign * cross(*from, root, p) >= -slack * from.distance(root).max(1.0)
+            }
+            Self::Through(gap) => cross(root, gap.right, p) >= -slack && cross(root, gap.left, p) <= slack,
+        }
+    }
+}
+
+impl Gap {
+    /// The seen part of a door from `root`, left and right told apart; `ends` are the numbers of the door's ends.
+    pub fn new(root: Point, door: Segment, seen: Segment, ends: [u32; 2]) -> Self {
+        let number = |p: Point, of: Point, end: u32| if p.distance(of) <= EPSILON { end } else { NONE };
+        let (a, b) = (number(seen.a, door.a, ends[0]), number(seen.b, door.b, ends[1]));
+        if cross(root, seen.a, seen.b) > 0.0 {
+            Self { left: seen.b, right: seen.a, left_end: b, right_end: a }
+        } else {
+            Self { left: seen.a, right: seen.b, left_end: a, right_end: b }
+        }
+    }
+
+    pub fn segment(&self) -> Segment {
+        Segment { a: self.left, b: self.right }
+    }
+}

@@ -1,0 +1,186 @@
+//! Rooms and doors as a mesh of convex cells: which doors lead out of a room, and about which of their ends a taut
+//! way may bend.
+
+use std::collections::BTreeMap;
+
+use super::{RouteDoor, RouteRoom};
+use crate::geometry::Point;
+
+/// No room, door or end.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Two points closer than this are one, metres.
+pub(super) const EPSILON: f64 = 1e-9;
+
+/// A way out of a room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Exit {
+    /// The door, by index.
+    pub door: u32,
+    /// The room that it leads to.
+    pub to: u32,
+}
+
+/// What does not change when rooms and doors are weighed anew.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
+    /// For each room its doors to pass.
+    pub portals: Lists,
+    /// For each room the changes of shape that begin in it.
+    pub changes: Lists,
+    /// For each room the changes that lead into it; `to` is the room where they begin.
+    pub changes_into: Lists,
+    /// For each room its layer: rooms that doors to pass join are of one.
+    pub layer: Vec<u32>,
+    /// For each door the ends of its segment, by number; [`NONE`] for a change.
+    pub ends: Vec<[u32; 2]>,
+    /// The doors that end at each end.
+    at_end: Vec<Vec<u32>>,
+    /// Where each end lies.
+    points: Vec<Point>,
+}
+
+/// Lists by room, one behind the other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Lists {
+    begins: Vec<u32>,
+    exits: Vec<Exit>,
+}
+
+impl Lists {
+    fn new(rooms: usize, items: &[(usize, Exit)]) -> Self {
+        let mut begins = vec![0_u32; rooms + 1];
+        for (room, _) in items {
+            begins[room + 1] += 1;
+        }
+        for room in 0..rooms {
+            begins[room + 1] += begins[room];
+        }
+        let mut next = begins.clone();
+        let mut exits = vec![Exit { door: NONE, to: NONE }; items.len()];
+        for (room, exit) in items {
+            exits[next[*room] as usize] = *exit;
+            next[*room] += 1;
+        }
+        Self { begins, exits }
+    }
+
+    /// The list of a room.
+    pub fn of(&self, room: usize) -> &[Exit] {
+        &self.exits[self.begins[room] as usize..self.begins[room + 1] as usize]
+    }
+}
+
+impl Mesh {
+    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor]) -> Self {
+        let (mut portals, mut changes, mut changes_into) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, door) in doors.iter().enumerate() {
+            let index = index as u32;
+            let there = Exit { door: index, to: door.room2 as u32 };
+            let back = Exit { door: index, to: door.room1 as u32 };
+            let both = [(door.room1, there, door.room2, back), (door.room2, back, door.room1, there)];
+            for (from, exit, to, entry) in &both[..if door.one_way { 1 } else { 2 }] {
+                if door.is_change() {
+                    changes.push((*from, *exit));
+                    changes_into.push((*to, *entry));
+                } else {
+                    portals.push((*from, *exit));
+                }
+            }
+        }
+        let layer = layers(rooms.len(), doors);
+        let (ends, at_end, points) = number_ends(&layer, doors);
+        let lists = |items: &[(usize, Exit)]| Lists::new(rooms.len(), items);
+        let (portals, changes, changes_into) = (lists(&portals), lists(&changes), lists(&changes_into));
+        Self { portals, changes, changes_into, layer, ends, at_end, points }
+    }
+
+    /// For each end whether a taut way may bend there.
+    ///
+    /// # Arguments
+    /// `is_free` says of a door whether passing it changes nothing, `is_open` whether it can be passed.
+    pub fn bends(
+        &self,
+        rooms: &[RouteRoom],
+        doors: &[RouteDoor],
+        is_free: impl Fn(usize) -> bool,
+        is_open: impl Fn(usize) -> bool,
+    ) -> Vec<bool> {
+        let bends = |end: usize, counts: &dyn Fn(usize) -> bool| {
+            let passed: Vec<&RouteDoor> = self.at_end[end]
+                .iter()
+                .filter(|&&door| counts(door as usize))
+                .map(|&door| &doors[door as usize])
+                .collect();
+            let mut around: Vec<usize> = passed.iter().flat_map(|door| [door.room1, door.room2]).collect();
+            around.sort_unstable();
+            around.dedup();
+            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room], self.points[end])).sum();
+            // free ground all around, joined all around: there is nothing to bend about
+            let is_whole = quarters == 4 && passed.len() >= around.len() && around.len() > 2;
+            quarters > 2 && !is_whole
+        };
+        (0..self.points.len()).map(|end| bends(end, &is_free) || bends(end, &is_open)).collect()
+    }
+}
+
+type Ends = (Vec<[u32; 2]>, Vec<Vec<u32>>, Vec<Point>);
+
+/// Numbers the ends of doors; doors of different layers that end at the same point have different ends.
+fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
+    let mut numbers: BTreeMap<(u32, i64, i64), u32> = BTreeMap::new();
+    let (mut at_end, mut points): (Vec<Vec<u32>>, Vec<Point>) = (Vec::new(), Vec::new());
+    let mut ends = vec![[NONE; 2]; doors.len()];
+    for (index, door) in doors.iter().enumerate().filter(|(_, door)| !door.is_change()) {
+        let of = layer[door.room1];
+        let crossing = door.crossing;
+        let both = [Point::new(crossing.x0, crossing.y0), Point::new(crossing.x1, crossing.y1)];
+        for (end, point) in ends[index].iter_mut().zip(both) {
+            // to a micrometre: what sums of cell sides differ by is far below, what doors differ by far above
+            let key = (of, (point.x * 1e6).round() as i64, (point.y * 1e6).round() as i64);
+            let number = *numbers.entry(key).or_insert_with(|| {
+                points.push(point);
+                at_end.push(Vec::new());
+                points.len() as u32 - 1
+            });
+            *end = number;
+            if at_end[number as usize].last() != Some(&(index as u32)) {
+                at_end[number as usize].push(index as u32);
+            }
+        }
+    }
+    (ends, at_end, points)
+}
+
+/// For each room the first of the rooms that doors to pass join with it.
+fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
+    let mut of: Vec<usize> = (0..rooms).collect();
+    for door in doors.iter().filter(|door| !door.is_change()) {
+        let (a, b) = (representative(&mut of, door.room1), representative(&mut of, door.room2));
+        of[a.max(b)] = a.min(b);
+    }
+    (0..rooms).map(|room| representative(&mut of, room) as u32).collect()
+}
+
+fn representative(of: &mut [usize], mut room: usize) -> usize {
+    while of[room] != room {
+        of[room] = of[of[room]];
+        room = of[room];
+    }
+    room
+}
+
+/// How many quarters of the ground about a point a room takes.
+fn quarters(room: &RouteRoom, p: Point) -> u32 {
+    let rect = &room.rect;
+    let within = |low: f64, high: f64, at: f64| {
+        if at < low - EPSILON || at > high + EPSILON {
+            0
+        } else if at > low + EPSILON && at < high - EPSILON {
+            2
+        } else {
+            1
+        }
+    };
+    within(rect.x0, rect.x1, p.x) * within(rect.y0, rect.y1, p.y)
+}

@@ -1,0 +1,380 @@
+//! Pulling a way tight: straight where nothing is in the way, bent only about corners, refracted where hardness
+//! changes, and a shape changed at the best point of the rim on which it may be changed.
+
+use super::RouteGraph;
+use super::cone::{Gap, Segment, View, cross};
+use super::mesh::{EPSILON, NONE};
+use super::way::Way;
+use crate::geometry::Point;
+
+/// Rounds of sliding and straightening; most ways settle in two or three.
+const ROUNDS: usize = 16;
+
+/// A round that gains less than this share is the last.
+const GAIN: f64 = 1e-7;
+
+/// A door on a way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    /// By index.
+    pub door: usize,
+    /// Where it may be passed.
+    pub segment: Segment,
+    /// Where it is passed.
+    pub at: Point,
+    /// The room behind it.
+    pub room: usize,
+    /// Whether the way goes straight on through it, or stops to be refracted or to change shape.
+    pub is_straight: bool,
+}
+
+impl Link {
+    pub fn new(graph: &RouteGraph, door: usize, at: Point, room: usize) -> Self {
+        let of = &graph.doors()[door];
+        let before = if of.room1 == room { of.room2 } else { of.room1 };
+        if of.is_change() {
+            let gate = graph.gates(door, before).iter().find(|gate| gate.nearest_to(at).distance(at) <= 1e-6);
+            let segment = gate.copied().unwrap_or(Segment { a: at, b: at });
+            return Self { door, segment, at, room, is_straight: false };
+        }
+        let is_straight = graph.per_m(room).to_bits() == graph.per_m(before).to_bits();
+        Self { door, segment: Segment::of(&of.crossing), at, room, is_straight }
+    }
+}
+
+/// The doors on a way from a start to a goal.
+pub(super) struct Chain<'g> {
+    pub graph: &'g RouteGraph,
+    pub start: (usize, Point),
+    pub links: Vec<Link>,
+    pub goal: Point,
+}
+
+impl Chain<'_> {
+    pub fn pulled_tight(mut self) -> Way {
+        let mut cost = self.cost();
+        for _ in 0..ROUNDS {
+            self.straighten();
+            self.cut_corners();
+            self.slide();
+            let now = self.cost();
+            if cost - now <= GAIN * now {
+                break;
+            }
+            cost = now;
+        }
+        self.straighten();
+        let doors = self.links.iter().map(|link| (link.door, link.at, link.room));
+        Way::through(self.graph, self.start, doors, self.goal)
+    }
+
+    fn cost(&self) -> f64 {
+        let (mut room, mut from, mut cost) = (self.start.0, self.start.1, 0.0);
+        for link in &self.links {
+            cost += from.distance(link.at) * self.graph.per_m(room);
+            (room, from) = (link.room, link.at);
+        }
+        cost + from.distance(self.goal) * self.graph.per_m(room)
+    }
+
+    fn room_before(&self, link: usize) -> usize {
+        if link == 0 { self.start.0 } else { self.links[link - 1].room }
+    }
+
+    /// Pulls each run of doors between two stops taut.
+    fn straighten(&mut self) {
+        let mut first = 0;
+        let mut from = self.start.1;
+        while first <= self.links.len() {
+            let stop = (first..self.links.len()).find(|&link| !self.links[link].is_straight);
+            let end = stop.unwrap_or(self.links.len());
+            let to = stop.map_or(self.goal, |stop| self.links[stop].at);
+            let openings: Vec<Opening> = (first..end).map(|link| self.opening(link)).collect();
+            for (link, at) in (first..end).zip(taut(from, &openings, to)) {
+                self.links[link].at = at;
+            }
+            from = to;
+            first = end + 1;
+        }
+    }
+
+    /// The door of a link, as one comes to it.
+    fn opening(&self, link: usize) -> Opening {
+        let rooms = self.graph.rooms();
+        let (before, after) = (&rooms[self.room_before(link)].rect, &rooms[self.links[link].room].rect);
+        let (one, two) = (before.centre(), after.centre());
+        let segment = self.links[link].segment;
+        let Segment { a, b } = segment;
+        let is_b_left = (two.x - one.x) * (b.y - a.y) - (two.y - one.y) * (b.x - a.x) > 0.0;
+        let (left, right) = if is_b_left { (b, a) } else { (a, b) };
+        Opening { segment, left, right }
+    }
+
+    /// Whether the way bends or stops at a door.
+    fn is_vertex(&self, link: usize) -> bool {
+        if !self.links[link].is_straight {
+            return true;
+        }
+        let at = self.links[link].at;
+        let before = if link == 0 { self.start.1 } else { self.links[link - 1].at };
+        let after = self.links.get(link + 1).map_or(self.goal, |next| next.at);
+        let turn = cross(before, at, after).abs();
+        turn > EPSILON * before.distance(at).max(EPSILON) * at.distance(after).max(EPSILON)
+            && before.distance(at) > EPSILON
+            || before.distance(at) <= EPSILON && link > 0 && self.is_vertex(link - 1)
+    }
+
+    /// Goes straight from vertex to vertex where that is possible through other doors.
+    fn cut_corners(&mut self) {
+        let mut link = 0;
+        while link < self.links.len() {
+            if self.links[link].is_straight && self.is_vertex(link) {
+                let first = (0..link).rev().find(|&before| self.is_vertex(before));
+                let last = (link + 1..self.links.len()).find(|&after| self.is_vertex(after));
+                let (room, from) = first.map_or(self.start, |at| (self.links[at].room, self.links[at].at));
+                let to = last.map_or(self.goal, |at| self.links[at].at);
+                let end = last.unwrap_or(self.links.len());
+                let into = self.room_before(end);
+                if let Some(links) = self.walk(room, from, into, to) {
+                    let begin = first.map_or(0, |first| first + 1);
+                    let count = links.len();
+                    self.links.splice(begin..end, links);
+                    link = begin + count;
+                    continue;
+                }
+            }
+            link += 1;
+        }
+    }
+
+    /// The doors on the straight line between two points; `None` where they do not see each other.
+    fn walk(&self, room: usize, from: Point, into: usize, to: Point) -> Option<Vec<Link>> {
+        let graph = self.graph;
+        let (mut links, mut room, mut at) = (Vec::new(), room, 0.0);
+        let length = from.distance(to);
+        let mut passed = vec![room];
+        while room != into {
+            let rect = &graph.rooms()[room].rect;
+            // the share of the line at which it leaves the room
+            let leaves = |from: f64, to: f64, low: f64, high: f64| {
+                if to > from {
+                    (high - from) / (to - from)
+                } else if to < from {
+                    (low - from) / (to - from)
+                } else {
+                    f64::INFINITY
+                }
+            };
+            let share = leaves(from.x, to.x, rect.x0, rect.x1).min(leaves(from.y, to.y, rect.y0, rect.y1));
+            let share = share.max(at).min(1.0);
+            let on = Segment { a: from, b: to };
+            let (here, beyond) = (on.at(share), on.at((share + 1e-6 / length.max(1e-6)).min(1.0)));
+            let near = |p: Point, room: usize| {
+                let rect = &graph.rooms()[room].rect;
+                rect.nearest_to(p).distance(p)
+            };
+            let exits = graph.mesh.portals.of(room).iter().filter(|exit| {
+                let segment = Segment::of(&graph.doors()[exit.door as usize].crossing);
+                graph.is_free(exit.door as usize)
+                    && segment.nearest_to(here).distance(here) <= EPSILON
+                    && !passed.contains(&(exit.to as usize))
+            });
+            let next = exits
+                .min_by(|one, two| near(beyond, one.to as usize).total_cmp(&near(beyond, two.to as usize)))?;
+            links.push(Link::new(graph, next.door as usize, here, next.to as usize));
+            room = next.to as usize;
+            passed.push(room);
+            at = share;
+        }
+        Some(links)
+    }
+
+    /// Slides each stop along its segment to where its two neighbours are joined at least hardness.
+    fn slide(&mut self) {
+        let mut next = 0;
+        while let Some(stop) = (next..self.links.len()).find(|&link| !self.links[link].is_straight) {
+            next = stop + 1;
+            let here = self.links[stop].at;
+            // doors passed at the stop itself move along with it, but other stops do not
+            let is_end = |link: &usize| {
+                let link = *link;
+                self.is_vertex(link)
+                    && (!self.links[link].is_straight || self.links[link].at.distance(here) > EPSILON)
+            };
+            let first = (0..stop).rev().find(is_end);
+            let last = (stop + 1..self.links.len()).find(is_end);
+            let from = first.map_or(self.start.1, |link| self.links[link].at);
+            let to = last.map_or(self.goal, |link| self.links[link].at);
+            let mut part = Some(self.links[stop].segment);
+            for link in first.map_or(0, |first| first + 1)..stop {
+                part = part.and_then(|part| seen_through(from, self.links[link].segment, part));
+            }
+            for link in stop + 1..last.unwrap_or(self.links.len()) {
+                part = part.and_then(|part| seen_through(to, self.links[link].segment, part));
+            }
+            let Some(part) = part else { continue };
+            let (one, two) =
+                (self.graph.per_m(self.room_before(stop)), self.graph.per_m(self.links[stop].room));
+            let cost = |p: Point| one * from.distance(p) + two * p.distance(to);
+            let best = least(&part, cost);
+            if cost(best) < cost(self.links[stop].at) {
+                self.links[stop].at = best;
+            }
+            let segment = self.links[stop].segment;
+            if [segment.a, segment.b].iter().any(|end| end.distance(self.links[stop].at) <= 1e-6) {
+                self.step_over(stop, first, last);
+            }
+        }
+    }
+
+    /// A stop at the end of its segment goes over to one that begins there, if that gains something.
+    fn step_over(&mut self, stop: usize, first: Option<usize>, last: Option<usize>) {
+        let (room, from) = first.map_or(self.start, |at| (self.links[at].room, self.links[at].at));
+        let to = last.map_or(self.goal, |link| self.links[link].at);
+        let end = last.unwrap_or(self.links.len());
+        let into = self.room_before(end);
+        let (before, here) = (self.room_before(stop), self.links[stop]);
+        let graph = self.graph;
+        let (one, two) = (graph.per_m(before), graph.per_m(here.room));
+        let cost = |p: Point| one * from.distance(p) + two * p.distance(to);
+        let mut best: Option<(f64, Vec<Link>)> = None;
+        for link in self.stops_beside(before, &here) {
+            let at = least(&link.segment, cost);
+            let gain = cost(here.at) - cost(at);
+            if gain <= GAIN * cost(here.at) || best.as_ref().is_some_and(|(most, _)| gain <= *most) {
+                continue;
+            }
+            let of = &graph.doors()[link.door];
+            let outside = if of.room1 == link.room { of.room2 } else { of.room1 };
+            if let (Some(mut links), Some(rest)) =
+                (self.walk(room, from, outside, at), self.walk(link.room, at, into, to))
+            {
+                links.push(Link { at, ..link });
+                links.extend(rest);
+                best = Some((gain, links));
+            }
+        }
+        if let Some((_, links)) = best {
+            self.links.splice(first.map_or(0, |first| first + 1)..end, links);
+        }
+    }
+
+    /// Other doors between the same two layers, weighed the same, that can be passed where a stop is.
+    fn stops_beside(&self, before: usize, stop: &Link) -> Vec<Link> {
+        let graph = self.graph;
+        let is_change = graph.doors()[stop.door].is_change();
+        let weight = graph.passage(stop.door);
+        let mut rooms = vec![before];
+        let free = graph.mesh.portals.of(before).iter().filter(|exit| graph.is_free(exit.door as usize));
+        rooms.extend(free.map(|exit| exit.to as usize));
+        rooms.retain(|&room| graph.rooms()[room].rect.nearest_to(stop.at).distance(stop.at) <= 1e-6);
+        let mut found = Vec::new();
+        for room in rooms {
+            let exits = if is_change { &graph.mesh.changes } else { &graph.mesh.portals };
+            for exit in exits.of(room) {
+                let (door, to) = (exit.door as usize, exit.to as usize);
+                let is_like = graph.mesh.layer[to] == graph.mesh.layer[stop.room]
+                    && graph.per_m(to).to_bits() == graph.per_m(stop.room).to_bits()
+                    && graph.passage(door) == weight;
+                if !is_like {
+                    continue;
+                }
+                if is_change {
+                    let gates = graph.gates(door, room).iter();
+                    let link = |segment: &Segment| Link { door, segment: *segment, room: to, ..*stop };
+                    found.extend(gates.map(link));
+                } else {
+                    found.push(Link {
+                        door,
+                        segment: Segment::of(&graph.doors()[door].crossing),
+                        room: to,
+                        ..*stop
+                    });
+                }
+            }
+        }
+        found.retain(|link| {
+            link.segment != stop.segment && link.segment.nearest_to(stop.at).distance(stop.at) <= 1e-6
+        });
+        found
+    }
+}
+
+/// The part of a segment that is seen from a point through a door.
+fn seen_through(from: Point, door: Segment, part: Segment) -> Option<Segment> {
+    if door.is_in_line_with(from) {
+        return Some(part);
+    }
+    View::Through(Gap::new(from, door, door, [NONE; 2])).of(from, part)
+}
+
+/// Where on a segment a convex function is least.
+fn least(segment: &Segment, cost: impl Fn(Point) -> f64) -> Point {
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut low, mut high) = (0.0, 1.0);
+    while (high - low) * segment.length() > 1e-7 {
+        let (one, two) = (high - golden * (high - low), low + golden * (high - low));
+        if cost(segment.at(one)) <= cost(segment.at(two)) {
+            high = two;
+        } else {
+            low = one;
+        }
+    }
+    // an end beats a point just beside it
+    let inner = segment.at(f64::midpoint(low, high));
+    let all = [segment.a, segment.b, inner];
+    all.into_iter().min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(inner)
+}
+
+/// A door as one comes to it.
+struct Opening {
+    segment: Segment,
+    left: Point,
+    right: Point,
+}
+
+/// Where the shortest way between two points passes doors, in their order.
+fn taut(from: Point, doors: &[Opening], to: Point) -> Vec<Point> {
+    let mut passed = vec![from; doors.len()];
+    let (mut apex, mut done) = (from, 0);
+    while done < doors.len() {
+        let corner = next_corner(apex, &doors[done..], to).map(|(point, door)| (point, done + door));
+        let (next, end) = corner.map_or((to, doors.len()), |(point, door)| (point, door + 1));
+        for door in done..end {
+            passed[door] = doors[door].segment.passed_at(apex, next);
+        }
+        if corner.is_some() {
+            passed[end - 1] = next;
+        }
+        (apex, done) = (next, end);
+    }
+    passed
+}
+
+/// The first end of a door about which a string from `apex` through the doors bends, and that door. The doors are seen
+/// through one another until one is not.
+fn next_corner(apex: Point, doors: &[Opening], to: Point) -> Option<(Point, usize)> {
+    let (mut left, mut right): (Option<(Point, usize)>, Option<(Point, usize)>) = (None, None);
+    for (index, door) in doors.iter().enumerate() {
+        // a door at the apex itself narrows nothing
+        if door.segment.nearest_to(apex).distance(apex) <= EPSILON {
+            continue;
+        }
+        match (left, right) {
+            (_, Some(corner)) if cross(apex, corner.0, door.left) < 0.0 => return Some(corner),
+            (Some(corner), _) if cross(apex, corner.0, door.right) > 0.0 => return Some(corner),
+            _ => {}
+        }
+        if left.is_none_or(|(limit, _)| cross(apex, limit, door.left) <= 0.0) {
+            left = Some((door.left, index));
+        }
+        if right.is_none_or(|(limit, _)| cross(apex, limit, door.right) >= 0.0) {
+            right = Some((door.right, index));
+        }
+    }
+    match (left, right) {
+        (_, Some(corner)) if cross(apex, corner.0, to) < 0.0 => Some(corner),
+        (Some(corner), _) if cross(apex, corner.0, to) > 0.0 => Some(corner),
+        _ => None,
+    }
+}

@@ -1,0 +1,513 @@
+//! The search where rooms weigh their metres: any-angle, over doors as they are seen through one another.
+//!
+//! Within rooms of equal hardness a shortest way is straight but for bends about corners, so the search carries
+//! what a corner sees: a node is a bend (its root) and the part of a door that is seen from it, as in Polyanya
+//! (Cui, Harabor, Grastien: "Compromise-free pathfinding on a navigation mesh", IJCAI 2017). Where hardness changes a
+//! way is refracted, and where the robot changes its shape it may do so at any point of the rim of the free space of
+//! either state: there the search goes on from points of the segment, and [`super::pull`] slides them afterwards.
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashSet};
+
+use super::cone::{Gap, Segment, View};
+use super::mesh::{EPSILON, Exit, NONE};
+use super::{Goal, RouteGraph, Start};
+use crate::geometry::Point;
+
+/// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
+/// to the best place afterwards.
+const APART_M: f64 = 0.5;
+
+/// Ways that cost more than the best by at most this share are looked for, too: sliding may turn their order about.
+const SLACK: f64 = 0.02;
+
+/// So many ways to a goal are pulled tight.
+const MOST_WAYS: usize = 6;
+
+/// A way into a room, up to what is seen of the door.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// The last bend.
+    pub root: Point,
+    /// Hardness up to the root, with what doors passed since then weigh.
+    pub cost: f64,
+    /// The node from which this one was found; [`NONE`] at the start.
+    pub before: u32,
+    /// The room, by index.
+    pub room: u32,
+    /// The door by which it was entered, by index; [`NONE`] at the start.
+    pub door: u32,
+    /// Whether the way bent at the root without passing a door.
+    pub bent: bool,
+    /// What of the room is seen.
+    pub view: View,
+}
+
+/// Where a goal was reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Found {
+    pub node: u32,
+    pub at: Point,
+    pub cost: f64,
+    /// A change of shape at the goal itself: the door and the room, by index.
+    pub change: Option<Exit>,
+}
+
+/// The nodes of a search, and what was reached.
+pub(super) struct Outcome {
+    pub nodes: Vec<Node>,
+    /// For each goal some ways that cost least before they are pulled tight; the cheapest first.
+    pub goals: Vec<Vec<Found>>,
+    /// For each room the least-cost way to its nearest point, where that was asked for.
+    pub rooms: Vec<Option<Found>>,
+}
+
+/// What a search has to find.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    /// The cheapest goal.
+    One,
+    /// Every goal.
+    Goals,
+    /// Every goal, and every room.
+    Rooms,
+}
+
+/// A goal in a room: where it is, and the hardness of a change of shape that has to follow there.
+#[derive(Clone, Copy)]
+struct Target {
+    goal: usize,
+    at: Option<Point>,
+    change: Option<(Exit, f64)>,
+}
+
+pub(super) struct Search<'g> {
+    graph: &'g RouteGraph,
+    goals: &'g [Goal],
+    wanted: Wanted,
+    /// For each room the goals in it.
+    targets: Vec<(u32, Target)>,
+    /// The least hardness of a metre anywhere.
+    least_per_m: f64,
+    nodes: Vec<Node>,
+    queue: BinaryHeap<Candidate>,
+    /// For each room points that are reached, with their costs: a room is convex, so from each of them every point
+    /// of the room costs at most the way over.
+    reached: Vec<Vec<(Point, f64)>>,
+    /// For each end of a door the least cost of a way that bends there.
+    bent: Vec<f64>,
+    /// Roots from which a room was looked at already: the room, the point, and to which side.
+    looked: HashSet<(u32, u64, u64, u8)>,
+    outcome: Outcome,
+    is_pruning: bool,
+}
+
+impl<'g> Search<'g> {
+    /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least.
+    pub fn find(graph: &'g RouteGraph, start: &Start, goals: &'g [Goal], wanted: Wanted) -> Outcome {
+        let outcome = Self::new(graph, goals, wanted, true).run(start);
+        let is_found = |goal: usize| !outcome.goals[goal].is_empty();
+        if wanted == Wanted::One && (0..goals.len()).any(is_found) || (0..goals.len()).all(is_found) {
+            return outcome;
+        }
+        let joined = graph.joined_with(&start.rooms);
+        let is_missed = |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|&room| joined[room]);
+        if !(0..goals.len()).any(is_missed) {
+            return outcome;
+        }
+        // ways are compared at some points of a door only: where that lost one, none is left out
+        Self::new(graph, goals, wanted, false).run(start)
+    }
+
+    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, is_pruning: bool) -> Self {
+        let mut targets = Vec::new();
+        for (index, goal) in goals.iter().enumerate() {
+            for &room in &goal.rooms {
+                targets.push((room as u32, Target { goal: index, at: goal.at, change: None }));
+                let Some(at) = goal.at else { continue };
+                for exit in graph.mesh.changes_into.of(room) {
+                    let door = &graph.doors()[exit.door as usize];
+                    if let Some(weight) = graph.passage(exit.door as usize)
+                        && door.crossing.contains(at)
+                    {
+                        let change = Some((Exit { door: exit.door, to: room as u32 }, weight));
+                        targets.push((exit.to, Target { goal: index, at: goal.at, change }));
+                    }
+                }
+            }
+        }
+        targets.sort_by_key(|(room, _)| *room);
+        let rooms = graph.rooms().len();
+        let kept = if wanted == Wanted::Rooms { rooms } else { 0 };
+        let outcome =
+            Outcome { nodes: Vec::new(), goals: vec![Vec::new(); goals.len()], rooms: vec![None; kept] };
+        Self {
+            graph,
+            goals,
+            wanted,
+            targets,
+            least_per_m: graph.least_per_m(),
+            nodes: Vec::new(),
+            queue: BinaryHeap::new(),
+            reached: vec![Vec::new(); rooms],
+            bent: vec![f64::INFINITY; graph.bends.len()],
+            looked: HashSet::new(),
+            outcome,
+            is_pruning,
+        }
+    }
+
+    fn run(mut self, start: &Start) -> Outcome {
+        for &room in start.rooms.iter().filter(|&&room| self.graph.is_entered(room)) {
+            let root = start.at;
+            self.push(Node {
+                root,
+                cost: 0.0,
+                before: NONE,
+                room: room as u32,
+                door: NONE,
+                bent: false,
+                view: View::All,
+            });
+        }
+        let mut missing = self.goals.len();
+        let mut limit = f64::INFINITY;
+        while let Some(candidate) = self.queue.pop() {
+            if candidate.least > limit {
+                break;
+            }
+            match candidate.what {
+                What::Goal { goal, found } => {
+                    let known = &mut self.outcome.goals[goal];
+                    missing -= usize::from(known.is_empty());
+                    if known.len() < MOST_WAYS {
+                        known.push(found);
+                    }
+                    let is_last = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
+                    if is_last && limit.is_infinite() {
+                        limit = found.cost * (1.0 + SLACK) + EPSILON;
+                    }
+                }
+                What::Node(index) => self.expand(index),
+            }
+        }
+        self.outcome.nodes = self.nodes;
+        self.outcome
+    }
+
+    /// A lower limit of what remains from a point.
+    fn remaining(&self, from: &dyn Fn(Point) -> f64) -> f64 {
+        if self.wanted != Wanted::One || self.least_per_m <= 0.0 {
+            return 0.0;
+        }
+        let to = |goal: &Goal| goal.at.map_or(0.0, from);
+        self.goals.iter().map(to).fold(f64::INFINITY, f64::min) * self.least_per_m
+    }
+
+    fn push(&mut self, node: Node) {
+        let per_m = self.graph.per_m(node.room as usize);
+        let (near, remaining) = match &node.view {
+            View::Through(gap) => {
+                let segment = gap.segment();
+                let near = segment.nearest_to(node.root).distance(node.root);
+                (near, self.remaining(&|goal| segment.nearest_to(goal).distance(goal)))
+            }
+            _ => (0.0, self.remaining(&|goal| node.root.distance(goal))),
+        };
+        let index = self.nodes.len() as u32;
+        self.nodes.push(node);
+        let least = node.cost + near * per_m;
+        self.queue.push(Candidate { least: least + remaining, what: What::Node(index) });
+    }
+
+    fn expand(&mut self, index: u32) {
+        let node = self.nodes[index as usize];
+        if self.is_pruning && self.is_superfluous(&node) {
+            return;
+        }
+        let side = match node.view {
+            View::Through(_) => None,
+            View::All => Some(0),
+            View::Side { left, .. } => Some(1 + u8::from(left)),
+        };
+        let (x, y) = (node.root.x.to_bits(), node.root.y.to_bits());
+        if side.is_some_and(|side| !self.looked.insert((node.room, x, y, side))) {
+            return;
+        }
+        let end = if node.bent { self.end_at(&node) } else { NONE };
+        if end != NONE {
+            if self.bent[end as usize] < node.cost - EPSILON {
+                return;
+            }
+            self.bent[end as usize] = node.cost;
+        }
+        self.remember(index, &node);
+        self.arrive(index, &node);
+        self.bend(index, &node);
+        for exit in self.graph.mesh.portals.of(node.room as usize) {
+            if exit.door != node.door {
+                self.pass(index, &node, *exit);
+            }
+        }
+        for exit in self.graph.mesh.changes.of(node.room as usize) {
+            self.change(index, &node, *exit);
+        }
+    }
+
+    /// The end of a door at which a bent node bends: that of the door by which its room was entered.
+    fn end_at(&self, node: &Node) -> u32 {
+        if node.door == NONE {
+            return NONE;
+        }
+        let ends = self.graph.mesh.ends[node.door as usize];
+        let segment = Segment::of(&self.graph.doors()[node.door as usize].crossing);
+        match (ends, node.root.distance(segment.a) <= EPSILON) {
+            ([end, _], true) | ([_, end], false) => end,
+        }
+    }
+
+    /// Points at which nodes are compared.
+    fn samples(node: &Node) -> ([Point; 4], usize) {
+        match &node.view {
+            View::Through(gap) => {
+                let segment = gap.segment();
+                ([segment.nearest_to(node.root), segment.a, segment.b, segment.at(0.5)], 4)
+            }
+            _ => ([node.root; 4], 1),
+        }
+    }
+
+    /// Whether every point that the node sees of its door is reached at less cost.
+    fn is_superfluous(&self, node: &Node) -> bool {
+        let room = node.room as usize;
+        let per_m = self.graph.per_m(room);
+        let (samples, count) = Self::samples(node);
+        // what looks in all directions is needed once; what looks in some must give way to nothing that costs the same
+        let slack = if node.view == View::All && node.before != NONE { EPSILON } else { -EPSILON };
+        samples[..count].iter().all(|&p| {
+            let cost = node.cost + per_m * node.root.distance(p);
+            self.is_cheaper_in(room, p, cost + slack, per_m)
+                || self.is_cheaper_by_a_change(room, p, cost - EPSILON, per_m)
+        })
+    }
+
+    fn is_cheaper_in(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
+        self.reached[room].iter().any(|&(q, cost)| {
+            let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
+            cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
+        })
+    }
+
+    /// Whether walking in an easier state, and changing at the point, costs less.
+    fn is_cheaper_by_a_change(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
+        self.graph.mesh.changes_into.of(room).iter().any(|exit| {
+            let from = exit.to as usize;
+            let easier = self.graph.per_m(from);
+            easier <= per_m
+                && !self.reached[from].is_empty()
+                && self.graph.doors()[exit.door as usize].crossing.contains(p)
+                && self
+                    .graph
+                    .passage(exit.door as usize)
+                    .is_some_and(|weight| self.is_cheaper_in(from, p, limit - weight, easier))
+        })
+    }
+
+    fn remember(&mut self, index: u32, node: &Node) {
+        let room = node.room as usize;
+        let per_m = self.graph.per_m(room);
+        let (samples, count) = Self::samples(node);
+        for &p in &samples[..count] {
+            let cost = node.cost + per_m * node.root.distance(p);
+            if !self.is_cheaper_in(room, p, cost + EPSILON, per_m) {
+                self.reached[room].push((p, cost));
+            }
+        }
+        if let Some(known) = self.outcome.rooms.get_mut(room)
+            && known.is_none()
+        {
+            let at = samples[0];
+            let cost = node.cost + per_m * node.root.distance(at);
+            *known = Some(Found { node: index, at, cost, change: None });
+        }
+    }
+
+    /// The goals in the room.
+    fn arrive(&mut self, index: u32, node: &Node) {
+        let first = self.targets.partition_point(|(room, _)| *room < node.room);
+        let per_m = self.graph.per_m(node.room as usize);
+        for place in first..self.targets.len() {
+            let (room, target) = self.targets[place];
+            if room != node.room {
+                break;
+            }
+            let at = target.at.unwrap_or_else(|| Self::samples(node).0[0]);
+            if self.outcome.goals[target.goal].len() < MOST_WAYS && node.view.sees(node.root, at) {
+                let weight = target.change.map_or(0.0, |(_, weight)| weight);
+                let cost = node.cost + per_m * node.root.distance(at) + weight;
+                let change = target.change.map(|(exit, _)| exit);
+                let found = Found { node: index, at, cost, change };
+                self.queue.push(Candidate { least: cost, what: What::Goal { goal: target.goal, found } });
+            }
+        }
+    }
+
+    /// The bends about the ends of the door through which the node sees.
+    fn bend(&mut self, index: u32, node: &Node) {
+        let View::Through(gap) = node.view else { return };
+        let per_m = self.graph.per_m(node.room as usize);
+        for (end, root, left) in [(gap.left_end, gap.left, true), (gap.right_end, gap.right, false)] {
+            if end == NONE || !self.graph.bends[end as usize] {
+                continue;
+            }
+            let cost = node.cost + per_m * node.root.distance(root);
+            if cost <= self.bent[end as usize] + EPSILON {
+                let view = View::Side { from: node.root, left };
+                self.push(Node { root, cost, before: index, bent: true, view, ..*node });
+            }
+        }
+    }
+
+    /// Through a door, as far as it is seen.
+    fn pass(&mut self, index: u32, node: &Node, exit: Exit) {
+        let (door, room) = (exit.door as usize, exit.to as usize);
+        let Some(weight) = self.graph.passage(door) else { return };
+        let here = self.graph.per_m(node.room as usize);
+        let segment = Segment::of(&self.graph.doors()[door].crossing);
+        let next = |root: Point, way: f64, view: View| Node {
+            root,
+            cost: node.cost + way * here + weight,
+            before: index,
+            room: exit.to,
+            door: exit.door,
+            bent: false,
+            view,
+        };
+        let is_same = self.graph.per_m(room).to_bits() == here.to_bits();
+        let is_inside = !matches!(node.view, View::Through(_));
+        if segment.is_in_line_with(node.root) {
+            let near = segment.nearest_to(node.root);
+            let way = near.distance(node.root);
+            if way <= EPSILON && is_inside {
+                let view = if is_same { node.view } else { View::All };
+                self.push(next(node.root, 0.0, view));
+            } else if node.view.sees(node.root, near) {
+                // along a wall, and about the near end
+                let ends = self.graph.mesh.ends[door];
+                let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
+                if self.graph.bends[end as usize] || !is_same {
+                    self.push(next(near, way, View::All));
+                }
+            }
+            return;
+        }
+        let Some(seen) = node.view.of(node.root, segment) else { return };
+        if is_same {
+            if seen.length() > EPSILON || segment.length() <= EPSILON {
+                let gap = Gap::new(node.root, segment, seen, self.graph.mesh.ends[door]);
+                self.push(next(node.root, 0.0, View::Through(gap)));
+            }
+            return;
+        }
+        for p in self.points(room, seen, node.root) {
+            self.push(next(p, node.root.distance(p), View::All));
+        }
+    }
+
+    /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
+    /// goals in the room, the ends, and some between.
+    fn points(&self, room: usize, seen: Segment, root: Point) -> Vec<Point> {
+        let pieces = (seen.length() / APART_M).ceil().clamp(1.0, 64.0) as u32;
+        let first = self.targets.partition_point(|(of, _)| (*of as usize) < room);
+        let goals = self.targets[first..].iter().take_while(|(of, _)| *of as usize == room);
+        let feet = goals.filter_map(|(_, target)| target.at.map(|at| seen.nearest_to(at)));
+        let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
+        let mut points: Vec<Point> = Vec::new();
+        for p in std::iter::once(seen.nearest_to(root)).chain(feet).chain(even) {
+            if !points.iter().any(|known| known.distance(p) <= EPSILON) {
+                points.push(p);
+            }
+        }
+        points
+    }
+
+    /// Into another state.
+    fn change(&mut self, index: u32, node: &Node, exit: Exit) {
+        let door = exit.door as usize;
+        let Some(weight) = self.graph.passage(door) else { return };
+        let room = exit.to as usize;
+        let (here, there) = (self.graph.per_m(node.room as usize), self.graph.per_m(room));
+        let reach = |search: &mut Self, p: Point| {
+            let cost = node.cost + node.root.distance(p) * here;
+            // reached at less cost otherwise, here or there
+            let is_vain = search.is_pruning
+                && (search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
+                    || search.is_cheaper_in(room, p, cost + weight + EPSILON, there));
+            if !is_vain {
+                search.push(Node {
+                    root: p,
+                    cost: cost + weight,
+                    before: index,
+                    room: exit.to,
+                    door: exit.door,
+                    bent: false,
+                    view: View::All,
+                });
+            }
+        };
+        if node.before == NONE && self.graph.doors()[door].crossing.contains(node.root) {
+            reach(self, node.root);
+        }
+        let graph = self.graph;
+        for gate in graph.gates(exit.door as usize, node.room as usize) {
+            if let Some(seen) = node.view.of(node.root, *gate)
+                && (!gate.is_in_line_with(node.root) || node.view.sees(node.root, gate.nearest_to(node.root)))
+            {
+                for p in self.points(room, seen, node.root) {
+                    reach(self, p);
+                }
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum What {
+    Node(u32),
+    Goal { goal: usize, found: Found },
+}
+
+/// The cheapest first; then goals, then the node found first.
+struct Candidate {
+    least: f64,
+    what: What,
+}
+
+impl Candidate {
+    fn place(&self) -> (u8, u32) {
+        match self.what {
+            What::Goal { goal, .. } => (0, goal as u32),
+            What::Node(index) => (1, index),
+        }
+    }
+}
+
+impl PartialEq for Candidate {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Candidate {}
+
+impl Ord for Candidate {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.least.total_cmp(&self.least).then_with(|| other.place().cmp(&self.place()))
+    }
+}
+
+impl PartialOrd for Candidate {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}

@@ -1,0 +1,228 @@
+//! Ways where rooms weigh their metres: shortest in the free space that the rooms cover, beside a visibility graph.
+
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::layers::{Kind, State, cut_layers};
+use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
+use adit_planners::world::{Obstacle, Shape, World};
+use proptest::prelude::*;
+
+const SIDE: f64 = 12.0;
+
+/// A hall with blocks in it; whole numbers of half metres, so that doors of many rooms end at one point.
+fn hall(blocks: &[(u8, u8, u8, u8)]) -> World {
+    let mut world = World::empty(Rect::new(0.0, 0.0, SIDE, SIDE));
+    world.grid = Some(0.5);
+    let half = |n: u8| f64::from(n) / 2.0;
+    world.obstacles = blocks
+        .iter()
+        .map(|&(x, y, w, h)| Rect::new(half(x), half(y), half(x + w), half(y + h)))
+        .map(|rect| Obstacle { shape: Shape::Rect(rect) })
+        .collect();
+    world
+}
+
+fn state(name: &str, width: f64) -> State {
+    State { robot: None, state: name.to_owned(), height: 1.0, width }
+}
+
+/// The graph of all layers; a metre of each state weighs as given, a change `change`.
+fn graph(world: &World, states: &[(f64, f64)], change: f64) -> RouteGraph {
+    let shapes: Vec<State> = states.iter().map(|(width, _)| state("s", *width)).collect();
+    let layers = cut_layers(world, &shapes).unwrap();
+    let weigh = |room: &adit_planners::layers::Room| RouteRoom {
+        rect: room.rect,
+        walking: Walking::PerMetre(states[room.state].1),
+    };
+    let door = |(index, crossing): (usize, &adit_planners::layers::Crossing)| RouteDoor {
+        door: index as u32 + 1,
+        room1: crossing.room1,
+        room2: crossing.room2,
+        crossing: crossing.rect,
+        at: crossing.rect.centre(),
+        hardness: Some(if crossing.kind == Kind::Change { change } else { 0.0 }),
+        passable: true,
+        one_way: crossing.kind == Kind::Change,
+    };
+    let doors = layers.crossings.iter().enumerate().map(door).collect();
+    RouteGraph::new(layers.rooms.iter().map(weigh).collect(), doors)
+}
+
+fn holding(graph: &RouteGraph, p: Point) -> Vec<usize> {
+    (0..graph.rooms().len()).filter(|&room| graph.rooms()[room].rect.contains(p)).collect()
+}
+
+fn way(graph: &RouteGraph, from: Point, to: Point) -> Option<Way> {
+    let start = Start { rooms: holding(graph, from), at: from };
+    let goal = Goal { rooms: holding(graph, to), at: Some(to) };
+    graph.way(&start, &[goal]).map(|(_, way)| way)
+}
+
+/// Whether the rooms cover the whole segment.
+fn is_free(rooms: &[Rect], a: Point, b: Point) -> bool {
+    let inside = |rect: &Rect| {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for (a, b, low, high) in [(a.x, b.x, rect.x0, rect.x1), (a.y, b.y, rect.y0, rect.y1)] {
+            if (b - a).abs() < 1e-12 {
+                if a < low - 1e-9 || a > high + 1e-9 {
+                    return None;
+                }
+            } else {
+                let (one, two) = ((low - a) / (b - a), (high - a) / (b - a));
+                (from, to) = (from.max(one.min(two)), to.min(one.max(two)));
+            }
+        }
+        (from <= to + 1e-9).then_some((from, to))
+    };
+    let mut parts: Vec<(f64, f64)> = rooms.iter().filter_map(inside).collect();
+    parts.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let mut done = 0.0;
+    for (from, to) in parts {
+        if from > done + 1e-9 {
+            return false;
+        }
+        done = f64::max(done, to);
+    }
+    done >= 1.0 - 1e-9
+}
+
+/// Whether two rooms touch in one point, with nothing free beside it. Nobody passes there, which the graph of what sees
+/// what does not know.
+fn has_pinch(rooms: &[Rect]) -> bool {
+    let quarters = |p: Point| {
+        [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+            .map(|(x, y)| Point::new(p.x + 1e-3 * x, p.y + 1e-3 * y))
+            .map(|p| rooms.iter().any(|rect| rect.contains(p)))
+    };
+    let corners =
+        |rect: &Rect| [(rect.x0, rect.y0), (rect.x0, rect.y1), (rect.x1, rect.y0), (rect.x1, rect.y1)];
+    let is_pinched = |(x, y): (f64, f64)| {
+        let [one, two, three, four] = quarters(Point::new(x, y));
+        one == three && two == four && one != two
+    };
+    rooms.iter().flat_map(corners).any(is_pinched)
+}
+
+/// The shortest way over the corners of the rooms: Floyd's simplest, Bellman and Ford's.
+fn shortest(rooms: &[Rect], from: Point, to: Point) -> f64 {
+    let corners = |rect: &Rect| {
+        [(rect.x0, rect.y0), (rect.x0, rect.y1), (rect.x1, rect.y0), (rect.x1, rect.y1)]
+            .map(|(x, y)| Point::new(x, y))
+    };
+    let mut points: Vec<Point> = rooms.iter().flat_map(corners).collect();
+    points.extend([from, to]);
+    points.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    points.dedup();
+    let place = |p: Point| points.iter().position(|q| *q == p).unwrap();
+    let (from, to) = (place(from), place(to));
+    let mut seen = Vec::new();
+    for a in 0..points.len() {
+        for b in 0..a {
+            if is_free(rooms, points[a], points[b]) {
+                seen.push((a, b, points[a].distance(points[b])));
+            }
+        }
+    }
+    let mut least = vec![f64::INFINITY; points.len()];
+    least[from] = 0.0;
+    loop {
+        let before = least[to];
+        let mut is_changed = false;
+        for &(a, b, length) in &seen {
+            for (a, b) in [(a, b), (b, a)] {
+                if least[a] + length < least[b] - 1e-12 {
+                    least[b] = least[a] + length;
+                    is_changed = true;
+                }
+            }
+        }
+        if !is_changed {
+            return before.min(least[to]);
+        }
+    }
+}
+
+fn blocks() -> impl Strategy<Value = Vec<(u8, u8, u8, u8)>> {
+    prop::collection::vec((0_u8..22, 0_u8..22, 1_u8..9, 1_u8..9), 0..9)
+}
+
+fn point() -> impl Strategy<Value = Point> {
+    (0.2..SIDE - 0.2, 0.2..SIDE - 0.2).prop_map(|(x, y)| Point::new(x, y))
+}
+
+/// What must hold of every way.
+fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Result<(), TestCaseError> {
+    let (mut at, mut cost) = (from, 0.0);
+    for leg in &way.legs {
+        prop_assert!(leg.from.distance(at) < 1e-9, "{leg:?} begins elsewhere than {at:?}");
+        let rect = graph.rooms()[leg.room].rect;
+        for p in [leg.from, leg.to] {
+            prop_assert!(rect.nearest_to(p).distance(p) < 1e-6, "{leg:?} leaves its room {rect:?}");
+        }
+        cost += leg.hardness + leg.door.map_or(0.0, |door| graph.doors()[door].hardness.unwrap());
+        prop_assert!((leg.cost - cost).abs() < 1e-9);
+        at = leg.to;
+    }
+    prop_assert!(at.distance(to) < 1e-9 && (way.cost - cost).abs() < 1e-9);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: std::env::var("CASES").map_or(96, |cases| cases.parse().unwrap()),
+        max_global_rejects: 100_000,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn in_one_state_a_way_is_as_short_as_over_a_visibility_graph(
+        blocks in blocks(), from in point(), to in point()
+    ) {
+        let graph = graph(&hall(&blocks), &[(0.8, 1.0)], 0.0);
+        let rooms: Vec<Rect> = graph.rooms().iter().map(|room| room.rect).collect();
+        prop_assume!(!holding(&graph, from).is_empty() && !holding(&graph, to).is_empty());
+        prop_assume!(!has_pinch(&rooms));
+        let least = shortest(&rooms, from, to);
+        match way(&graph, from, to) {
+            None => prop_assert!(least.is_infinite(), "no way, but one of {least}"),
+            Some(way) => {
+                check_legs(&graph, &way, from, to)?;
+                prop_assert!((way.cost - least).abs() < 1e-6 * least.max(1.0), "{} for {least}", way.cost);
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_costs_the_same_there_and_back(
+        blocks in blocks(), from in point(), to in point(), change in 0.0..2.0_f64
+    ) {
+        let graph = graph(&hall(&blocks), &[(1.3, 1.0), (0.6, 2.5)], change);
+        let (there, back) = (way(&graph, from, to), way(&graph, to, from));
+        prop_assert_eq!(there.is_some(), back.is_some());
+        if let (Some(there), Some(back)) = (there, back) {
+            check_legs(&graph, &there, from, to)?;
+            prop_assert!((there.cost / back.cost - 1.0).abs() < 1e-2, "{} and {}", there.cost, back.cost);
+        }
+    }
+
+    #[test]
+    fn all_goals_at_once_cost_what_each_costs_alone(
+        blocks in blocks(), from in point(), goals in prop::collection::vec(point(), 1..5)
+    ) {
+        let graph = graph(&hall(&blocks), &[(1.3, 1.0), (0.6, 2.5)], 0.5);
+        let start = Start { rooms: holding(&graph, from), at: from };
+        let ends: Vec<Goal> =
+            goals.iter().map(|&p| Goal { rooms: holding(&graph, p), at: Some(p) }).collect();
+        let all = graph.ways(&start, &ends, false).goals;
+        let costs: Vec<Option<f64>> = all.iter().map(|way| way.as_ref().map(|way| way.cost)).collect();
+        for (to, cost) in goals.iter().zip(&costs) {
+            let alone = way(&graph, from, *to).map(|way| way.cost);
+            prop_assert_eq!(cost.is_some(), alone.is_some());
+            if let (Some(cost), Some(alone)) = (cost, alone) {
+                prop_assert!((cost / alone - 1.0).abs() < 1e-2 || (cost - alone).abs() < 1e-9, "{cost} and {alone}");
+            }
+        }
+        let nearest = costs.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+        let found = graph.way(&start, &ends).map_or(f64::INFINITY, |(_, way)| way.cost);
+        prop_assert!(found == nearest || (found / nearest - 1.0).abs() < 1e-2 || (found - nearest).abs() < 1e-9);
+    }
+}
