@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::robot::State;
-use adit_db::{Cell, Store, Tx};
+use adit_db::{Store, Tx};
 use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts, Table};

@@ -1,0 +1,159 @@
+//! The judge of a site's routes: each beside the best way, and everything about it that cannot be right.
+
+use adit_planners::geometry::Point;
+
+use super::driven::Driven;
+use super::grid::Grid;
+use super::random::Chance;
+use super::silly::{self, Silly};
+use super::site::Built;
+use super::space::Space;
+use super::tally::Tally;
+
+/// How far a waypoint's piece may come into a wall: what decimal fractions lose in binary and in JSON, metres.
+const TRESPASS: f64 = 1e-6;
+/// How much a told cost may differ from that of the way told, as a part of it.
+const ROUNDING: f64 = 1e-6;
+/// How much cheaper than the best way known a route may be before the judge is to blame.
+const JUDGE_MISSES: f64 = 0.005;
+
+/// What was found out about routes.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    /// Cost of each route over that of the best way through the true free space.
+    pub exact: Tally,
+    /// Cost of each route over that of the best way that keeps a cell's diagonal more from every wall: what the
+    /// layers promise to cover. A passage that is narrower is none on their grid.
+    pub fair: Tally,
+    /// What cannot be right.
+    pub wrong: Vec<String>,
+    /// What no person would do.
+    pub silly: Vec<String>,
+    /// Pairs between which there is no way.
+    pub cut_off: usize,
+}
+
+impl Findings {
+    /// Adds those of another.
+    pub fn extend(&mut self, other: Self) {
+        self.exact.extend(other.exact);
+        self.fair.extend(other.fair);
+        self.wrong.extend(other.wrong);
+        self.silly.extend(other.silly);
+        self.cut_off += other.cut_off;
+    }
+
+    /// Prints how the ratios are spread, for who reads a test's output.
+    pub fn print(&self, what: &str) {
+        eprintln!("{what}: {} pairs cut off", self.cut_off);
+        eprintln!("  beside the best way: {}", self.exact);
+        eprintln!("  beside the best way on the layers' grid: {}", self.fair);
+        for (kind, all) in [("wrong", &self.wrong), ("silly", &self.silly)] {
+            eprintln!("  {kind}: {}", all.len());
+            all.iter().take(40).for_each(|one| eprintln!("    {one}"));
+        }
+    }
+
+    /// Fails the test unless routes are as good as issue 4 wants them.
+    #[track_caller]
+    pub fn expect_good(&self) {
+        assert!(self.wrong.is_empty(), "{:#?}", self.wrong);
+        assert!(self.exact.count() > 0, "no route was judged");
+        assert!(self.exact.median() <= 1.03, "median {}", self.exact);
+        assert!(self.fair.median() <= 1.03, "median {}", self.fair);
+        assert!(self.fair.worst() <= 1.10, "worst {}", self.fair);
+        assert!(self.silly.is_empty(), "{:#?}", self.silly);
+    }
+}
+
+/// Judges the routes of a site.
+pub struct Judge<'a> {
+    built: &'a Built,
+    side: f64,
+    exact: Space,
+    fair: Space,
+    /// Free on every lattice, whatever slivers are dropped.
+    surely: Space,
+}
+
+impl<'a> Judge<'a> {
+    /// A judge of a site whose layers have cells of `side` metres.
+    pub fn new(built: &'a Built, side: f64) -> Self {
+        let diagonal = side * 2f64.sqrt();
+        let space = |margin: f64| Space::new(&built.world, built.body(), margin).with_areas(&built.areas);
+        Self { built, side, exact: space(0.0), fair: space(diagonal), surely: space(3.0 * diagonal) }
+    }
+
+    /// The true free space.
+    pub fn space(&self) -> &Space {
+        &self.exact
+    }
+
+    /// Points by chance at which no answer hangs on a cell.
+    pub fn points(&self, chance: &mut Chance, count: usize) -> Vec<Point> {
+        let b = self.exact.bounds();
+        let tries =
+            (0..400 * count).map(|_| Point::new(chance.metres(b.x0, b.x1), chance.metres(b.y0, b.y1)));
+        tries.filter(|&p| self.exact.is_plain(p, 5.0 * self.side)).take(count).collect()
+    }
+
+    /// Judges the routes from one point to others. `step` is that of the grids, metres.
+    #[track_caller]
+    pub fn judge(&self, name: &str, start: Point, goals: &[Point], step: f64) -> Findings {
+        let grids = [&self.exact, &self.fair].map(|space| Grid::new(space, step));
+        let [exact, fair] = grids.each_ref().map(|grid| grid.ways_from(start));
+        let mut found = Findings::default();
+        for &goal in goals {
+            let of = format!("{name}: {},{} to {},{}", start.x, start.y, goal.x, goal.y);
+            let Some(driven) = self.built.route(start, goal) else {
+                found.cut_off += 1;
+                if Grid::new(&self.surely, step).ways_from(start).over_the_grid(goal).is_some() {
+                    found.wrong.push(format!("{of}: no route, though there is a way"));
+                }
+                continue;
+            };
+            self.look_at(&driven, &of, (start, goal), &mut found);
+            let Some(best) = exact.to(goal).map(|way| way.cost(&self.exact)) else {
+                found.wrong.push(format!("{of}: a route, though the judge knows no way"));
+                continue;
+            };
+            if driven.cost < best * (1.0 - JUDGE_MISSES) {
+                found
+                    .wrong
+                    .push(format!("{of}: costs {}, the judge knows nothing below {best}", driven.cost));
+            }
+            found.exact.add(driven.cost / best, of.clone());
+            if let Some(way) = fair.to(goal) {
+                found.fair.add(driven.cost / way.cost(&self.exact), of);
+            }
+        }
+        found
+    }
+
+    /// Adds what is wrong and silly about a route by itself.
+    pub fn look_at(&self, driven: &Driven, of: &str, ends: (Point, Point), found: &mut Findings) {
+        found.wrong.extend(self.faults(driven, of, ends));
+        let seen = silly::find(&driven.way, [&self.exact, &self.fair], self.side);
+        let say = |Silly { at, what }: Silly| format!("{of}: {what} at {:.3},{:.3}", at.x, at.y);
+        found.silly.extend(seen.into_iter().map(say));
+    }
+
+    /// What cannot be right about a route by itself.
+    fn faults(&self, driven: &Driven, of: &str, (start, goal): (Point, Point)) -> Vec<String> {
+        let mut faults = driven.faults(&self.exact);
+        for (way, kind) in [(&driven.way, "waypoints"), (&driven.steps, "steps")] {
+            if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
+                faults.push(format!("{kind} are {depth:.6} m too near to a wall on {piece:?}"));
+            }
+            let sum = way.cost(&self.exact);
+            if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
+                faults.push(format!("costs {}, its {kind} {sum}", driven.cost));
+            }
+            let ends = [way.points[0].distance(start), way.points[way.points.len() - 1].distance(goal)];
+            if ends.iter().any(|off| *off > TRESPASS) {
+                faults.push(format!("{kind} begin and end {ends:?} m off"));
+            }
+        }
+        faults.into_iter().map(|fault| format!("{of}: {fault}")).collect()
+    }
+}
