@@ -181,7 +181,7 @@ fn in_the_paper_s_modes_a_room_lies_where_more_than_half_of_it_does() {
     assert_eq!(site.sqlite3(rooms), ["0"]);
     assert_eq!(site.sqlite3("SELECT count(*) > 0 FROM area_rooms"), ["1"]);
     let said = site.adit("build", &[]).expecting(0);
-    assert!((said.stdout + &said.stderr).contains("no rule reads AREA_ROOMS"));
+    assert!((said.stdout + said.stderr.as_str()).contains("no rule reads AREA_ROOMS"));
 }
 
 #[test]

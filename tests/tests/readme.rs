@@ -62,7 +62,7 @@ fn the_sql_answers() {
 fn wet_floors_make_a_way_harder() {
     let site = starter();
     let dry = cost(&site);
-    let text = site.read("site.toml") + &block("toml", "by the tap").replace("hardness = 2.0", "");
+    let text = site.read("site.toml") + block("toml", "by the tap").replace("hardness = 2.0", "").as_str();
     site.write("site.toml", text);
     site.adit("build", &[]).expect_status(0);
     assert!((cost(&site) - dry).abs() < 0.02 * dry, "rooms are cut, nothing is harder: {}", cost(&site));
