@@ -18,6 +18,7 @@ mod guard;
 pub mod history;
 pub mod hours;
 pub mod kept;
+pub mod load;
 mod migrate;
 pub mod place;
 pub mod query;

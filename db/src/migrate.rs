@@ -35,6 +35,8 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/31-told.sql"),
         include_str!("../sql/v2/32-hours.sql"),
         include_str!("../sql/v2/33-tunings.sql"),
+        include_str!("../sql/v2/40-fleet.sql"),
+        include_str!("../sql/v2/50-in-force.sql"),
     ],
 ];
 

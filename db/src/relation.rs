@@ -24,6 +24,8 @@ pub(crate) const OWN: &[&str] = &[
     "frames",
     "history",
     "hours",
+    "loads",
+    "loads_in_force",
     "opening_hours",
     "places",
     "prime_area_strips",

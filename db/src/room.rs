@@ -19,6 +19,8 @@ pub struct Room {
     pub name: String,
     /// Robot and state whose layer it is in; `None` in the paper's modes.
     pub layer: Option<(String, String)>,
+    /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
+    pub facing: Option<f64>,
     /// x0, y0, x1, y1 in metres.
     pub rect: [f64; 4],
     /// Metres; `None` is unlimited.
@@ -76,6 +78,7 @@ impl Record for &Room {
         "passable",
         "passable_rule",
         "passable_witness",
+        "facing",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -92,6 +95,7 @@ impl Record for &Room {
         self.action.bind_reason(values);
         values.truth(self.passable.value);
         self.passable.bind_reason(values);
+        values.real(self.facing);
     }
 }
 
@@ -105,6 +109,7 @@ pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
             room: row.try_get(0)?,
             name: row.try_get(1)?,
             layer: layer.0.zip(layer.1),
+            facing: row.try_get(16)?,
             rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
             height: row.try_get(8)?,
             width: row.try_get(9)?,

@@ -136,7 +136,7 @@ fn cell(text: &str) -> Cell {
     }
 }
 
-const TUNABLE: [&str; 3] = ["robots", "changes", "hours"];
+const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
 const DERIVED: [&str; 17] = [
     "rooms",
     "doors",
@@ -163,7 +163,7 @@ fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     if DERIVED.contains(&table) {
         let message =
             format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
-        let help = "tune `robots` or `changes`, edit a rule, or edit the map and build".to_owned();
+        let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
         return Err(Error::said("edit/derived", message, Some(help)));
     }
     if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {

@@ -111,21 +111,22 @@ impl SiteGraph {
         }
     }
 
-    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state.
+    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state and facing.
     pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<usize> {
         if let End::Room(index) = end {
             return if is_weighed(&self.rooms[*index]) { vec![*index] } else { Vec::new() };
         }
         let at = self.point(end);
-        let mut states = Vec::new();
+        let mut layers = Vec::new();
         let mut found = Vec::new();
         for (index, room) in self.rooms.iter().enumerate() {
             let of_robot = match (&room.layer, robot) {
                 (Some((of, _)), Some(robot)) => of == robot,
                 _ => true,
             };
-            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !states.contains(&&room.layer) {
-                states.push(&room.layer);
+            let layer = (&room.layer, room.facing);
+            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !layers.contains(&layer) {
+                layers.push(layer);
                 found.push(index);
             }
         }

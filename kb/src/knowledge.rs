@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::robot::State;
-use adit_db::{Store, Tx};
+use adit_db::{Cell, Store, Tx};
 use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts, Table};
@@ -88,7 +88,7 @@ impl KnowledgeBase {
             Self { site, planners: Vec::new(), database, rules: None, reseed: false, at: None };
         knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
         match mode {
-            Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
+            Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
@@ -264,10 +264,27 @@ impl KnowledgeBase {
         Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
 
-    /// The states of a robot as they count: with the named tunings that are on.
+    /// The states of a robot, as they count: with the named tunings that are on, and the sizes that rules made of them.
     pub fn states(&self, robot: &str) -> Result<Vec<State>> {
-        let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states_in_force())?;
-        Ok(states.into_iter().filter(|state| state.robot == robot).collect())
+        let mut store = Store::open_read_only(&self.database)?;
+        store.snapshot(|tx| -> Result<_> {
+            let mut states = tx.states_in_force()?;
+            states.retain(|state| state.robot == robot);
+            for state in &mut states {
+                let key = Cell::from(format!("{robot}/{}", state.state).as_str());
+                for concluded in tx.conclusions("robots", &key)? {
+                    let size = match concluded.property.as_str() {
+                        "height" => &mut state.height,
+                        "width" => &mut state.width,
+                        _ => continue,
+                    };
+                    if let Cell::Real(metres) = concluded.value {
+                        *size = metres;
+                    }
+                }
+            }
+            Ok(states)
+        })
     }
 
     /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
@@ -333,6 +350,7 @@ impl KnowledgeBase {
         let classes = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
+            ("LOADS".to_owned(), tables::loads(&tx.loads()?)),
         ]);
         let mut told = Told { classes, ..Told::default() };
         let keys = |table: &Table, parts: &[&str]| {

@@ -53,7 +53,9 @@ impl Before {
     /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
     pub fn same_rooms(&self, graph: &SiteGraph) -> bool {
         let same = |(old, new): (&Room, &Room)| {
-            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits) && old.layer == new.layer
+            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
+                && old.layer == new.layer
+                && old.facing == new.facing
         };
         self.rooms.len() == graph.rooms.len() && self.rooms.iter().zip(&graph.rooms).all(same)
     }

@@ -1,5 +1,6 @@
 //! Tables of the database as classes, and planners' classes as tables.
 
+use adit_db::load::Load;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
@@ -15,6 +16,7 @@ pub fn robots(states: &[State]) -> Table {
         .with("action", states.iter().map(|row| row.action.clone()).collect::<Column>())
         .with("height", states.iter().map(|row| row.height).collect::<Column>())
         .with("width", states.iter().map(|row| row.width).collect::<Column>())
+        .with("length", states.iter().map(|row| row.length).collect::<Column>())
         .with("hardness", states.iter().map(|row| row.hardness).collect::<Column>())
         .with("position", states.iter().map(|row| row.position as f64).collect::<Column>())
 }
@@ -33,12 +35,23 @@ fn hours() -> Table {
     Table::default().with("name", Column::Text(Vec::new())).with("open", Column::Truth(Vec::new()))
 }
 
+/// What the robots can carry as a class.
+pub fn loads(loads: &[Load]) -> Table {
+    Table::default()
+        .with("robot", loads.iter().map(|row| row.robot.clone()).collect::<Column>())
+        .with("load", loads.iter().map(|row| row.load.clone()).collect::<Column>())
+        .with("height", loads.iter().map(|row| row.height).collect::<Column>())
+        .with("width", loads.iter().map(|row| row.width).collect::<Column>())
+        .with("carried", loads.iter().map(|row| row.carried).collect::<Column>())
+}
+
 /// The classes that every site tells, of one that was never built: without objects.
 pub fn unbuilt() -> Facts {
     Facts::from([
         ("ROBOTS".to_owned(), robots(&[])),
         ("CHANGES".to_owned(), changes(&[])),
         ("HOURS".to_owned(), hours()),
+        ("LOADS".to_owned(), loads(&[])),
     ])
 }
 

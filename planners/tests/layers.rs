@@ -6,6 +6,8 @@
 #[path = "layers/oracle.rs"]
 mod oracle;
 
+use std::collections::BTreeSet;
+
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Kind, Layers, State, cut_layers};
 use adit_planners::world::{Area, Bridge, NamedDoor, Obstacle, Shape, World};
@@ -16,7 +18,8 @@ const GRID: f64 = 0.1;
 const BOUNDS: Rect = Rect::new(0.0, 0.0, 7.0, 5.0);
 
 fn states() -> Vec<State> {
-    let state = |state: &str, height, width| State { robot: None, state: state.into(), height, width };
+    let state =
+        |state: &str, height, width| State { robot: None, state: state.into(), height, width, length: None };
     vec![state("STAND", 1.7, 0.6), state("SIDE-STAND", 1.7, 0.35), state("SQUAT", 1.1, 0.8)]
 }
 
@@ -171,23 +174,32 @@ proptest! {
     }
 
     #[test]
-    fn every_two_rooms_with_a_common_boundary_or_overlap_have_their_crossing(world in worlds()) {
+    fn every_two_rooms_with_a_common_boundary_or_overlap_have_their_crossing_or_one_beside_it(world in worlds()) {
         let layers = cut_layers(&world, &states()).unwrap();
-        let mut expected = Vec::new();
+        let mut expected = BTreeSet::new();
         for (i, a) in layers.rooms.iter().enumerate() {
             for (j, b) in layers.rooms.iter().enumerate().filter(|(j, _)| *j != i) {
                 let (a, b) = ((a.state, a.rect), (b.state, b.rect));
                 let dx = a.1.x1.min(b.1.x1) - a.1.x0.max(b.1.x0);
                 let dy = a.1.y1.min(b.1.y1) - a.1.y0.max(b.1.y0);
                 if a.0 != b.0 && dx > 1e-9 && dy > 1e-9 {
-                    expected.push((i, j, Kind::Change));
+                    expected.insert((i, j, Kind::Change));
                 } else if a.0 == b.0 && i < j && dx.max(dy) > 1e-9 && dx.min(dy).abs() < 1e-9 {
-                    expected.push((i, j, Kind::Door));
+                    expected.insert((i, j, Kind::Door));
                 }
             }
         }
-        let found: Vec<_> = layers.crossings.iter().map(|c| (c.room1, c.room2, c.kind)).collect();
-        prop_assert_eq!(found, expected);
+        let found: BTreeSet<_> = layers.crossings.iter().map(|c| (c.room1, c.room2, c.kind)).collect();
+        prop_assert!(found.is_subset(&expected) && layers.crossings.len() == found.len());
+        // A thin overlap may be left out beside a thicker one of the same room.
+        let is_door = |a: usize, b: usize| found.contains(&(a.min(b), a.max(b), Kind::Door));
+        for &(i, j, kind) in expected.difference(&found) {
+            prop_assert_eq!(kind, Kind::Change);
+            let overlap = layers.rooms[i].rect.intersection(&layers.rooms[j].rect).unwrap();
+            prop_assert!(overlap.smaller_side() < 2.5 * GRID, "{:?}", overlap);
+            let mut instead = found.iter().filter(|(_, _, kind)| *kind == Kind::Change);
+            prop_assert!(instead.any(|&(a, b, _)| a == i && is_door(b, j) || b == j && is_door(a, i)));
+        }
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! What the journeys share: the built program, sites in a temporary folder, and the clients that users have.
 
+pub mod floor;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

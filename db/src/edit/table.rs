@@ -9,7 +9,7 @@ use crate::relation::{self, RelationColumn};
 
 /// Tables of ours that people edit; the rest is derived from them. Tables of the user's own can be edited too.
 const EDITABLE: &[&str] =
-    &["robots", "changes", "places", "frames", "told", "hours", "tuning_cells", "active_tunings"];
+    &["robots", "changes", "loads", "places", "frames", "told", "hours", "tuning_cells", "active_tunings"];
 
 /// A table that may be edited.
 pub(super) struct Table<'t> {

@@ -50,6 +50,7 @@ fn states() -> Vec<State> {
         action: action.into(),
         height,
         width,
+        length: None,
         hardness,
         position,
     };
@@ -86,6 +87,7 @@ pub fn rooms() -> Vec<Room> {
         room,
         name: name.into(),
         layer: None,
+        facing: None,
         rect,
         height,
         width,

@@ -116,6 +116,18 @@ impl Fields<'_, '_> {
         }
     }
 
+    /// True or false under a key that must be there.
+    pub fn truth(&self, key: &str, problems: &mut Vec<Problem>) -> Option<bool> {
+        let value = self.require(key, problems)?;
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(*truth),
+            other => {
+                problems.push(self.wrong_type(key, "true or false", other, value.span()));
+                None
+            }
+        }
+    }
+
     /// Exactly `N` finite numbers under a key that must be there.
     pub fn numbers<const N: usize>(
         &self,
