@@ -32,10 +32,11 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/20-prime-areas.sql"),
         include_str!("../sql/v2/21-rooms-passable.sql"),
         include_str!("../sql/v2/22-conclusions.sql"),
-        include_str!("../sql/v2/30-fleet.sql"),
         include_str!("../sql/v2/31-told.sql"),
         include_str!("../sql/v2/32-hours.sql"),
         include_str!("../sql/v2/33-tunings.sql"),
+        include_str!("../sql/v2/40-fleet.sql"),
+        include_str!("../sql/v2/50-in-force.sql"),
     ],
 ];
 

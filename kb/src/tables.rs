@@ -30,6 +30,11 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
 }
 
+/// The class HOURS of a site where nothing has hours.
+fn hours() -> Table {
+    Table::default().with("name", Column::Text(Vec::new())).with("open", Column::Truth(Vec::new()))
+}
+
 /// What the robots can carry as a class.
 pub fn loads(loads: &[Load]) -> Table {
     Table::default()
@@ -40,18 +45,13 @@ pub fn loads(loads: &[Load]) -> Table {
         .with("carried", loads.iter().map(|row| row.carried).collect::<Column>())
 }
 
-/// The class HOURS of a site where nothing has hours.
-fn hours() -> Table {
-    Table::default().with("name", Column::Text(Vec::new())).with("open", Column::Truth(Vec::new()))
-}
-
 /// The classes that every site tells, of one that was never built: without objects.
 pub fn unbuilt() -> Facts {
     Facts::from([
         ("ROBOTS".to_owned(), robots(&[])),
         ("CHANGES".to_owned(), changes(&[])),
-        ("LOADS".to_owned(), loads(&[])),
         ("HOURS".to_owned(), hours()),
+        ("LOADS".to_owned(), loads(&[])),
     ])
 }
 

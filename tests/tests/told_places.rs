@@ -74,7 +74,7 @@ fn distance([x, y]: [f64; 2], [x0, y0, x1, y1]: [f64; 4]) -> f64 {
 }
 
 fn is_upright([x0, _, x1, _]: [f64; 4]) -> bool {
-    x0 == x1
+    (x1 - x0).abs() < 1e-9
 }
 
 /// Checks that just the doors at the told place are closed; whether there is one.
@@ -123,9 +123,9 @@ fn a_closed_door_survives_ten_random_edits_of_the_map_or_is_reported() {
             map.write(&site);
             let report = open().build(&Silent).unwrap();
             if check(&site, report.lost.len(), &format!("seed {seed}, step {step}")) {
-                kept += 1
+                kept += 1;
             } else {
-                lost += 1
+                lost += 1;
             }
         }
     }

@@ -17,29 +17,6 @@ CREATE VIEW cells_in_force AS
 SELECT c.table_name AS table_name, c.key AS key, c.column_name AS column_name, c.value AS value, c.tuning AS tuning
 FROM active_tunings AS a JOIN tuning_cells AS c ON c.tuning = a.tuning;
 
-CREATE VIEW robots_in_force AS
-SELECT r.robot AS robot, r.state AS state,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'action'), r.action) AS action,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'height'), r.height) AS height,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'width'), r.width) AS width,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'length'), r.length) AS length,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'hardness'), r.hardness) AS hardness,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'robots' AND key = r.robot || '/' || r.state
-            AND column_name = 'position'), r.position) AS position
-FROM robots AS r;
-
-CREATE VIEW changes_in_force AS
-SELECT c.robot AS robot, c.from_state AS from_state, c.to_state AS to_state,
-  coalesce((SELECT value FROM cells_in_force WHERE table_name = 'changes'
-            AND key = c.robot || '/' || c.from_state || '/' || c.to_state AND column_name = 'hardness'),
-           c.hardness) AS hardness
-FROM changes AS c;
-
 CREATE TRIGGER stale_tuning_cells_insert AFTER INSERT ON tuning_cells WHEN (SELECT NOT quiet FROM writer) BEGIN
   INSERT OR IGNORE INTO stale_marks VALUES ('tuning_cells', NEW.tuning);
 END;

@@ -68,7 +68,14 @@ pub fn apply(
         return json(&value);
     }
     let doing = if rehearse { "would be: " } else { "" };
-    line(&format!("{doing}{}: {} → {}", done.key, done.old, done.new));
+    match edit {
+        Edit::Tell(_) => line(&format!("{doing}fact {} is told", done.key)),
+        Edit::Retract(_) => line(&format!("{doing}fact {} is taken back", done.key)),
+        Edit::Switch(tuning, on) => {
+            line(&format!("{doing}tuning {tuning} is {}", if *on { "on" } else { "off" }));
+        }
+        _ => line(&format!("{doing}{}: {} → {}", done.key, done.old, done.new)),
+    }
     changes(&report);
     Ok(())
 }
