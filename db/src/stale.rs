@@ -38,6 +38,13 @@ pub async fn mark_fresh(connection: &mut SqliteConnection) -> Result<()> {
     Ok(())
 }
 
+/// Marks a table as edited by someone who follows it up later.
+pub async fn mark_stale(connection: &mut SqliteConnection, table: &str) -> Result<()> {
+    let mark = sqlx::query("INSERT OR IGNORE INTO stale_marks VALUES (?, '')").bind(table);
+    mark.execute(connection).await?;
+    Ok(())
+}
+
 /// Writes in bulk: one mark for the whole table instead of one a row.
 pub(crate) async fn in_bulk<T>(
     connection: &mut SqliteConnection,
@@ -47,8 +54,7 @@ pub(crate) async fn in_bulk<T>(
     sqlx::query("UPDATE writer SET quiet = 1").execute(&mut *connection).await?;
     let result = write(connection).await;
     sqlx::query("UPDATE writer SET quiet = 0").execute(&mut *connection).await?;
-    let mark = sqlx::query("INSERT OR IGNORE INTO stale_marks VALUES (?, '')").bind(table);
-    mark.execute(connection).await?;
+    mark_stale(connection, table).await?;
     result
 }
 
@@ -106,6 +112,11 @@ impl Tx<'_> {
     /// Whether what is stored does not hold any more: by an edit, or by the clock.
     pub fn is_stale(&mut self) -> Result<bool> {
         self.run(is_stale)
+    }
+
+    /// Says that a table was edited and will be followed up later.
+    pub fn mark_stale(&mut self, table: &str) -> Result<()> {
+        self.run(async |connection| mark_stale(connection, table).await)
     }
 
     /// Says that what is stored now follows from the tables as they are: the last step of a build.

@@ -106,19 +106,7 @@ impl KnowledgeBase {
 
     fn answer(&self, tx: &mut Tx<'_>, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = pick_robot(tx, robot)?;
-        let generation = generation::read(tx)?;
-        let mut answer = Answer {
-            status: Status::Ok,
-            robot: robot.clone(),
-            start: start.to_owned(),
-            goal: goals.join(" "),
-            generation,
-            cost: None,
-            distance: None,
-            reason: None,
-            steps: Vec::new(),
-            waypoints: Vec::new(),
-        };
+        let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
         if let Some(route) = kept(tx, &robot, start, goals)? {
             answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
             (answer.cost, answer.distance) = (route.cost, route.distance);
@@ -128,17 +116,51 @@ impl KnowledgeBase {
             return Ok(answer);
         }
         let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
-        let rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
-        self.search(tx, (&graph, &rules), goals, answer)
+        let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
+        let states = states::in_force(tx)?;
+        let (world, _, _) = self.site().world()?;
+        let gauge = Gauge::new(&world, &states);
+        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, world: &world, gauge: &gauge };
+        basis.search(goals, answer)
     }
+}
 
-    fn search(
-        &self,
-        tx: &mut Tx<'_>,
-        (graph, rules): (&SiteGraph, &Rules),
-        names: &[String],
-        mut answer: Answer,
-    ) -> Result<Answer> {
+impl Answer {
+    /// An answer of which no more is known than the question.
+    pub(crate) fn blank(robot: &str, start: &str, goals: &[String], generation: u64) -> Self {
+        Self {
+            status: Status::Ok,
+            robot: robot.to_owned(),
+            start: start.to_owned(),
+            goal: goals.join(" "),
+            generation,
+            cost: None,
+            distance: None,
+            reason: None,
+            steps: Vec::new(),
+            waypoints: Vec::new(),
+        }
+    }
+}
+
+/// What routes are found with.
+pub(crate) struct Basis<'a> {
+    /// The site.
+    pub knowledge: &'a KnowledgeBase,
+    /// Its rooms and doors.
+    pub graph: &'a SiteGraph,
+    /// The rules' names.
+    pub rules: &'a Rules,
+    /// The map.
+    pub world: &'a World,
+    /// What measures clearances.
+    pub gauge: &'a Gauge,
+}
+
+impl Basis<'_> {
+    /// The route to the one of the goals that costs least, into the answer.
+    pub fn search(&self, names: &[String], mut answer: Answer) -> Result<Answer> {
+        let Self { graph, rules, .. } = self;
         let mut ends = Vec::new();
         for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
             let Some(end) = graph.end(name) else {
@@ -150,20 +172,20 @@ impl KnowledgeBase {
             };
             ends.push(end);
         }
-        let (world, _, _) = self.site().world()?;
         for end in &ends {
-            check_point(&world, end)?;
+            check_point(self.world, end)?;
         }
         let start = graph.start(&ends[0], Some(&answer.robot));
         let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(&answer.robot))).collect();
         let Some((goal, way)) = graph.graph().way(&start, &goals) else {
             answer.status = Status::NoRoute;
-            answer.reason = Some(reason::no_route(self, graph, rules, &start, &ends, &answer.robot)?);
+            let reason = reason::no_route(self.knowledge, graph, rules, &start, &ends, &answer.robot)?;
+            answer.reason = Some(reason);
             return Ok(answer);
         };
         answer.goal.clone_from(&names[goal]);
         answer.steps = steps::steps(graph, rules, &way, goals[goal].at.is_some());
-        answer.waypoints = steps::waypoints(graph, &way, &Gauge::new(&world, &states::in_force(tx)?));
+        answer.waypoints = steps::waypoints(graph, &way, self.gauge);
         answer.cost = Some(way.cost);
         answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
         answer.status = if way.legs.len() == 1 { Status::SameRoom } else { Status::Ok };
@@ -207,6 +229,11 @@ fn check_point(world: &World, end: &End) -> Result<()> {
 pub(crate) fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String> {
     let mut robots: Vec<String> = tx.states()?.into_iter().map(|state| state.robot).collect();
     robots.dedup();
+    pick(&robots, wanted)
+}
+
+/// The robot of these that is meant, or the only one.
+pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
     match wanted {
         Some(name) if robots.iter().any(|robot| robot == name) => Ok(name.to_owned()),
         Some(name) => {
@@ -218,7 +245,7 @@ pub(crate) fn pick_robot(tx: &mut Tx<'_>, wanted: Option<&str>) -> Result<String
                 format!("the site has several robots: say which with --robot ({})", robots.join(", "));
             Err(Error::said("route/which-robot", message, None))
         }
-        None => robots.pop().ok_or_else(|| {
+        None => robots.first().cloned().ok_or_else(|| {
             Error::said(
                 "route/unbuilt",
                 "the site has no robot yet",

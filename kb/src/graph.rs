@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use adit_db::Derived;
 use adit_db::door::Door;
 use adit_db::place::Place;
 use adit_db::room::Room;
@@ -42,7 +43,7 @@ impl SiteGraph {
             rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
         let room_by_name = rooms.iter().enumerate().map(|(index, room)| (room.name.clone(), index)).collect();
         let route_rooms =
-            rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking(room) }).collect();
+            rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking_in(room) }).collect();
         let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
         let graph = RouteGraph::new(route_rooms, route_doors);
         Self { rooms, doors, places, graph, room_by_key, room_by_name }
@@ -51,6 +52,30 @@ impl SiteGraph {
     /// The graph that is searched.
     pub fn graph(&self) -> &RouteGraph {
         &self.graph
+    }
+
+    /// Weighs rooms and doors anew, by index, for searches; the rows stay as they are.
+    pub fn reweigh<'w>(
+        &mut self,
+        rooms: impl IntoIterator<Item = (usize, &'w Derived<f64>, &'w Derived<bool>)>,
+        doors: impl IntoIterator<Item = (usize, &'w Derived<f64>, &'w Derived<bool>)>,
+    ) {
+        let rows = &self.rooms;
+        let walking = |(room, hardness, passable): (usize, &Derived<f64>, &Derived<bool>)| {
+            (room, walking(hardness.value, passable.value, rows[room].layer.is_some()))
+        };
+        let passage = |(door, hardness, passable): (usize, &Derived<f64>, &Derived<bool>)| {
+            (door, hardness.value, passable.value.unwrap_or(false))
+        };
+        self.graph.reweigh(rooms.into_iter().map(walking), doors.into_iter().map(passage));
+    }
+
+    /// Takes back what [`reweigh`](Self::reweigh) did.
+    pub fn reweigh_as_rows_say(&mut self) {
+        let rooms = self.rooms.iter().map(walking_in).enumerate();
+        let doors = self.doors.iter().map(|door| (door.hardness.value, door.passable.value.unwrap_or(false)));
+        let doors = doors.enumerate().map(|(door, (hardness, passable))| (door, hardness, passable));
+        self.graph.reweigh(rooms, doors);
     }
 
     /// Index of the room with this key.
@@ -155,7 +180,7 @@ impl SiteGraph {
 
 /// Whether a room can be walked in: its hardness is known and it is passable, as with doors.
 pub fn is_weighed(room: &Room) -> bool {
-    walking(room) != Walking::Unknown
+    walking_in(room) != Walking::Unknown
 }
 
 fn rect_of(room: &Room) -> Rect {
@@ -165,15 +190,19 @@ fn rect_of(room: &Room) -> Rect {
 
 /// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh
 /// metres only where a rule says so. Rooms that are not passable, or not known to be, are not entered.
-fn walking(room: &Room) -> Walking {
-    if room.passable.value != Some(true) {
+fn walking(hardness: Option<f64>, passable: Option<bool>, of_state: bool) -> Walking {
+    if passable != Some(true) {
         return Walking::Unknown;
     }
-    match (room.hardness.value, &room.layer) {
+    match (hardness, of_state) {
         (Some(hardness), _) => Walking::PerMetre(hardness),
-        (None, Some(_)) => Walking::Unknown,
-        (None, None) => Walking::OnDoors,
+        (None, true) => Walking::Unknown,
+        (None, false) => Walking::OnDoors,
     }
+}
+
+fn walking_in(room: &Room) -> Walking {
+    walking(room.hardness.value, room.passable.value, room.layer.is_some())
 }
 
 fn route_door(door: &Door, rooms: &BTreeMap<i64, usize>) -> Option<RouteDoor> {

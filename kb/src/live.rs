@@ -6,15 +6,18 @@ mod routes;
 use std::time::Instant;
 
 use adit_db::history::Author;
+use adit_db::stale::Mark;
 use adit_db::{Store, Tx};
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity, Value};
 use adit_planners::facts::{Column, Facts};
 
+use crate::answer::{self, Answer};
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::gauge::Gauge;
 use crate::generation::{self, Basis};
+use crate::graph::Rules;
 use crate::grounds::Numbering;
 use crate::inputs::Inputs;
 use crate::knowledge::{KnowledgeBase, keep_standings};
@@ -52,6 +55,10 @@ struct Memory {
     kept: Kept,
     routes: KeptRoutes,
     gauge: Gauge,
+    /// The rules' names, by number.
+    rules: Rules,
+    /// Whether the kept routes are older than rooms and doors.
+    routes_due: bool,
 }
 
 /// What an edit did.
@@ -67,11 +74,16 @@ pub struct Outcome {
     pub doors: usize,
     /// Rows of routes that were written.
     pub tree_rows: usize,
+    /// Whether the kept routes are stale until [`Live::renew_routes`]; [`Live::route`] is right at once.
+    pub routes_due: bool,
     /// Whether the whole site was derived anew, since what planners need changed.
     pub anew: bool,
     /// What was done, and how long it took.
     pub stages: Vec<Stage>,
 }
+
+/// The mark of routes that have yet to follow.
+const ROUTES: &str = "routes";
 
 /// Why an edit ends before it is committed.
 enum Stop {
@@ -160,6 +172,51 @@ impl Live {
         self.edit(&Edit::Retract(fact), author)
     }
 
+    /// The route of least hardness to the one of several goals that costs least, with everything that was edited so far.
+    /// Nothing is read but memory.
+    pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        let memory = &self.memory;
+        let robot = answer::pick(&memory.robots(), robot)?;
+        let blank = Answer::blank(&robot, start, goals, memory.generation);
+        let basis = answer::Basis {
+            knowledge: &self.site,
+            graph: memory.routes.graph(),
+            rules: &memory.rules,
+            world: &memory.inputs.world,
+            gauge: &memory.gauge,
+        };
+        basis.search(goals, blank)
+    }
+
+    /// Writes the kept routes where edits left them stale; how many rows. Until then SQL says of them that they are.
+    pub fn renew_routes(&mut self) -> Result<u64> {
+        if !self.memory.routes_due {
+            return Ok(0);
+        }
+        let Self { site, store, memory } = self;
+        let written = store.transaction(|tx| -> Result<Option<u64>> {
+            let is_ours = |mark: &Mark| mark.table == ROUTES;
+            if generation::read(tx)? != memory.generation || !tx.stale_marks()?.iter().all(is_ours) {
+                return Ok(None);
+            }
+            let robots = site.robots(tx)?;
+            let written = memory.routes.follow(tx, &robots, site.site().starts.as_ref(), &memory.gauge)?;
+            tx.mark_fresh()?;
+            Ok(written)
+        })?;
+        if let Some(written) = written {
+            memory.routes_due = false;
+            return Ok(written);
+        }
+        let report = site.build(&Silent)?;
+        let Some((store, memory)) = Self::of_built(&self.site)? else {
+            let help = Some("open it again".to_owned());
+            return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
+        };
+        (self.store, self.memory) = (store, memory);
+        Ok(report.routes.rows)
+    }
+
     /// The edit by way of everything, as `adit tune` does it.
     fn edit_anew(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         let (done, report) = self.site.edit(edit, author, false, &Silent)?;
@@ -174,6 +231,7 @@ impl Live {
             rooms: report.rooms.changed,
             doors: report.doors.changed,
             tree_rows: report.routes.rows as usize,
+            routes_due: false,
             anew: true,
             stages: report.stages,
         })
@@ -220,11 +278,12 @@ impl Memory {
             return Ok(None);
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
-        let routes = KeptRoutes::read(tx, graph, plan)?;
+        let routes = KeptRoutes::new(graph, plan);
         let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
         let (knowledge, attached, mut planned) = (derived.knowledge, derived.attached, derived.facts);
         planned.retain(|class, _| !["ROOMS", "DOORS"].contains(&class.as_str()));
         let pending = None;
+        let rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         Ok(Some(Self {
             inputs,
             basis,
@@ -238,6 +297,8 @@ impl Memory {
             kept,
             routes,
             gauge,
+            rules,
+            routes_due: false,
         }))
     }
 
@@ -249,7 +310,8 @@ impl Memory {
         (edit, author): (&Edit, &Author),
         clock: &mut Clock,
     ) -> std::result::Result<(Done, Step), Stop> {
-        if generation::read(tx)? != self.generation || !tx.stale_marks()?.is_empty() {
+        let is_ours = |mark: &Mark| self.routes_due && mark.table == ROUTES;
+        if generation::read(tx)? != self.generation || !tx.stale_marks()?.iter().all(is_ours) {
             return Err(Stop::Anew);
         }
         let done = edit.apply(tx, site, &self.inputs.rules, author)?;
@@ -277,11 +339,7 @@ impl Memory {
         );
         written.write(tx, &numbering)?;
         clock.lap("rows of rooms and doors");
-        let robots = site.robots(tx)?;
-        let wanted = site.site().starts.as_ref();
-        let Some(routes) = self.routes.renew(&written, &robots, wanted, &self.gauge)? else {
-            return Err(Stop::Anew);
-        };
+        let Some(routes) = self.routes.renew(&written) else { return Err(Stop::Anew) };
         clock.lap("search");
         KeptRoutes::write(tx, &routes)?;
         let same = written.rooms.is_empty() && written.doors.is_empty();
@@ -289,6 +347,9 @@ impl Memory {
         keep_standings(tx, &told, &attached)?;
         told.sign(tx)?;
         tx.mark_fresh()?;
+        if self.routes_due || routes.is_due {
+            tx.mark_stale(ROUTES)?;
+        }
         clock.lap("rows of routes");
         Ok((done, Step { told, attached, generation, numbering, written, routes }))
     }
@@ -372,6 +433,14 @@ impl Memory {
         Ok(())
     }
 
+    /// The robots, in the order of their names.
+    fn robots(&self) -> Vec<String> {
+        let states = self.told.classes.get("ROBOTS").and_then(|table| table.texts("robot").ok());
+        let mut robots: Vec<String> = states.into_iter().flatten().flatten().cloned().collect();
+        robots.dedup();
+        robots
+    }
+
     fn check(&self, changes: &Changes) -> Result<()> {
         let graph = self.routes.graph();
         let (rooms, doors) = (changes.rows("ROOMS", "hardness"), changes.rows("DOORS", "hardness"));
@@ -385,11 +454,22 @@ impl Memory {
     fn accept(&mut self, done: Done, step: Step, stages: Vec<Stage>) -> Outcome {
         let (rooms, doors) = (step.written.rooms.len(), step.written.doors.len());
         let tree_rows = step.routes.rows();
+        self.routes_due |= step.routes.is_due;
+        let routes_due = self.routes_due;
         (self.told, self.generation, self.numbering) = (step.told, step.generation, step.numbering);
         (self.attached, self.pending) = (step.attached, None);
         self.routes.accept(&step.written, step.routes);
         self.kept.accept(step.written, &mut self.numbering);
-        Outcome { done, generation: step.generation, rooms, doors, tree_rows, anew: false, stages }
+        Outcome {
+            done,
+            generation: step.generation,
+            rooms,
+            doors,
+            tree_rows,
+            routes_due,
+            anew: false,
+            stages,
+        }
     }
 
     /// Makes an edit undone that was not committed.

@@ -113,6 +113,17 @@ pub struct Ways {
     pub rooms: Vec<Option<Way>>,
 }
 
+/// What passing a door changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Passing {
+    /// Nothing.
+    Free,
+    /// What a metre weighs, or it weighs something itself.
+    Open,
+    /// Nobody passes.
+    Shut,
+}
+
 /// Rooms joined by doors.
 #[derive(Clone, Debug)]
 pub struct RouteGraph {
@@ -122,6 +133,8 @@ pub struct RouteGraph {
     mesh: Mesh,
     /// For each end of a door whether a way may bend there.
     bends: Vec<bool>,
+    /// For each door what passing it changes.
+    passing: Vec<Passing>,
     /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
     gates: Vec<[OnceLock<Box<[Segment]>>; 2]>,
 }
@@ -129,31 +142,31 @@ pub struct RouteGraph {
 impl RouteGraph {
     /// The graph of all doors with a known hardness that are passable; other doors are kept for [`blockage`].
     pub fn new(rooms: Vec<RouteRoom>, doors: Vec<RouteDoor>) -> Self {
-        let mut graph = DiGraph::with_capacity(rooms.len(), doors.len() * 2);
-        for _ in &rooms {
-            graph.add_node(());
-        }
-        for (index, door) in doors.iter().enumerate() {
-            let known = |room: usize| rooms[room].walking != Walking::Unknown;
-            if door.weight().is_some() && known(door.room1) && known(door.room2) {
-                let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
-                graph.add_edge(a, b, index as u32);
-                if !door.one_way {
-                    graph.add_edge(b, a, index as u32);
-                }
-            }
-        }
         let mesh = Mesh::new(&rooms, &doors);
         let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
-        let mut all = Self { rooms, doors, graph, mesh, bends: Vec::new(), gates };
-        all.weigh();
+        let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
+        let graph = DiGraph::default();
+        let mut all = Self { rooms, doors, graph, mesh, bends, passing, gates };
+        all.passing = (0..all.doors.len()).map(|door| all.passing_of(door)).collect();
+        all.find_bends(&(0..all.doors.len()).collect::<Vec<_>>());
+        all.join();
         all
     }
 
-    /// Finds what hangs on the weights.
-    fn weigh(&mut self) {
-        let is_open = |door: usize| self.passage(door).is_some();
-        self.bends = self.mesh.bends(&self.rooms, &self.doors, |door| self.is_free(door), is_open);
+    /// Joins the rooms by the doors that can be passed.
+    fn join(&mut self) {
+        let mut graph = DiGraph::with_capacity(self.rooms.len(), self.doors.len() * 2);
+        for _ in &self.rooms {
+            graph.add_node(());
+        }
+        for (index, door) in self.doors.iter().enumerate().filter(|(index, _)| self.is_open(*index)) {
+            let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
+            graph.add_edge(a, b, index as u32);
+            if !door.one_way {
+                graph.add_edge(b, a, index as u32);
+            }
+        }
+        self.graph = graph;
     }
 
     /// Weighs rooms and doors anew, by index; what is not named stays as it is.
@@ -162,14 +175,62 @@ impl RouteGraph {
         rooms: impl IntoIterator<Item = (usize, Walking)>,
         doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
     ) {
+        let changes_before: Vec<bool> = (0..self.doors.len()).map(|door| self.is_into_easier(door)).collect();
+        let mut is_other_price = false;
         for (room, walking) in rooms {
             self.rooms[room].walking = walking;
         }
         for (door, hardness, passable) in doors {
+            let before = self.doors[door].weight();
             (self.doors[door].hardness, self.doors[door].passable) = (hardness, passable);
+            is_other_price |= self.doors[door].is_change() && self.doors[door].weight() != before;
         }
-        self.gates = vec![[OnceLock::new(), OnceLock::new()]; self.doors.len()];
-        self.weigh();
+        let changed: Vec<usize> =
+            (0..self.doors.len()).filter(|&door| self.passing[door] != self.passing_of(door)).collect();
+        let is_shut = |passing: Passing| passing == Passing::Shut;
+        let mut is_joined_anew = false;
+        for &door in &changed {
+            let now = self.passing_of(door);
+            is_joined_anew |= is_shut(now) != is_shut(self.passing[door]);
+            self.passing[door] = now;
+        }
+        if is_joined_anew {
+            self.join();
+        }
+        self.find_bends(&changed);
+        // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
+        let all = is_other_price || !changed.is_empty();
+        for door in 0..self.doors.len() {
+            if all || changes_before[door] != self.is_into_easier(door) {
+                self.gates[door] = [OnceLock::new(), OnceLock::new()];
+            }
+        }
+    }
+
+    /// Finds about which ends of these doors a way may bend.
+    fn find_bends(&mut self, doors: &[usize]) {
+        let ends = doors.iter().flat_map(|&door| self.mesh.ends[door]).filter(|&end| end != mesh::NONE);
+        let mut ends: Vec<u32> = ends.collect();
+        ends.sort_unstable();
+        ends.dedup();
+        for end in ends {
+            self.bends[end as usize] =
+                self.mesh.bends(&self.rooms, &self.doors, end, |door| self.passing[door]);
+        }
+    }
+
+    fn passing_of(&self, door: usize) -> Passing {
+        if self.is_free(door) {
+            Passing::Free
+        } else if self.passage(door).is_some() {
+            Passing::Open
+        } else {
+            Passing::Shut
+        }
+    }
+
+    fn is_into_easier(&self, door: usize) -> bool {
+        self.per_m(self.doors[door].room2) < self.per_m(self.doors[door].room1)
     }
 
     /// The best way to the goal that costs least, with that goal's index.

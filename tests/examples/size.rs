@@ -5,16 +5,18 @@
 
 use std::time::Instant;
 
-use adit::{KnowledgeBase, Silent};
+use adit::edit::Edit;
+use adit::{Answer, KnowledgeBase, Live, Silent, Status};
+use adit_db::history::Author;
 use adit_tests::floor::{Floor, Kind};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [kind, columns, rows, states, seed @ ..] = arguments.as_slice() else {
         println!(
-            "| floor | pixels | states | rooms | doors | cut | rules | database | all | database | memory |"
+            "| floor | pixels | states | rooms | doors | cut | rules | database | all | database | memory | a route | an edit and the next route |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         return Ok(());
     };
     let made = match kind.as_str() {
@@ -35,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         stage.map_or(String::new(), |stage| format!("{:.2} s", stage.took.as_secs_f64()))
     };
     println!(
-        "| {kind} | {columns} x {rows} | {states} | {} | {} | {} | {} | {} | {:.2} s | {:.1} MB | {} |",
+        "| {kind} | {columns} x {rows} | {states} | {} | {} | {} | {} | {} | {:.2} s | {:.1} MB | {} | {} |",
         report.rooms.total,
         report.doors.total,
         took("rooms by state"),
@@ -44,8 +46,65 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         all.as_secs_f64(),
         std::fs::metadata(knowledge.database())?.len() as f64 / 1e6,
         most_memory().map_or("?".to_owned(), |bytes| format!("{:.0} MB", bytes / 1e6)),
+        driven(Live::open(knowledge)?, (floor.width(), floor.depth()))?,
     );
     Ok(())
+}
+
+/// How long a route takes in a program that holds the site, and how long it is from an edit of one hardness to the next
+/// route: the median and the most of 20 each, across the floor.
+fn driven(mut live: Live, (width, depth): (f64, f64)) -> Result<String, Box<dyn std::error::Error>> {
+    let mut pairs: Vec<[String; 2]> = Vec::new();
+    let mut share = 0.0_f64;
+    // points of a lattice that has no lines in common with walls
+    let mut point = |from: f64, to: f64| {
+        share = (share + 0.618_034).fract();
+        format!(
+            "{:.3},{:.3}",
+            width * (from + (to - from) * share),
+            depth * (0.05 + 0.9 * (share * 7.3).fract())
+        )
+    };
+    for _ in 0..2_000 {
+        let pair = [point(0.02, 0.3), point(0.7, 0.98)];
+        let is_way = |answer: Answer| answer.status == Status::Ok;
+        if live.route(&pair[0], &pair[1..], None).is_ok_and(is_way) {
+            pairs.push(pair);
+        }
+        if pairs.len() == 20 {
+            break;
+        }
+    }
+    let (mut asked, mut edited) = (Vec::new(), Vec::new());
+    for (number, [start, goal]) in pairs.iter().enumerate() {
+        let goals = std::slice::from_ref(goal);
+        let began = Instant::now();
+        live.route(start, goals, None)?;
+        asked.push(began.elapsed());
+        let hardness = (1.0 + 0.01 * (number + 1) as f64).to_string();
+        let cell = ["robots", "WALK", "hardness"].map(str::to_owned);
+        let [table, key, column] = cell;
+        let edit = Edit::Set(table, key, column, hardness);
+        let author = Author { who: "size".to_owned(), why: "measured".to_owned() };
+        let began = Instant::now();
+        let outcome = live.edit(&edit, &author)?;
+        live.route(start, goals, None)?;
+        edited.push(began.elapsed());
+        if std::env::var_os("STAGES").is_some() {
+            let stages = outcome.stages.iter().map(|stage| format!("{} {:.1?}", stage.name, stage.took));
+            eprintln!("{:.1?}: {}", edited.last(), stages.collect::<Vec<_>>().join(", "));
+        }
+    }
+    let told = |times: &mut Vec<std::time::Duration>| {
+        times.sort_unstable();
+        match (times.get(times.len() / 2), times.last()) {
+            (Some(median), Some(most)) => {
+                format!("{:.1} ms (most {:.1})", median.as_secs_f64() * 1e3, most.as_secs_f64() * 1e3)
+            }
+            _ => "no way found".to_owned(),
+        }
+    };
+    Ok(format!("{} | {}", told(&mut asked), told(&mut edited)))
 }
 
 /// The most memory that this process has held, where the system says so (Linux).

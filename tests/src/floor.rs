@@ -179,6 +179,16 @@ impl Floor {
         }
     }
 
+    /// Metres along x.
+    pub fn width(&self) -> f64 {
+        self.columns as f64 * RESOLUTION
+    }
+
+    /// Metres along y.
+    pub fn depth(&self) -> f64 {
+        self.rows as f64 * RESOLUTION
+    }
+
     /// Evenly from 0 to 1 (xorshift).
     fn random(&mut self) -> f64 {
         self.seed ^= self.seed << 13;

@@ -24,19 +24,16 @@ pub struct KeptRoutes {
 enum Trees {
     /// Where all hardness lies on the doors: arrays, and for each tree the rooms that hold the places.
     OnDoors { graph: CompactGraph, trees: Vec<CompactTree>, places: Vec<Vec<Option<usize>>> },
-    /// Where rooms weigh metres: the rows.
-    Rows(Vec<Vec<TreeRow>>),
+    /// Where rooms weigh metres: they are found when they are asked for, and kept ones follow later.
+    Measured,
 }
 
 /// Trees of now, and how their rows differ from those of before.
 pub struct Renewed {
     changes: Vec<TreeChange>,
-    trees: Option<NewTrees>,
-}
-
-enum NewTrees {
-    OnDoors(Vec<CompactTree>),
-    Rows(Vec<Vec<TreeRow>>),
+    trees: Option<Vec<CompactTree>>,
+    /// Whether the kept routes have yet to follow.
+    pub is_due: bool,
 }
 
 impl Renewed {
@@ -48,7 +45,7 @@ impl Renewed {
 
 impl KeptRoutes {
     /// Takes the graph of a built site, and its trees.
-    pub fn read(tx: &mut Tx<'_>, graph: SiteGraph, plan: Plan) -> Result<Self> {
+    pub fn new(graph: SiteGraph, plan: Plan) -> Self {
         let trees = if let Some(compact) = CompactGraph::new(graph.graph()) {
             let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
             let place = |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
@@ -57,13 +54,9 @@ impl KeptRoutes {
             let places = plan.roots.iter().map(places).collect();
             Trees::OnDoors { graph: compact, trees, places }
         } else {
-            let mut rows = Vec::new();
-            for tree in 1..=plan.roots.len() as i64 {
-                rows.push(tx.tree_rows(tree)?);
-            }
-            Trees::Rows(rows)
+            Trees::Measured
         };
-        Ok(Self { graph, plan, trees })
+        Self { graph, plan, trees }
     }
 
     /// The graph.
@@ -71,19 +64,12 @@ impl KeptRoutes {
         &self.graph
     }
 
-    /// The routes over the doors and rooms as they now weigh; `None` where others have to be kept than before.
+    /// The routes over the doors and rooms as they now weigh; `None` where ways are measured from now on, or no longer.
     ///
-    /// # Arguments
-    /// `robots` are the robots of the site; `wanted` is what `site.toml` says of starts.
-    pub fn renew(
-        &mut self,
-        written: &Written,
-        robots: &[String],
-        wanted: Option<&Starts>,
-        gauge: &Gauge,
-    ) -> Result<Option<Renewed>> {
+    /// Where they are, what is asked from now on is found with the new weights; the kept routes are due.
+    pub fn renew(&mut self, written: &Written) -> Option<Renewed> {
         if written.doors.is_empty() && written.rooms.is_empty() {
-            return Ok(Some(Renewed { changes: Vec::new(), trees: None }));
+            return Some(Renewed { changes: Vec::new(), trees: None, is_due: false });
         }
         let is_on_doors = |(_, room): &(usize, RoomWeight)| {
             room.hardness.value.is_none() && room.passable.value == Some(true)
@@ -100,37 +86,36 @@ impl KeptRoutes {
                 let changes = changes.map(|((now, before), ((_, start), places))| {
                     differences(site, (before, now), start.at, places)
                 });
-                Ok(Some(Renewed { changes: changes.collect(), trees: Some(NewTrees::OnDoors(now)) }))
+                Some(Renewed { changes: changes.collect(), trees: Some(now), is_due: false })
             }
-            _ => self.renew_rows(written, robots, wanted, gauge),
+            Trees::OnDoors { .. } => None,
+            Trees::Measured => {
+                let rooms = written.rooms.iter().map(|(row, of)| (*row, &of.hardness, &of.passable));
+                let doors = written.doors.iter().map(|(row, of)| (*row, &of.hardness, &of.passable));
+                self.graph.reweigh(rooms, doors);
+                Some(Renewed { changes: Vec::new(), trees: None, is_due: true })
+            }
         }
     }
 
-    fn renew_rows(
+    /// Writes the kept routes as they now are, where ways are measured; how many rows. `None` where others have to be
+    /// kept than before.
+    pub fn follow(
         &self,
-        written: &Written,
+        tx: &mut Tx<'_>,
         robots: &[String],
         wanted: Option<&Starts>,
         gauge: &Gauge,
-    ) -> Result<Option<Renewed>> {
-        let (mut rooms, mut doors) = (self.graph.rooms.clone(), self.graph.doors.clone());
-        for (row, weight) in &written.rooms {
-            rooms[*row].hardness = weight.hardness.clone();
-            rooms[*row].passable = weight.passable.clone();
-        }
-        for (row, weight) in &written.doors {
-            doors[*row].hardness = weight.hardness.clone();
-            doors[*row].passable = weight.passable.clone();
-        }
-        let graph = SiteGraph::new(rooms, doors, self.graph.places.clone());
-        let plan = trees::plan(&graph, robots, wanted)?;
-        let Trees::Rows(before) = &self.trees else { return Ok(None) };
+    ) -> Result<Option<u64>> {
+        let plan = trees::plan(&self.graph, robots, wanted)?;
         if plan.starts != self.plan.starts {
             return Ok(None);
         }
-        let now = trees::rows(&graph, &plan.roots, gauge);
-        let changes = now.iter().zip(before).map(|(now, before)| row_differences(before, now)).collect();
-        Ok(Some(Renewed { changes, trees: Some(NewTrees::Rows(now)) }))
+        let mut written = 0;
+        for (tree, rows) in (1..).zip(trees::rows(&self.graph, &plan.roots, gauge)) {
+            written += tx.put_tree(tree, rows)?;
+        }
+        Ok(Some(written))
     }
 
     /// Writes the rows that differ.
@@ -155,19 +140,20 @@ impl KeptRoutes {
             (door.hardness, door.action) = (weight.hardness.clone(), weight.action.clone());
             door.passable = weight.passable.clone();
         }
-        match (renewed.trees, &mut self.trees) {
-            (Some(NewTrees::OnDoors(now)), Trees::OnDoors { trees, .. }) => *trees = now,
-            (Some(NewTrees::Rows(now)), Trees::Rows(rows)) => *rows = now,
-            _ => {}
+        if let (Some(now), Trees::OnDoors { trees, .. }) = (renewed.trees, &mut self.trees) {
+            *trees = now;
         }
     }
 
-    /// Gives the doors the weights of before an edit that was not committed.
+    /// Gives rooms and doors the weights of before an edit that was not committed.
     pub fn take_back(&mut self) {
-        if let Trees::OnDoors { graph, .. } = &mut self.trees {
-            for (row, door) in self.graph.doors.iter().enumerate() {
-                graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
+        match &mut self.trees {
+            Trees::OnDoors { graph, .. } => {
+                for (row, door) in self.graph.doors.iter().enumerate() {
+                    graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
+                }
             }
+            Trees::Measured => self.graph.reweigh_as_rows_say(),
         }
     }
 }
@@ -281,17 +267,4 @@ fn room_row(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) ->
         heading: trees::heading(arrival(graph, tree, last, start), at),
         ..row
     })
-}
-
-/// The rows that differ between two lists, both by node.
-fn row_differences(before: &[TreeRow], now: &[TreeRow]) -> TreeChange {
-    let mut change = TreeChange::default();
-    let (mut old, mut new) = (before.iter().peekable(), now.iter().peekable());
-    loop {
-        let (left, right) = (old.peek().map(|row| row.node), new.peek().map(|row| row.node));
-        let Some(node) = left.into_iter().chain(right).min() else { return change };
-        let before = old.next_if(|row| row.node == node).copied();
-        let now = new.next_if(|row| row.node == node).copied();
-        note(&mut change, node, before, now);
-    }
 }

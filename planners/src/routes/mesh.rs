@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{RouteDoor, RouteRoom};
+use super::{Passing, RouteDoor, RouteRoom};
 use crate::geometry::Point;
 
 /// No room, door or end.
@@ -95,32 +95,38 @@ impl Mesh {
         Self { portals, changes, changes_into, layer, ends, at_end, points }
     }
 
-    /// For each end whether a taut way may bend there.
+    /// How many ends of doors there are.
+    pub fn ends_count(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether a taut way may bend at an end.
     ///
     /// # Arguments
-    /// `is_free` says of a door whether passing it changes nothing, `is_open` whether it can be passed.
+    /// `passing` says of a door what passing it changes.
     pub fn bends(
         &self,
         rooms: &[RouteRoom],
         doors: &[RouteDoor],
-        is_free: impl Fn(usize) -> bool,
-        is_open: impl Fn(usize) -> bool,
-    ) -> Vec<bool> {
-        let bends = |end: usize, counts: &dyn Fn(usize) -> bool| {
-            let passed: Vec<&RouteDoor> = self.at_end[end]
-                .iter()
-                .filter(|&&door| counts(door as usize))
-                .map(|&door| &doors[door as usize])
-                .collect();
-            let mut around: Vec<usize> = passed.iter().flat_map(|door| [door.room1, door.room2]).collect();
+        end: u32,
+        passing: impl Fn(usize) -> Passing,
+    ) -> bool {
+        let all = &self.at_end[end as usize];
+        let bends = |counts: &dyn Fn(Passing) -> bool| {
+            let passed = || all.iter().filter(|&&door| counts(passing(door as usize)));
+            let mut around: Vec<usize> =
+                passed().flat_map(|&door| [doors[door as usize].room1, doors[door as usize].room2]).collect();
             around.sort_unstable();
             around.dedup();
-            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room], self.points[end])).sum();
+            let at = self.points[end as usize];
+            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room], at)).sum();
             // free ground all around, joined all around: there is nothing to bend about
-            let is_whole = quarters == 4 && passed.len() >= around.len() && around.len() > 2;
+            let is_whole = quarters == 4 && passed().count() >= around.len() && around.len() > 2;
             quarters > 2 && !is_whole
         };
-        (0..self.points.len()).map(|end| bends(end, &is_free) || bends(end, &is_open)).collect()
+        bends(&|passing| passing == Passing::Free)
+            || all.iter().any(|&door| passing(door as usize) == Passing::Open)
+                && bends(&|passing| passing != Passing::Shut)
     }
 }
 
