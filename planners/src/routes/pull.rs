@@ -354,7 +354,8 @@ fn taut(from: Point, doors: &[Opening], to: Point) -> Vec<Point> {
 /// The first end of a door about which a string from `apex` through the doors bends, and that door. The doors are seen
 /// through one another until one is not.
 fn next_corner(apex: Point, doors: &[Opening], to: Point) -> Option<(Point, usize)> {
-    let (mut left, mut right): (Option<(Point, usize)>, Option<(Point, usize)>) = (None, None);
+    let mut left: Option<(Point, usize)> = None;
+    let mut right: Option<(Point, usize)> = None;
     for (index, door) in doors.iter().enumerate() {
         // a door at the apex itself narrows nothing
         if door.segment.nearest_to(apex).distance(apex) <= EPSILON {
