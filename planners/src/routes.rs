@@ -23,7 +23,7 @@ use std::sync::OnceLock;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::geometry::{Point, Rect};
-use cone::Segment;
+use gates::Gate;
 use mesh::Mesh;
 use taut::{Outcome, Search, Wanted};
 
@@ -136,7 +136,7 @@ pub struct RouteGraph {
     /// For each door what passing it changes.
     passing: Vec<Passing>,
     /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
-    gates: Vec<[OnceLock<Box<[Segment]>>; 2]>,
+    gates: Vec<[OnceLock<Box<[Gate]>>; 2]>,
 }
 
 impl RouteGraph {

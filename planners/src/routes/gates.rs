@@ -5,53 +5,115 @@ use super::mesh::EPSILON;
 use super::{RouteGraph, Walking};
 use crate::geometry::{Point, Rect};
 
+/// So far a way into the harder state has to lead on beyond a gate, metres, unless a goal lies near: along every wall there
+/// is a strip in which only a slimmer state fits, and which leads nowhere.
+const DEEP_M: f64 = 0.5;
+
+/// An area that ends so near to the rim of the easier state's space, metres, ends at the rim: changes thinner than that may be
+/// left out beside others.
+const THIN_M: f64 = 0.3;
+
+/// Where a change may pay.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gate {
+    pub segment: Segment,
+    /// Whether the harder state has room beyond it for more than half a metre.
+    pub is_deep: bool,
+}
+
 impl RouteGraph {
     /// The segments on which the change `door` is begun from the room `from`.
     ///
     /// As long as the easier state has room, nobody leaves it, and as soon as it has, everybody takes it: so a shape
-    /// is changed where the easier of the two rooms ends and none like it follows. And where the area in which it
-    /// can be changed at this price ends though both rooms go on.
-    pub(super) fn gates(&self, door: usize, from: usize) -> &[Segment] {
+    /// is changed where the easier of the two rooms ends and none like it follows; and where the change gets
+    /// another price.
+    pub(super) fn gates(&self, door: usize, from: usize) -> &[Gate] {
         let RouteDoorSides { to, side } = self.sides(door, from);
         self.gates[door][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
-            for side in sides(&self.doors()[door].crossing) {
-                let rim = self.rim(easier, side);
+            let area = self.doors()[door].crossing;
+            for side in sides(&area) {
+                let mut rim = self.rim(easier, side);
                 let mut known = self.rim(harder, side);
                 known.extend(rim.iter().copied());
-                known.extend(self.beside(door, (from, to), side));
-                gates.extend(rim);
-                gates.extend(without(side, &known));
+                let (alike, otherwise) = self.beside(door, (from, to), side);
+                known.extend(alike);
+                for end in without(side, &known) {
+                    let on = self.deep(easier, end, area.centre(), THIN_M);
+                    rim.extend(without(end, &on));
+                }
+                let deep = |segment: Segment| Gate { segment, is_deep: true };
+                gates.extend(otherwise.into_iter().map(deep));
+                if easier == to {
+                    gates.extend(rim.into_iter().map(deep));
+                    continue;
+                }
+                for segment in rim {
+                    let parts = self.deep(to, segment, area.centre(), DEEP_M);
+                    let shallow = without(segment, &parts).into_iter();
+                    gates.extend(parts.into_iter().map(deep));
+                    gates.extend(shallow.map(|segment| Gate { segment, is_deep: false }));
+                }
             }
             gates.into()
         })
     }
 
-    /// The parts of a side of a change's area beyond which the same change is possible.
-    fn beside(&self, door: usize, (from, to): (usize, usize), side: Segment) -> Vec<Segment> {
+    /// The parts of a segment from which a room and those behind it go on for so many metres, away from a point.
+    fn deep(&self, room: usize, segment: Segment, away_from: Point, metres: f64) -> Vec<Segment> {
+        let rect = &self.rooms()[room].rect;
+        let upright = (segment.a.x - segment.b.x).abs() <= EPSILON;
+        let (at, from) = if upright { (segment.a.x, away_from.x) } else { (segment.a.y, away_from.y) };
+        let (low, high) = if upright { (rect.x0, rect.x1) } else { (rect.y0, rect.y1) };
+        let far = if at > from { high } else { low };
+        let depth = (far - at).abs();
+        if depth >= metres - EPSILON {
+            return vec![segment];
+        }
+        let line = |p: Point| if upright { Point::new(far, p.y) } else { Point::new(p.x, far) };
+        let beyond = Segment { a: line(segment.a), b: line(segment.b) };
+        let back = |p: Point| if upright { Point::new(at, p.y) } else { Point::new(p.x, at) };
+        let mut parts = Vec::new();
+        for exit in
+            self.mesh.portals.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
+        {
+            let door = Segment::of(&self.doors()[exit.door as usize].crossing);
+            let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
+            let on = |p: Point| beyond.nearest_to(p).distance(p) <= EPSILON;
+            if on(a) && on(b) && a.distance(b) > EPSILON {
+                let further = self.deep(exit.to as usize, Segment { a, b }, away_from, metres - depth);
+                parts.extend(further.into_iter().map(|part| Segment { a: back(part.a), b: back(part.b) }));
+            }
+        }
+        parts
+    }
+
+    /// The parts of a side of a change's area beyond which the same change is possible; and those beyond which it has
+    /// another price, or is shut.
+    fn beside(&self, door: usize, (from, to): (usize, usize), side: Segment) -> (Vec<Segment>, Vec<Segment>) {
         let area = self.doors()[door].crossing;
         let weight = self.passage(door);
         let free = self.mesh.portals.of(from).iter().filter(|exit| self.is_free(exit.door as usize));
         let rooms = std::iter::once(from).chain(free.map(|exit| exit.to as usize));
-        let mut found = Vec::new();
+        let (mut alike, mut otherwise) = (Vec::new(), Vec::new());
         for exit in rooms.flat_map(|room| self.mesh.changes.of(room)) {
             let (other, room) = (exit.door as usize, exit.to as usize);
-            let is_like = other != door
-                && self.mesh.layer[room] == self.mesh.layer[to]
-                && self.per_m(room).to_bits() == self.per_m(to).to_bits()
-                && self.passage(other) == weight;
+            let is_of_layer = other != door && self.mesh.layer[room] == self.mesh.layer[to];
+            let is_like =
+                self.per_m(room).to_bits() == self.per_m(to).to_bits() && self.passage(other) == weight;
             let beside = &self.doors()[other].crossing;
             // a change back and forth may lie in the same area
-            if is_like && beside != &area {
+            if is_of_layer && beside != &area {
                 let (a, b) = (beside.nearest_to(side.a), beside.nearest_to(side.b));
                 let on = |p: Point| side.nearest_to(p).distance(p) <= EPSILON;
                 if on(a) && on(b) && a.distance(b) > EPSILON {
-                    found.push(Segment { a, b });
+                    let into = if is_like { &mut alike } else { &mut otherwise };
+                    into.push(Segment { a, b });
                 }
             }
         }
-        found
+        (alike, otherwise)
     }
 
     fn sides(&self, door: usize, from: usize) -> RouteDoorSides {

@@ -3,6 +3,7 @@
 
 use super::RouteGraph;
 use super::cone::{Gap, Segment, View, cross};
+use super::gates::Gate;
 use super::mesh::{EPSILON, NONE};
 use super::way::Way;
 use crate::geometry::Point;
@@ -33,8 +34,9 @@ impl Link {
         let of = &graph.doors()[door];
         let before = if of.room1 == room { of.room2 } else { of.room1 };
         if of.is_change() {
-            let gate = graph.gates(door, before).iter().find(|gate| gate.nearest_to(at).distance(at) <= 1e-6);
-            let segment = gate.copied().unwrap_or(Segment { a: at, b: at });
+            let mut gates = graph.gates(door, before).iter().map(|gate| gate.segment);
+            let gate = gates.find(|gate| gate.nearest_to(at).distance(at) <= 1e-6);
+            let segment = gate.unwrap_or(Segment { a: at, b: at });
             return Self { door, segment, at, room, is_straight: false };
         }
         let is_straight = graph.per_m(room).to_bits() == graph.per_m(before).to_bits();
@@ -281,7 +283,7 @@ impl Chain<'_> {
                 }
                 if is_change {
                     let gates = graph.gates(door, room).iter();
-                    let link = |segment: &Segment| Link { door, segment: *segment, room: to, ..*stop };
+                    let link = |gate: &Gate| Link { door, segment: gate.segment, room: to, ..*stop };
                     found.extend(gates.map(link));
                 } else {
                     found.push(Link {

@@ -10,6 +10,7 @@ use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View};
+use super::gates::Gate;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::{Goal, RouteGraph, Start};
 use crate::geometry::Point;
@@ -17,6 +18,12 @@ use crate::geometry::Point;
 /// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
 /// to the best place afterwards.
 const APART_M: f64 = 0.5;
+
+/// A strip along a wall may be entered so near to a goal, metres: the goal may lie in it.
+const NEAR_M: f64 = 2.0;
+
+/// A change so near to a point is one at the point, metres: thin ones may be left out beside others.
+const CLOSE_M: f64 = 0.3;
 
 /// Ways that cost more than the best by at most this share are looked for, too: sliding may turn their order about.
 const SLACK: f64 = 0.02;
@@ -300,18 +307,19 @@ impl<'g> Search<'g> {
         })
     }
 
-    /// Whether walking in an easier state, and changing at the point, costs less.
+    /// Whether walking in an easier state, and changing at the point or close to it, costs less.
     fn is_cheaper_by_a_change(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
         self.graph.mesh.changes_into.of(room).iter().any(|exit| {
             let from = exit.to as usize;
             let easier = self.graph.per_m(from);
-            easier <= per_m
-                && !self.reached[from].is_empty()
-                && self.graph.doors()[exit.door as usize].crossing.contains(p)
-                && self
-                    .graph
-                    .passage(exit.door as usize)
-                    .is_some_and(|weight| self.is_cheaper_in(from, p, limit - weight, easier))
+            if easier > per_m || self.reached[from].is_empty() {
+                return false;
+            }
+            let near = self.graph.doors()[exit.door as usize].crossing.nearest_to(p);
+            let aside = near.distance(p);
+            let weight = self.graph.passage(exit.door as usize).filter(|_| aside <= CLOSE_M);
+            weight
+                .is_some_and(|weight| self.is_cheaper_in(from, near, limit - weight - aside * per_m, easier))
         })
     }
 
@@ -416,6 +424,11 @@ impl<'g> Search<'g> {
         }
     }
 
+    fn is_near_a_goal(&self, gate: &Segment) -> bool {
+        let is_near = |goal: &Goal| goal.at.is_none_or(|at| gate.nearest_to(at).distance(at) <= NEAR_M);
+        self.goals.iter().any(is_near)
+    }
+
     /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
     /// goals in the room, the ends, and some between.
     fn points(&self, room: usize, seen: Segment, root: Point) -> Vec<Point> {
@@ -461,7 +474,10 @@ impl<'g> Search<'g> {
             reach(self, node.root);
         }
         let graph = self.graph;
-        for gate in graph.gates(exit.door as usize, node.room as usize) {
+        for Gate { segment: gate, is_deep } in graph.gates(exit.door as usize, node.room as usize) {
+            if !is_deep && !self.is_near_a_goal(gate) {
+                continue;
+            }
             if let Some(seen) = node.view.of(node.root, *gate)
                 && (!gate.is_in_line_with(node.root) || node.view.sees(node.root, gate.nearest_to(node.root)))
             {
