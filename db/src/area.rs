@@ -1,4 +1,4 @@
-//! Strips and prime areas: the tables `strips` and `areas`, behind the view `prime_areas`.
+//! Strips and prime areas: the tables `strips` and `prime_area_strips`, behind the view `prime_areas`.
 
 use serde::Serialize;
 use sqlx::{Row, SqliteConnection};
@@ -41,7 +41,7 @@ impl Record for Strip {
 }
 
 impl Record for &Area {
-    const TABLE: &'static str = "areas";
+    const TABLE: &'static str = "prime_area_strips";
     const COLUMNS: &'static [&'static str] =
         &["area", "x_first", "x_last", "y_first", "y_last", "open", "open_rule", "open_witness"];
 
@@ -68,7 +68,7 @@ pub async fn replace(
     areas: &[Area],
 ) -> Result<()> {
     sqlx::query("DELETE FROM strips").execute(&mut *connection).await?;
-    sqlx::query("DELETE FROM areas").execute(&mut *connection).await?;
+    sqlx::query("DELETE FROM prime_area_strips").execute(&mut *connection).await?;
     bulk::insert(connection, strips("x", x_edges).chain(strips("y", y_edges))).await?;
     bulk::insert(connection, areas).await?;
     Ok(())
@@ -77,7 +77,7 @@ pub async fn replace(
 struct Openness<'a>(&'a Area);
 
 impl Record for Openness<'_> {
-    const TABLE: &'static str = "areas";
+    const TABLE: &'static str = "prime_area_strips";
     const COLUMNS: &'static [&'static str] = &["area", "open", "open_rule", "open_witness"];
 
     fn bind(&self, values: &mut Values) {
@@ -98,7 +98,8 @@ pub async fn put_open(
 /// All prime areas, by number.
 pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Area>> {
     let rows = sqlx::query(
-        "SELECT area, x_first, x_last, y_first, y_last, open, open_rule, open_witness FROM areas ORDER BY area",
+        "SELECT area, x_first, x_last, y_first, y_last, open, open_rule, open_witness FROM prime_area_strips
+         ORDER BY area",
     );
     let mut areas = Vec::new();
     for row in rows.fetch_all(connection).await? {

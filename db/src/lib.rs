@@ -17,6 +17,7 @@ mod error;
 mod guard;
 pub mod history;
 pub mod kept;
+pub mod load;
 mod migrate;
 pub mod place;
 pub mod query;

@@ -28,6 +28,10 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/01-anew.sql"),
         include_str!("../sql/v2/10-routes.sql"),
         include_str!("../sql/v2/11-waypoints.sql"),
+        include_str!("../sql/v2/20-prime-areas.sql"),
+        include_str!("../sql/v2/21-rooms-passable.sql"),
+        include_str!("../sql/v2/22-conclusions.sql"),
+        include_str!("../sql/v2/40-fleet.sql"),
     ],
 ];
 

@@ -11,7 +11,6 @@ use crate::transaction::Tx;
 /// Our own tables and views.
 pub(crate) const OWN: &[&str] = &[
     "action_sequence",
-    "areas",
     "changes",
     "conclusions",
     "derivations",
@@ -19,7 +18,9 @@ pub(crate) const OWN: &[&str] = &[
     "ends",
     "frames",
     "history",
+    "loads",
     "places",
+    "prime_area_strips",
     "prime_areas",
     "robots",
     "rooms",

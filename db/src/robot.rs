@@ -20,6 +20,8 @@ pub struct State {
     pub height: f64,
     /// Metres.
     pub width: f64,
+    /// Along the facing, metres; `None` for a disc of its width.
+    pub length: Option<f64>,
     /// Cost per metre.
     pub hardness: f64,
     /// Row order, which breaks ties.
@@ -42,7 +44,7 @@ pub struct Change {
 impl Record for &State {
     const TABLE: &'static str = "robots";
     const COLUMNS: &'static [&'static str] =
-        &["robot", "state", "action", "height", "width", "hardness", "position"];
+        &["robot", "state", "action", "height", "width", "length", "hardness", "position"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);
@@ -50,6 +52,7 @@ impl Record for &State {
         values.text(&*self.action);
         values.real(self.height);
         values.real(self.width);
+        values.real(self.length);
         values.real(self.hardness);
         values.integer(self.position);
     }
@@ -70,7 +73,7 @@ impl Record for &Change {
 /// All states: by robot, then in row order.
 pub async fn states(connection: &mut SqliteConnection) -> Result<Vec<State>> {
     let rows = sqlx::query(
-        "SELECT robot, state, action, height, width, hardness, position FROM robots
+        "SELECT robot, state, action, height, width, length, hardness, position FROM robots
          ORDER BY robot, position, state",
     );
     let rows = rows.fetch_all(connection).await?;
@@ -81,8 +84,9 @@ pub async fn states(connection: &mut SqliteConnection) -> Result<Vec<State>> {
             action: row.try_get(2)?,
             height: row.try_get(3)?,
             width: row.try_get(4)?,
-            hardness: row.try_get(5)?,
-            position: row.try_get(6)?,
+            length: row.try_get(5)?,
+            hardness: row.try_get(6)?,
+            position: row.try_get(7)?,
         })
     };
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)

@@ -19,6 +19,8 @@ pub struct Room {
     pub name: String,
     /// Robot and state whose layer it is in; `None` in the paper's modes.
     pub layer: Option<(String, String)>,
+    /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
+    pub facing: Option<f64>,
     /// x0, y0, x1, y1 in metres.
     pub rect: [f64; 4],
     /// Metres; `None` is unlimited.
@@ -29,6 +31,8 @@ pub struct Room {
     pub hardness: Derived<f64>,
     /// How to move in it.
     pub action: Derived<String>,
+    /// Whether it is entered.
+    pub passable: Derived<bool>,
 }
 
 /// What rules say about a room.
@@ -40,6 +44,16 @@ pub struct RoomWeight {
     pub hardness: Derived<f64>,
     /// How to move in it.
     pub action: Derived<String>,
+    /// Whether it is entered.
+    pub passable: Derived<bool>,
+}
+
+impl Room {
+    /// What rules say about it.
+    pub fn weight(&self) -> RoomWeight {
+        let Self { room, hardness, action, passable, .. } = self.clone();
+        RoomWeight { room, hardness, action, passable }
+    }
 }
 
 impl Record for &Room {
@@ -61,6 +75,10 @@ impl Record for &Room {
         "hardness_witness",
         "action_rule",
         "action_witness",
+        "passable",
+        "passable_rule",
+        "passable_witness",
+        "facing",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -75,6 +93,9 @@ impl Record for &Room {
         values.text(self.action.value.as_deref());
         self.hardness.bind_reason(values);
         self.action.bind_reason(values);
+        values.truth(self.passable.value);
+        self.passable.bind_reason(values);
+        values.real(self.facing);
     }
 }
 
@@ -88,11 +109,13 @@ pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
             room: row.try_get(0)?,
             name: row.try_get(1)?,
             layer: layer.0.zip(layer.1),
+            facing: row.try_get(16)?,
             rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
             height: row.try_get(8)?,
             width: row.try_get(9)?,
             hardness: Derived::of(&row, 10, 12)?,
             action: Derived::of(&row, 11, 14)?,
+            passable: Derived::of(&row, 16, 17)?,
         });
     }
     Ok(rooms)
@@ -115,7 +138,7 @@ pub async fn reweigh(connection: &mut SqliteConnection, weights: &[RoomWeight]) 
     let differs = |weight: &&RoomWeight| {
         known
             .binary_search_by_key(&weight.room, |room| room.room)
-            .is_ok_and(|at| known[at].hardness != weight.hardness || known[at].action != weight.action)
+            .is_ok_and(|at| known[at].weight() != **weight)
     };
     let changed: Vec<&RoomWeight> = weights.iter().filter(differs).collect();
     put_weights(connection, changed.iter().copied()).await?;
@@ -132,8 +155,18 @@ pub async fn put_weights(
 
 impl Record for &RoomWeight {
     const TABLE: &'static str = "rooms";
-    const COLUMNS: &'static [&'static str] =
-        &["room", "hardness", "hardness_rule", "hardness_witness", "action", "action_rule", "action_witness"];
+    const COLUMNS: &'static [&'static str] = &[
+        "room",
+        "hardness",
+        "hardness_rule",
+        "hardness_witness",
+        "action",
+        "action_rule",
+        "action_witness",
+        "passable",
+        "passable_rule",
+        "passable_witness",
+    ];
 
     fn bind(&self, values: &mut Values) {
         values.integer(self.room);
@@ -141,6 +174,8 @@ impl Record for &RoomWeight {
         self.hardness.bind_reason(values);
         values.text(self.action.value.as_deref());
         self.action.bind_reason(values);
+        values.truth(self.passable.value);
+        self.passable.bind_reason(values);
     }
 }
 

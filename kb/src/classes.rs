@@ -9,10 +9,13 @@ use crate::error::{Error, Result};
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
 
 /// Classes whose key is not their first property alone.
-const KEYS: [(&str, &[&str]); 3] = [
+const KEYS: [(&str, &[&str]); 6] = [
     ("ROBOTS", &["robot", "state"]),
     ("CHANGES", &["robot", "from_state", "to_state"]),
+    ("LOADS", &["robot", "load"]),
     ("STRIPS", &["axis", "strip"]),
+    ("AREA_ROOMS", &["room", "area"]),
+    ("DOOR_ROOMS", &["room", "door"]),
 ];
 
 /// Asserts a class; its key is its first property, where that tells the objects apart.

@@ -11,6 +11,7 @@ mod index;
 mod labels;
 mod layers;
 mod legend;
+mod named;
 mod palette;
 mod panel;
 mod png;
@@ -92,7 +93,9 @@ fn map(sheet: &mut Sheet) -> Svg {
     }
     if layers.has(Layer::Map) {
         svg.group("solids", |svg| {
+            named::areas(svg, sheet);
             ground::solids(svg, sheet);
+            named::doors(svg, sheet);
             ground::scale_bar(svg, sheet);
         });
     }
@@ -115,6 +118,7 @@ fn map(sheet: &mut Sheet) -> Svg {
     }
     if layers.has(Layer::Map) {
         svg.group("places", |svg| ground::places(svg, sheet));
+        named::names(sheet);
         ground::bridge_heights(sheet);
     }
     if layers.has(Layer::Primes) {

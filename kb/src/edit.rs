@@ -78,8 +78,8 @@ fn cell(text: &str) -> Cell {
     }
 }
 
-const TUNABLE: [&str; 2] = ["robots", "changes"];
-const DERIVED: [&str; 12] = [
+const TUNABLE: [&str; 3] = ["robots", "changes", "loads"];
+const DERIVED: [&str; 15] = [
     "rooms",
     "doors",
     "routes",
@@ -91,6 +91,9 @@ const DERIVED: [&str; 12] = [
     "frames",
     "strips",
     "areas",
+    "named_doors",
+    "area_rooms",
+    "door_rooms",
     "history",
 ];
 
@@ -100,7 +103,7 @@ fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     if DERIVED.contains(&table) {
         let message =
             format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
-        let help = "tune `robots` or `changes`, edit a rule, or edit the map and build".to_owned();
+        let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
         return Err(Error::said("edit/derived", message, Some(help)));
     }
     if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {

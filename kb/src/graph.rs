@@ -111,21 +111,22 @@ impl SiteGraph {
         }
     }
 
-    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state.
+    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state and facing.
     pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<usize> {
         if let End::Room(index) = end {
             return if is_weighed(&self.rooms[*index]) { vec![*index] } else { Vec::new() };
         }
         let at = self.point(end);
-        let mut states = Vec::new();
+        let mut layers = Vec::new();
         let mut found = Vec::new();
         for (index, room) in self.rooms.iter().enumerate() {
             let of_robot = match (&room.layer, robot) {
                 (Some((of, _)), Some(robot)) => of == robot,
                 _ => true,
             };
-            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !states.contains(&&room.layer) {
-                states.push(&room.layer);
+            let layer = (&room.layer, room.facing);
+            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !layers.contains(&layer) {
+                layers.push(layer);
                 found.push(index);
             }
         }
@@ -152,7 +153,7 @@ impl SiteGraph {
     }
 }
 
-/// Whether a room can be walked in, just as a door of unknown hardness is not passed.
+/// Whether a room can be walked in: its hardness is known and it is passable, as with doors.
 pub fn is_weighed(room: &Room) -> bool {
     walking(room) != Walking::Unknown
 }
@@ -163,8 +164,11 @@ fn rect_of(room: &Room) -> Rect {
 }
 
 /// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh
-/// metres only where a rule says so.
+/// metres only where a rule says so. Rooms that are not passable, or not known to be, are not entered.
 fn walking(room: &Room) -> Walking {
+    if room.passable.value != Some(true) {
+        return Walking::Unknown;
+    }
     match (room.hardness.value, &room.layer) {
         (Some(hardness), _) => Walking::PerMetre(hardness),
         (None, Some(_)) => Walking::Unknown,

@@ -68,7 +68,8 @@ impl<'a> Reasons<'a> {
         let mut reasons = Vec::with_capacity(rows.len());
         for (row, grounds) in rows.iter().zip(found) {
             let Some(grounds) = grounds else {
-                reasons.push((None, None));
+                // A value that was told, and that rules revised: it rests on the last of them.
+                reasons.push(revisions.get(row).map_or((None, None), |by| self.revision(by)));
                 continue;
             };
             let rule = Some(grounds.rule as i64 + 1);
@@ -87,6 +88,12 @@ impl<'a> Reasons<'a> {
             reasons.push((rule, witness));
         }
         reasons
+    }
+
+    fn revision(&mut self, revised_by: &[&str]) -> Reason {
+        let last = self.rules.rules().iter().position(|rule| Some(&rule.name()) == revised_by.last());
+        let facts = serde_json::json!({ "revised by": revised_by }).to_string();
+        (last.map(|index| index as i64 + 1), Some(self.numbering.number(facts)))
     }
 
     /// The rules that revise a property, by the row that they revise.

@@ -43,6 +43,7 @@ impl Inputs {
         let unread = lint::unread(&rules, planners).into_iter().map(|problem| problem.to_string());
         let idle = lint::not_carried_out(&rules).into_iter().map(|problem| problem.to_string());
         let unread = unread.chain(idle);
+        let unread = unread.chain(lint::unheard(&rules, &world));
         let notes = unread.chain(notes.into_iter().map(|note| note.to_string())).collect();
         Ok(Self { rules, tests, world, map_report, notes, stage })
     }

@@ -6,12 +6,13 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::robot::State;
-use adit_db::{Store, Tx};
+use adit_db::{Cell, Store, Tx};
 use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
+use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::Planner;
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
@@ -67,17 +68,20 @@ impl KnowledgeBase {
         let database = site.database();
         let mode = site.rooms;
         let mut knowledge = Self { site, planners: Vec::new(), database, rules: None, reseed: false };
+        knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
         match mode {
-            Rooms::ByState => knowledge.register(Box::new(RoomsByState)),
+            Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(PaperRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
             Rooms::Minimum => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));
                 knowledge.register(Box::new(MinimumRooms));
+                knowledge.register(Box::new(RoomsInOverlays));
             }
         }
         Ok(knowledge)
@@ -217,10 +221,27 @@ impl KnowledgeBase {
         Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
     }
 
-    /// The states of a robot, as the database has them.
+    /// The states of a robot, as the database has them, with the sizes that rules made of those in the table.
     pub fn states(&self, robot: &str) -> Result<Vec<State>> {
-        let states = Store::open_read_only(&self.database)?.snapshot(|tx| tx.states())?;
-        Ok(states.into_iter().filter(|state| state.robot == robot).collect())
+        let mut store = Store::open_read_only(&self.database)?;
+        store.snapshot(|tx| -> Result<_> {
+            let mut states = tx.states()?;
+            states.retain(|state| state.robot == robot);
+            for state in &mut states {
+                let key = Cell::from(format!("{robot}/{}", state.state).as_str());
+                for concluded in tx.conclusions("robots", &key)? {
+                    let size = match concluded.property.as_str() {
+                        "height" => &mut state.height,
+                        "width" => &mut state.width,
+                        _ => continue,
+                    };
+                    if let Cell::Real(metres) = concluded.value {
+                        *size = metres;
+                    }
+                }
+            }
+            Ok(states)
+        })
     }
 
     /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
@@ -279,6 +300,7 @@ impl KnowledgeBase {
         let mut told = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
+            ("LOADS".to_owned(), tables::loads(&tx.loads()?)),
         ]);
         let planned = self.planned_classes();
         for table in tx.user_tables()? {

@@ -6,13 +6,14 @@ use std::fmt;
 
 use adit_engine::{Dominated, RuleBase};
 use adit_planners::planner::Planner;
+use adit_planners::world::World;
 use miette::{Diagnostic, Severity};
 
 use crate::suggest::did_you_mean;
 
 /// Properties that routes and pictures read.
-const READ_BY_ROUTES: [&str; 5] =
-    ["ROOMS.hardness", "ROOMS.action", "DOORS.hardness", "DOORS.action", "DOORS.passable"];
+const READ_BY_ROUTES: [&str; 6] =
+    ["ROOMS.hardness", "ROOMS.action", "ROOMS.passable", "DOORS.hardness", "DOORS.action", "DOORS.passable"];
 
 /// A property that is set and never read.
 #[derive(Debug, thiserror::Error)]
@@ -61,6 +62,21 @@ pub fn unread(rules: &RuleBase, planners: &[Box<dyn Planner>]) -> Vec<Unread> {
         }
     }
     found
+}
+
+/// Named areas or doors of the world of which no rule speaks, in sentences: they change nothing.
+pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
+    let heard = |class: &str| rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
+    let areas = (world.areas.len(), "named areas", ["AREAS", "AREA_ROOMS"]);
+    let doors = (world.named_doors.len(), "named doors", ["NAMED_DOORS", "DOOR_ROOMS"]);
+    let unheard = [areas, doors]
+        .into_iter()
+        .filter(|(count, _, classes)| *count > 0 && !classes.iter().any(|class| heard(class)));
+    unheard
+        .map(|(count, what, [_, rooms])| {
+            format!("the site has {count} {what}, and no rule reads {rooms}: they change nothing")
+        })
+        .collect()
 }
 
 /// A rule that waits in vain: a site concludes, and does not carry out reactions yet.

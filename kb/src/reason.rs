@@ -1,6 +1,7 @@
 //! Why there is no route, in a sentence that names what would have to be otherwise.
 
 use adit_db::door::Door;
+use adit_db::room::Room;
 use adit_planners::layers::{Headroom, headroom, narrowest};
 use adit_planners::routes::{Blockage, Start, blockage};
 use adit_planners::world::World;
@@ -27,7 +28,7 @@ pub fn no_route(
         if rooms.is_empty() {
             let at = graph.point(end);
             if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
-                return Ok(format!("room {} at the {what} has no hardness: no rule gives it one", room.name));
+                return Ok(format!("the {what}: {}", not_entered(room, rules)));
             }
             return Ok(format!("no state of the robot fits at the {what} ({:.2}, {:.2})", at.x, at.y));
         }
@@ -56,6 +57,19 @@ pub fn no_route(
     }
 }
 
+/// Why no route enters a room.
+fn not_entered(room: &Room, rules: &Rules) -> String {
+    let [x0, y0, x1, y1] = room.rect;
+    let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
+    let place = format!("room {} at ({x:.2}, {y:.2})", room.name);
+    match (room.passable.value, room.passable.rule.and_then(|rule| rules.get(&rule))) {
+        (Some(false), Some(rule)) => format!("{place} is not entered (rule \"{rule}\")"),
+        (Some(false), None) => format!("{place} is not entered"),
+        (None, _) => format!("whether {place} is entered is unknown: no rule says so, or rules disagree"),
+        (Some(true), _) => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
+    }
+}
+
 /// A door that lets no state through, and what would fit.
 fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     let least = |values: [Option<f64>; 3]| values.into_iter().flatten().fold(f64::INFINITY, f64::min);
@@ -69,7 +83,7 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     };
     let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
     if let Some(room) = sides.map(|index| &graph.rooms[index]).find(|room| !is_weighed(room)) {
-        return format!("room {} has no hardness: no rule gives it one, or rules disagree", room.name);
+        return not_entered(room, rules);
     }
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
     let [x, y] = door.at;

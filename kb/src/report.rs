@@ -53,7 +53,9 @@ impl Before {
     /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
     pub fn same_rooms(&self, graph: &SiteGraph) -> bool {
         let same = |(old, new): (&Room, &Room)| {
-            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits) && old.layer == new.layer
+            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
+                && old.layer == new.layer
+                && old.facing == new.facing
         };
         self.rooms.len() == graph.rooms.len() && self.rooms.iter().zip(&graph.rooms).all(same)
     }
@@ -299,7 +301,9 @@ impl Report {
 }
 
 fn room_change(old: &Room, new: &Room) -> Option<Change> {
-    let differs = old.hardness.value != new.hardness.value || old.action.value != new.action.value;
+    let differs = old.hardness.value != new.hardness.value
+        || old.action.value != new.action.value
+        || old.passable.value != new.passable.value;
     differs.then(|| Change {
         what: format!("room {}", new.name),
         old: old.hardness.value,
@@ -339,6 +343,10 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph) -> Vec<String> {
         graph.rooms.iter().filter(|room| room.hardness.value.is_none() && room.layer.is_some()).count();
     if unweighed > 0 {
         notes.push(format!("{unweighed} rooms have no ROOMS.hardness, so no route enters them"));
+    }
+    let undecided = graph.rooms.iter().filter(|room| room.passable.value.is_none()).count();
+    if undecided > 0 {
+        notes.push(format!("{undecided} rooms have no ROOMS.passable, so no route enters them"));
     }
     let missing = |what: &str, count: usize| {
         (count > 0).then(|| format!("{count} doors have no DOORS.{what}, so no route passes them"))

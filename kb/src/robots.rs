@@ -1,10 +1,13 @@
-//! `robots.toml`: the states of each robot, and what it costs to change from one to another. It seeds the tables once;
+//! `robots.toml`: the states of each robot, what it costs to change from one to another, and what the robots can carry. It seeds the tables once;
 //! from then on the database is what counts.
+
+mod loads;
 
 use std::fs;
 use std::path::Path;
 
 use adit_db::Tx;
+use adit_db::load::Load;
 use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Located, Problem};
 
@@ -20,6 +23,8 @@ pub struct RobotFile {
     pub robots: Vec<State>,
     /// Costs of changing shape.
     pub changes: Vec<Change>,
+    /// What the robots can carry.
+    pub loads: Vec<Load>,
 }
 
 impl RobotFile {
@@ -34,8 +39,11 @@ impl RobotFile {
         let document = Document::parse(name, text).map_err(|error| Error::all(error.problems))?;
         let fields = document.fields("robots.toml");
         let mut problems = Vec::new();
-        fields.refuse_unknown(&["robots", "changes"], &mut problems);
-        let file = Self { robots: robots(&fields, &mut problems), changes: changes(&fields, &mut problems) };
+        fields.refuse_unknown(&["robots", "changes", "loads"], &mut problems);
+        let robots = robots(&fields, &mut problems);
+        let changes = changes(&fields, &mut problems);
+        let loads = loads::loads(&fields, &robots, &mut problems);
+        let file = Self { robots, changes, loads };
         file.check_changes(&fields, &mut problems);
         if !problems.is_empty() {
             return Err(Error::all(problems));
@@ -55,12 +63,13 @@ impl RobotFile {
     /// # Arguments
     /// `path` is the file, for the notes.
     pub fn seed_tables(&self, tx: &mut Tx<'_>, path: &Path, again: bool) -> Result<Vec<String>> {
-        let (states, changes) = (tx.states()?, tx.changes()?);
+        let (states, changes, loads) = (tx.states()?, tx.changes()?, tx.loads()?);
         if states.is_empty() || again {
             tx.seed(&self.robots, &self.changes)?;
+            tx.replace_loads(&self.loads)?;
             return Ok(Vec::new());
         }
-        let what = self.differences(&states, &changes);
+        let what = self.differences(&states, &changes, &loads);
         let note = |what| {
             let file = path.display();
             format!(
@@ -71,7 +80,7 @@ impl RobotFile {
     }
 
     /// The states that the file and the table have otherwise.
-    fn differences(&self, states: &[State], changes: &[Change]) -> Option<String> {
+    fn differences(&self, states: &[State], changes: &[Change], loads: &[Load]) -> Option<String> {
         let same = |a: &State, b: &State| a.robot == b.robot && a.state == b.state;
         let differs = |row: &State| match states.iter().find(|known| same(known, row)) {
             Some(known) => State { position: row.position, ..known.clone() } != *row,
@@ -84,10 +93,13 @@ impl RobotFile {
         by_key.sort_by(|a, b| {
             (&a.robot, &a.from_state, &a.to_state).cmp(&(&b.robot, &b.from_state, &b.to_state))
         });
-        match (named.is_empty(), by_key == changes) {
-            (true, true) => None,
-            (true, false) => Some("changes of shape".to_owned()),
-            (false, _) => Some(named.join(", ")),
+        let mut loads_by_key = self.loads.clone();
+        loads_by_key.sort_by(|a, b| (&a.robot, &a.load).cmp(&(&b.robot, &b.load)));
+        match (named.is_empty(), by_key == changes, loads_by_key == loads) {
+            (true, true, true) => None,
+            (true, true, false) => Some("loads".to_owned()),
+            (true, false, _) => Some("changes of shape".to_owned()),
+            (false, _, _) => Some(named.join(", ")),
         }
     }
 
@@ -111,10 +123,12 @@ const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE
 fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
     let mut rows: Vec<State> = Vec::new();
     for entry in fields.tables("robots", "[[robots]]", problems) {
-        entry.refuse_unknown(&["robot", "state", "action", "height", "width", "hardness"], problems);
+        entry
+            .refuse_unknown(&["robot", "state", "action", "height", "width", "length", "hardness"], problems);
         let robot = robot(&entry, problems);
         let (state, action) = (name(&entry, "state", problems), name(&entry, "action", problems));
         let sizes = ["height", "width", "hardness"].map(|key| not_negative(&entry, key, problems));
+        let length = entry.get("length").is_some().then(|| entry.positive("length", problems));
         let (Some(state), Some(action), [Some(height), Some(width), Some(hardness)]) = (state, action, sizes)
         else {
             continue;
@@ -124,9 +138,19 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
             problems.push(entry.text.problem(Code::DuplicatePlace, &state.span, message));
             continue;
         }
+        let begun = rows.iter().any(|row| row.robot == robot);
+        if begun && rows.last().is_some_and(|last| last.robot != robot) {
+            let message =
+                format!("robot `{robot}` stands here twice: its states stand above another robot's");
+            let help = "give the second robot a name of its own, or move its states to the others";
+            problems.push(
+                entry.text.problem(Code::DuplicatePlace, &entry.span, message).with_help(help.to_owned()),
+            );
+        }
         let position = rows.iter().filter(|row| row.robot == robot).count() as i64 + 1;
         let (state, action) = (state.value, action.value);
-        rows.push(State { robot, state, action, height, width, hardness, position });
+        let length = length.flatten().map(|length| length.value);
+        rows.push(State { robot, state, action, height, width, length, hardness, position });
     }
     rows
 }

@@ -55,15 +55,18 @@ pub fn rooms(table: &Table) -> Result<Vec<Room>> {
     let (robots, states) = (columns.texts("robot")?, columns.texts("state")?);
     let rects = columns.quads(["x0", "y0", "x1", "y1"])?;
     let (heights, widths) = (columns.numbers("height")?, columns.numbers("width")?);
+    let facings = columns.numbers("facing")?;
     let row = |index: usize| Room {
         room: key(keys[index]),
         name: names[index].clone().unwrap_or_default(),
         layer: robots[index].clone().zip(states[index].clone()),
+        facing: facings[index],
         rect: rects[index],
         height: heights[index],
         width: widths[index].unwrap_or_default(),
         hardness: Derived::default(),
         action: Derived::default(),
+        passable: Derived::default(),
     };
     Ok((0..table.len()).map(row).collect())
 }
@@ -77,7 +80,8 @@ pub fn rooms_table(rooms: &[Room]) -> Table {
         .with("room", rooms.iter().map(|room| room.room as f64).collect::<Column>())
         .with("name", rooms.iter().map(|room| room.name.clone()).collect::<Column>())
         .with("robot", layer(|layer| &layer.0))
-        .with("state", layer(|layer| &layer.1));
+        .with("state", layer(|layer| &layer.1))
+        .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
     for (side, name) in ["x0", "y0", "x1", "y1"].iter().enumerate() {
         table = table.with(name, rooms.iter().map(|room| room.rect[side]).collect::<Column>());
     }

@@ -98,6 +98,8 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     scene.obstacles.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(Shape::Rect));
     scene.bridges.clone_from(&world.bridges);
     scene.places.clone_from(&world.places);
+    scene.areas.clone_from(&world.areas);
+    scene.named_doors.clone_from(&world.named_doors);
     let rooms = tx.rooms()?;
     let index = |key: i64| rooms.binary_search_by_key(&key, |room| room.room).unwrap_or_default();
     for door in tx.doors()? {

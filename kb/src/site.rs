@@ -74,20 +74,8 @@ pub struct Site {
     text: String,
 }
 
-const KEYS: [&str; 12] = [
-    "name",
-    "map",
-    "robots",
-    "rules",
-    "rooms",
-    "starts",
-    "unknown",
-    "speck_area",
-    "grid",
-    "clearance",
-    "place",
-    "bridge",
-];
+const KEYS: [&str; 10] =
+    ["name", "map", "robots", "rules", "rooms", "starts", "unknown", "speck_area", "grid", "clearance"];
 
 impl Site {
     /// Reads `site.toml` of a folder.
@@ -99,7 +87,7 @@ impl Site {
         let fields = document.fields("site.toml");
         let mut problems = Vec::new();
         let mut keys = KEYS.to_vec();
-        keys.push("obstacle");
+        keys.extend(Overlay::KEYS);
         fields.refuse_unknown(&keys, &mut problems);
         let path =
             |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
@@ -142,6 +130,22 @@ impl Site {
         let mut hasher = DefaultHasher::new();
         (&self.text, map).hash(&mut hasher);
         hasher.finish()
+    }
+
+    /// What is said of named areas and doors besides what every one has, here and in a vector map, as planners write
+    /// it in their signatures. Of a map that cannot be read nothing is said.
+    pub fn further_properties(&self) -> Vec<String> {
+        let mut further = self.overlay.further_properties();
+        if self.map.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+            && self.map.is_file()
+            && let Ok(text) = fs::read_to_string(&self.map)
+            && let Ok(drawn) = Overlay::from_toml("the map", &text)
+        {
+            further.extend(drawn.further_properties());
+        }
+        further.sort_unstable();
+        further.dedup();
+        further
     }
 
     /// Reads the map and lays over it what `site.toml` says.

@@ -19,6 +19,9 @@ use crate::report::Before;
 use crate::weights::check_hardness;
 use crate::{classes, rows, tables};
 
+/// What planners of rooms make: rooms, doors, and which room lies in which named area or door.
+const MADE: [&str; 4] = ["ROOMS", "DOORS", "AREA_ROOMS", "DOOR_ROOMS"];
+
 /// Rooms and doors of the last build, kept while the inputs of their planner stay the same.
 pub struct LastBuild<'a, 's> {
     tx: &'a mut Tx<'s>,
@@ -35,23 +38,26 @@ impl<'a, 's> LastBuild<'a, 's> {
 impl Memory for LastBuild<'_, '_> {
     fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
         let gives = planner.signature().gives;
-        let makes_rooms =
-            gives.iter().all(|given| given.starts_with("ROOMS.") || given.starts_with("DOORS."));
-        if !makes_rooms {
+        let gives = |class: &str| gives.iter().any(|given| classes::split(given).0 == class);
+        let others = |given: &String| !MADE.contains(&classes::split(given).0);
+        if !(gives("ROOMS") && gives("DOORS")) || planner.signature().gives.iter().any(others) {
             return Ok(None);
         }
         let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
-        let made = [rows::rooms_table(&self.before.rooms), rows::doors_table(&self.before.doors)];
+        let [area_rooms, door_rooms] =
+            [tables::kept(self.tx, "area_rooms")?, tables::kept(self.tx, "door_rooms")?];
+        let rooms = rows::rooms_table(&self.before.rooms);
+        let made = [rooms, rows::doors_table(&self.before.doors), area_rooms, door_rooms];
         // another program may have edited or deleted rows since: then they are made anew
         if stored.as_deref() != Some(&signature(fingerprint, &made)) {
             return Ok(None);
         }
-        let [rooms, doors] = made;
-        Ok(Some(Facts::from([("ROOMS".to_owned(), rooms), ("DOORS".to_owned(), doors)])))
+        let made = MADE.into_iter().zip(made).filter(|(class, _)| gives(class));
+        Ok(Some(made.map(|(class, table)| (class.to_owned(), table)).collect()))
     }
 }
 
-/// What a planner worked from, and the rooms and doors that came of it.
+/// What a planner worked from, and what came of it.
 fn signature(fingerprint: u64, made: &[adit_planners::facts::Table]) -> String {
     format!("{fingerprint:016x}{:016x}", content(made))
 }
@@ -69,6 +75,31 @@ fn reasoned<T>(values: Option<Vec<Option<T>>>, reasons: &[Reason], len: usize) -
             Reasoned { value: values.next().flatten(), rule, witness }
         })
         .collect()
+}
+
+/// Whether rooms are entered. A rule base without a rule about it lets all of them be.
+fn entered(
+    knowledge: &Inference,
+    rules: &RuleBase,
+    reasons: &mut Reasons<'_>,
+    len: usize,
+) -> Vec<Reasoned<bool>> {
+    let said = knowledge.truths("ROOMS", "passable");
+    let mut passable = reasoned(said, &reasons.of("ROOMS", "passable"), len);
+    if !decides_rooms(rules) {
+        for room in &mut passable {
+            room.value = room.value.or(Some(true));
+        }
+    }
+    passable
+}
+
+/// Whether rules say which rooms are entered.
+pub fn decides_rooms(rules: &RuleBase) -> bool {
+    rules
+        .concluded()
+        .iter()
+        .any(|name| name.class.as_str() == "ROOMS" && name.property.as_str() == "passable")
 }
 
 /// The tables that a derivation gives.
@@ -119,8 +150,11 @@ impl Tables {
         }
         let hardness = reasoned(numbers("ROOMS", "hardness"), &reasons.of("ROOMS", "hardness"), rooms.len());
         let action = reasoned(texts("ROOMS", "action"), &reasons.of("ROOMS", "action"), rooms.len());
-        for (room, (hardness, action)) in rooms.iter_mut().zip(hardness.into_iter().zip(action)) {
-            (room.hardness, room.action) = (hardness, action);
+        let passable = entered(knowledge, rules, &mut reasons, rooms.len());
+        for (room, ((hardness, action), passable)) in
+            rooms.iter_mut().zip(hardness.into_iter().zip(action).zip(passable))
+        {
+            (room.hardness, room.action, room.passable) = (hardness, action, passable);
         }
         let hardness = reasoned(numbers("DOORS", "hardness"), &reasons.of("DOORS", "hardness"), doors.len());
         let action = reasoned(texts("DOORS", "action"), &reasons.of("DOORS", "action"), doors.len());
@@ -141,7 +175,10 @@ impl Tables {
 
     /// How many values rest on each witness.
     pub fn uses(&self) -> BTreeMap<i64, usize> {
-        let rooms = self.rooms.iter().flat_map(|room| [room.hardness.witness, room.action.witness]);
+        let rooms = self
+            .rooms
+            .iter()
+            .flat_map(|room| [room.hardness.witness, room.action.witness, room.passable.witness]);
         let doors = self
             .doors
             .iter()
@@ -166,7 +203,13 @@ impl Tables {
         tx.replace_frames(&[frame])?;
         tx.replace_rules(&self.rules, &self.witnesses)?;
         tx.replace_derivations(&self.derivations)?;
-        let made = [rows::rooms_table(&self.rooms), rows::doors_table(&self.doors)];
+        let members = |class: &str| derived.facts.get(class).cloned().unwrap_or_default();
+        let made = [
+            rows::rooms_table(&self.rooms),
+            rows::doors_table(&self.doors),
+            members("AREA_ROOMS"),
+            members("DOOR_ROOMS"),
+        ];
         for (planner, fingerprint) in &derived.fingerprints {
             tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &made)))?;
         }
@@ -197,10 +240,11 @@ fn rule_rows(rules: &RuleBase) -> Vec<Rule> {
 }
 
 /// Columns of these classes have tables of their own.
-pub const TABLED: [(&str, &str); 6] = [
+pub const TABLED: [(&str, &str); 7] = [
     ("PRIME_AREAS", "open"),
     ("ROOMS", "hardness"),
     ("ROOMS", "action"),
+    ("ROOMS", "passable"),
     ("DOORS", "hardness"),
     ("DOORS", "action"),
     ("DOORS", "passable"),

@@ -1,5 +1,6 @@
 //! Tables of the database as classes, and planners' classes as tables.
 
+use adit_db::load::Load;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
@@ -15,6 +16,7 @@ pub fn robots(states: &[State]) -> Table {
         .with("action", states.iter().map(|row| row.action.clone()).collect::<Column>())
         .with("height", states.iter().map(|row| row.height).collect::<Column>())
         .with("width", states.iter().map(|row| row.width).collect::<Column>())
+        .with("length", states.iter().map(|row| row.length).collect::<Column>())
         .with("hardness", states.iter().map(|row| row.hardness).collect::<Column>())
         .with("position", states.iter().map(|row| row.position as f64).collect::<Column>())
 }
@@ -28,9 +30,23 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
 }
 
+/// What the robots can carry as a class.
+pub fn loads(loads: &[Load]) -> Table {
+    Table::default()
+        .with("robot", loads.iter().map(|row| row.robot.clone()).collect::<Column>())
+        .with("load", loads.iter().map(|row| row.load.clone()).collect::<Column>())
+        .with("height", loads.iter().map(|row| row.height).collect::<Column>())
+        .with("width", loads.iter().map(|row| row.width).collect::<Column>())
+        .with("carried", loads.iter().map(|row| row.carried).collect::<Column>())
+}
+
 /// The classes that every site tells, of one that was never built: without objects.
 pub fn unbuilt() -> Facts {
-    Facts::from([("ROBOTS".to_owned(), robots(&[])), ("CHANGES".to_owned(), changes(&[]))])
+    Facts::from([
+        ("ROBOTS".to_owned(), robots(&[])),
+        ("CHANGES".to_owned(), changes(&[])),
+        ("LOADS".to_owned(), loads(&[])),
+    ])
 }
 
 /// A table or view of the site's own as a class: a column holds numbers or texts; one that is declared BOOLEAN
@@ -77,9 +93,23 @@ fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     })
 }
 
+/// What a planner gave and is kept under this name; nothing where there is no such table, or it is no planner's.
+pub fn kept(tx: &mut Tx<'_>, name: &str) -> Result<Table> {
+    let is_kept = tx.site_value(&mark(name))?.is_some();
+    if is_kept && tx.user_tables()?.iter().any(|known| known.name == name) {
+        return read(&tx.read_table(name)?);
+    }
+    Ok(Table::default())
+}
+
+/// The site's value that says that a table is a planner's.
+fn mark(name: &str) -> String {
+    format!("class.{name}")
+}
+
 /// Keeps what a planner gave as a table of the database, in place of what it gave before.
 pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
-    let mark = format!("class.{name}");
+    let mark = mark(name);
     let taken = tx.user_tables()?.iter().any(|known| known.name == name);
     if taken && tx.site_value(&mark)?.is_none() {
         let message = format!(
@@ -87,6 +117,9 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
             name.to_uppercase()
         );
         return Err(Error::said("table/taken", message, Some("rename one of them".to_owned())));
+    }
+    if taken && kept(tx, name).is_ok_and(|kept| kept == *table) {
+        return Ok(());
     }
     let columns: Vec<(&str, &str)> = table
         .columns

@@ -12,7 +12,8 @@ fn main() {
 }
 
 fn states() -> Vec<State> {
-    let state = |state: &str, height, width| State { robot: None, state: state.into(), height, width };
+    let state =
+        |state: &str, height, width| State { robot: None, state: state.into(), height, width, length: None };
     vec![
         state("STAND", 1.7, 0.6),
         state("SIDE-STAND", 1.7, 0.35),

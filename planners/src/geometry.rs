@@ -91,6 +91,39 @@ impl Rect {
         (common.x0 < common.x1 && common.y0 < common.y1).then_some(common)
     }
 
+    /// Whether the segment has a part of some length inside, not just on the boundary.
+    pub fn is_crossed_by(&self, from: Point, to: Point) -> bool {
+        let inside =
+            self.clip(from, to).map(|(a, b)| Point::new(f64::midpoint(a.x, b.x), f64::midpoint(a.y, b.y)));
+        inside.is_some_and(|p| self.x0 < p.x && p.x < self.x1 && self.y0 < p.y && p.y < self.y1)
+    }
+
+    /// What of a segment lies in the rectangle (Liang and Barsky 1984); `None` where at most a point does.
+    pub fn clip(&self, from: Point, to: Point) -> Option<(Point, Point)> {
+        let (dx, dy) = (to.x - from.x, to.y - from.y);
+        let sides = [
+            (-dx, from.x - self.x0),
+            (dx, self.x1 - from.x),
+            (-dy, from.y - self.y0),
+            (dy, self.y1 - from.y),
+        ];
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        for (towards, left) in sides {
+            if towards == 0.0 && left < 0.0 {
+                return None;
+            }
+            if towards < 0.0 {
+                enters = enters.max(left / towards);
+            } else if towards > 0.0 {
+                leaves = leaves.min(left / towards);
+            }
+        }
+        let at = |share: f64| Point::new(from.x + share * dx, from.y + share * dy);
+        let start = if enters > 0.0 { at(enters) } else { from };
+        let end = if leaves < 1.0 { at(leaves) } else { to };
+        (enters < leaves).then_some((start, end))
+    }
+
     /// The point of this rectangle that is nearest to `p`.
     pub fn nearest_to(&self, p: Point) -> Point {
         Point::new(p.x.clamp(self.x0, self.x1), p.y.clamp(self.y0, self.y1))

@@ -1,16 +1,21 @@
 //! Rooms by state: one layer of rooms for each state of each robot, and the crossings within and between them.
 //!
-//! A layer is the free space of a disc as wide as the state: the places of its centre. Where the rooms of the
+//! A layer is the free space of a disc as wide as the state: the places of its centre. A state that has a length is a
+//! body that cannot turn everywhere, and has a layer for each of eight facings, 22.5 degrees apart. Where the rooms of the
 //! paper ask whether a rectangle is wide enough, here every point of a room is a point at which the state fits.
 
 mod bottleneck;
 mod cells;
+mod changes;
 mod clearance;
 mod cut;
+mod footprint;
 mod free_space;
 mod gap;
 mod headroom;
+mod labels;
 mod lattice;
+mod layer;
 mod maximal;
 mod narrowest;
 mod neighbours;
@@ -18,8 +23,14 @@ mod planner;
 mod slivers;
 mod transform;
 
+use std::sync::Arc;
+
 use cells::CellRect;
-use neighbours::{Owners, boundary};
+use changes::changes;
+use footprint::{FACINGS, STEP_DEGREES};
+use labels::{Label, Labels};
+use layer::{Layer, Size};
+use neighbours::boundary;
 use rayon::prelude::*;
 
 use crate::geometry::Rect;
@@ -28,6 +39,7 @@ use crate::world::World;
 pub(crate) use free_space::Solid;
 pub use headroom::{Headroom, headroom};
 pub use lattice::{Lattice, MAX_CELLS};
+pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 
@@ -40,8 +52,10 @@ pub struct State {
     pub state: String,
     /// Metres.
     pub height: f64,
-    /// Metres, more than 0.
+    /// Metres, more than 0; across the facing.
     pub width: f64,
+    /// Metres along the facing; `None` for a disc of its width, which turns on the spot.
+    pub length: Option<f64>,
 }
 
 /// A room of one state's layer.
@@ -49,6 +63,8 @@ pub struct State {
 pub struct Room {
     /// The state, by its index.
     pub state: usize,
+    /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
+    pub facing: Option<f64>,
     /// Where the robot's centre may be.
     pub rect: Rect,
     /// The lowest bridge above the room, metres; `None` where there is none.
@@ -60,7 +76,8 @@ pub struct Room {
 pub enum Kind {
     /// Through a common boundary, both ways, without a change of shape.
     Door,
-    /// By a change of shape where the rooms of two states overlap; from the first room into the second.
+    /// By a change of shape, or a turn to the next facing, where rooms of two layers overlap; from the first room
+    /// into the second.
     Change,
 }
 
@@ -73,7 +90,8 @@ pub struct Crossing {
     pub room1: usize,
     /// The other room; more than `room1` for a door.
     pub room2: usize,
-    /// The common boundary segment of a door, the overlap of a change.
+    /// The common boundary segment of a door, the overlap of a change; of a turn the largest part
+    /// of the overlap in which the body can turn.
     pub rect: Rect,
 }
 
@@ -86,58 +104,90 @@ pub struct Layers {
     pub rooms: Vec<Room>,
     /// By (room1, room2); there is at most one from a room into another.
     pub crossings: Vec<Crossing>,
+    /// Which room lies in which area of the world, both by index; by room.
+    pub area_rooms: Vec<(usize, usize)>,
+    /// Which room lies in which named door of the world, both by index; by room.
+    pub door_rooms: Vec<(usize, usize)>,
 }
 
-/// Cuts one layer a state. States of equal width that the same bridges block are computed once.
+/// Cuts one layer a state, or eight where it has a length. States of equal size that the same bridges block are
+/// computed once, whatever robot they are of.
 ///
 /// The side of a cell is the world's [`grid`](World::grid); where it has none, the image's resolution; for a vector
 /// map the largest of 1, 2, 5 steps not above a seventh of the slimmest state's width.
 ///
+/// Rooms are cut along the outlines of named areas: a cell, and so a room, lies in an area if its middle does. A named
+/// door is a band of rooms one cell thick, and whoever passes it enters one of them.
+///
 /// # Returns
 /// Within a layer the rooms are disjoint and free throughout. They cover the free space up to a cell's diagonal from
 /// its limit, but for rooms one cell thin along the limit, dropped within two cells of a thicker one where that
-/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only. The error is one sentence.
+/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only; an
+/// overlap one or two cells thin has none beside a thicker one of the same room. The error is one sentence.
 ///
 /// # Complexity
 /// Near-linear in the number of cells, times the number of states of different size.
 pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
+    cut_layers_anew(world, states, &KnownLayers::default())
+}
+
+/// As [`cut_layers`], taking those layers from `known` whose sizes have not changed since.
+pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> Result<Layers, String> {
     let lattice = Lattice::new(world.bounds, side(world, states)?)?;
-    let solid = Solid::new(world, lattice);
-    let sizes: Vec<Size> = states.iter().map(|state| Size::of(world, state)).collect();
-    let mut distinct: Vec<&Size> = Vec::new();
-    for size in &sizes {
-        if !distinct.contains(&size) {
-            distinct.push(size);
+    let mut layers = Vec::new();
+    for (state, of) in states.iter().enumerate() {
+        match of.length {
+            None => layers.push((state, None)),
+            Some(_) => layers.extend((0..FACINGS).map(|facing| (state, Some(facing)))),
         }
     }
-    let layers: Vec<Layer> =
-        distinct.par_iter().map(|size| Layer::cut(world, &solid, lattice, size)).collect();
-    let index = |size: &Size| distinct.iter().position(|known| *known == size);
-    let of_state: Vec<&Layer> = sizes.iter().filter_map(index).map(|layer| &layers[layer]).collect();
-    let first_room: Vec<usize> = of_state
-        .iter()
-        .scan(0, |next, layer| {
-            let first = *next;
-            *next += layer.rooms.len();
-            Some(first)
-        })
-        .collect();
-    let rooms = room_records(world, lattice, states, &of_state);
-    let mut crossings = doors(lattice, &of_state, &first_room);
-    crossings.extend(changes(lattice, states, &of_state, &first_room));
-    crossings.sort_by_key(|crossing| (crossing.room1, crossing.room2));
-    Ok(Layers { lattice, rooms, crossings })
+    let sizes: Vec<Size> =
+        layers.iter().map(|&(state, facing)| Size::of(world, &states[state], facing)).collect();
+    let labels = Labels::new(world, lattice)?;
+    let cut = known.layers(world, lattice, labels.as_ref(), &sizes);
+    let mut first = 0;
+    let mut stack = Vec::new();
+    for ((state, facing), layer) in layers.into_iter().zip(cut) {
+        let rooms = layer.rooms.len();
+        stack.push(Placed { state, facing, first, layer });
+        first += rooms;
+    }
+    let rooms = room_records(world, lattice, &stack);
+    let mut crossings = doors(lattice, &stack);
+    crossings.extend(changes(lattice, states, labels.as_ref(), &stack));
+    crossings.par_sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
+    let members = |of: fn(&Label) -> &[usize]| match &labels {
+        Some(labels) => members(labels, &stack, of),
+        None => Vec::new(),
+    };
+    let (area_rooms, door_rooms) = (members(|label| &label.areas), members(|label| &label.doors));
+    Ok(Layers { lattice, rooms, crossings, area_rooms, door_rooms })
+}
+
+/// A layer among all of them.
+struct Placed {
+    state: usize,
+    facing: Option<usize>,
+    /// The number of its first room.
+    first: usize,
+    layer: Arc<Layer>,
 }
 
 fn side(world: &World, states: &[State]) -> Result<f64, String> {
-    let narrow = states.iter().find(|state| !(state.width.is_finite() && state.width > 0.0));
-    if let Some(State { state, width, .. }) = narrow {
-        return Err(format!(
-            "state `{state}` moves and is {width} m wide; a width is finite and more than 0"
-        ));
+    let is_length = |metres: f64| metres.is_finite() && metres > 0.0;
+    for State { state, width, length, .. } in states {
+        if !is_length(*width) {
+            return Err(format!(
+                "state `{state}` moves and is {width} m wide; a width is finite and more than 0"
+            ));
+        }
+        if let Some(length) = length.filter(|length| !is_length(*length)) {
+            return Err(format!("state `{state}` is {length} m long; a length is finite and more than 0"));
+        }
     }
     let native = world.occupancy.as_ref().map(|cells| cells.resolution);
-    let slimmest = states.iter().map(|state| state.width).fold(f64::INFINITY, f64::min);
+    let slimmest = states.iter().map(|state| state.length.unwrap_or(state.width).min(state.width));
+    let slimmest = slimmest.fold(f64::INFINITY, f64::min);
     match world.grid.or(native) {
         Some(side) => Ok(side),
         None if slimmest.is_finite() => Ok(lattice::round_step(slimmest / 7.0)),
@@ -145,80 +195,38 @@ fn side(world: &World, states: &[State]) -> Result<f64, String> {
     }
 }
 
-/// What of a state decides its layer.
-#[derive(Clone, Debug, PartialEq)]
-struct Size {
-    width: f64,
-    /// Indices of the bridges that it does not pass.
-    low: Vec<usize>,
-}
-
-impl Size {
-    fn of(world: &World, state: &State) -> Self {
-        let passes = |height: f64| state.height < height;
-        let low = (0..world.bridges.len()).filter(|&bridge| !passes(world.bridges[bridge].height));
-        Self { width: state.width, low: low.collect() }
-    }
-}
-
-struct Layer {
-    rooms: Vec<CellRect>,
-    owners: Owners,
-}
-
-impl Layer {
-    fn cut(world: &World, solid: &Solid<'_>, lattice: Lattice, size: &Size) -> Self {
-        let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
-        let free = solid.free_cells(size.width / 2.0 + world.clearance, &low);
-        let rooms = slivers::drop_slivers(&free, &cut::cut(&free));
-        let owners = Owners::new(lattice.columns(), lattice.rows(), &rooms);
-        Self { rooms, owners }
-    }
-}
-
-fn room_records(world: &World, lattice: Lattice, states: &[State], layers: &[&Layer]) -> Vec<Room> {
+fn room_records(world: &World, lattice: Lattice, stack: &[Placed]) -> Vec<Room> {
     let lowest = |rect: &Rect| {
         let above = world.bridges.iter().filter(|bridge| bridge.rect.overlaps(rect));
         above.map(|bridge| bridge.height).min_by(f64::total_cmp)
     };
-    let of_state = |state: usize| {
-        layers[state].rooms.iter().map(move |&room| {
+    let of_layer = |placed: &Placed| {
+        let facing = placed.facing.map(|facing| facing as f64 * STEP_DEGREES);
+        let state = placed.state;
+        let room = |&room: &CellRect| {
             let rect = lattice.rect(room);
-            Room { state, rect, height: lowest(&rect) }
-        })
+            Room { state, facing, rect, height: lowest(&rect) }
+        };
+        placed.layer.rooms.iter().map(room).collect::<Vec<_>>()
     };
-    (0..states.len()).flat_map(of_state).collect()
+    stack.iter().flat_map(of_layer).collect()
 }
 
-fn doors(lattice: Lattice, layers: &[&Layer], first_room: &[usize]) -> Vec<Crossing> {
-    let of_layer = |(layer, &first): (&&Layer, &usize)| {
+/// For each room, by index, what of its label is asked for.
+fn members(labels: &Labels, stack: &[Placed], of: fn(&Label) -> &[usize]) -> Vec<(usize, usize)> {
+    let rooms = stack.iter().flat_map(|placed| &placed.layer.rooms).enumerate();
+    rooms.flat_map(|(room, &block)| of(labels.of(block)).iter().map(move |&named| (room, named))).collect()
+}
+
+fn doors(lattice: Lattice, stack: &[Placed]) -> Vec<Crossing> {
+    let of_layer = |placed: &Placed| {
+        let Placed { layer, first, .. } = placed;
         let door = |(a, b): (u32, u32)| {
             let (a, b) = (a as usize, b as usize);
             let rect = lattice.rect(boundary(layer.rooms[a], layer.rooms[b]));
             Crossing { kind: Kind::Door, room1: first + a, room2: first + b, rect }
         };
-        layer.owners.beside().into_iter().map(door).collect::<Vec<_>>()
+        layer.beside.iter().copied().map(door).collect::<Vec<_>>()
     };
-    layers.iter().zip(first_room).flat_map(of_layer).collect()
-}
-
-fn changes(lattice: Lattice, states: &[State], layers: &[&Layer], first_room: &[usize]) -> Vec<Crossing> {
-    let mut found = Vec::new();
-    for from in 0..states.len() {
-        for to in from + 1..states.len() {
-            if states[from].robot != states[to].robot {
-                continue;
-            }
-            for (a, b) in layers[from].owners.over(&layers[to].owners) {
-                let (a, b) = (a as usize, b as usize);
-                let common = boundary(layers[from].rooms[a], layers[to].rooms[b]);
-                let rect = lattice.rect(common);
-                let (room1, room2) = (first_room[from] + a, first_room[to] + b);
-                let kind = Kind::Change;
-                found.push(Crossing { kind, room1, room2, rect });
-                found.push(Crossing { kind, room1: room2, room2: room1, rect });
-            }
-        }
-    }
-    found
+    stack.par_iter().map(of_layer).collect::<Vec<_>>().concat()
 }

@@ -10,6 +10,7 @@ mod known;
 pub mod layers;
 pub mod minimum;
 pub mod names;
+pub mod overlays;
 pub mod planner;
 pub mod prime_areas;
 pub mod read;

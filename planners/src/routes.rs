@@ -18,7 +18,6 @@ mod pull;
 mod taut;
 mod way;
 
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -123,8 +122,6 @@ pub struct RouteGraph {
     mesh: Mesh,
     /// For each end of a door whether a way may bend there.
     bends: Vec<bool>,
-    /// For each change whether all changes between its two layers weigh the same.
-    is_even: Vec<bool>,
     /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
     gates: Vec<[OnceLock<Box<[Segment]>>; 2]>,
 }
@@ -148,7 +145,7 @@ impl RouteGraph {
         }
         let mesh = Mesh::new(&rooms, &doors);
         let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
-        let mut all = Self { rooms, doors, graph, mesh, bends: Vec::new(), is_even: Vec::new(), gates };
+        let mut all = Self { rooms, doors, graph, mesh, bends: Vec::new(), gates };
         all.weigh();
         all
     }
@@ -157,18 +154,6 @@ impl RouteGraph {
     fn weigh(&mut self) {
         let is_open = |door: usize| self.passage(door).is_some();
         self.bends = self.mesh.bends(&self.rooms, &self.doors, |door| self.is_free(door), is_open);
-        let mut weights: BTreeMap<(u32, u32), Option<Option<u64>>> = BTreeMap::new();
-        let layers = |door: &RouteDoor| (self.mesh.layer[door.room1], self.mesh.layer[door.room2]);
-        for (index, door) in self.doors.iter().enumerate().filter(|(_, door)| door.is_change()) {
-            let weight = self.passage(index).map(f64::to_bits);
-            let known = weights.entry(layers(door)).or_insert(Some(weight));
-            if *known != Some(weight) {
-                *known = None;
-            }
-        }
-        let is_even =
-            |door: &RouteDoor| door.is_change() && weights.get(&layers(door)).is_some_and(Option::is_some);
-        self.is_even = self.doors.iter().map(is_even).collect();
     }
 
     /// Weighs rooms and doors anew, by index; what is not named stays as it is.
@@ -206,7 +191,13 @@ impl RouteGraph {
     /// The best of the ways to a goal that were found, pulled tight.
     fn best(&self, outcome: &Outcome, start: &Start, goal: usize) -> Option<Way> {
         let ways = outcome.goals[goal].iter().map(|found| Way::of(self, &outcome.nodes, start, found));
-        ways.min_by(|one, two| one.cost.total_cmp(&two.cost))
+        ways.reduce(|best, way| {
+            // of ways that cost the same to a rounding, the one that passes fewer doors
+            let rounding = 1e-9 * best.cost;
+            let is_better = way.cost < best.cost - rounding
+                || way.cost <= best.cost + rounding && way.legs.len() < best.legs.len();
+            if is_better { way } else { best }
+        })
     }
 
     /// The best ways to all goals; and to all rooms, where asked for.

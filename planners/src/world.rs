@@ -1,11 +1,13 @@
 //! The world as a planner reads it: one map, whatever file it came from, with what a site lays over it.
 
+mod named;
 mod occupancy;
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use geo::{Contains, Coord, LineString, Polygon};
 
+pub use named::{Area, NamedDoor, Property};
 pub use occupancy::Occupancy;
 
 use crate::geometry::{Point, Rect};
@@ -21,6 +23,10 @@ pub struct World {
     pub bridges: Vec<Bridge>,
     /// Named points.
     pub places: Vec<Place>,
+    /// Parts of the floor with a name; they may overlap.
+    pub areas: Vec<Area>,
+    /// Doors with a name.
+    pub named_doors: Vec<NamedDoor>,
     /// Walls given as an image; `None` for a vector map.
     pub occupancy: Option<Occupancy>,
     /// Pose of the map in the world.
@@ -39,6 +45,8 @@ impl World {
             obstacles: Vec::new(),
             bridges: Vec::new(),
             places: Vec::new(),
+            areas: Vec::new(),
+            named_doors: Vec::new(),
             occupancy: None,
             frame: Pose::default(),
             grid: None,
@@ -69,17 +77,17 @@ impl World {
         let mut numbers = |values: &[f64]| values.iter().for_each(|value| value.to_bits().hash(&mut hasher));
         numbers(&[self.bounds.x0, self.bounds.y0, self.bounds.x1, self.bounds.y1]);
         numbers(&[self.clearance, self.grid.unwrap_or(-1.0)]);
-        for obstacle in &self.obstacles {
-            match &obstacle.shape {
-                Shape::Rect(r) => numbers(&[4.0, r.x0, r.y0, r.x1, r.y1]),
-                Shape::Polygon(corners) => {
-                    numbers(&[-(corners.len() as f64)]);
-                    for p in corners {
-                        numbers(&[p.x, p.y]);
-                    }
+        let mut outline = |shape: &Shape| match shape {
+            Shape::Rect(r) => numbers(&[4.0, r.x0, r.y0, r.x1, r.y1]),
+            Shape::Polygon(corners) => {
+                numbers(&[-(corners.len() as f64)]);
+                for p in corners {
+                    numbers(&[p.x, p.y]);
                 }
             }
-        }
+        };
+        self.obstacles.iter().for_each(|obstacle| outline(&obstacle.shape));
+        self.areas.iter().for_each(|area| outline(&area.shape));
         for bridge in &self.bridges {
             let r = bridge.rect;
             numbers(&[5.0, r.x0, r.y0, r.x1, r.y1, bridge.height]);
@@ -87,11 +95,20 @@ impl World {
         for place in &self.places {
             numbers(&[place.at.x, place.at.y]);
         }
+        for door in &self.named_doors {
+            numbers(&[6.0, door.from.x, door.from.y, door.to.x, door.to.y]);
+        }
         if let Some(cells) = &self.occupancy {
             numbers(&[cells.origin.x, cells.origin.y, cells.resolution]);
             (cells.columns, cells.rows, &cells.blocked).hash(&mut hasher);
         }
         self.places.iter().for_each(|place| place.name.hash(&mut hasher));
+        for area in &self.areas {
+            (&area.name, &area.kind, &area.further).hash(&mut hasher);
+        }
+        for door in &self.named_doors {
+            (&door.name, &door.kind, &door.further).hash(&mut hasher);
+        }
         hasher.finish()
     }
 }

@@ -39,7 +39,10 @@ fn an_unknown_key_is_marked_and_the_known_one_suggested() {
     assert_eq!(problem.help.as_deref(), Some("did you mean `rect`?"));
     let (code, marked, problem) = only("wall = 3");
     assert_eq!((code, marked.as_str()), ("map/unknown-key", "wall"));
-    assert_eq!(problem.help.as_deref(), Some("known keys: width, depth, obstacle, bridge, place"));
+    assert_eq!(
+        problem.help.as_deref(),
+        Some("known keys: width, depth, obstacle, bridge, place, area, door")
+    );
 }
 
 #[test]
@@ -109,7 +112,7 @@ fn a_place_is_named_once_inside_and_in_free_space() {
     let twice = place("home", "[1, 1]") + &place("home", "[2, 1]");
     let (code, marked, problem) = only(&twice);
     assert_eq!((code, marked.as_str()), ("map/duplicate-place", "'home'"));
-    assert_eq!(problem.message, "`home` is already the name of the place on line 5");
+    assert_eq!(problem.message, "`home` is already the name of the place on line 4");
     let inside = "[[obstacle]]\nrect = [4, 4, 6, 6]\n".to_owned() + &place("home", "[5, 5]");
     let (code, marked, problem) = only(&inside);
     assert_eq!((code, marked.as_str()), ("map/place-in-wall", "[5, 5]"));
@@ -155,4 +158,128 @@ fn an_overlay_is_checked_against_the_map_below() {
     assert_eq!(refused("[[place]]\nname = 'b'\nat = [1.5, 1.5]"), "map/place-in-wall");
     assert_eq!(refused("[[obstacle]]\nrect = [4, 4, 6, 6]"), "map/place-in-wall");
     assert_eq!(refused("[[bridge]]\nrect = [14, 4, 16, 6]\nheight = 1"), "map/outside");
+}
+
+#[test]
+fn a_polygon_that_crosses_itself_names_the_two_edges() {
+    let text = "[[area]]\nname = 'spot'\npolygon = [[1, 1], [4, 4], [4, 1], [1, 4]]";
+    let (code, marked, problem) = only(text);
+    assert_eq!((code, marked.as_str()), ("map/self-crossing", "[[1, 1], [4, 4], [4, 1], [1, 4]]"));
+    assert_eq!(
+        problem.message,
+        "this polygon crosses itself: its edge from (1, 1) to (4, 4) meets its edge from (4, 1) to (1, 4)"
+    );
+    let all = format!("width = 10.0\ndepth = 8.0\n{text}");
+    let labels: Vec<String> =
+        problem.labels().unwrap().map(|l| all[l.offset()..l.offset() + l.len()].to_owned()).collect();
+    assert_eq!(labels[1..], ["[1, 1]", "[4, 1]"]);
+    let spike = only("[[area]]\nname = 'spot'\npolygon = [[1, 1], [4, 1], [4, 4], [4, 1.5], [1, 2]]");
+    assert_eq!(spike.0, "map/self-crossing", "one edge leads back along the other");
+}
+
+#[test]
+fn an_area_has_a_name_an_outline_and_a_surface() {
+    let cases = [
+        ("[[area]]\nrect = [1, 1, 2, 2]", "map/missing-key", "[[area]]"),
+        ("[[area]]\nname = 'a'", "map/missing-key", "[[area]]"),
+        ("[[area]]\nname = ' '\nrect = [1, 1, 2, 2]", "map/empty-name", "' '"),
+        ("[[area]]\nname = 'a'\npolygon = [[1, 1], [2, 2]]", "map/few-corners", "[[1, 1], [2, 2]]"),
+        (
+            "[[area]]\nname = 'a'\npolygon = [[1, 1], [2, 2], [3, 3]]",
+            "map/degenerate",
+            "[[1, 1], [2, 2], [3, 3]]",
+        ),
+        ("[[area]]\nname = 'a'\nrect = [1, 1, 1, 2]", "map/degenerate", "[1, 1, 1, 2]"),
+        ("[[area]]\nname = 'a'\nrect = [11, 1, 12, 2]", "map/outside", "'a'"),
+        // the rectangle about the triangle meets the map, the triangle does not
+        ("[[area]]\nname = 'a'\npolygon = [[9, 9], [12, 6], [12, 9]]", "map/outside", "'a'"),
+    ];
+    for (items, code, marked) in cases {
+        let found = only(items);
+        assert_eq!((found.0, found.1.as_str()), (code, marked), "{items}");
+    }
+    let (_, _, problem) = only("[[area]]\nname = 'a'\nrekt = 'b'");
+    assert_eq!(problem.help.as_deref(), Some("is `rekt` meant to be `rect`?"));
+}
+
+#[test]
+fn a_door_has_a_name_and_two_posts_in_the_map() {
+    let cases = [
+        ("[[door]]\nname = 'd'\nfrom = [1, 1]", "map/missing-key", "[[door]]"),
+        ("[[door]]\nname = 'd'\nfrom = [1, 1]\nto = [1, 1]", "map/degenerate", "[1, 1]"),
+        ("[[door]]\nname = 'd'\nfrom = [11, 1]\nto = [12, 1]", "map/outside", "'d'"),
+        ("[[door]]\nname = 'd'\nfrom = [9, 9]\nto = [12, 6.5]", "map/outside", "'d'"),
+    ];
+    for (items, code, marked) in cases {
+        let found = only(items);
+        assert_eq!((found.0, found.1.as_str()), (code, marked), "{items}");
+    }
+}
+
+#[test]
+fn what_is_cut_at_the_edge_or_lies_in_a_wall_is_noted() {
+    let text = "width = 10.0\ndepth = 8.0
+        [[obstacle]]\nrect = [4.0, 0.0, 6.0, 4.0]
+        [[area]]\nname = 'rect'\nrect = [8, 1, 12, 2]
+        [[area]]\nname = 'corner'\npolygon = [[9, 0], [11, 0], [11, 2], [9, 2]]
+        [[door]]\nname = 'gate'\nfrom = [9, 5]\nto = [11, 5]
+        [[door]]\nname = 'bricked up'\nfrom = [4.5, 2]\nto = [5.5, 2]
+        [[door]]\nname = 'to the wall'\nfrom = [3.5, 2]\nto = [5.5, 2]";
+    let (world, notes) = read_toml_map("map.toml", text).unwrap();
+    let expected = ["'rect'", "'corner'", "'gate'", "'bricked up'"];
+    let codes = ["map/clipped", "map/clipped", "map/clipped", "map/door-in-wall"];
+    let expected: Vec<_> = codes.into_iter().zip(expected.map(str::to_owned)).collect();
+    assert_eq!(said(&notes, text), expected);
+    let middles: Vec<Point> = world.areas.iter().map(|area| area.centre).collect();
+    assert_eq!(middles, [Point::new(9.0, 1.5), Point::new(9.5, 1.0)], "of what lies in the map");
+    assert_eq!(world.named_doors[0].to, Point::new(10.0, 5.0));
+}
+
+#[test]
+fn places_areas_and_doors_share_one_space_of_names() {
+    let place = "[[place]]\nname = 'ward'\nat = [1, 1]\n";
+    let area = "[[area]]\nname = 'ward'\nrect = [1, 1, 2, 2]\n";
+    let door = "[[door]]\nname = 'ward'\nfrom = [1, 1]\nto = [2, 1]\n";
+    for (items, first) in [
+        (format!("{place}{area}"), "place"),
+        (format!("{area}{door}"), "area"),
+        (format!("{door}{door}"), "door"),
+    ] {
+        let (code, _, problem) = only(&items);
+        assert_eq!(code, "map/duplicate-name");
+        assert_eq!(problem.message, format!("`ward` is already the name of the {first} on line 4"));
+    }
+    // across two files
+    let (mut world, _) = read_toml_map("map.toml", &format!("width = 10.0\ndepth = 8.0\n{area}")).unwrap();
+    let before = world.clone();
+    for items in [place, area, door] {
+        let overlay = Overlay::from_toml("site.toml", items).unwrap();
+        let problems = overlay.lay_over(&mut world).unwrap_err().problems;
+        assert_eq!(problems[0].message, "the map has an area `ward` already");
+        assert_eq!(world, before);
+    }
+}
+
+#[test]
+fn what_else_is_said_of_areas_has_a_name_for_rules_and_one_kind() {
+    let area = |name: &str, more: &str| format!("[[area]]\nname = '{name}'\nrect = [1, 1, 2, 2]\n{more}\n");
+    let cases = [
+        (area("a", "Floor = 1"), "map/unknown-key", "Floor"),
+        (area("a", "'two words' = 1"), "map/unknown-key", "'two words'"),
+        (area("a", "x = 1"), "map/unknown-key", "x"),
+        (area("a", "floor = [1, 2]"), "map/wrong-type", "[1, 2]"),
+        (area("a", "floor = nan"), "map/not-finite", "nan"),
+        (area("a", "hardness_factor = 'two'"), "map/wrong-type", "hardness_factor = 'two'"),
+        (area("a", "floor = 1") + &area("b", "floor = 'one'"), "map/wrong-type", "floor = 'one'"),
+    ];
+    for (items, code, marked) in cases {
+        let found = only(&items);
+        assert_eq!((found.0, found.1.as_str()), (code, marked), "{items}");
+    }
+    let (mut world, _) =
+        read_toml_map("map.toml", &format!("width = 10.0\ndepth = 8.0\n{}", area("a", "floor = 1"))).unwrap();
+    let overlay = Overlay::from_toml("site.toml", &area("b", "floor = true\nwet = true")).unwrap();
+    assert_eq!(overlay.further_properties(), ["AREAS.floor: truth", "AREAS.wet: truth"]);
+    let problems = overlay.lay_over(&mut world).unwrap_err().problems;
+    assert!(problems[0].message.contains("`floor` is a truth here and a number in the map"), "{problems:?}");
 }

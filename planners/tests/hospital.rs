@@ -20,7 +20,9 @@ fn hospital() -> World {
 fn states(named: &[&str]) -> Vec<State> {
     let all = [("STAND", 1.7, 0.6), ("SIDE-STAND", 1.7, 0.35), ("SQUAT", 1.1, 0.8), ("LIE", 0.6, 0.8)];
     let chosen = all.iter().filter(|(name, ..)| named.contains(name));
-    chosen.map(|&(name, height, width)| State { robot: None, state: name.into(), height, width }).collect()
+    chosen
+        .map(|&(name, height, width)| State { robot: None, state: name.into(), height, width, length: None })
+        .collect()
 }
 
 fn place(world: &World, name: &str) -> Point {
@@ -107,11 +109,12 @@ fn the_planner_asserts_rooms_and_doors_by_name() {
         .with("state", texts(&["STAND", "SQUAT", "LIE", "IMPOSSIBLE"]))
         .with("height", [1.7, 1.1, 0.6, 0.0].into_iter().collect::<Column>())
         .with("width", [0.6, 0.8, 0.8, 0.0].into_iter().collect::<Column>())
+        .with("length", Column::Number(vec![None; 4]))
         .with("moves", [true, true, true, false].into_iter().collect::<Column>());
     let known = Facts::from([("ROBOTS".to_owned(), robots)]);
-    let facts = RoomsByState.facts(&world, &known).unwrap();
+    let facts = RoomsByState::default().facts(&world, &known).unwrap();
     let (rooms, doors) = (&facts["ROOMS"], &facts["DOORS"]);
-    for given in RoomsByState.signature().gives {
+    for given in RoomsByState::default().signature().gives {
         let (name, sort) = given.split_once(": ").unwrap_or((&given, "number"));
         let (class, property) = name.split_once('.').unwrap();
         let column = facts[class].column(property).unwrap();
@@ -136,7 +139,7 @@ fn the_planner_asserts_rooms_and_doors_by_name() {
 
 #[test]
 fn what_the_planner_lacks_it_names() {
-    let message = |known: &Facts| RoomsByState.facts(&hospital(), known).unwrap_err().to_string();
+    let message = |known: &Facts| RoomsByState::default().facts(&hospital(), known).unwrap_err().to_string();
     assert!(message(&Facts::new()).contains("ROBOTS: the class is missing"));
     let texts = |value: &str| std::iter::once(value.to_owned()).collect::<Column>();
     let numbers = |value: f64| std::iter::once(value).collect::<Column>();
@@ -144,7 +147,8 @@ fn what_the_planner_lacks_it_names() {
         .with("robot", texts("nurse"))
         .with("state", texts("STAND"))
         .with("height", numbers(1.7))
-        .with("width", numbers(0.0));
+        .with("width", numbers(0.0))
+        .with("length", Column::Number(vec![None]));
     let of = |robots: Table| Facts::from([("ROBOTS".to_owned(), robots)]);
     assert!(message(&of(robots.clone())).contains("`moves` is missing"));
     let robots = robots.with("moves", Column::Truth(vec![Some(true)]));

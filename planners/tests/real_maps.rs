@@ -25,7 +25,8 @@ fn data() -> Option<PathBuf> {
 }
 
 fn states() -> Vec<State> {
-    let state = |state: &str, height, width| State { robot: None, state: state.into(), height, width };
+    let state =
+        |state: &str, height, width| State { robot: None, state: state.into(), height, width, length: None };
     vec![
         state("STAND", 1.7, 0.6),
         state("SIDE-STAND", 1.7, 0.35),

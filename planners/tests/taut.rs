@@ -22,7 +22,7 @@ fn hall(blocks: &[(u8, u8, u8, u8)]) -> World {
 }
 
 fn state(name: &str, width: f64) -> State {
-    State { robot: None, state: name.to_owned(), height: 1.0, width }
+    State { robot: None, state: name.to_owned(), height: 1.0, width, length: None }
 }
 
 /// The graph of all layers; a metre of each state weighs as given, a change `change`.
@@ -200,7 +200,7 @@ proptest! {
         prop_assert_eq!(there.is_some(), back.is_some());
         if let (Some(there), Some(back)) = (there, back) {
             check_legs(&graph, &there, from, to)?;
-            prop_assert!((there.cost / back.cost - 1.0).abs() < 1e-2, "{} and {}", there.cost, back.cost);
+            prop_assert!((there.cost / back.cost - 1.0).abs() < 2e-2, "{} and {}", there.cost, back.cost);
         }
     }
 
@@ -218,11 +218,11 @@ proptest! {
             let alone = way(&graph, from, *to).map(|way| way.cost);
             prop_assert_eq!(cost.is_some(), alone.is_some());
             if let (Some(cost), Some(alone)) = (cost, alone) {
-                prop_assert!((cost / alone - 1.0).abs() < 1e-2 || (cost - alone).abs() < 1e-9, "{cost} and {alone}");
+                prop_assert!((cost / alone - 1.0).abs() < 2e-2 || (cost - alone).abs() < 1e-9, "{cost} and {alone}");
             }
         }
         let nearest = costs.iter().flatten().copied().fold(f64::INFINITY, f64::min);
         let found = graph.way(&start, &ends).map_or(f64::INFINITY, |(_, way)| way.cost);
-        prop_assert!(found == nearest || (found / nearest - 1.0).abs() < 1e-2 || (found - nearest).abs() < 1e-9);
+        prop_assert!(found == nearest || (found / nearest - 1.0).abs() < 2e-2 || (found - nearest).abs() < 1e-9);
     }
 }

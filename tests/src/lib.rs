@@ -1,5 +1,6 @@
 //! What the journeys share: the built program, sites in a temporary folder, and the clients that users have.
 
+pub mod floor;
 pub mod oracle;
 
 use std::fs;

@@ -86,10 +86,11 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     whole.conclude(&rules);
     let all = graph(&whole.numbers("DOORS", "hardness").unwrap());
     let tree = all.tree(&Start { rooms: vec![start], at: Point::new(0.0, 0.0) });
-    let cost = tree.best(goal).unwrap().cost;
+    let cost = tree.rooms[goal].unwrap().cost;
     assert_eq!(found.cost, Some(cost));
     // of equal costs the room of lower number is settled first
-    let is_settled = |room: usize| tree.best(room).is_some_and(|arrival| (arrival.cost, room) < (cost, goal));
+    let is_settled =
+        |room: usize| tree.rooms[room].is_some_and(|arrival| (arrival.cost, room) < (cost, goal));
     let settled: Vec<bool> = (0..SIDE * SIDE).map(is_settled).collect();
     let out_of_settled = pairs.iter().filter(|(a, b)| settled[*a] || settled[*b]).count();
     assert_eq!(found.weighed, out_of_settled, "the doors of the rooms settled before the goal");
@@ -97,7 +98,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
 
     let compact = CompactGraph::new(&all).unwrap().tree(&[start]);
     for room in 0..SIDE * SIDE {
-        let best = tree.best(room).unwrap();
+        let best = tree.rooms[room].unwrap();
         assert_eq!(compact.costs[room].to_bits(), best.cost.to_bits());
         assert_eq!(compact.hops[room], best.hops);
     }

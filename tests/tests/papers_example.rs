@@ -43,7 +43,7 @@ fn table_3_rooms_in_order() {
 fn the_eight_doors_weigh_as_in_the_golden_file() {
     let rows = example().sqlite3(
         "SELECT door, a.name, b.name, round(d.width, 6), round(distance1, 6), round(distance2, 6),
-                round(d.hardness, 6), d.action, passable
+                round(d.hardness, 6), d.action, d.passable
          FROM doors d JOIN rooms a ON a.room = room1 JOIN rooms b ON b.room = room2 ORDER BY door",
     );
     let golden = [

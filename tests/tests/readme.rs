@@ -62,10 +62,10 @@ fn the_sql_answers() {
 fn wet_floors_make_a_way_harder() {
     let site = starter();
     let dry = cost(&site);
-    site.outside_edit(
-        "CREATE TABLE wet_floors (spot INTEGER PRIMARY KEY, x REAL, y REAL, radius REAL);
-         INSERT INTO wet_floors VALUES (1, 4.5, 4.0, 0.5)",
-    );
+    let text = site.read("site.toml") + &block("toml", "by the tap").replace("hardness = 2.0", "");
+    site.write("site.toml", text);
+    site.adit("build", &[]).expect_status(0);
+    assert!((cost(&site) - dry).abs() < 0.02 * dry, "rooms are cut, nothing is harder: {}", cost(&site));
     site.write("rules/wet.rhai", block("rhai", "wet floors are slippery"));
     site.adit("check", &[]).expect_status(0);
     site.adit("build", &[]).expect_status(0);

@@ -146,8 +146,10 @@ fn a_removed_state_stays_away_while_a_state_that_it_changes_to_is_gone() {
 fn a_changed_width_says_which_routes_between_places_follow() {
     // once, only "the rooms were cut anew" was said
     let site = TestSite::example("hospital").built();
-    let change =
-        site.adit("tune", &["robots", "SQUAT", "height", "1.5", "--dry-run", "--json"]).expecting(0).json();
+    let change = site
+        .adit("tune", &["robots", "SIDE-STAND", "width", "0.55", "--dry-run", "--json"])
+        .expecting(0)
+        .json();
     assert_eq!(change["cut_anew"], true);
     let routes = change["routes"]["changes"].as_array().unwrap();
     assert!(routes.iter().any(|route| route["start"] == "dock" && route["goal"] == "ward 6"), "{routes:?}");

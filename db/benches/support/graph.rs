@@ -133,6 +133,7 @@ fn walker() -> State {
         action: "WALK".into(),
         height: 2.0,
         width: 0.5,
+        length: None,
         hardness: 1.0,
         position: 0,
     }
@@ -148,11 +149,13 @@ fn room(index: usize) -> Room {
         room: key(index),
         name: name(index),
         layer: None,
+        facing: None,
         rect: [x, y, x + 3.0, y + 3.0],
         height: None,
         width: 3.0,
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
+        passable: Derived { value: Some(true), rule: None, witness: None },
     }
 }
 

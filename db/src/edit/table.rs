@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::relation::{self, RelationColumn};
 
 /// Tables of ours that people edit; the rest is derived from them. Tables of the user's own can be edited too.
-const EDITABLE: &[&str] = &["robots", "changes", "places", "frames"];
+const EDITABLE: &[&str] = &["robots", "changes", "loads", "places", "frames"];
 
 /// A table that may be edited.
 pub(super) struct Table<'t> {

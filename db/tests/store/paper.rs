@@ -50,6 +50,7 @@ fn states() -> Vec<State> {
         action: action.into(),
         height,
         width,
+        length: None,
         hardness,
         position,
     };
@@ -86,11 +87,13 @@ pub fn rooms() -> Vec<Room> {
         room,
         name: name.into(),
         layer: None,
+        facing: None,
         rect,
         height,
         width,
         hardness: Derived::default(),
         action: Derived::by(WALK_IN, None, action.to_owned()),
+        passable: Derived { value: Some(true), rule: None, witness: None },
     };
     vec![
         room(1, "a", [19.1, 0.0, 29.5, 6.0], Some(4.0), 6.0, "NO-ACTION"),

@@ -107,6 +107,15 @@ rooms  = "{}"        # or "paper", "minimum"
 # height = 1.3
 # [[obstacle]]
 # rect = [6.0, 0.0, 6.5, 2.0]
+# [[area]]                  # rooms are cut along it; all its keys are for rules
+# name = "stairs"
+# kind = "keep-out"         # not entered
+# rect = [2.0, 6.0, 5.0, 7.0]
+# [[door]]                  # across an opening, from post to post
+# name   = "ward door"
+# from   = [5.0, 2.0]
+# to     = [5.0, 3.0]
+# closed = true
 "#,
         mode.name()
     )

@@ -1,7 +1,7 @@
 //! What a picture is drawn from: plain records, as the tables of a site hold them. Metres, in the map's frame.
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::world::{Bridge, Place, Shape};
+use adit_planners::world::{Area, Bridge, NamedDoor, Place, Shape};
 
 /// One map with what is known about it. Every list may be empty; what is empty is not drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,10 @@ pub struct Scene {
     pub doors: Vec<Door>,
     /// Named points.
     pub places: Vec<Place>,
+    /// Parts of the floor with a name.
+    pub areas: Vec<Area>,
+    /// Doors with a name.
+    pub named_doors: Vec<NamedDoor>,
     /// Edges of the vertical strips, ascending: n + 1 edges make n strips (Figure 4).
     pub strips_x: Vec<f64>,
     /// Edges of the horizontal strips, ascending.
@@ -44,6 +48,8 @@ impl Scene {
             rooms: Vec::new(),
             doors: Vec::new(),
             places: Vec::new(),
+            areas: Vec::new(),
+            named_doors: Vec::new(),
             strips_x: Vec::new(),
             strips_y: Vec::new(),
             prime_areas: Vec::new(),

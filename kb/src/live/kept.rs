@@ -12,7 +12,7 @@ use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use super::routes::KeptRoutes;
 use crate::error::Result;
 use crate::grounds::{Numbering, Reason, Reasons};
-use crate::store::{TABLED, derivations_of};
+use crate::store::{TABLED, decides_rooms, derivations_of};
 
 /// Conclusions beside those of rooms and doors, and how many values rest on each witness.
 pub struct Kept {
@@ -64,20 +64,23 @@ impl Kept {
             uses.change(self.areas[*row].open.witness, area.open.witness);
         }
         let mut rooms: BTreeMap<usize, RoomWeight> = BTreeMap::new();
-        let room = |row: usize| {
-            let room = &graph.rooms[row];
-            RoomWeight { room: room.room, hardness: room.hardness.clone(), action: room.action.clone() }
-        };
+        let room = |row: usize| graph.rooms[row].weight();
         look.at(("ROOMS", "hardness"), number, |row, to| {
             rooms.entry(row).or_insert_with(|| room(row)).hardness = to;
         });
         look.at(("ROOMS", "action"), text, |row, to| {
             rooms.entry(row).or_insert_with(|| room(row)).action = to;
         });
+        let decided = decides_rooms(rules);
+        look.at(("ROOMS", "passable"), truth, |row, mut to| {
+            to.value = to.value.or(if decided { None } else { Some(true) });
+            rooms.entry(row).or_insert_with(|| room(row)).passable = to;
+        });
         rooms.retain(|row, weight| *weight != room(*row));
         for (row, weight) in &rooms {
             uses.change(graph.rooms[*row].hardness.witness, weight.hardness.witness);
             uses.change(graph.rooms[*row].action.witness, weight.action.witness);
+            uses.change(graph.rooms[*row].passable.witness, weight.passable.witness);
         }
         let mut doors: BTreeMap<usize, DoorWeight> = BTreeMap::new();
         let door = |row: usize| {

@@ -1,6 +1,7 @@
 //! The kept routes, and what of them an edit changes.
 
 use adit_db::Tx;
+use adit_db::room::RoomWeight;
 use adit_db::tree::{TreeChange, TreeRow};
 use adit_planners::geometry::Point;
 use adit_planners::routes::{CompactGraph, CompactTree, NONE};
@@ -84,9 +85,11 @@ impl KeptRoutes {
         if written.doors.is_empty() && written.rooms.is_empty() {
             return Ok(Some(Renewed { changes: Vec::new(), trees: None }));
         }
-        let weighs_metres = written.rooms.iter().any(|(_, room)| room.hardness.value.is_some());
+        let is_on_doors = |(_, room): &(usize, RoomWeight)| {
+            room.hardness.value.is_none() && room.passable.value == Some(true)
+        };
         match &mut self.trees {
-            Trees::OnDoors { graph, trees, places } if !weighs_metres => {
+            Trees::OnDoors { graph, trees, places } if written.rooms.iter().all(is_on_doors) => {
                 for (door, weight) in &written.doors {
                     graph.reweigh(*door, weight_of(weight.hardness.value, weight.passable.value));
                 }
@@ -113,6 +116,7 @@ impl KeptRoutes {
         let (mut rooms, mut doors) = (self.graph.rooms.clone(), self.graph.doors.clone());
         for (row, weight) in &written.rooms {
             rooms[*row].hardness = weight.hardness.clone();
+            rooms[*row].passable = weight.passable.clone();
         }
         for (row, weight) in &written.doors {
             doors[*row].hardness = weight.hardness.clone();
@@ -144,6 +148,7 @@ impl KeptRoutes {
         for (row, weight) in &written.rooms {
             let room = &mut self.graph.rooms[*row];
             (room.hardness, room.action) = (weight.hardness.clone(), weight.action.clone());
+            room.passable = weight.passable.clone();
         }
         for (row, weight) in &written.doors {
             let door = &mut self.graph.doors[*row];

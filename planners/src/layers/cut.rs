@@ -4,12 +4,31 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
 use super::cells::{CellRect, Cells};
+use super::labels::Labels;
 use super::maximal::maximal_blocks;
 
 /// The rooms in the order in which they are cut: largest first, equal ones by (x0, y0, x1, y1). They are disjoint
 /// and cover the cells.
 pub(super) fn cut(cells: &Cells) -> Vec<CellRect> {
     Cutter::new(cells).rooms()
+}
+
+/// As [`cut`], but so that the cells of a room all have the same label.
+pub(super) fn cut_along(cells: &Cells, labels: Option<&Labels>) -> Vec<CellRect> {
+    let Some(labels) = labels else { return cut(cells) };
+    let (rest, parts) = labels.split(cells);
+    let mut rooms = cut(&rest);
+    for (within, part) in parts {
+        let moved = |room: CellRect| CellRect {
+            x0: room.x0 + within.x0,
+            y0: room.y0 + within.y0,
+            x1: room.x1 + within.x0,
+            y1: room.y1 + within.y0,
+        };
+        rooms.extend(cut(&part).into_iter().map(moved));
+    }
+    rooms.sort_unstable_by_key(|room| (Reverse(room.area()), *room));
+    rooms
 }
 
 /// Candidates are cut down only when they come up. At any time every free block lies inside of some candidate, so

@@ -10,7 +10,7 @@ use crate::geometry::{Point, Rect};
 use crate::world::{Occupancy, Shape, World};
 
 /// Metres by which a disc may be too large and still fit: what decimal fractions lose in binary.
-const TOLERANCE: f64 = 1e-9;
+pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// Everything solid in a world, ready to be asked for the free space of discs of several sizes.
 pub(crate) struct Solid<'a> {
@@ -155,7 +155,7 @@ impl<'a> Solid<'a> {
 }
 
 /// The range of x that the segment has between two heights; `None` where it does not come there.
-fn x_range_in_band(a: Point, b: Point, (low, high): (f64, f64)) -> Option<(f64, f64)> {
+pub(super) fn x_range_in_band(a: Point, b: Point, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
     if b.y < low || a.y > high {
         return None;

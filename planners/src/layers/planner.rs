@@ -1,8 +1,9 @@
 //! The planner that asserts the rooms and doors of all layers.
 
-use super::{Kind, Layers, Room, State, cut_layers};
+use super::{Kind, KnownLayers, Layers, Room, State, cut_layers_anew};
 use crate::facts::{Column, Facts, Table};
 use crate::names::room_name;
+use crate::overlays::{MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::GIVES;
 use crate::world::World;
@@ -14,9 +15,13 @@ const NAME: &str = "rooms by state";
 /// Gives ROOMS by robot (in the order in which the table first names them), state and then as made; and DOORS of
 /// kind `door` (within a layer) and `change` (one way, a pair where rooms of two states of a robot overlap), all
 /// numbered by (room1, room2). `width` is a room's smaller side, a door's length, the smaller side of the overlap
-/// of a change.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct RoomsByState;
+/// of a change. `AREA_ROOMS` and `DOOR_ROOMS` say which room lies in which named area or door: rooms are cut along them.
+///
+/// Layers are kept from one run to the next: where the size of one state changes, the others' are not cut again.
+#[derive(Debug, Default)]
+pub struct RoomsByState {
+    known: KnownLayers,
+}
 
 impl Planner for RoomsByState {
     fn name(&self) -> &'static str {
@@ -24,8 +29,9 @@ impl Planner for RoomsByState {
     }
 
     fn signature(&self) -> Signature {
-        let needs = ["robot", "state", "height", "width", "moves"].map(|p| format!("ROBOTS.{p}"));
-        Signature { needs: needs.into(), gives: GIVES.iter().map(|given| (*given).to_owned()).collect() }
+        let needs = ["robot", "state", "height", "width", "length", "moves"].map(|p| format!("ROBOTS.{p}"));
+        let gives = GIVES.iter().chain(&MEMBERS_GIVE).map(|given| (*given).to_owned()).collect();
+        Signature { needs: needs.into(), gives }
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
@@ -34,10 +40,16 @@ impl Planner for RoomsByState {
             class: "ROBOTS".to_owned(),
             what,
         })?;
-        let layers = cut_layers(world, &states)
+        let layers = cut_layers_anew(world, &states, &self.known)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
         let rooms = rooms_table(&layers, &states);
-        Ok(Facts::from([("ROOMS".to_owned(), rooms), ("DOORS".to_owned(), doors_table(&layers))]))
+        let keyed = |pairs: &[(usize, usize)]| -> Vec<(usize, usize)> {
+            pairs.iter().map(|&(room, named)| (room + 1, named)).collect()
+        };
+        let mut facts = member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms));
+        facts.insert("ROOMS".to_owned(), rooms);
+        facts.insert("DOORS".to_owned(), doors_table(&layers));
+        Ok(facts)
     }
 }
 
@@ -46,7 +58,7 @@ fn moving_states(known: &Facts) -> Result<Vec<State>, String> {
     let table = known.get("ROBOTS").ok_or("the class is missing")?;
     let (robots, names) = (table.texts("robot")?, table.texts("state")?);
     let (heights, widths) = (table.numbers("height")?, table.numbers("width")?);
-    let moves = table.truths("moves")?;
+    let (lengths, moves) = (table.numbers("length")?, table.truths("moves")?);
     let mut order: Vec<&Option<String>> = Vec::new();
     let mut states = Vec::new();
     for row in 0..table.len() {
@@ -63,6 +75,7 @@ fn moving_states(known: &Facts) -> Result<Vec<State>, String> {
             state: name.to_owned(),
             height: heights[row].ok_or_else(|| unknown("height"))?,
             width: widths[row].ok_or_else(|| unknown("width"))?,
+            length: lengths[row],
         });
     }
     states.sort_by_key(|state| order.iter().position(|robot| **robot == state.robot));
@@ -77,6 +90,7 @@ fn rooms_table(layers: &Layers, states: &[State]) -> Table {
         .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
         .with("robot", rooms.iter().map(|room| states[room.state].robot.clone()).collect::<Column>())
         .with("state", rooms.iter().map(|room| states[room.state].state.clone()).collect::<Column>())
+        .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>())
         .with("x0", number(|room| room.rect.x0))
         .with("y0", number(|room| room.rect.y0))
         .with("x1", number(|room| room.rect.x1))

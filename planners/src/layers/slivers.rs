@@ -3,6 +3,7 @@
 //! within a cell, which is finer than a layer promises, so those are dropped that nobody misses.
 
 use super::cells::{CellRect, Cells};
+use super::labels::Labels;
 use super::neighbours::Owners;
 
 /// How far from a thicker room a dropped cell may lie, in steps from cell to neighbouring cell.
@@ -11,10 +12,12 @@ const REACH: usize = 2;
 /// The rooms without those slivers
 /// - of which each cell lies within two free cells of a thicker room,
 /// - that have rooms on one of their long sides only, so that nobody crosses them,
-/// - without which the other rooms are connected as before.
+/// - without which the other rooms are connected as before,
+/// - that have the label of all rooms beside them, and of one at least where they have a label: so no area or named
+///   door loses its last room, and rooms stay connected as before without any that a rule shuts.
 ///
 /// The smallest are tried first; the order stays.
-pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect]) -> Vec<CellRect> {
+pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect], labels: Option<&Labels>) -> Vec<CellRect> {
     let is_sliver = |room: &CellRect| (room.x1 - room.x0).min(room.y1 - room.y0) == 1;
     let mut near = Cells::none(free.columns(), free.rows());
     for room in rooms.iter().filter(|room| !is_sliver(room)) {
@@ -33,10 +36,19 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect]) -> Vec<CellRect> {
         if is_sliver(room) && near.first_missing(*room).is_none() {
             let beside: Vec<usize> = neighbours[index].iter().copied().filter(|&other| kept[other]).collect();
             let around: Vec<CellRect> = beside.iter().map(|&other| rooms[other]).collect();
-            kept[index] = is_crossed(room, &around) || !are_connected(beside, &neighbours);
+            kept[index] = labels.is_some_and(|labels| !is_among_its_own(room, &around, labels))
+                || is_crossed(room, &around)
+                || !are_connected(beside, &neighbours);
         }
     }
     rooms.iter().zip(kept).filter(|(_, kept)| *kept).map(|(room, _)| *room).collect()
+}
+
+/// Whether all rooms around a sliver have its label, and there is one if the sliver lies in something.
+fn is_among_its_own(sliver: &CellRect, around: &[CellRect], labels: &Labels) -> bool {
+    let number = |room: &CellRect| labels.number(room.x0, room.y0);
+    let own = number(sliver);
+    around.iter().all(|room| number(room) == own) && (own == 0 || !around.is_empty())
 }
 
 /// Whether a sliver longer than a cell has rooms on both of its long sides.
@@ -77,7 +89,7 @@ mod tests {
     fn the_steps_of_a_round_wall_are_dropped_and_little_is_lost() {
         let disc = quarter_disc(40);
         let rooms = cut(&disc);
-        let kept = drop_slivers(&disc, &rooms);
+        let kept = drop_slivers(&disc, &rooms, None);
         let area = |rooms: &[CellRect]| rooms.iter().map(CellRect::area).sum::<u64>() as f64;
         let thin = |rooms: &[CellRect]| {
             rooms.iter().filter(|room| room.x1 - room.x0 == 1 || room.y1 - room.y0 == 1).count()
@@ -96,6 +108,6 @@ mod tests {
             cells.insert_block(block);
         }
         let rooms = cut(&cells);
-        assert_eq!(drop_slivers(&cells, &rooms), rooms);
+        assert_eq!(drop_slivers(&cells, &rooms, None), rooms);
     }
 }

@@ -40,6 +40,10 @@ pub enum Code {
     EmptyName,
     /// Two places of one name.
     DuplicatePlace,
+    /// Two areas or doors, or one and a place, of one name.
+    DuplicateName,
+    /// A named door that lies in walls wholly, a note.
+    DoorInWall,
     /// A place in something solid.
     PlaceInWall,
     /// A place outside of the environment.
@@ -81,6 +85,8 @@ impl Code {
             Self::SelfCrossing => "map/self-crossing",
             Self::EmptyName => "map/empty-name",
             Self::DuplicatePlace => "map/duplicate-place",
+            Self::DuplicateName => "map/duplicate-name",
+            Self::DoorInWall => "map/door-in-wall",
             Self::PlaceInWall => "map/place-in-wall",
             Self::PlaceOutside => "map/place-outside",
             Self::Thresholds => "map/thresholds",

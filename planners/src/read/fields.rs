@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::suggest::nearest;
 use super::syntax_problem;
+use crate::world::Property;
 
 /// The largest number that a file may hold. In metres it is far beyond any floor; beyond it the centimetres of a
 /// coordinate would be lost, and sums of hardness would not stay finite.
@@ -115,6 +116,18 @@ impl Fields<'_, '_> {
         }
     }
 
+    /// True or false under a key that must be there.
+    pub fn truth(&self, key: &str, problems: &mut Vec<Problem>) -> Option<bool> {
+        let value = self.require(key, problems)?;
+        match value.get_ref() {
+            DeValue::Boolean(truth) => Some(*truth),
+            other => {
+                problems.push(self.wrong_type(key, "true or false", other, value.span()));
+                None
+            }
+        }
+    }
+
     /// Exactly `N` finite numbers under a key that must be there.
     pub fn numbers<const N: usize>(
         &self,
@@ -126,13 +139,16 @@ impl Fields<'_, '_> {
     }
 
     /// Points `[[x, y], ...]` under a key that must be there.
-    pub fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<[f64; 2]>>> {
+    pub fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<Located<[f64; 2]>>>> {
         let value = self.require(key, problems)?;
         let DeValue::Array(entries) = value.get_ref() else {
             problems.push(self.wrong_type(key, "a list of [x, y]", value.get_ref(), value.span()));
             return None;
         };
-        let points: Vec<_> = entries.iter().filter_map(|entry| self.array(key, entry, problems)).collect();
+        let mut point = |entry: &Spanned<DeValue<'_>>| {
+            self.array(key, entry, problems).map(|value| Located { value, span: entry.span() })
+        };
+        let points: Vec<_> = entries.iter().filter_map(&mut point).collect();
         (points.len() == entries.len()).then(|| Located { value: points, span: value.span() })
     }
 
@@ -158,6 +174,16 @@ impl Fields<'_, '_> {
             }
         }
         tables
+    }
+
+    /// A finite number under a key that is there; of anything else it is said that it must be `wanted`.
+    pub(super) fn number_or(&self, key: &str, wanted: &str, problems: &mut Vec<Problem>) -> Option<Property> {
+        let value = self.get(key)?;
+        if matches!(value.get_ref(), DeValue::Integer(_) | DeValue::Float(_)) {
+            return self.finite(key, value, problems).map(Property::Number);
+        }
+        problems.push(self.wrong_type(key, wanted, value.get_ref(), value.span()));
+        None
     }
 
     fn array<const N: usize>(

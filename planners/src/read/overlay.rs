@@ -1,15 +1,22 @@
-//! Places, bridges and obstacles as `[[place]]`, `[[bridge]]`, `[[obstacle]]`: the content of a vector map, and what
-//! a site lays over any map. One reader and one set of checks for both.
+//! Places, bridges, obstacles, named areas and named doors as `[[place]]`, `[[bridge]]`, `[[obstacle]]`, `[[area]]`,
+//! `[[door]]`: the content of a vector map, and what a site lays over any map. One reader and one set of checks for
+//! both.
 
 mod checks;
 mod items;
+mod named;
+mod named_checks;
+mod names;
+mod outline;
 
 use toml::de::DeTable;
 
 use super::diagnostic::{MapErrors, Problem, Text};
 use super::fields::{Fields, Located};
 use super::syntax_problem;
-use crate::world::{Bridge, Place, Shape, World};
+use crate::world::{Area, Bridge, NamedDoor, Place, Shape, World};
+use named::Given;
+use names::Names;
 
 /// Items with their places in a text, checked in themselves (finite, positive, with an area) but not yet
 /// against a world.
@@ -19,11 +26,14 @@ pub struct Overlay {
     obstacles: Vec<Located<Shape>>,
     bridges: Vec<Located<Bridge>>,
     places: Vec<Located<Place>>,
+    areas: Vec<Located<Area>>,
+    doors: Vec<Located<NamedDoor>>,
+    given: Vec<Located<Given>>,
 }
 
 impl Overlay {
     /// The keys that an overlay takes from a document.
-    pub const KEYS: [&'static str; 3] = ["place", "bridge", "obstacle"];
+    pub const KEYS: [&'static str; 5] = ["place", "bridge", "obstacle", "area", "door"];
 
     /// Reads the items of a TOML document such as `site.toml`. Keys other than [`Self::KEYS`] are left to the
     /// caller; inside of the items unknown keys are refused.
@@ -42,21 +52,39 @@ impl Overlay {
 
     /// Reads the items of a document that is read field by field; what is wrong is added to `problems`.
     pub fn from_fields(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
+        let (mut names, mut given) = (Names::default(), Vec::new());
         Self {
             obstacles: items::obstacles(fields, problems),
             bridges: items::bridges(fields, problems),
-            places: items::places(fields, problems),
+            places: items::places(fields, &mut names, problems),
+            areas: named::areas(fields, &mut names, &mut given, problems),
+            doors: named::doors(fields, &mut names, &mut given, problems),
+            given,
             text: fields.text.clone(),
         }
     }
 
     /// Whether there is nothing to lay.
     pub fn is_empty(&self) -> bool {
-        self.obstacles.is_empty() && self.bridges.is_empty() && self.places.is_empty()
+        let drawn = self.obstacles.is_empty() && self.bridges.is_empty();
+        drawn && self.places.is_empty() && self.areas.is_empty() && self.doors.is_empty()
+    }
+
+    /// What is said of areas and doors besides what every one has, as planners write it in their signatures:
+    /// `AREAS.floor: number`. Each property once, in the order of their names.
+    pub fn further_properties(&self) -> Vec<String> {
+        let write = |given: &Located<Given>| {
+            let Given { class, property, kind } = &given.value;
+            format!("{class}.{property}: {kind}")
+        };
+        let mut further: Vec<String> = self.given.iter().map(write).collect();
+        further.sort_unstable();
+        further.dedup();
+        further
     }
 
     /// Lays the items over a world. Items partly outside are cut at the edge; places are checked against
-    /// everything solid, old and new.
+    /// everything solid, old and new; names and properties against those of the world.
     ///
     /// # Returns
     /// Notes (what was cut). On an error the world is as it was.
@@ -74,6 +102,13 @@ impl Overlay {
         for place in &self.places {
             checks::add_place(&mut laid, &self.text, place, &self.obstacles, &mut found);
         }
+        for area in &self.areas {
+            named_checks::add_area(&mut laid, &self.text, area, &mut found);
+        }
+        for door in &self.doors {
+            named_checks::add_door(&mut laid, &self.text, door, &mut found);
+        }
+        named_checks::one_kind_each(world, &self.text, &self.given, &mut found);
         let (notes, problems): (Vec<_>, Vec<_>) =
             found.into_iter().partition(|problem| problem.severity == miette::Severity::Advice);
         if !problems.is_empty() {

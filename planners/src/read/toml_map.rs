@@ -1,4 +1,5 @@
-//! Vector maps: `width`, `depth`, `[[obstacle]]`, `[[bridge]]`, `[[place]]`, in metres from (0, 0).
+//! Vector maps: `width`, `depth`, `[[obstacle]]`, `[[bridge]]`, `[[place]]`, `[[area]]`, `[[door]]`, in metres from
+//! (0, 0).
 
 use toml::de::DeTable;
 
@@ -8,6 +9,8 @@ use super::overlay::Overlay;
 use super::syntax_problem;
 use crate::geometry::Rect;
 use crate::world::World;
+
+const KEYS: [&str; 7] = ["width", "depth", "obstacle", "bridge", "place", "area", "door"];
 
 /// Reads a vector map.
 ///
@@ -22,7 +25,7 @@ pub fn read_toml_map(name: &str, text: &str) -> Result<(World, Vec<Problem>), Ma
     // A missing key is a fact about the whole file: point at its start, not at every line of it.
     let fields = Fields { what: "a map", table: document.get_ref(), span: 0..0, text: &source };
     let mut problems = Vec::new();
-    fields.refuse_unknown(&["width", "depth", "obstacle", "bridge", "place"], &mut problems);
+    fields.refuse_unknown(&KEYS, &mut problems);
     let width = fields.positive("width", &mut problems);
     let depth = fields.positive("depth", &mut problems);
     let overlay = Overlay::from_fields(&fields, &mut problems);

@@ -14,6 +14,7 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.name: text",
     "ROOMS.robot: text",
     "ROOMS.state: text",
+    "ROOMS.facing",
     "ROOMS.x0",
     "ROOMS.y0",
     "ROOMS.x1",
@@ -56,7 +57,8 @@ fn room_table(rooms: &[Room], rects: &[Rect]) -> Table {
         .with("room", keys(rooms.len()))
         .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
         .with("robot", nobody())
-        .with("state", nobody());
+        .with("state", nobody())
+        .with("facing", Column::Number(vec![None; rooms.len()]));
     with_edges(table, rects)
         .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
         .with("width", rects.iter().map(Rect::smaller_side).collect::<Column>())

@@ -9,18 +9,49 @@ impl RouteGraph {
     /// The segments on which the change `door` is begun from the room `from`.
     ///
     /// As long as the easier state has room, nobody leaves it, and as soon as it has, everybody takes it: so a shape
-    /// is changed where the easier of the two rooms ends and none like it follows. Where changes between
-    /// the two layers weigh differently from place to place, it may pay earlier, too: all sides of the area count.
+    /// is changed where the easier of the two rooms ends and none like it follows. And where the area in which it
+    /// can be changed at this price ends though both rooms go on.
     pub(super) fn gates(&self, door: usize, from: usize) -> &[Segment] {
         let RouteDoorSides { to, side } = self.sides(door, from);
         self.gates[door][side].get_or_init(|| {
-            let area = self.doors()[door].crossing;
-            if !self.is_even[door] {
-                return sides(&area).into();
+            let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
+            let mut gates = Vec::new();
+            for side in sides(&self.doors()[door].crossing) {
+                let rim = self.rim(easier, side);
+                let mut known = self.rim(harder, side);
+                known.extend(rim.iter().copied());
+                known.extend(self.beside(door, (from, to), side));
+                gates.extend(rim);
+                gates.extend(without(side, &known));
             }
-            let easier = if self.per_m(to) >= self.per_m(from) { from } else { to };
-            sides(&area).into_iter().flat_map(|side| self.rim(easier, side)).collect()
+            gates.into()
         })
+    }
+
+    /// The parts of a side of a change's area beyond which the same change is possible.
+    fn beside(&self, door: usize, (from, to): (usize, usize), side: Segment) -> Vec<Segment> {
+        let area = self.doors()[door].crossing;
+        let weight = self.passage(door);
+        let free = self.mesh.portals.of(from).iter().filter(|exit| self.is_free(exit.door as usize));
+        let rooms = std::iter::once(from).chain(free.map(|exit| exit.to as usize));
+        let mut found = Vec::new();
+        for exit in rooms.flat_map(|room| self.mesh.changes.of(room)) {
+            let (other, room) = (exit.door as usize, exit.to as usize);
+            let is_like = other != door
+                && self.mesh.layer[room] == self.mesh.layer[to]
+                && self.per_m(room).to_bits() == self.per_m(to).to_bits()
+                && self.passage(other) == weight;
+            let beside = &self.doors()[other].crossing;
+            // a change back and forth may lie in the same area
+            if is_like && beside != &area {
+                let (a, b) = (beside.nearest_to(side.a), beside.nearest_to(side.b));
+                let on = |p: Point| side.nearest_to(p).distance(p) <= EPSILON;
+                if on(a) && on(b) && a.distance(b) > EPSILON {
+                    found.push(Segment { a, b });
+                }
+            }
+        }
+        found
     }
 
     fn sides(&self, door: usize, from: usize) -> RouteDoorSides {
@@ -42,33 +73,18 @@ impl RouteGraph {
         if !is_outline || side.length() <= EPSILON {
             return Vec::new();
         }
-        let along = |p: Point| if upright { p.y } else { p.x };
         let across = |p: Point| if upright { p.x } else { p.y };
-        let mut open: Vec<(f64, f64)> = Vec::new();
+        let mut open: Vec<Segment> = Vec::new();
         for exit in self.mesh.portals.of(room) {
             let door = exit.door as usize;
             let segment = Segment::of(&self.doors()[door].crossing);
             let is_beside = (across(segment.a) - across(side.a)).abs() <= EPSILON
                 && (across(segment.b) - across(side.a)).abs() <= EPSILON;
             if is_beside && self.is_free(door) {
-                open.push((along(segment.a), along(segment.b)));
+                open.push(segment);
             }
         }
-        open.sort_by(|one, two| one.0.total_cmp(&two.0));
-        let (low, high) = (along(side.a).min(along(side.b)), along(side.a).max(along(side.b)));
-        let mut rest = Vec::new();
-        let mut from = low;
-        for (begins, ends) in open.into_iter().chain([(high, high)]) {
-            let to = begins.min(high);
-            if to - from > EPSILON {
-                rest.push((from, to));
-            }
-            from = from.max(ends);
-        }
-        let at = |along: f64| {
-            if upright { Point::new(side.a.x, along) } else { Point::new(along, side.a.y) }
-        };
-        rest.into_iter().map(|(a, b)| Segment { a: at(a), b: at(b) }).collect()
+        without(side, &open)
     }
 
     /// Whether a door can be passed for nothing, between rooms of equal hardness.
@@ -120,4 +136,28 @@ fn sides(area: &Rect) -> [Segment; 4] {
         Point::new(area.x0, area.y1),
     ];
     [Segment { a, b }, Segment { a: b, b: c }, Segment { a: d, b: c }, Segment { a, b: d }]
+}
+
+/// The parts of an axis-parallel segment that none of some others on its line covers.
+fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
+    let upright = (side.a.x - side.b.x).abs() <= EPSILON;
+    let along = |p: Point| if upright { p.y } else { p.x };
+    let ends = |segment: &Segment| {
+        let (a, b) = (along(segment.a), along(segment.b));
+        (a.min(b), a.max(b))
+    };
+    let (low, high) = ends(&side);
+    let mut covered: Vec<(f64, f64)> = others.iter().map(ends).collect();
+    covered.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let at = |along: f64| if upright { Point::new(side.a.x, along) } else { Point::new(along, side.a.y) };
+    let mut rest = Vec::new();
+    let mut from = low;
+    for (begins, ends) in covered.into_iter().chain([(high, high)]) {
+        let to = begins.min(high);
+        if to - from > EPSILON {
+            rest.push(Segment { a: at(from), b: at(to) });
+        }
+        from = from.max(ends);
+    }
+    rest
 }

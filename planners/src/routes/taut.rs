@@ -126,6 +126,9 @@ impl<'g> Search<'g> {
                 targets.push((room as u32, Target { goal: index, at: goal.at, change: None }));
                 let Some(at) = goal.at else { continue };
                 for exit in graph.mesh.changes_into.of(room) {
+                    if goal.rooms.contains(&(exit.to as usize)) {
+                        continue;
+                    }
                     let door = &graph.doors()[exit.door as usize];
                     if let Some(weight) = graph.passage(exit.door as usize)
                         && door.crossing.contains(at)

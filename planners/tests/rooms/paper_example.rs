@@ -8,12 +8,11 @@ use adit_planners::planner::{Planner, PlannerError};
 use adit_planners::prime_areas::{PrimeAreas, prime_areas};
 use adit_planners::rooms::PaperRooms;
 use adit_planners::strips::Strips;
-use adit_planners::world::{Bridge, Obstacle, Pose, Shape, World};
+use adit_planners::world::{Bridge, Obstacle, Shape, World};
 
 fn environment() -> World {
     let obstacle = |rect| Obstacle { shape: Shape::Rect(rect) };
     World {
-        bounds: Rect::new(0.0, 0.0, 93.7, 41.1),
         obstacles: vec![
             obstacle(Rect::new(19.1, 6.0, 29.5, 16.5)),
             obstacle(Rect::new(44.7, 9.6, 62.7, 34.0)),
@@ -22,11 +21,7 @@ fn environment() -> World {
             Bridge { rect: Rect::new(19.1, 0.0, 29.5, 6.0), height: 4.0 },
             Bridge { rect: Rect::new(29.5, 9.6, 44.7, 16.5), height: 15.0 },
         ],
-        places: Vec::new(),
-        occupancy: None,
-        frame: Pose::default(),
-        grid: None,
-        clearance: 0.0,
+        ..World::empty(Rect::new(0.0, 0.0, 93.7, 41.1))
     }
 }
 

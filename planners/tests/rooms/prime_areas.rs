@@ -2,7 +2,7 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::prime_areas::{maximal_rects, prime_areas};
-use adit_planners::world::{Bridge, Obstacle, Pose, Shape, World};
+use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use proptest::prelude::*;
 
 use crate::maps::{BOUNDS, Map, any_map};
@@ -39,14 +39,9 @@ fn bounds_without_area_have_none() {
 fn a_polygon_counts_by_its_enclosing_rectangle_and_a_bridge_as_free() {
     let corners = vec![Point::new(4.0, 0.0), Point::new(6.0, 4.0), Point::new(5.0, 9.0)];
     let world = World {
-        bounds: BOUNDS,
         obstacles: vec![Obstacle { shape: Shape::Polygon(corners) }],
         bridges: vec![Bridge { rect: Rect::new(1.0, 1.0, 2.0, 2.0), height: 1.0 }],
-        places: Vec::new(),
-        occupancy: None,
-        frame: Pose::default(),
-        grid: None,
-        clearance: 0.0,
+        ..World::empty(BOUNDS)
     };
     let (strips, areas) = prime_areas(&world);
     let rects: Vec<_> = areas.into_iter().map(|area| strips.rect(area)).collect();

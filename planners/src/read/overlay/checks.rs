@@ -1,7 +1,10 @@
 //! Items against the world over which they are laid: inside of the environment, places not in a wall.
 
+use std::ops::Range;
+
 use super::super::diagnostic::{Code, Problem, Text};
 use super::super::fields::Located;
+use super::names::duplicate;
 use crate::geometry::Rect;
 use crate::world::{Bridge, Obstacle, Place, Shape, World};
 
@@ -26,8 +29,25 @@ pub(super) fn add_bridge(world: &mut World, text: &Text, bridge: &Located<Bridge
     }
 }
 
+/// The complaint where a place, an area or a door of the world has this name.
+pub(super) fn taken(
+    world: &World,
+    text: &Text,
+    what: &str,
+    name: &str,
+    span: &Range<usize>,
+) -> Option<Problem> {
+    let places = world.places.iter().map(|place| ("place", &place.name));
+    let areas = world.areas.iter().map(|area| ("area", &area.name));
+    let doors = world.named_doors.iter().map(|door| ("door", &door.name));
+    let (of, _) = places.chain(areas).chain(doors).find(|(_, known)| *known == name)?;
+    let article = if of == "area" { "an" } else { "a" };
+    let message = format!("the map has {article} {of} `{name}` already");
+    Some(text.problem(duplicate(of, what), span, message))
+}
+
 /// What of `rect` is inside of the environment; says what is not.
-fn inside<T>(
+pub(super) fn inside<T>(
     bounds: Rect,
     text: &Text,
     what: &str,
@@ -82,9 +102,8 @@ pub(super) fn add_place(
 ) {
     let Place { name, at } = &place.value;
     let here = format!("the place `{name}` at ({}, {})", at.x, at.y);
-    if world.places.iter().any(|known| known.name == *name) {
-        let message = format!("the map has a place `{name}` already");
-        found.push(text.problem(Code::DuplicatePlace, &place.span, message));
+    if let Some(problem) = taken(world, text, "place", name, &place.span) {
+        found.push(problem);
         return;
     }
     if !world.bounds.contains(*at) {

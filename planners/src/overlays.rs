@@ -1,0 +1,144 @@
+//! Named areas and doors as facts, and which rooms lie in them.
+
+mod coverage;
+mod members;
+
+use crate::facts::{Column, Facts, Table};
+use crate::planner::{Planner, PlannerError, Signature};
+use crate::world::{Property, World};
+
+pub use coverage::RoomsInOverlays;
+pub(crate) use members::{GIVES as MEMBERS_GIVE, member_facts};
+
+/// The class of the named areas.
+pub const AREAS: &str = "AREAS";
+/// The class of the named doors.
+pub const NAMED_DOORS: &str = "NAMED_DOORS";
+
+/// Properties that every object of these classes has, known or not, so that rules may speak of them.
+const OWN: [(&str, &str, &str); 3] = [
+    (AREAS, "hardness_factor", "number"),
+    (NAMED_DOORS, "closed", "truth"),
+    (NAMED_DOORS, "hardness", "number"),
+];
+
+/// What kind of values one of [`OWN`] holds; `None` for a property that only a site gives.
+pub(crate) fn own_kind(class: &str, property: &str) -> Option<&'static str> {
+    OWN.iter().find(|own| own.0 == class && own.1 == property).map(|own| own.2)
+}
+
+/// Gives the named areas and doors of the world.
+///
+/// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `hardness_factor`. `NAMED_DOORS` by name: `door`
+/// (the name), `kind`, `x` and `y` (its middle), `width`, `closed`, `hardness`. Both with whatever else is said of one
+/// of them; what is not said of an object is unknown.
+#[derive(Clone, Debug, Default)]
+pub struct Overlays {
+    further: Vec<String>,
+}
+
+impl Overlays {
+    /// A planner for worlds in which this is said besides what every area and door has, as
+    /// [`Overlay::further_properties`](crate::read::Overlay::further_properties) writes it.
+    pub fn new(further: Vec<String>) -> Self {
+        Self { further }
+    }
+}
+
+impl Planner for Overlays {
+    fn name(&self) -> &'static str {
+        "overlays"
+    }
+
+    fn signature(&self) -> Signature {
+        let mut gives: Vec<String> =
+            ["area: text", "kind: text", "x", "y"].map(|p| format!("{AREAS}.{p}")).into();
+        gives.extend(["door: text", "kind: text", "x", "y", "width"].map(|p| format!("{NAMED_DOORS}.{p}")));
+        gives.extend(OWN.map(|(class, property, kind)| format!("{class}.{property}: {kind}")));
+        let known = gives.clone();
+        gives.extend(self.further.iter().filter(|further| !known.contains(further)).cloned());
+        Signature { needs: Vec::new(), gives }
+    }
+
+    fn facts(&self, world: &World, _known: &Facts) -> Result<Facts, PlannerError> {
+        Ok(Facts::from([
+            (AREAS.to_owned(), areas(world, &self.signature().gives)),
+            (NAMED_DOORS.to_owned(), named_doors(world, &self.signature().gives)),
+        ]))
+    }
+}
+
+fn areas(world: &World, gives: &[String]) -> Table {
+    let mut areas: Vec<_> = world.areas.iter().collect();
+    areas.sort_by(|a, b| a.name.cmp(&b.name));
+    let table = Table::default()
+        .with("area", areas.iter().map(|area| area.name.clone()).collect::<Column>())
+        .with("kind", areas.iter().map(|area| area.kind.clone()).collect::<Column>())
+        .with("x", areas.iter().map(|area| area.centre.x).collect::<Column>())
+        .with("y", areas.iter().map(|area| area.centre.y).collect::<Column>());
+    let further: Vec<_> = areas.iter().map(|area| area.further.as_slice()).collect();
+    with_further(table, AREAS, &further, gives)
+}
+
+fn named_doors(world: &World, gives: &[String]) -> Table {
+    let mut doors: Vec<_> = world.named_doors.iter().collect();
+    doors.sort_by(|a, b| a.name.cmp(&b.name));
+    let table = Table::default()
+        .with("door", doors.iter().map(|door| door.name.clone()).collect::<Column>())
+        .with("kind", doors.iter().map(|door| door.kind.clone()).collect::<Column>())
+        .with("x", doors.iter().map(|door| f64::midpoint(door.from.x, door.to.x)).collect::<Column>())
+        .with("y", doors.iter().map(|door| f64::midpoint(door.from.y, door.to.y)).collect::<Column>())
+        .with("width", doors.iter().map(|door| door.from.distance(door.to)).collect::<Column>());
+    let further: Vec<_> = doors.iter().map(|door| door.further.as_slice()).collect();
+    with_further(table, NAMED_DOORS, &further, gives)
+}
+
+/// Adds a column for each property that is given of the class and not there yet, or said of one of its objects.
+fn with_further(mut table: Table, class: &str, further: &[&[(String, Property)]], gives: &[String]) -> Table {
+    let declared = gives.iter().filter_map(|given| {
+        let (name, kind) = given.split_once(": ").unwrap_or((given, "number"));
+        Some((name.strip_prefix(class)?.strip_prefix('.')?, kind))
+    });
+    let said = further.iter().flat_map(|of| of.iter().map(|(name, value)| (name.as_str(), value.kind())));
+    let properties: Vec<(&str, &str)> = declared.chain(said).collect();
+    for (property, kind) in properties {
+        if table.column(property).is_some() {
+            continue;
+        }
+        let value = |of: &&[(String, Property)]| {
+            of.iter().find(|(name, _)| name == property).map(|(_, value)| value.clone())
+        };
+        let values = further.iter().map(value);
+        table = table.with(property, column(kind, values));
+    }
+    table
+}
+
+fn column(kind: &str, values: impl Iterator<Item = Option<Property>>) -> Column {
+    match kind {
+        "text" => Column::Text(
+            values
+                .map(|value| match value {
+                    Some(Property::Text(text)) => Some(text),
+                    _ => None,
+                })
+                .collect(),
+        ),
+        "truth" => Column::Truth(
+            values
+                .map(|value| match value {
+                    Some(Property::Truth(truth)) => Some(truth),
+                    _ => None,
+                })
+                .collect(),
+        ),
+        _ => Column::Number(
+            values
+                .map(|value| match value {
+                    Some(Property::Number(number)) => Some(number),
+                    _ => None,
+                })
+                .collect(),
+        ),
+    }
+}

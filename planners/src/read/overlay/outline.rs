@@ -1,0 +1,139 @@
+//! Rectangles and polygons of items, checked in themselves.
+
+use geo::{Area, Coord, LineString, Polygon, Validation};
+
+use super::super::diagnostic::{Code, Problem};
+use super::super::fields::{Fields, Located};
+use crate::geometry::{Point, Rect};
+use crate::world::Shape;
+
+/// What is smaller is a line that rounding made wide; square metres.
+const LEAST_AREA: f64 = 1e-9;
+
+/// The outline of an item: either a `rect` or a `polygon`.
+pub(super) fn shape(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> {
+    match (item.get("rect"), item.get("polygon")) {
+        (Some(_), Some(polygon)) => {
+            let message = format!("{} has either a `rect` or a `polygon`, not both", item.what);
+            problems.push(item.text.problem(Code::WrongType, &polygon.span(), message));
+            None
+        }
+        (None, Some(_)) => polygon(item, problems),
+        _ => rect(item, problems).map(|rect| Shape::Rect(rect.value)),
+    }
+}
+
+/// The `rect` of an item.
+pub(super) fn rect(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Located<Rect>> {
+    let Located { value: [x0, y0, x1, y1], span } = item.numbers::<4>("rect", problems)?;
+    if x0 < x1 && y0 < y1 {
+        return Some(Located { value: Rect::new(x0, y0, x1, y1), span });
+    }
+    let (message, help) = if x0 > x1 || y0 > y1 {
+        let message = "`rect` is x0, y0, x1, y1 with x0 < x1 and y0 < y1".to_owned();
+        let [a, b, c, d] = [x0.min(x1), y0.min(y1), x0.max(x1), y0.max(y1)];
+        (message, format!("did you mean [{a}, {b}, {c}, {d}]?"))
+    } else {
+        let message = "this `rect` has no area: it is a line or a point".to_owned();
+        let help = if item.what == "[[area]]" {
+            "what is passed like a line is a [[door]]: `from` and `to`"
+        } else {
+            "a wall needs a thickness, say 0.1 m"
+        };
+        (message, help.to_owned())
+    };
+    problems.push(item.text.problem(Code::Degenerate, &span, message).with_help(help));
+    None
+}
+
+fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> {
+    let Located { value, span } = item.points("polygon", problems)?;
+    let mut corners: Vec<Located<Point>> = value
+        .into_iter()
+        .map(|Located { value: [x, y], span }| Located { value: Point::new(x, y), span })
+        .collect();
+    corners.dedup_by_key(|corner| corner.value);
+    if corners.len() > 1 && corners.first().map(|c| c.value) == corners.last().map(|c| c.value) {
+        corners.pop();
+    }
+    let problem = |code, message: String| item.text.problem(code, &span, message);
+    if corners.len() < 3 {
+        let message = format!("a polygon needs three different corners, this one has {}", corners.len());
+        problems.push(problem(Code::FewCorners, message));
+        return None;
+    }
+    let points: Vec<Point> = corners.iter().map(|corner| corner.value).collect();
+    let ring = points.iter().map(|p| Coord { x: p.x, y: p.y }).collect();
+    let outline = Polygon::new(LineString::new(ring), Vec::new());
+    let invalid = outline.check_validation().err();
+    let is_line = thing(item) == "area" && outline.unsigned_area() < LEAST_AREA;
+    if invalid.is_none() && !is_line {
+        return Some(Shape::Polygon(points));
+    }
+    problems.push(match (crossing_edges(&points), invalid.filter(|_| !is_line)) {
+        (Some((i, j)), _) => {
+            let (a, b) = (edge(&points, i), edge(&points, j));
+            let message = format!("this polygon crosses itself: its edge {a} meets its edge {b}");
+            problem(Code::SelfCrossing, message)
+                .and_at(&corners[i].span, "one edge begins here")
+                .and_at(&corners[j].span, "the other one here")
+                .with_help(format!("list the corners in order around the {}, each once", thing(item)))
+        }
+        (None, Some(invalid)) => {
+            problem(Code::SelfCrossing, format!("this polygon is not a simple outline: {invalid}"))
+                .with_help(format!("list the corners in order around the {}, each once", thing(item)))
+        }
+        (None, None) => {
+            let message = "this polygon has no area: its corners lie on one line".to_owned();
+            problem(Code::Degenerate, message)
+        }
+    });
+    None
+}
+
+fn thing<'a>(item: &Fields<'a, '_>) -> &'a str {
+    item.what.trim_matches(['[', ']'])
+}
+
+/// How a message calls the edge from a corner to the next.
+fn edge(corners: &[Point], from: usize) -> String {
+    let (a, b) = (corners[from], corners[(from + 1) % corners.len()]);
+    format!("from ({}, {}) to ({}, {})", a.x, a.y, b.x, b.y)
+}
+
+/// The first two edges, by the corners where they begin, that share a point and are no neighbours; or neighbours of
+/// which one leads back along the other, where that is not the whole outline.
+fn crossing_edges(corners: &[Point]) -> Option<(usize, usize)> {
+    let count = corners.len();
+    let ends = |i: usize| (corners[i], corners[(i + 1) % count]);
+    let all_on_a_line = corners.windows(3).all(|w| turn(w[0], w[1], w[2]) == 0.0);
+    if all_on_a_line {
+        return None;
+    }
+    (0..count).find_map(|i| {
+        let meets = |&j: &usize| {
+            let ((a, b), (c, d)) = (ends(i), ends(j));
+            if j == i + 1 || (i == 0 && j == count - 1) {
+                let (tip, back, on) = if j == i + 1 { (b, a, d) } else { (a, b, c) };
+                let is_back = (back.x - tip.x) * (on.x - tip.x) + (back.y - tip.y) * (on.y - tip.y) > 0.0;
+                return turn(back, tip, on) == 0.0 && is_back;
+            }
+            do_meet((a, b), (c, d))
+        };
+        (i + 1..count).find(meets).map(|j| (i, j))
+    })
+}
+
+/// Positive where the way from a over b to c turns left, negative where it turns right, 0 where it is straight.
+fn turn(a: Point, b: Point, c: Point) -> f64 {
+    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
+}
+
+fn do_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
+    let apart = |p: f64, q: f64| p * q > 0.0;
+    let boxes = a.x.min(b.x) <= c.x.max(d.x)
+        && c.x.min(d.x) <= a.x.max(b.x)
+        && a.y.min(b.y) <= c.y.max(d.y)
+        && c.y.min(d.y) <= a.y.max(b.y);
+    boxes && !apart(turn(a, b, c), turn(a, b, d)) && !apart(turn(c, d, a), turn(c, d, b))
+}
