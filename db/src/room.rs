@@ -109,7 +109,7 @@ pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
             room: row.try_get(0)?,
             name: row.try_get(1)?,
             layer: layer.0.zip(layer.1),
-            facing: row.try_get(16)?,
+            facing: row.try_get(19)?,
             rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
             height: row.try_get(8)?,
             width: row.try_get(9)?,
