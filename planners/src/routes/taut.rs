@@ -134,10 +134,8 @@ impl<'g> Search<'g> {
                 let Some(at) = goal.at else { continue };
                 for exit in graph.mesh.changes_into.of(room) {
                     let door = &graph.doors()[exit.door as usize];
-                    // where the goal may be reached without it, nobody changes shape there
                     if let Some(weight) = graph.passage(exit.door as usize)
                         && door.crossing.contains(at)
-                        && !goal.rooms.contains(&(exit.to as usize))
                     {
                         let change = Some((Exit { door: exit.door, to: room as u32 }, weight));
                         targets.push((exit.to, Target { goal: index, at: goal.at, change }));

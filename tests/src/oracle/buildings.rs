@@ -92,6 +92,23 @@ pub fn wards(chance: &mut Chance) -> Plan {
     plan
 }
 
+/// The same floor with one or two wet or dry areas, that do not overlap.
+#[must_use]
+pub fn with_areas(mut plan: Plan, chance: &mut Chance) -> Plan {
+    // In tenths, so that an outline lies on the lines of any grid that divides them.
+    let tenths = |value: f64| (value * 10.0).round() / 10.0;
+    let middle = tenths(plan.width / 2.0);
+    for (left, right) in [(0.0, middle), (middle, plan.width)] {
+        if chance.is(0.75) {
+            let (x, y) = (chance.between(left, right - 1.0), chance.between(0.0, plan.depth - 1.0));
+            let (dx, dy) = (chance.between(0.5, right - x), chance.between(0.5, plan.depth - y));
+            let rect = Rect::new(tenths(x), tenths(y), tenths(x + dx), tenths(y + dy));
+            plan.areas.push((rect, chance.metres(1.2, 4.0)));
+        }
+    }
+    plan
+}
+
 /// A robot of two to four states. Changes, where there are any, cost so that no detour over a third state is cheaper.
 pub fn body(chance: &mut Chance) -> Body {
     let all = [

@@ -8,7 +8,7 @@ use super::way::{Piece, Way};
 /// A state that is held for less is a stumble, unless it has to be, metres.
 const STUMBLE: f64 = 0.3;
 
-/// What a turn must save if left out before anybody would see it, metres.
+/// What a turn must save if left out before anybody would see it, in hardness.
 const SEEN: f64 = 0.01;
 
 /// Something that no person would do.
@@ -27,9 +27,11 @@ pub fn find(way: &Way, [exact, fair]: [&Space; 2], side: f64) -> Vec<Silly> {
     let pieces: Vec<Piece> = way.pieces().filter(|piece| piece.from != piece.to).collect();
     for pair in pieces.windows(2).filter(|pair| pair[0].state == pair[1].state) {
         let (a, b) = (pair[0].from, pair[1].to);
-        let gain = a.distance(pair[0].to) + pair[1].from.distance(b) - a.distance(b);
-        if gain > SEEN && fair.is_free(pair[0].state, a, b) {
-            let what = format!("a turn that saves {gain:.3} m if left out");
+        let state = pair[0].state;
+        let weigh = |piece: &Piece| exact.weigh(state, piece.from, piece.to);
+        let gain = weigh(&pair[0]) + weigh(&pair[1]) - exact.weigh(state, a, b);
+        if gain > SEEN && fair.is_free(state, a, b) {
+            let what = format!("a turn that saves {gain:.3} if left out");
             found.push(Silly { at: pair[0].to, what });
         }
     }
@@ -60,15 +62,22 @@ fn stumbles(way: &Way, exact: &Space, fair: &Space) -> Vec<Silly> {
             _ => 0.0,
         };
         let price = |held: usize| {
-            let metres = length * body.states[held].hardness;
-            change(before, Some(held)) + metres + change(Some(held), after)
+            let metres = run.iter().map(|piece| exact.weigh(held, piece.from, piece.to));
+            change(before, Some(held)) + metres.sum::<f64>() + change(Some(held), after)
         };
         let would_do = |&other: &usize| {
             price(other) <= price(state) && run.iter().all(|piece| fair.is_free(other, piece.from, piece.to))
         };
-        if length < STUMBLE && around.iter().flatten().any(would_do) {
-            let name = &body.states[state].name;
-            let what = format!("{name} for {length:.3} m, needlessly");
+        if let Some(other) = around.into_iter().flatten().find(would_do).filter(|_| length < STUMBLE) {
+            let named = |state: Option<usize>| state.map_or("nothing", |state| &body.states[state].name);
+            let saved = price(state) - price(other);
+            let what = format!(
+                "{} for {length:.3} m between {} and {}, where {} saves {saved:.3}",
+                named(Some(state)),
+                named(before),
+                named(after),
+                named(Some(other))
+            );
             found.push(Silly { at: run[0].from, what });
         }
         first = next;

@@ -33,9 +33,9 @@ fn expect(plan: &Plan, body: &Body, start: (f64, f64), goal: (f64, f64), best: f
     let [grid, taut, driven] = costs(plan, body, Point::new(start.0, start.1), Point::new(goal.0, goal.1));
     let off = |cost: f64| cost / best - 1.0;
     let said = format!("best {best:.4}, grid {grid:.4}, taut {taut:.4}, driven {driven:.4}");
-    assert!((-1e-9..0.01).contains(&off(grid)), "{said}");
-    assert!((-1e-9..0.002).contains(&off(taut)), "{said}");
-    assert!((-1e-9..0.01).contains(&off(driven)), "{said}");
+    assert!((-1e-6..0.01).contains(&off(grid)), "{said}");
+    assert!((-1e-6..0.002).contains(&off(taut)), "{said}");
+    assert!((-1e-6..0.01).contains(&off(driven)), "{said}");
 }
 
 #[test]
@@ -85,13 +85,9 @@ fn between_two_weights_the_way_is_refracted() {
 #[test]
 fn in_a_wet_half_of_a_hall_the_way_is_refracted_too() {
     let plan = Plan::hall(10.0, 8.0).with_area(4.0, 0.0, 10.0, 8.0, 2.0);
-    let (start, goal) = (Point::new(1.0, 1.0), Point::new(7.0, 7.0));
     let cost = |y: f64| 3.0f64.hypot(y - 1.0) + 2.0 * 3.0f64.hypot(7.0 - y);
     let best = (0..=60_000).map(|step| cost(1.0 + f64::from(step) / 1e4)).fold(f64::INFINITY, f64::min);
-    let space = Space::new(&plan.world(), &disc(0.6), 0.0).with_areas(&plan.areas);
-    let grid = Grid::new(&space, STEP);
-    let taut = grid.ways_from(start).to(goal).unwrap().cost(&space);
-    assert!((-1e-6..0.001).contains(&(taut / best - 1.0)), "best {best}, taut {taut}");
+    expect(&plan, &disc(0.6), (1.0, 1.0), (7.0, 7.0), best);
 }
 
 #[test]

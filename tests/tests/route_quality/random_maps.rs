@@ -15,6 +15,7 @@ fn judged(seeds: std::ops::Range<u64>, goals: usize) -> Findings {
         let mut chance = Chance::new(seed);
         let plan =
             if seed.is_multiple_of(2) { buildings::hall(&mut chance) } else { buildings::wards(&mut chance) };
+        let plan = if seed % 4 < 2 { plan } else { buildings::with_areas(plan, &mut chance) };
         let body = buildings::body(&mut chance);
         let built = Built::of_plan(&plan, &body, GRID);
         let judge = Judge::new(&built, GRID);
