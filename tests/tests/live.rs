@@ -52,6 +52,7 @@ fn same_for((plain, held): (TestSite, TestSite), example: &str, edits: &[Edit]) 
             (Err(expected), Err(found)) => assert_eq!(found.to_string(), expected.to_string()),
             (expected, found) => panic!("{edit:?}: plain {expected:?}, held {found:?}"),
         }
+        live.renew_routes().unwrap();
         let (expected, found) = (content(&plain), content(&held));
         let differ: Vec<_> = expected.iter().filter(|row| !found.contains(row)).take(5).collect();
         let more: Vec<_> = found.iter().filter(|row| !expected.contains(row)).take(5).collect();
@@ -102,6 +103,28 @@ fn rooms_by_state() {
         "hospital",
         &[set("SQUAT", "hardness", "9"), set("SQUAT", "hardness", "2"), set("SQUAT", "hardness", "4")],
     );
+}
+
+#[test]
+fn by_state_the_next_route_knows_the_edit_and_kept_routes_follow_when_they_are_asked_to() {
+    let (site, plain) = (TestSite::example("hospital").built(), TestSite::example("hospital").built());
+    let mut live = Live::open(at_one_moment(&site)).unwrap();
+    let ward = ["ward 6".to_owned()];
+    let status = || site.sqlite3("SELECT status FROM route WHERE start = 'dock' AND goal = 'ward 6'");
+    for (state, hardness) in [("SIDE-STAND", "8"), ("STAND", "1.5"), ("SIDE-STAND", "2")] {
+        let edit = set(state, "hardness", hardness);
+        assert!(live.edit(&edit, &author()).unwrap().routes_due);
+        at_one_moment(&plain).edit(&edit, &author(), false, &Silent).unwrap();
+        let expected = at_one_moment(&plain).route("dock", "ward 6", None).unwrap();
+        let found = live.route("dock", &ward, None).unwrap();
+        let cost = expected.cost.unwrap();
+        assert!((found.cost.unwrap() - cost).abs() < 1e-9 * cost, "{found:?}");
+        assert_eq!(found.generation, expected.generation);
+        assert_eq!(status(), ["stale"]);
+    }
+    assert!(live.renew_routes().unwrap() > 0);
+    assert_eq!(status(), ["ok"]);
+    assert_eq!(live.renew_routes().unwrap(), 0, "nothing is due");
 }
 
 fn tell(class: &str, object: &str, property: &str, value: &str) -> Edit {
