@@ -175,7 +175,7 @@ impl RouteGraph {
         rooms: impl IntoIterator<Item = (usize, Walking)>,
         doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
     ) {
-        let changes_before: Vec<bool> = (0..self.doors.len()).map(|door| self.is_into_easier(door)).collect();
+        let into_easier: Vec<bool> = (0..self.doors.len()).map(|door| self.is_into_easier(door)).collect();
         let mut is_other_price = false;
         for (room, walking) in rooms {
             self.rooms[room].walking = walking;
@@ -200,8 +200,8 @@ impl RouteGraph {
         self.find_bends(&changed);
         // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
         let all = is_other_price || !changed.is_empty();
-        for door in 0..self.doors.len() {
-            if all || changes_before[door] != self.is_into_easier(door) {
+        for (door, was_into_easier) in into_easier.into_iter().enumerate() {
+            if all || was_into_easier != self.is_into_easier(door) {
                 self.gates[door] = [OnceLock::new(), OnceLock::new()];
             }
         }

@@ -1,4 +1,6 @@
 //! Ways where rooms weigh their metres: shortest in the free space that the rooms cover, beside a visibility graph.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+#![allow(clippy::float_cmp)] // two infinities are the same
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Kind, State, cut_layers};

@@ -32,9 +32,11 @@ fn what_is_open_then_is_what_counts_then() {
     // 2026-11-20 is a Friday
     let (open, shut) = (cost(&site, "2026-11-20T08:00"), cost(&site, "2026-11-20T18:00"));
     assert!(shut > 5.0 * open, "{open} {shut}");
-    assert_eq!(cost(&site, "2026-11-20T07:59"), shut);
-    assert_eq!(cost(&site, "2026-11-21T12:00"), shut, "Saturday");
-    assert_eq!(cost(&site, "2026-11-20T07:00:00Z"), open, "07:00 in UTC is 08:00 there");
+    // a kept route and one found for the question may differ in where a shape is changed
+    let same = |one: f64, other: f64| (one / other - 1.0).abs() < 0.01;
+    assert!(same(cost(&site, "2026-11-20T07:59"), shut));
+    assert!(same(cost(&site, "2026-11-21T12:00"), shut), "Saturday");
+    assert!(same(cost(&site, "2026-11-20T07:00:00Z"), open), "07:00 in UTC is 08:00 there");
 }
 
 #[test]

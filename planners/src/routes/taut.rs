@@ -26,10 +26,10 @@ const NEAR_M: f64 = 2.0;
 const CLOSE_M: f64 = 0.3;
 
 /// Ways that cost more than the best by at most this share are looked for, too: sliding may turn their order about.
-const SLACK: f64 = 0.02;
+const SLACK: f64 = 0.03;
 
 /// So many ways to a goal are pulled tight.
-const MOST_WAYS: usize = 6;
+const MOST_WAYS: usize = 16;
 
 /// A way into a room, up to what is seen of the door.
 #[derive(Clone, Copy, Debug)]
