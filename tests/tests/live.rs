@@ -108,14 +108,14 @@ fn rooms_by_state() {
 #[test]
 fn by_state_the_next_route_knows_the_edit_and_kept_routes_follow_when_they_are_asked_to() {
     let (site, plain) = (TestSite::example("hospital").built(), TestSite::example("hospital").built());
-    let mut live = Live::open(at_one_moment(&site)).unwrap();
+    let mut live = Live::open(KnowledgeBase::open(site.path()).unwrap()).unwrap();
     let ward = ["ward 6".to_owned()];
     let status = || site.sqlite3("SELECT status FROM route WHERE start = 'dock' AND goal = 'ward 6'");
     for (state, hardness) in [("SIDE-STAND", "8"), ("STAND", "1.5"), ("SIDE-STAND", "2")] {
         let edit = set(state, "hardness", hardness);
         assert!(live.edit(&edit, &author()).unwrap().routes_due);
-        at_one_moment(&plain).edit(&edit, &author(), false, &Silent).unwrap();
-        let expected = at_one_moment(&plain).route("dock", "ward 6", None).unwrap();
+        KnowledgeBase::open(plain.path()).unwrap().edit(&edit, &author(), false, &Silent).unwrap();
+        let expected = KnowledgeBase::open(plain.path()).unwrap().route("dock", "ward 6", None).unwrap();
         let found = live.route("dock", &ward, None).unwrap();
         let cost = expected.cost.unwrap();
         assert!((found.cost.unwrap() - cost).abs() < 1e-9 * cost, "{found:?}");

@@ -66,6 +66,7 @@ impl Chain<'_> {
             cost = now;
         }
         self.straighten();
+        self.join_changes();
         let doors = self.links.iter().map(|link| (link.door, link.at, link.room));
         Way::through(self.graph, self.start, doors, self.goal)
     }
@@ -189,6 +190,37 @@ impl Chain<'_> {
             at = share;
         }
         Some(links)
+    }
+
+    /// Takes one change of shape instead of several at one point, where that costs no more.
+    fn join_changes(&mut self) {
+        let graph = self.graph;
+        let mut first = 0;
+        while first < self.links.len() {
+            let at = self.links[first].at;
+            let is_here = |link: &&Link| link.at.distance(at) <= 1e-6;
+            let count = self.links[first..].iter().take_while(is_here).count();
+            let from = self.room_before(first);
+            let joined = (2..=count).rev().find_map(|count| {
+                let run = &self.links[first..first + count];
+                let to = run.last()?.room;
+                let price: f64 = run.iter().filter_map(|link| graph.passage(link.door)).sum();
+                if to == from {
+                    return Some((count, None));
+                }
+                let exit = graph.mesh.changes.of(from).iter().find(|exit| {
+                    let area = &graph.doors()[exit.door as usize].crossing;
+                    exit.to as usize == to
+                        && area.nearest_to(at).distance(at) <= 1e-6
+                        && graph.passage(exit.door as usize).is_some_and(|weight| weight <= price + EPSILON)
+                })?;
+                Some((count, Some(Link::new(graph, exit.door as usize, at, to))))
+            });
+            if let Some((count, link)) = joined {
+                self.links.splice(first..first + count, link);
+            }
+            first += 1;
+        }
     }
 
     /// Slides each stop along its segment to where its two neighbours are joined at least hardness.
