@@ -1,6 +1,7 @@
 //! What concluded values rest on, as the database keeps it: the number of the rule, and of the facts that it chose.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use adit_db::conclusion::Witness;
 use adit_engine::{Grounds, KnowledgeBase as Inference, RuleBase};
@@ -11,7 +12,9 @@ pub type Reason = (Option<i64>, Option<i64>);
 /// Numbers for facts that rules chose. Facts keep the number that they have; new ones come after all that there were.
 #[derive(Clone, Debug, Default)]
 pub struct Numbering {
-    known: BTreeMap<String, i64>,
+    /// Shared, since there may be a witness a door and most edits add none.
+    known: Arc<BTreeMap<String, i64>>,
+    new: BTreeMap<String, i64>,
     next: i64,
 }
 
@@ -20,12 +23,15 @@ impl Numbering {
     pub fn new(witnesses: &[Witness]) -> Self {
         let known = witnesses.iter().map(|witness| (witness.facts.clone(), witness.witness)).collect();
         let next = witnesses.iter().map(|witness| witness.witness).max().unwrap_or(0) + 1;
-        Self { known, next }
+        Self { known: Arc::new(known), new: BTreeMap::new(), next }
     }
 
     fn number(&mut self, facts: String) -> i64 {
+        if let Some(number) = self.known.get(&facts) {
+            return *number;
+        }
         let next = &mut self.next;
-        *self.known.entry(facts).or_insert_with(|| {
+        *self.new.entry(facts).or_insert_with(|| {
             *next += 1;
             *next - 1
         })
@@ -33,11 +39,16 @@ impl Numbering {
 
     /// The witnesses whose number is wanted, by number.
     pub fn witnesses(&self, is_wanted: impl Fn(i64) -> bool) -> Vec<Witness> {
-        let wanted = self.known.iter().filter(|(_, number)| is_wanted(**number));
+        let wanted = self.known.iter().chain(&self.new).filter(|(_, number)| is_wanted(**number));
         let mut witnesses: Vec<Witness> =
             wanted.map(|(facts, number)| Witness { witness: *number, facts: facts.clone() }).collect();
         witnesses.sort_by_key(|witness| witness.witness);
         witnesses
+    }
+
+    /// Whether facts were numbered since it was made.
+    pub fn has_new(&self) -> bool {
+        !self.new.is_empty()
     }
 }
 

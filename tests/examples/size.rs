@@ -92,7 +92,15 @@ fn driven(mut live: Live, (width, depth): (f64, f64)) -> Result<String, Box<dyn 
         edited.push(began.elapsed());
         if std::env::var_os("STAGES").is_some() {
             let stages = outcome.stages.iter().map(|stage| format!("{} {:.1?}", stage.name, stage.took));
-            eprintln!("{:.1?}: {}", edited.last(), stages.collect::<Vec<_>>().join(", "));
+            let again = Instant::now();
+            live.route(start, goals, None)?;
+            eprintln!(
+                "route {:.1?}; edit and route {:.1?}: {}; again {:.1?}",
+                asked.last(),
+                edited.last(),
+                stages.collect::<Vec<_>>().join(", "),
+                again.elapsed()
+            );
         }
     }
     let told = |times: &mut Vec<std::time::Duration>| {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_db::area::Area;
-use adit_db::conclusion::{Derivation, Witness};
+use adit_db::conclusion::Derivation;
 use adit_db::door::DoorWeight;
 use adit_db::room::RoomWeight;
 use adit_db::{Derived as Reasoned, Tx};
@@ -34,6 +34,7 @@ pub struct Written {
     new: Vec<Derivation>,
     witnesses_gone: Vec<i64>,
     witnesses_new: Vec<i64>,
+    /// How many values now rest on a witness, where that changes.
     uses: BTreeMap<i64, usize>,
 }
 
@@ -54,7 +55,7 @@ impl Kept {
     ) -> Written {
         let graph = routes.graph();
         let mut look = Look { knowledge, changes, reasons: Reasons::new(knowledge, rules, numbering) };
-        let mut uses = Uses(self.uses.clone());
+        let mut uses = Uses { before: &self.uses, now: BTreeMap::new() };
         let mut areas: BTreeMap<usize, Area> = BTreeMap::new();
         look.at(("PRIME_AREAS", "open"), truth, |row, open| {
             areas.insert(row, Area { open, ..self.areas[row].clone() });
@@ -118,12 +119,14 @@ impl Kept {
             written.new.iter().for_each(|new| uses.change(None, new.witness));
             written.derivations = Some(now);
         }
-        uses.0.retain(|_, uses| *uses > 0);
-        let fresh = |number: &&i64| !self.uses.contains_key(*number);
-        written.witnesses_new = uses.0.keys().filter(fresh).copied().collect();
-        written.witnesses_gone =
-            self.uses.keys().filter(|number| !uses.0.contains_key(*number)).copied().collect();
-        written.uses = uses.0;
+        for (number, uses) in uses.now {
+            match (self.uses.contains_key(&number), uses > 0) {
+                (false, true) => written.witnesses_new.push(number),
+                (true, false) => written.witnesses_gone.push(number),
+                _ => {}
+            }
+            written.uses.insert(number, uses);
+        }
         written
     }
 
@@ -151,7 +154,16 @@ impl Kept {
         if let Some(derivations) = written.derivations {
             self.derivations = derivations;
         }
-        self.uses = written.uses;
+        for (number, uses) in written.uses {
+            if uses > 0 {
+                self.uses.insert(number, uses);
+            } else {
+                self.uses.remove(&number);
+            }
+        }
+        if written.witnesses_gone.is_empty() && !numbering.has_new() {
+            return;
+        }
         let witnesses = numbering.witnesses(|number| self.uses.contains_key(&number));
         *numbering = Numbering::new(&witnesses);
     }
@@ -160,8 +172,11 @@ impl Kept {
 impl Written {
     /// Writes the rows.
     pub fn write(&self, tx: &mut Tx<'_>, numbering: &Numbering) -> Result<()> {
-        let new: Vec<Witness> = numbering.witnesses(|number| self.witnesses_new.contains(&number));
-        tx.change_witnesses(&self.witnesses_gone, &new)?;
+        if !self.witnesses_new.is_empty() || !self.witnesses_gone.is_empty() {
+            // in their order, as the numbers of the map were
+            let is_new = |number| self.witnesses_new.binary_search(&number).is_ok();
+            tx.change_witnesses(&self.witnesses_gone, &numbering.witnesses(is_new))?;
+        }
         tx.put_open_areas(self.areas.iter().map(|(_, area)| area))?;
         if !self.rooms.is_empty() {
             tx.put_room_weights(self.rooms.iter().map(|(_, weight)| weight))?;
@@ -175,17 +190,28 @@ impl Written {
     }
 }
 
-/// How many values rest on each witness.
-struct Uses(BTreeMap<i64, usize>);
+/// How many values rest on each witness, where that changes.
+struct Uses<'a> {
+    before: &'a BTreeMap<i64, usize>,
+    now: BTreeMap<i64, usize>,
+}
 
-impl Uses {
+impl Uses<'_> {
     fn change(&mut self, from: Option<i64>, to: Option<i64>) {
-        if let Some(to) = to {
-            *self.0.entry(to).or_default() += 1;
+        if from == to {
+            return;
         }
-        if let Some(uses) = from.and_then(|from| self.0.get_mut(&from)) {
+        if let Some(to) = to {
+            *self.count(to) += 1;
+        }
+        if let Some(from) = from {
+            let uses = self.count(from);
             *uses = uses.saturating_sub(1);
         }
+    }
+
+    fn count(&mut self, witness: i64) -> &mut usize {
+        self.now.entry(witness).or_insert_with(|| self.before.get(&witness).copied().unwrap_or(0))
     }
 }
 
