@@ -94,6 +94,12 @@ impl Segment {
     }
 }
 
+/// Metres between two points, to a rounding; the search asks for it more than for anything else.
+pub(super) fn apart(a: Point, b: Point) -> f64 {
+    let (dx, dy) = (a.x - b.x, a.y - b.y);
+    (dx * dx + dy * dy).sqrt()
+}
+
 /// More than 0 where `p` lies to the left of the way from `a` to `b`.
 pub(super) fn cross(a: Point, b: Point, p: Point) -> f64 {
     (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)

@@ -9,7 +9,7 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use super::cone::{Gap, Segment, View};
+use super::cone::{Gap, Segment, View, apart};
 use super::gates::Gate;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::{Goal, RouteGraph, Start};
@@ -97,6 +97,8 @@ pub(super) struct Search<'g> {
     /// The least hardness of a metre anywhere.
     least_per_m: f64,
     nodes: Vec<Node>,
+    /// Goals that were seen, with where from.
+    found: Vec<(usize, Found)>,
     queue: BinaryHeap<Candidate>,
     /// For each room points that are reached, with their costs: a room is convex, so from each of them every point
     /// of the room costs at most the way over.
@@ -155,6 +157,7 @@ impl<'g> Search<'g> {
             targets,
             least_per_m: graph.least_per_m(),
             nodes: Vec::new(),
+            found: Vec::new(),
             queue: BinaryHeap::new(),
             reached: vec![Vec::new(); rooms],
             bent: vec![f64::INFINITY; graph.bends.len()],
@@ -184,7 +187,8 @@ impl<'g> Search<'g> {
                 break;
             }
             match candidate.what {
-                What::Goal { goal, found } => {
+                What::Goal(found) => {
+                    let (goal, found) = self.found[found as usize];
                     let known = &mut self.outcome.goals[goal];
                     missing -= usize::from(known.is_empty());
                     if known.len() < MOST_WAYS {
@@ -219,7 +223,7 @@ impl<'g> Search<'g> {
                 let near = segment.nearest_to(node.root).distance(node.root);
                 (near, self.remaining(&|goal| segment.nearest_to(goal).distance(goal)))
             }
-            _ => (0.0, self.remaining(&|goal| node.root.distance(goal))),
+            _ => (0.0, self.remaining(&|goal| apart(node.root, goal))),
         };
         let index = self.nodes.len() as u32;
         self.nodes.push(node);
@@ -268,7 +272,7 @@ impl<'g> Search<'g> {
         }
         let ends = self.graph.mesh.ends[node.door as usize];
         let segment = Segment::of(&self.graph.doors()[node.door as usize].crossing);
-        match (ends, node.root.distance(segment.a) <= EPSILON) {
+        match (ends, apart(node.root, segment.a) <= EPSILON) {
             ([end, _], true) | ([_, end], false) => end,
         }
     }
@@ -292,7 +296,7 @@ impl<'g> Search<'g> {
         // what looks in all directions is needed once; what looks in some must give way to nothing that costs the same
         let slack = if node.view == View::All && node.before != NONE { EPSILON } else { -EPSILON };
         samples[..count].iter().all(|&p| {
-            let cost = node.cost + per_m * node.root.distance(p);
+            let cost = node.cost + per_m * apart(node.root, p);
             self.is_cheaper_in(room, p, cost + slack, per_m)
                 || self.is_cheaper_by_a_change(room, p, cost - EPSILON, per_m)
         })
@@ -301,7 +305,7 @@ impl<'g> Search<'g> {
     fn is_cheaper_in(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
         self.reached[room].iter().any(|&(q, cost)| {
             let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
-            cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
+            cost + aside * per_m < limit && cost + apart(q, p) * per_m < limit
         })
     }
 
@@ -314,7 +318,7 @@ impl<'g> Search<'g> {
                 return false;
             }
             let near = self.graph.doors()[exit.door as usize].crossing.nearest_to(p);
-            let aside = near.distance(p);
+            let aside = apart(near, p);
             let weight = self.graph.passage(exit.door as usize).filter(|_| aside <= CLOSE_M);
             weight
                 .is_some_and(|weight| self.is_cheaper_in(from, near, limit - weight - aside * per_m, easier))
@@ -326,7 +330,7 @@ impl<'g> Search<'g> {
         let per_m = self.graph.per_m(room);
         let (samples, count) = Self::samples(node);
         for &p in &samples[..count] {
-            let cost = node.cost + per_m * node.root.distance(p);
+            let cost = node.cost + per_m * apart(node.root, p);
             if !self.is_cheaper_in(room, p, cost + EPSILON, per_m) {
                 self.reached[room].push((p, cost));
             }
@@ -335,7 +339,7 @@ impl<'g> Search<'g> {
             && known.is_none()
         {
             let at = samples[0];
-            let cost = node.cost + per_m * node.root.distance(at);
+            let cost = node.cost + per_m * apart(node.root, at);
             *known = Some(Found { node: index, at, cost, change: None });
         }
     }
@@ -352,10 +356,12 @@ impl<'g> Search<'g> {
             let at = target.at.unwrap_or_else(|| Self::samples(node).0[0]);
             if self.outcome.goals[target.goal].len() < MOST_WAYS && node.view.sees(node.root, at) {
                 let weight = target.change.map_or(0.0, |(_, weight)| weight);
-                let cost = node.cost + per_m * node.root.distance(at) + weight;
+                let cost = node.cost + per_m * apart(node.root, at) + weight;
                 let change = target.change.map(|(exit, _)| exit);
                 let found = Found { node: index, at, cost, change };
-                self.queue.push(Candidate { least: cost, what: What::Goal { goal: target.goal, found } });
+                let what = What::Goal(self.found.len() as u32);
+                self.found.push((target.goal, found));
+                self.queue.push(Candidate { least: cost, what });
             }
         }
     }
@@ -368,7 +374,7 @@ impl<'g> Search<'g> {
             if end == NONE || !self.graph.bends[end as usize] {
                 continue;
             }
-            let cost = node.cost + per_m * node.root.distance(root);
+            let cost = node.cost + per_m * apart(node.root, root);
             if cost <= self.bent[end as usize] + EPSILON {
                 let view = View::Side { from: node.root, left };
                 self.push(Node { root, cost, before: index, bent: true, view, ..*node });
@@ -395,14 +401,14 @@ impl<'g> Search<'g> {
         let is_inside = !matches!(node.view, View::Through(_));
         if segment.is_in_line_with(node.root) {
             let near = segment.nearest_to(node.root);
-            let way = near.distance(node.root);
+            let way = apart(near, node.root);
             if way <= EPSILON && is_inside {
                 let view = if is_same { node.view } else { View::All };
                 self.push(next(node.root, 0.0, view));
             } else if node.view.sees(node.root, near) {
                 // along a wall, and about the near end
                 let ends = self.graph.mesh.ends[door];
-                let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
+                let end = if apart(near, segment.a) <= EPSILON { ends[0] } else { ends[1] };
                 if self.graph.bends[end as usize] || !is_same {
                     self.push(next(near, way, View::All));
                 }
@@ -418,7 +424,7 @@ impl<'g> Search<'g> {
             return;
         }
         for p in self.points(room, seen, node.root) {
-            self.push(next(p, node.root.distance(p), View::All));
+            self.push(next(p, apart(node.root, p), View::All));
         }
     }
 
@@ -437,7 +443,7 @@ impl<'g> Search<'g> {
         let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
         let mut points: Vec<Point> = Vec::new();
         for p in std::iter::once(seen.nearest_to(root)).chain(feet).chain(even) {
-            if !points.iter().any(|known| known.distance(p) <= EPSILON) {
+            if !points.iter().any(|known| apart(*known, p) <= EPSILON) {
                 points.push(p);
             }
         }
@@ -451,7 +457,7 @@ impl<'g> Search<'g> {
         let room = exit.to as usize;
         let (here, there) = (self.graph.per_m(node.room as usize), self.graph.per_m(room));
         let reach = |search: &mut Self, p: Point| {
-            let cost = node.cost + node.root.distance(p) * here;
+            let cost = node.cost + apart(node.root, p) * here;
             // reached at less cost otherwise, here or there
             let is_vain = search.is_pruning
                 && (search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
@@ -490,7 +496,8 @@ impl<'g> Search<'g> {
 #[derive(Clone, Copy)]
 enum What {
     Node(u32),
-    Goal { goal: usize, found: Found },
+    /// By its place among those that were found.
+    Goal(u32),
 }
 
 /// The cheapest first; then goals, then the node found first.
@@ -502,7 +509,7 @@ struct Candidate {
 impl Candidate {
     fn place(&self) -> (u8, u32) {
         match self.what {
-            What::Goal { goal, .. } => (0, goal as u32),
+            What::Goal(found) => (0, found),
             What::Node(index) => (1, index),
         }
     }
