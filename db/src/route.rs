@@ -85,6 +85,9 @@ pub struct Waypoint {
     pub state: Option<String>,
     /// What it does on the way there.
     pub action: Option<String>,
+    /// How a body that is longer than wide lies on the way there, degrees counterclockwise from +x, less than 180;
+    /// `None` for a disc.
+    pub facing: Option<f64>,
     /// The least metres between the robot's rim and anything solid on the way there; `None`: not measured.
     pub clearance: Option<f64>,
     /// Metres from the start; `None` where ways are not measured.
@@ -101,7 +104,7 @@ pub async fn waypoints(
     goal: &str,
 ) -> Result<Vec<Waypoint>> {
     let query = sqlx::query(
-        "SELECT waypoint, x, y, heading, state, action, clearance, distance, cost FROM waypoints
+        "SELECT waypoint, x, y, heading, state, action, facing, clearance, distance, cost FROM waypoints
          WHERE robot = ? AND start = ? AND goal = ? ORDER BY waypoint",
     );
     let read = |row: &SqliteRow| -> sqlx::Result<Waypoint> {
@@ -112,9 +115,10 @@ pub async fn waypoints(
             heading: row.try_get(3)?,
             state: row.try_get(4)?,
             action: row.try_get(5)?,
-            clearance: row.try_get(6)?,
-            distance: row.try_get(7)?,
-            cost: row.try_get(8)?,
+            facing: row.try_get(6)?,
+            clearance: row.try_get(7)?,
+            distance: row.try_get(8)?,
+            cost: row.try_get(9)?,
         })
     };
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;

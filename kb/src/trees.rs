@@ -88,7 +88,10 @@ pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Re
 }
 
 fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
-    for name in names {
+    for (index, name) in names.iter().enumerate() {
+        if names[..index].contains(name) {
+            return Err(Error::said("site/starts", format!("`starts` names `{name}` twice"), None));
+        }
         if !matches!(graph.end(name), Some(End::Place(_) | End::Room(_))) {
             let help = did_you_mean(name, graph.names());
             return Err(Error::said(
@@ -112,6 +115,14 @@ fn keeps_rooms(graph: &SiteGraph) -> bool {
 pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
     let mut ends = Vec::with_capacity(graph.rooms.len() + graph.places.len());
     for (index, place) in graph.places.iter().enumerate() {
+        let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
+        if place.place.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y)) {
+            return Err(Error::said(
+                "site/place-named-like-a-point",
+                format!("place `{}` is named like a point, so it would mean two things", place.place),
+                Some("give the place a name that is not `x,y`".to_owned()),
+            ));
+        }
         if graph.rooms.iter().any(|room| room.name == place.place) {
             return Err(Error::said(
                 "site/place-named-like-a-room",

@@ -72,6 +72,43 @@ fn turning_costs_what_the_table_says() {
 }
 
 #[track_caller]
+#[test]
+fn a_long_body_turns_at_a_corner_facing_by_facing() {
+    // once, no change from a facing to the next was thought to pay where neither has room for long: no route was found
+    let site = TestSite::empty()
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .with(
+            "map.toml",
+            "width = 6.0\ndepth = 6.0\nobstacle = [{ rect = [0.0, 0.6, 4.0, 6.0] }, { rect = [4.6, 2.2, 6.0, 6.0] }]\n\
+             place = [{ name = \"below\", at = [0.6, 0.3] }, { name = \"above\", at = [4.3, 5.0] }]\n",
+        )
+        .with(
+            "robots.toml",
+            "[[robots]]\nstate = \"ROLL\"\naction = \"DRIVE\"\nheight = 1.0\nwidth = 0.3\nlength = 0.9\nhardness = 1.0\n\
+             [[changes]]\nfrom_state = \"ROLL\"\nto_state = \"ROLL\"\nhardness = 5.0\n",
+        )
+        .built();
+    for (start, goal) in [("below", "above"), ("above", "below")] {
+        let route = site.adit("route", &[start, goal, "--json"]).expecting(0).json();
+        let facings = route["waypoints"].as_array().unwrap().iter();
+        let facings: Vec<f64> = facings.map(|waypoint| waypoint["facing"].as_f64().unwrap()).collect();
+        let turned = |pair: &[f64]| (pair[0] - pair[1]).abs();
+        assert!(facings.contains(&0.0) && facings.contains(&90.0), "{facings:?}");
+        let is_next = |turn: f64| turn < 1e-9 || (turn - 22.5).abs() < 1e-9 || (turn - 157.5).abs() < 1e-9;
+        assert!(facings.windows(2).all(|pair| is_next(turned(pair))), "{facings:?}");
+    }
+}
+
+#[test]
+fn a_body_longer_than_the_map_fits_nowhere() {
+    let site = TestSite::example("depot");
+    site.write(
+        "robots.toml",
+        "[[robots]]\nstate = \"S\"\naction = \"A\"\nheight = 1.0\nwidth = 0.6\nlength = 1e9\nhardness = 1.0\n",
+    );
+    site.adit("build", &[]).complains(&["no room"]);
+}
+
 fn refused(from: &str, to: &str, words: &[&str]) {
     let site = TestSite::example("depot");
     site.edit("robots.toml", from, to);

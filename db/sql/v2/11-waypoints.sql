@@ -1,5 +1,5 @@
 -- The points at which a route bends, changes shape, starts and ends. state and action are those in which the robot
--- comes there (at the start, in which it leaves), clearance is that of the straight way there.
+-- comes there (at the start, in which it leaves), facing how a body longer than wide lies then, clearance is that of the straight way there.
 CREATE VIEW waypoints AS
 SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   j.key + 1 AS waypoint,
@@ -8,6 +8,7 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   t.heading / 100.0 AS heading,
   r.state AS state,
   r.action AS action,
+  r.facing AS facing,
   t.clearance AS clearance,
   t.distance AS distance,
   t.reach + coalesce(d.hardness, 0.0) AS cost

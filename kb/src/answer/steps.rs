@@ -75,6 +75,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: &Gauge) -> Vec<Wayp
             heading: None,
             state: room.layer.as_ref().map(|(_, state)| state.clone()),
             action: room.action.value.clone(),
+            facing: room.facing,
             clearance: None,
             distance: is_measured.then_some(0.0),
             cost: 0.0,

@@ -51,7 +51,13 @@ impl Layer {
         size: &Size,
     ) -> Self {
         let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
+        let extent = size.lies.map_or(size.width, |(length, _)| length.max(size.width));
         let (free, turning) = match size.lies {
+            // what is longer than the map fits nowhere, whatever its outline
+            _ if extent > world.bounds.dx().hypot(world.bounds.dy()) => {
+                let nowhere = Cells::none(lattice.columns(), lattice.rows());
+                (nowhere.clone(), size.lies.map(|_| nowhere))
+            }
             None => (solid.free_cells(size.width / 2.0 + world.clearance, &low), None),
             Some((length, facing)) => {
                 let open = solid.free_cells(0.0, &low);

@@ -33,6 +33,13 @@ impl RouteGraph {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
             let area = self.doors()[door].crossing;
+            let common = self.rooms()[from].rect.intersection(&self.rooms()[to].rect);
+            let deep = |segment: Segment| Gate { segment, is_deep: true };
+            if common.is_none_or(|common| !is_same(&common, &area)) {
+                // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
+                return sides(&area).into_iter().map(deep).collect();
+            }
+            let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
             for side in sides(&area) {
                 let mut rim = self.rim(easier, side);
                 let mut known = self.rim(harder, side);
@@ -43,9 +50,11 @@ impl RouteGraph {
                     let on = self.deep(easier, end, area.centre(), THIN_M);
                     rim.extend(without(end, &on));
                 }
-                let deep = |segment: Segment| Gate { segment, is_deep: true };
                 gates.extend(otherwise.into_iter().map(deep));
-                if easier == to {
+                if is_equal {
+                    gates.extend(self.rim(harder, side).into_iter().map(deep));
+                }
+                if is_equal || easier == to {
                     gates.extend(rim.into_iter().map(deep));
                     continue;
                 }
@@ -190,7 +199,13 @@ struct RouteDoorSides {
     side: usize,
 }
 
-fn sides(area: &Rect) -> [Segment; 4] {
+fn is_same(a: &Rect, b: &Rect) -> bool {
+    let pairs = [(a.x0, b.x0), (a.y0, b.y0), (a.x1, b.x1), (a.y1, b.y1)];
+    pairs.iter().all(|(a, b)| (a - b).abs() <= EPSILON)
+}
+
+/// The sides of a change's area.
+pub(super) fn sides(area: &Rect) -> [Segment; 4] {
     let [a, b, c, d] = [
         Point::new(area.x0, area.y0),
         Point::new(area.x1, area.y0),

@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View, apart};
-use super::gates::Gate;
+use super::gates::{Gate, sides};
 use super::mesh::{EPSILON, Exit, NONE};
 use super::{Goal, RouteGraph, Start};
 use crate::geometry::Point;
@@ -80,6 +80,15 @@ pub(super) enum Wanted {
     Rooms,
 }
 
+/// How much a search looks at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Care {
+    /// Changes of shape on gates only.
+    Usual,
+    /// Changes on all sides of their areas, where the usual search found no way though doors join the rooms.
+    Full,
+}
+
 /// A goal in a room: where it is, and the hardness of a change of shape that has to follow there.
 #[derive(Clone, Copy)]
 struct Target {
@@ -108,13 +117,13 @@ pub(super) struct Search<'g> {
     /// Roots from which a room was looked at already: the room, the point, and to which side.
     looked: HashSet<(u32, u64, u64, u8)>,
     outcome: Outcome,
-    is_pruning: bool,
+    care: Care,
 }
 
 impl<'g> Search<'g> {
     /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least.
     pub fn find(graph: &'g RouteGraph, start: &Start, goals: &'g [Goal], wanted: Wanted) -> Outcome {
-        let outcome = Self::new(graph, goals, wanted, true).run(start);
+        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start);
         let is_found = |goal: usize| !outcome.goals[goal].is_empty();
         if wanted == Wanted::One && (0..goals.len()).any(is_found) || (0..goals.len()).all(is_found) {
             return outcome;
@@ -124,11 +133,10 @@ impl<'g> Search<'g> {
         if !(0..goals.len()).any(is_missed) {
             return outcome;
         }
-        // ways are compared at some points of a door only: where that lost one, none is left out
-        Self::new(graph, goals, wanted, false).run(start)
+        Self::new(graph, goals, wanted, Care::Full).run(start)
     }
 
-    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, is_pruning: bool) -> Self {
+    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, care: Care) -> Self {
         let mut targets = Vec::new();
         for (index, goal) in goals.iter().enumerate() {
             for &room in &goal.rooms {
@@ -163,7 +171,7 @@ impl<'g> Search<'g> {
             bent: vec![f64::INFINITY; graph.bends.len()],
             looked: HashSet::new(),
             outcome,
-            is_pruning,
+            care,
         }
     }
 
@@ -233,7 +241,7 @@ impl<'g> Search<'g> {
 
     fn expand(&mut self, index: u32) {
         let node = self.nodes[index as usize];
-        if self.is_pruning && self.is_superfluous(&node) {
+        if self.is_superfluous(&node) {
             return;
         }
         let side = match node.view {
@@ -459,9 +467,8 @@ impl<'g> Search<'g> {
         let reach = |search: &mut Self, p: Point| {
             let cost = node.cost + apart(node.root, p) * here;
             // reached at less cost otherwise, here or there
-            let is_vain = search.is_pruning
-                && (search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
-                    || search.is_cheaper_in(room, p, cost + weight + EPSILON, there));
+            let is_vain = search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
+                || search.is_cheaper_in(room, p, cost + weight + EPSILON, there);
             if !is_vain {
                 search.push(Node {
                     root: p,
@@ -474,10 +481,23 @@ impl<'g> Search<'g> {
                 });
             }
         };
-        if node.before == NONE && self.graph.doors()[door].crossing.contains(node.root) {
+        let graph = self.graph;
+        // at the start, and where the body goes on turning
+        let is_begun =
+            node.before == NONE || node.door != NONE && graph.doors()[node.door as usize].is_change();
+        let is_at_once = node.before == NONE || is_begun && here.to_bits() == there.to_bits();
+        if is_at_once && graph.doors()[door].crossing.contains(node.root) {
             reach(self, node.root);
         }
-        let graph = self.graph;
+        if self.care == Care::Full {
+            for side in sides(&graph.doors()[door].crossing) {
+                let Some(seen) = node.view.of(node.root, side) else { continue };
+                for p in self.points(room, seen, node.root) {
+                    reach(self, p);
+                }
+            }
+            return;
+        }
         for Gate { segment: gate, is_deep } in graph.gates(exit.door as usize, node.room as usize) {
             if !is_deep && !self.is_near_a_goal(gate) {
                 continue;
