@@ -94,7 +94,9 @@ impl KnowledgeBase {
         let mut store = Store::open_read_only(self.database())?;
         let texts = self.site().texts().to_string();
         let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
-            Ok(tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
+            // a first build that was killed leaves tables, and nothing in them
+            let is_unbuilt = generation::read(tx)? == 0;
+            Ok(is_unbuilt || tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
         };
         if store.snapshot(is_old)? {
             drop(store);

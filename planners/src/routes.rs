@@ -18,6 +18,7 @@ mod pull;
 mod taut;
 mod way;
 
+use std::cmp::Ordering;
 use std::sync::OnceLock;
 
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -175,7 +176,7 @@ impl RouteGraph {
         rooms: impl IntoIterator<Item = (usize, Walking)>,
         doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
     ) {
-        let into_easier: Vec<bool> = (0..self.doors.len()).map(|door| self.is_into_easier(door)).collect();
+        let orders: Vec<Ordering> = (0..self.doors.len()).map(|door| self.order(door)).collect();
         let mut is_other_price = false;
         for (room, walking) in rooms {
             self.rooms[room].walking = walking;
@@ -200,8 +201,8 @@ impl RouteGraph {
         self.find_bends(&changed);
         // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
         let all = is_other_price || !changed.is_empty();
-        for (door, was_into_easier) in into_easier.into_iter().enumerate() {
-            if all || was_into_easier != self.is_into_easier(door) {
+        for (door, before) in orders.into_iter().enumerate() {
+            if all || before != self.order(door) {
                 self.gates[door] = [OnceLock::new(), OnceLock::new()];
             }
         }
@@ -229,8 +230,9 @@ impl RouteGraph {
         }
     }
 
-    fn is_into_easier(&self, door: usize) -> bool {
-        self.per_m(self.doors[door].room2) < self.per_m(self.doors[door].room1)
+    /// Which of a door's rooms is easier.
+    fn order(&self, door: usize) -> Ordering {
+        self.per_m(self.doors[door].room2).total_cmp(&self.per_m(self.doors[door].room1))
     }
 
     /// The best way to the goal that costs least, with that goal's index.
