@@ -21,6 +21,20 @@ impl Point {
     }
 }
 
+impl Point {
+    /// The point of the segment from `a` to `b` that is nearest to this one.
+    #[must_use]
+    pub fn nearest_on(self, a: Self, b: Self) -> Self {
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let squared = dx * dx + dy * dy;
+        if squared <= 0.0 {
+            return a;
+        }
+        let share = (((self.x - a.x) * dx + (self.y - a.y) * dy) / squared).clamp(0.0, 1.0);
+        Self::new(a.x + dx * share, a.y + dy * share)
+    }
+}
+
 /// A closed axis-parallel rectangle; `x0 <= x1` and `y0 <= y1`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Rect {

@@ -239,7 +239,7 @@ impl RouteGraph {
     ///
     /// Where rooms weigh metres, the way is the shortest one of its kind to within the rounding of numbers between
     /// points where hardness changes or a shape is changed, and those points are the best ones near the
-    /// best of points at most 0.75 m apart.
+    /// best of points at most half a metre apart.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
         if self.is_on_doors() {
             let all = self.ways(start, goals, false).goals.into_iter().enumerate();

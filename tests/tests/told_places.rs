@@ -174,3 +174,19 @@ fn a_fact_about_a_room_is_about_what_holds_its_point_in_every_layer() {
                      AND NOT (9.5 BETWEEN x0 AND x1 AND 2 BETWEEN y0 AND y1)";
     assert_eq!(site.sqlite3(elsewhere), ["0"]);
 }
+
+#[test]
+fn a_fact_about_a_room_is_about_every_facing_of_a_long_body() {
+    // once, of the eight layers of a state only the first was told, so a body that turned knew nothing of it
+    let body = "[[robots]]\nstate = \"ROLL\"\naction = \"DRIVE\"\nheight = 1.0\nwidth = 0.3\nlength = 0.6\nhardness = 1.0\n";
+    let site = TestSite::empty()
+        .with("site.toml", "name = \"hall\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .with("map.toml", "width = 4.0\ndepth = 4.0\n")
+        .with("robots.toml", body)
+        .built();
+    let holding =
+        site.sqlite3("SELECT count(*) FROM rooms WHERE 2.0 BETWEEN x0 AND x1 AND 2.0 BETWEEN y0 AND y1");
+    assert!(holding[0].parse::<usize>().unwrap() >= 8, "{holding:?}");
+    site.adit("tell", &["ROOMS", "2.0,2.0", "passable", "false"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(DISTINCT facing) FROM rooms WHERE passable = 0"), ["8"]);
+}

@@ -49,7 +49,7 @@ impl Attached {
 /// The rows of the objects that a fact is about, ascending.
 ///
 /// A name means the object with that key. A point means every object with a rectangle that holds the point; of those of
-/// one robot and state the first one. A door is found by its segment: [`is_same_door`].
+/// one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
 pub fn rows(knowledge: &Inference, fact: &Fact) -> Vec<usize> {
     match &fact.object {
         Object::Key(key) => knowledge.row(&fact.class, key).into_iter().collect(),
@@ -74,10 +74,7 @@ fn holding(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
         if !Rect::new(x0, y0, x1, y1).contains(at) {
             continue;
         }
-        let layer = ["robot", "state"].map(|part| match knowledge.value_at(class, row, part) {
-            Some(Value::Text(name)) => Some(name),
-            _ => None,
-        });
+        let layer = ["robot", "state", "facing"].map(|part| knowledge.value_at(class, row, part));
         if !layers.contains(&layer) {
             layers.push(layer);
             found.push(row);
@@ -108,24 +105,13 @@ pub fn is_same_door(at: Point, told: [f64; 4], found: [f64; 4]) -> bool {
     }
     let (ux, uy) = ((b.x - a.x) / length, (b.y - a.y) / length);
     let cosine = ((d.x - c.x) * ux + (d.y - c.y) * uy) / other;
-    if cosine.abs() < SAME_DIRECTION || nearest(at, found).distance(at) > REACH {
+    if cosine.abs() < SAME_DIRECTION || at.nearest_on(c, d).distance(at) > REACH {
         return false;
     }
     let along = |p: Point| (p.x - a.x) * ux + (p.y - a.y) * uy;
     let (low, high) = (along(c).min(along(d)), along(c).max(along(d)));
     let shared = high.min(length) - low.max(0.0);
     shared >= 0.5 * length.min(other) && other <= 2.0 * length + 1.0
-}
-
-/// The point of a segment nearest to another point.
-pub fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {
-    let (dx, dy) = (x1 - x0, y1 - y0);
-    let squared = dx * dx + dy * dy;
-    if squared == 0.0 {
-        return Point::new(x0, y0);
-    }
-    let share = (((at.x - x0) * dx + (at.y - y0) * dy) / squared).clamp(0.0, 1.0);
-    Point::new(x0 + share * dx, y0 + share * dy)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use adit_db::history::Author;
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
 
-use super::attach::{REACH, nearest};
+use super::attach::REACH;
 use super::{Object, Told};
 use crate::classes;
 use crate::clock::stored;
@@ -33,10 +33,11 @@ pub struct Tell {
 }
 
 /// What values of these properties must be, whatever rules say.
-const KINDS: [(&str, &str, Type); 6] = [
+const KINDS: [(&str, &str, Type); 7] = [
     ("PRIME_AREAS", "open", Type::Truth),
     ("ROOMS", "hardness", Type::Number),
     ("ROOMS", "action", Type::Text),
+    ("ROOMS", "passable", Type::Truth),
     ("DOORS", "hardness", Type::Number),
     ("DOORS", "action", Type::Text),
     ("DOORS", "passable", Type::Truth),
@@ -213,6 +214,10 @@ fn point(text: &str) -> Option<Point> {
     let (x, y) = text.split_once(',')?;
     let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
     (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
+}
+
+fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {
+    at.nearest_on(Point::new(x0, y0), Point::new(x1, y1))
 }
 
 /// The segment of the door at a point: the nearest one, of equals the first.

@@ -49,13 +49,7 @@ impl Segment {
 
     /// The point nearest to another one.
     pub fn nearest_to(&self, p: Point) -> Point {
-        let Self { a, b } = *self;
-        let (dx, dy) = (b.x - a.x, b.y - a.y);
-        let square = dx * dx + dy * dy;
-        if square <= 0.0 {
-            return a;
-        }
-        self.at((((p.x - a.x) * dx + (p.y - a.y) * dy) / square).clamp(0.0, 1.0))
+        p.nearest_on(self.a, self.b)
     }
 
     /// Whether the point lies on the segment's line.

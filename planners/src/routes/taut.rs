@@ -483,9 +483,9 @@ impl<'g> Search<'g> {
         };
         let graph = self.graph;
         // at the start, and where the body goes on turning
-        let is_begun =
-            node.before == NONE || node.door != NONE && graph.doors()[node.door as usize].is_change();
-        let is_at_once = node.before == NONE || is_begun && here.to_bits() == there.to_bits();
+        let is_turning =
+            || graph.doors()[node.door as usize].is_change() && here.to_bits() == there.to_bits();
+        let is_at_once = node.before == NONE || is_turning();
         if is_at_once && graph.doors()[door].crossing.contains(node.root) {
             reach(self, node.root);
         }
