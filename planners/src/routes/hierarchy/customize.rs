@@ -32,12 +32,46 @@ struct Slices<'a> {
     first: usize,
 }
 
-/// The best way to a rank so far, up and down.
-#[derive(Clone, Copy)]
-struct Best {
-    up: f64,
-    down: f64,
-    over: [u32; 2],
+/// For each level what the best way to the rank there weighs so far, up and down, and over what it leads.
+struct Bests {
+    up: Vec<f64>,
+    down: Vec<f64>,
+    over_up: Vec<u64>,
+    over_down: Vec<u64>,
+}
+
+impl Bests {
+    fn new(height: usize) -> Self {
+        let (weights, over) = (vec![f64::INFINITY; height], vec![u64::from(BY_DOOR); height]);
+        Self { up: weights.clone(), down: weights, over_up: over.clone(), over_down: over }
+    }
+}
+
+/// So many levels are compared at once.
+const LANES: usize = 4;
+
+/// Takes ways that lead over a rank where they are better, level by level: those that weigh `near` and a weight more.
+pub(super) fn take(bests: &mut [f64], overs: &mut [u64], weights: &[f64], near: f64, over: u64) {
+    let (bests, last_bests) = bests.as_chunks_mut::<LANES>();
+    let (overs, last_overs) = overs.as_chunks_mut::<LANES>();
+    let (weights, last_weights) = weights.as_chunks::<LANES>();
+    for ((bests, overs), weights) in bests.iter_mut().zip(overs).zip(weights) {
+        // masks, not branches, and all written back: only so does the compiler compare several at once
+        let (mut better, mut known) = (*bests, *overs);
+        for lane in 0..LANES {
+            let weight = near + weights[lane];
+            let mask = u64::from(weight < bests[lane]).wrapping_neg();
+            known[lane] = (over & mask) | (known[lane] & !mask);
+            better[lane] = if weight < bests[lane] { weight } else { bests[lane] };
+        }
+        (*bests, *overs) = (better, known);
+    }
+    for ((best, known), weight) in last_bests.iter_mut().zip(last_overs).zip(last_weights) {
+        let weight = near + weight;
+        let is_better = weight < *best;
+        *known = if is_better { over } else { *known };
+        *best = if is_better { weight } else { *best };
+    }
 }
 
 impl Work<'_> {
@@ -84,23 +118,23 @@ impl Work<'_> {
     }
 
     fn each(&self, ranks: Range<u32>, slices: &mut Slices<'_>) {
-        let blank = Best { up: f64::INFINITY, down: f64::INFINITY, over: [BY_DOOR; 2] };
-        let mut bests = if ranks.is_empty() { Vec::new() } else { vec![blank; self.topology.height] };
+        let mut bests = Bests::new(if ranks.is_empty() { 0 } else { self.topology.height });
         for rank in ranks {
             self.arcs_up(rank, slices, &mut bests);
         }
     }
 
     /// Finds what the arcs up from a rank weigh, where those below it are known.
-    fn arcs_up(&self, rank: u32, slices: &mut Slices<'_>, bests: &mut [Best]) {
+    fn arcs_up(&self, rank: u32, slices: &mut Slices<'_>, bests: &mut Bests) {
         let topology = self.topology;
         let arcs = topology.arcs(rank);
         if arcs.is_empty() {
             return;
         }
         for arc in arcs.clone() {
-            let [up, down] = by_doors(self.passing, topology, arc as u32);
-            bests[topology.depths[arc] as usize] = Best { up, down, over: [BY_DOOR; 2] };
+            let level = topology.levels[arc] as usize;
+            [bests.up[level], bests.down[level]] = by_doors(self.passing, topology, arc as u32);
+            (bests.over_up[level], bests.over_down[level]) = (u64::from(BY_DOOR), u64::from(BY_DOOR));
         }
         for &into in topology.arcs_into(rank) {
             let (into, below) = (into as usize, topology.tails[into as usize]);
@@ -108,25 +142,21 @@ impl Work<'_> {
             if there == f64::INFINITY && back == f64::INFINITY {
                 continue;
             }
-            let over = below + 1;
-            let beyond = into + 1..topology.arcs(below).end;
-            let weights = beyond.start - slices.first..beyond.end - slices.first;
-            let (ups, downs) = (&slices.up[weights.clone()], &slices.down[weights]);
-            for ((&depth, &up), &down) in topology.depths[beyond].iter().zip(ups).zip(downs) {
-                let best = &mut bests[depth as usize];
-                let (up, down) = (there + up, back + down);
-                if up < best.up {
-                    (best.up, best.over[0]) = (up, over);
-                }
-                if down < best.down {
-                    (best.down, best.over[1]) = (down, over);
-                }
+            let (over, end) = (u64::from(below) + 1, topology.arcs(below).end);
+            let mut arc = into + 1;
+            while arc < end {
+                let (level, run) = (topology.levels[arc] as usize, topology.runs[arc] as usize);
+                let (levels, weights) = (level..level + run, arc - slices.first..arc - slices.first + run);
+                let (up, down) = (&slices.up[weights.clone()], &slices.down[weights]);
+                take(&mut bests.up[levels.clone()], &mut bests.over_up[levels.clone()], up, there, over);
+                take(&mut bests.down[levels.clone()], &mut bests.over_down[levels], down, back, over);
+                arc += run;
             }
         }
         for arc in arcs {
-            let best = bests[topology.depths[arc] as usize];
-            let at = arc - slices.first;
-            (slices.up[at], slices.down[at], slices.over[at]) = (best.up, best.down, best.over);
+            let (at, level) = (arc - slices.first, topology.levels[arc] as usize);
+            (slices.up[at], slices.down[at]) = (bests.up[level], bests.down[level]);
+            slices.over[at] = [bests.over_up[level] as u32, bests.over_down[level] as u32];
         }
     }
 }

@@ -51,11 +51,18 @@ impl Metric {
 
     /// The easiest door of an arc, by index; of several the one with the lowest key.
     pub fn door(&self, topology: &Topology, arc: u32, is_up: bool) -> Option<u32> {
-        let weight = |door: u32| {
-            let is_first = topology.is_up[door as usize] == is_up;
-            self.passing[door as usize][usize::from(!is_first)]
-        };
-        topology.doors(arc).reduce(|best, door| if weight(door) < weight(best) { door } else { best })
+        let mut doors = topology.doors(arc);
+        let first = doors.next()?;
+        Some(doors.fold(first, |best, door| {
+            let [weight, known] = [door, best].map(|door| self.passed(topology, door, is_up));
+            if weight < known { door } else { best }
+        }))
+    }
+
+    /// What passing a door weighs, up or down its arc.
+    pub fn passed(&self, topology: &Topology, door: u32, is_up: bool) -> f64 {
+        let is_first = topology.is_up[door as usize] == is_up;
+        self.passing[door as usize][usize::from(!is_first)]
     }
 
     /// What an arc weighs, up and down.

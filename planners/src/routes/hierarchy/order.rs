@@ -209,7 +209,25 @@ impl Part {
             let at = rooms.iter().map(|&room| self.at[room as usize]).collect();
             Self::new(names, at, &joined)
         };
-        let front = (0..self.names.len()).filter(|&room| fronts[room]).map(|room| self.names[room]).collect();
-        ([side(true), side(false)], front)
+        ([side(true), side(false)], self.along(&fronts))
+    }
+
+    /// The rooms of a front from one of its ends to the other: neighbours get ranks next to each other.
+    fn along(&self, fronts: &[bool]) -> Vec<u32> {
+        let mut rooms: Vec<usize> = (0..self.names.len()).filter(|&room| fronts[room]).collect();
+        let extent = |of: fn(&Point) -> f64| {
+            let all = || rooms.iter().map(|&room| of(&self.at[room]));
+            all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+        };
+        let is_wide = extent(|at| at.x) >= extent(|at| at.y);
+        let key = |room: usize| {
+            let at = self.at[room];
+            if is_wide { (at.x, at.y) } else { (at.y, at.x) }
+        };
+        rooms.sort_unstable_by(|&one, &two| {
+            let (a, b) = (key(one), key(two));
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(one.cmp(&two))
+        });
+        rooms.into_iter().map(|room| self.names[room]).collect()
     }
 }

@@ -7,7 +7,7 @@ use crate::routes::{NONE, RouteDoor, RouteRoom};
 /// Rooms by rank, and the arcs between them: where two rooms are joined by rooms of lower rank only, or by a door.
 ///
 /// The rooms that arcs lead up to from a room lie on one chain up to a root, so on its way up a search knows each of them
-/// by its depth. All rooms that hang below one have ranks next to each other.
+/// by its level. All rooms that hang below one have ranks next to each other.
 #[derive(Debug)]
 pub(super) struct Topology {
     /// For each room its rank.
@@ -20,10 +20,12 @@ pub(super) struct Topology {
     pub tails: Vec<u32>,
     /// For each arc the higher rank; ascending for each tail.
     pub heads: Vec<u32>,
-    /// For each arc how far its head is below its root.
-    pub depths: Vec<u32>,
-    /// For each rank how far it is below its root.
-    pub depth: Vec<u32>,
+    /// For each arc the level of its head.
+    pub levels: Vec<u32>,
+    /// For each arc how many heads from here on lie right above one another, this one included.
+    pub runs: Vec<u32>,
+    /// For each rank how high it lies: one below the rank that comes next on the chain up; roots lie highest.
+    pub level: Vec<u32>,
     /// For each rank the lowest rank of those that hang below it, or its own.
     pub lowest: Vec<u32>,
     /// For each rank where the list of arcs that lead up to it begins.
@@ -38,7 +40,7 @@ pub(super) struct Topology {
     pub arc_of: Vec<u32>,
     /// For each door whether it leads up from its first room.
     pub is_up: Vec<bool>,
-    /// One more than the greatest depth.
+    /// One more than the level of roots.
     pub height: usize,
 }
 
@@ -61,26 +63,30 @@ impl Topology {
         for tail in 0..count {
             tails[begins[tail] as usize..begins[tail + 1] as usize].fill(tail as u32);
         }
-        let mut depth = vec![0; count];
+        let mut depth = vec![0_u32; count];
         for rank in (0..count).rev().filter(|&rank| parent[rank] != NONE) {
             depth[rank] = depth[parent[rank] as usize] + 1;
         }
+        let deepest = depth.iter().max().copied().unwrap_or(0);
+        let level: Vec<u32> = depth.into_iter().map(|depth| deepest - depth).collect();
         let mut lowest: Vec<u32> = (0..count as u32).collect();
         for rank in (0..count).filter(|&rank| parent[rank] != NONE) {
             let above = parent[rank] as usize;
             lowest[above] = lowest[above].min(lowest[rank]);
         }
         let (into_begins, into) = lists_into(count, &heads);
-        let depths = heads.iter().map(|&head| depth[head as usize]).collect();
-        let height = depth.iter().max().map_or(0, |deepest| *deepest as usize + 1);
+        let levels: Vec<u32> = heads.iter().map(|&head| level[head as usize]).collect();
+        let runs = runs(&tails, &levels);
+        let height = deepest as usize + 1;
         let mut all = Self {
             rank,
             room,
             begins,
             tails,
             heads,
-            depths,
-            depth,
+            levels,
+            runs,
+            level,
             lowest,
             into_begins,
             into,
@@ -263,6 +269,16 @@ fn fill(up: &Lists) -> Filled {
         begins.push(heads.len() as u32);
     }
     Filled { begins, heads, parent }
+}
+
+fn runs(tails: &[u32], levels: &[u32]) -> Vec<u32> {
+    let mut runs = vec![1; tails.len()];
+    for arc in (1..tails.len()).rev() {
+        if tails[arc - 1] == tails[arc] && levels[arc - 1] + 1 == levels[arc] {
+            runs[arc - 1] = runs[arc] + 1;
+        }
+    }
+    runs
 }
 
 fn lists_into(count: usize, heads: &[u32]) -> (Vec<u32>, Vec<u32>) {

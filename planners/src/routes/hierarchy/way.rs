@@ -1,13 +1,15 @@
 //! The way to the goal that costs least, as a hierarchy finds it.
 
 use super::Hierarchy;
-use crate::routes::{Goal, RouteGraph, Start, Way};
+use super::query::Passed;
+use crate::geometry::Point;
+use crate::routes::{Goal, Leg, RouteGraph, Start, Way};
 
-/// A way that was found: where it begins and ends, and its doors, each with the room behind it.
+/// A way that was found.
 struct Found {
     start: usize,
     goal: usize,
-    doors: Vec<(u32, u32)>,
+    doors: Vec<Passed>,
     cost: f64,
 }
 
@@ -20,24 +22,33 @@ impl RouteGraph {
         goals: &[Goal],
     ) -> Option<(usize, Way)> {
         let mut best: Option<Found> = None;
-        for (goal, to) in
-            goals.iter().enumerate().flat_map(|(index, goal)| goal.rooms.iter().map(move |to| (index, *to)))
-        {
-            for &from in start.rooms.iter().filter(|&&room| self.is_entered(room)) {
-                let Some(doors) = hierarchy.doors(from, to) else { continue };
-                // as it is driven, so that it is the sum that a search from door to door finds
-                let cost = doors.iter().fold(0.0, |cost, (door, _)| {
-                    cost + self.passage(*door as usize).unwrap_or(f64::INFINITY)
-                });
-                if best.as_ref().is_none_or(|best| cost < best.cost) {
-                    best = Some(Found { start: from, goal, doors, cost });
+        for (index, goal) in goals.iter().enumerate() {
+            for &to in &goal.rooms {
+                for &from in start.rooms.iter().filter(|&&room| self.is_entered(room)) {
+                    let Some(doors) = hierarchy.doors(from, to) else { continue };
+                    // as it is driven, so that it is the sum that a search from door to door finds
+                    let cost = doors.iter().fold(0.0, |cost, passed| cost + passed.weight);
+                    if best.as_ref().is_none_or(|best| cost < best.cost) {
+                        best = Some(Found { start: from, goal: index, doors, cost });
+                    }
                 }
             }
         }
-        let Found { start: room, goal, doors, .. } = best?;
-        let at = |door: u32| self.doors()[door as usize].at;
-        let end = goals[goal].at.unwrap_or_else(|| doors.last().map_or(start.at, |(door, _)| at(*door)));
-        let doors = doors.into_iter().map(|(door, room)| (door as usize, at(door), room as usize));
-        Some((goal, Way::through(self, (room, start.at), doors, end)))
+        let found = best?;
+        Some((found.goal, self.driven(start, &found, goals[found.goal].at)))
+    }
+
+    /// The way from door to door.
+    fn driven(&self, start: &Start, found: &Found, goal: Option<Point>) -> Way {
+        let mut legs = Vec::with_capacity(found.doors.len() + 1);
+        let (mut room, mut from, mut cost) = (found.start, start.at, 0.0);
+        for passed in &found.doors {
+            let to = self.doors[passed.door as usize].at;
+            cost += passed.weight;
+            legs.push(Leg { room, from, to, hardness: 0.0, door: Some(passed.door as usize), cost });
+            (room, from) = (passed.room as usize, to);
+        }
+        legs.push(Leg { room, from, to: goal.unwrap_or(from), hardness: 0.0, door: None, cost });
+        Way { legs, cost }
     }
 }
