@@ -18,22 +18,22 @@ impl Metric {
     }
 }
 
-struct Work<'a> {
-    topology: &'a Topology,
-    passing: &'a [[f64; 2]],
+pub(super) struct Work<'a> {
+    pub topology: &'a Topology,
+    pub passing: &'a [[f64; 2]],
 }
 
 /// The arcs up from ranks next to each other.
-struct Slices<'a> {
-    up: &'a mut [f64],
-    down: &'a mut [f64],
-    over: &'a mut [[u32; 2]],
+pub(super) struct Slices<'a> {
+    pub up: &'a mut [f64],
+    pub down: &'a mut [f64],
+    pub over: &'a mut [[u32; 2]],
     /// The number of the first arc.
-    first: usize,
+    pub first: usize,
 }
 
 /// For each level what the best way to the rank there weighs so far, up and down, and over what it leads.
-struct Bests {
+pub(super) struct Bests {
     up: Vec<f64>,
     down: Vec<f64>,
     over_up: Vec<u64>,
@@ -41,7 +41,7 @@ struct Bests {
 }
 
 impl Bests {
-    fn new(height: usize) -> Self {
+    pub fn new(height: usize) -> Self {
         let (weights, over) = (vec![f64::INFINITY; height], vec![u64::from(BY_DOOR); height]);
         Self { up: weights.clone(), down: weights, over_up: over.clone(), over_down: over }
     }
@@ -125,7 +125,7 @@ impl Work<'_> {
     }
 
     /// Finds what the arcs up from a rank weigh, where those below it are known.
-    fn arcs_up(&self, rank: u32, slices: &mut Slices<'_>, bests: &mut Bests) {
+    pub fn arcs_up(&self, rank: u32, slices: &mut Slices<'_>, bests: &mut Bests) {
         let topology = self.topology;
         let arcs = topology.arcs(rank);
         if arcs.is_empty() {

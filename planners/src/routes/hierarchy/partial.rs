@@ -8,11 +8,24 @@ use std::cell::RefCell;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::customize::{Bests, Slices, Work};
 use super::metric::{BY_DOOR, Metric, Over, by_doors};
 use super::topology::Topology;
 
-/// Where more than one of so many arcs is touched, weighing all is quicker.
-const TOUCHED_OF: usize = 12;
+/// Where more than one of so many doors is weighed anew, weighing all is quicker.
+const DOORS_OF: usize = 50;
+
+/// What an offer to an arc takes, in ways under arcs that weighing all compares in the same time.
+const OFFER: usize = 20;
+
+/// What it takes to look for one way under an arc.
+const LOOK: usize = 60;
+
+/// What it takes to compare, over one arc into a rank, all arcs up from it again.
+const ALL: usize = 100;
+
+/// From so many arcs up from one rank on, comparing the ways under all of its arcs is quicker.
+const ALL_FROM: usize = 3;
 
 thread_local! {
     /// For each arc its place among the touched ones, from 1. All zeros between calls.
@@ -34,6 +47,9 @@ struct Update<'a> {
     touched: Vec<Touched>,
     waiting: BinaryHeap<Reverse<u32>>,
     places: &'a mut [u32],
+    bests: Option<Bests>,
+    /// What has been done, measured by what weighing all compares.
+    work: usize,
 }
 
 impl Metric {
@@ -43,7 +59,7 @@ impl Metric {
         for &(door, passing) in doors {
             self.passing[door as usize] = passing;
         }
-        if doors.len() > self.passing.len() / TOUCHED_OF {
+        if doors.len() > self.passing.len() / DOORS_OF + 1 {
             return false;
         }
         PLACES.with_borrow_mut(|places| {
@@ -51,7 +67,8 @@ impl Metric {
                 places.resize(self.up.len(), 0);
             }
             let waiting = BinaryHeap::new();
-            let mut update = Update { topology, metric: self, touched: Vec::new(), waiting, places };
+            let mut update =
+                Update { topology, metric: self, touched: Vec::new(), waiting, places, bests: None, work: 0 };
             let is_done = update.run(doors);
             let Update { touched, .. } = update;
             for of in touched {
@@ -73,12 +90,22 @@ impl Update<'_> {
                 }
             }
         }
-        let most = self.metric.up.len() / TOUCHED_OF;
+        let most = self.topology.triangles / 2 + 10_000;
+        let mut arcs = Vec::new();
         while let Some(Reverse(arc)) = self.waiting.pop() {
-            if self.touched.len() > most.max(1_000) {
+            if self.work > most {
                 return false;
             }
-            self.settle(arc);
+            arcs.clear();
+            arcs.push(arc);
+            let tail = self.topology.tails[arc as usize];
+            while let Some(&Reverse(next)) = self.waiting.peek()
+                && self.topology.tails[next as usize] == tail
+            {
+                self.waiting.pop();
+                arcs.push(next);
+            }
+            self.settle(&arcs);
         }
         true
     }
@@ -105,18 +132,35 @@ impl Update<'_> {
         }
     }
 
-    /// Finds what an arc weighs where all below it is known, and tells those above.
-    fn settle(&mut self, arc: u32) {
-        let place = self.places[arc as usize] as usize - 1;
-        let Touched { before, is_lost, .. } = self.touched[place];
-        if is_lost[0] || is_lost[1] {
-            let all = self.compared(arc);
-            self.metric.set(arc, all);
+    /// Finds what the touched arcs up from a rank weigh, where all below it is known, and tells those above.
+    fn settle(&mut self, arcs: &[u32]) {
+        let place = |update: &Self, arc: u32| update.places[arc as usize] as usize - 1;
+        let is_lost = |update: &Self, arc: u32| update.touched[place(update, arc)].is_lost.contains(&true);
+        let lost: Vec<u32> = arcs.iter().copied().filter(|&arc| is_lost(self, arc)).collect();
+        let tail = self.topology.tails[arcs[0] as usize];
+        let into = self.topology.arcs_into(tail).len();
+        if lost.len() < ALL_FROM {
+            self.work += into * lost.len() * LOOK;
+            for arc in lost {
+                let all = self.compared(arc);
+                self.metric.set(arc, all);
+            }
+        } else {
+            self.work += into * ALL;
+            let Metric { passing, up, down, over } = &mut *self.metric;
+            let mut slices = Slices { up, down, over, first: 0 };
+            let height = self.topology.height;
+            let bests = self.bests.get_or_insert_with(|| Bests::new(height));
+            let work = Work { topology: self.topology, passing };
+            work.arcs_up(tail, &mut slices, bests);
         }
-        let now = self.metric.get(arc);
-        for (way, (before, now)) in before.into_iter().zip(now).enumerate() {
-            if before.weight.to_bits() != now.weight.to_bits() {
-                self.tell(arc, way, now.weight);
+        for &arc in arcs {
+            let before = self.touched[place(self, arc)].before;
+            let is_other =
+                |way: usize| before[way].weight.to_bits() != self.metric.get(arc)[way].weight.to_bits();
+            let is_other = [is_other(0), is_other(1)];
+            if is_other.contains(&true) {
+                self.tell(arc, is_other);
             }
         }
     }
@@ -141,20 +185,41 @@ impl Update<'_> {
         best
     }
 
-    /// Tells the arcs between an arc's head and the other heads of its tail what leads over that tail.
-    fn tell(&mut self, arc: u32, way: usize, weight: f64) {
+    /// Tells the arcs between an arc's head and the other heads of its tail what now leads over that tail.
+    ///
+    /// # Arguments
+    /// `is_other` says whether what leads up the arc, and down, has another weight.
+    fn tell(&mut self, arc: u32, is_other: [bool; 2]) {
         let topology = self.topology;
         let (tail, head) = (topology.tails[arc as usize], topology.heads[arc as usize]);
-        for other in topology.arcs(tail) {
+        let (up, down) = (self.metric.up[arc as usize], self.metric.down[arc as usize]);
+        let over = tail + 1;
+        let arcs = topology.arcs(tail);
+        self.work += arcs.len() * OFFER;
+        for other in arcs.start..arc as usize {
             let beyond = topology.heads[other];
-            if beyond == head {
-                continue;
+            let Some(above) = topology.arc(beyond, head) else { continue };
+            if is_other[0] {
+                self.offer(above, 0, Over { weight: self.metric.down[other] + up, over });
             }
-            // up from the tail to this head: the way comes down to the tail from the other one
-            let along = if way == 0 { self.metric.down[other] } else { self.metric.up[other] };
-            let Some(above) = topology.arc(head.min(beyond), head.max(beyond)) else { continue };
-            let is_up = (way == 0) == (beyond < head);
-            self.offer(above, usize::from(!is_up), Over { weight: weight + along, over: tail + 1 });
+            if is_other[1] {
+                self.offer(above, 1, Over { weight: down + self.metric.up[other], over });
+            }
+        }
+        // the head leads to all that lies above it here, in the same order
+        let mut run = topology.arcs(head).start;
+        for other in arc as usize + 1..arcs.end {
+            let level = topology.levels[other];
+            while topology.levels[run] + topology.runs[run] <= level {
+                run += topology.runs[run] as usize;
+            }
+            let above = run as u32 + level - topology.levels[run];
+            if is_other[0] {
+                self.offer(above, 1, Over { weight: self.metric.down[other] + up, over });
+            }
+            if is_other[1] {
+                self.offer(above, 0, Over { weight: down + self.metric.up[other], over });
+            }
         }
     }
 }

@@ -40,6 +40,8 @@ pub(super) struct Topology {
     pub arc_of: Vec<u32>,
     /// For each door whether it leads up from its first room.
     pub is_up: Vec<bool>,
+    /// How many ways over one rank there are under all arcs.
+    pub triangles: usize,
     /// One more than the level of roots.
     pub height: usize,
 }
@@ -78,6 +80,8 @@ impl Topology {
         let levels: Vec<u32> = heads.iter().map(|&head| level[head as usize]).collect();
         let runs = runs(&tails, &levels);
         let height = deepest as usize + 1;
+        let ups = begins.windows(2).map(|of| (of[1] - of[0]) as usize);
+        let triangles = ups.map(|up| up * up.saturating_sub(1) / 2).sum();
         let mut all = Self {
             rank,
             room,
@@ -94,6 +98,7 @@ impl Topology {
             next_door: vec![NONE; doors.len()],
             arc_of: vec![NONE; doors.len()],
             is_up: vec![false; doors.len()],
+            triangles,
             height,
         };
         all.lay_doors(doors);
