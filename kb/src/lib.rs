@@ -62,7 +62,7 @@ pub use compare::Compared;
 pub use derive::Stage;
 pub use error::{Error, Result};
 pub use knowledge::{KnowledgeBase, Tested};
-pub use live::{Live, Outcome};
+pub use live::{Live, Outcome, Renewal, View};
 pub use progress::{Progress, Silent, Spinner};
 pub use report::{Change, Counts, Report, Routes};
 pub use site::{Rooms, Site, Starts};

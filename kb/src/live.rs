@@ -1,8 +1,12 @@
 //! A site's knowledge held in memory between edits: an edit costs what depends on it, not what there is.
 
 mod kept;
+mod renewal;
 mod routes;
+mod twin;
+mod view;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use adit_db::history::Author;
@@ -11,7 +15,7 @@ use adit_db::{Store, Tx};
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity, Value};
 use adit_planners::facts::{Column, Facts};
 
-use crate::answer::{self, Answer};
+use crate::answer::Answer;
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
@@ -22,25 +26,27 @@ use crate::grounds::Numbering;
 use crate::inputs::Inputs;
 use crate::knowledge::{KnowledgeBase, keep_standings};
 use crate::progress::Silent;
-use crate::report::Before;
+use crate::report::{Before, Report};
 use crate::store::{LastBuild, Tables, places};
 use crate::told::{Attached, Tell, Told};
 use crate::{classes, states, trees, weights};
 use kept::{Kept, Written};
+pub use renewal::Renewal;
 use routes::KeptRoutes;
+pub use view::View;
 
 /// A built site, ready for many edits. What it writes is what [`KnowledgeBase::edit`] would write.
 ///
 /// Rules and map are those of the files when it was opened. Edits of other programs are seen: before the next edit
 /// all is derived anew.
 pub struct Live {
-    site: KnowledgeBase,
+    site: Arc<KnowledgeBase>,
     store: Store,
     memory: Memory,
 }
 
 struct Memory {
-    inputs: Inputs,
+    inputs: Arc<Inputs>,
     basis: Basis,
     generation: u64,
     told: Told,
@@ -54,9 +60,11 @@ struct Memory {
     numbering: Numbering,
     kept: Kept,
     routes: KeptRoutes,
-    gauge: Gauge,
+    gauge: Arc<Gauge>,
     /// The rules' names, by number.
-    rules: Rules,
+    rules: Arc<Rules>,
+    /// Names the cut of the floor.
+    layout: Arc<str>,
     /// Whether the kept routes are older than rooms and doors.
     routes_due: bool,
 }
@@ -64,8 +72,8 @@ struct Memory {
 /// What an edit did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// The edit.
-    pub done: Done,
+    /// The edit; `None` where only time has passed.
+    pub done: Option<Done>,
     /// Number of the knowledge base's state.
     pub generation: u64,
     /// Rooms whose row was written.
@@ -109,11 +117,11 @@ impl Live {
     pub fn open(site: KnowledgeBase) -> Result<Self> {
         if let Some(live) = Self::of_built(&site)? {
             let (store, memory) = live;
-            return Ok(Self { site, store, memory });
+            return Ok(Self { site: Arc::new(site), store, memory });
         }
         site.build(&Silent)?;
         match Self::of_built(&site)? {
-            Some((store, memory)) => Ok(Self { site, store, memory }),
+            Some((store, memory)) => Ok(Self { site: Arc::new(site), store, memory }),
             None => Err(Error::said(
                 "live/stale",
                 "the site's tables were edited while it was opened",
@@ -140,26 +148,63 @@ impl Live {
     /// Edits a table and writes all that follows, in one transaction. If anything fails, database and memory are as
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
+        match self.follow(Some((edit, author))) {
+            Ok(outcome) => Ok(outcome),
+            Err(Stop::Failed(error)) => Err(error),
+            Err(Stop::Anew) => self.edit_anew(edit, author),
+        }
+    }
+
+    /// Writes what follows from an edit, or from the clock alone, in one transaction.
+    fn follow(&mut self, edit: Option<(&Edit, &Author)>) -> std::result::Result<Outcome, Stop> {
         let Self { site, store, memory } = self;
         let mut prepared = None;
         let mut clock = Clock::new();
-        let outcome = store.transaction(|tx| {
-            let (done, step) = memory.follow(tx, site, (edit, author), &mut clock)?;
-            prepared = Some(step);
-            Ok(done)
+        let outcome = store.transaction(|tx| -> std::result::Result<(), Stop> {
+            prepared = Some(memory.follow(tx, site, edit, &mut clock)?);
+            Ok(())
         });
         clock.lap("commit");
         match (outcome, prepared) {
-            (Ok(done), Some(step)) => Ok(memory.accept(done, step, clock.stages)),
-            (Ok(_), None) => Err(Error::said("live", "the edit came to nothing", None)),
+            (Ok(()), Some((done, step))) => Ok(memory.accept(done, step, clock.stages)),
+            (Ok(()), None) => Err(Error::said("live", "the edit came to nothing", None).into()),
             (Err(stop), _) => {
                 memory.take_back()?;
-                match stop {
-                    Stop::Failed(error) => Err(error),
-                    Stop::Anew => self.edit_anew(edit, author),
-                }
+                Err(stop)
             }
         }
+    }
+
+    /// Follows what happened without this program: edits of other programs, facts that ended, hours that began or
+    /// ended. `None` where nothing did.
+    pub fn catch_up(&mut self) -> Result<Option<Outcome>> {
+        let memory = &self.memory;
+        let is_ours = |mark: &Mark| memory.routes_due && mark.table == ROUTES;
+        let (generation, is_edited) = self.store.snapshot(|tx| -> Result<_> {
+            Ok((generation::read(tx)?, !tx.stale_marks()?.iter().all(is_ours)))
+        })?;
+        if generation == memory.generation && !is_edited {
+            if !memory.told.is_over(&self.site.clock()) {
+                return Ok(None);
+            }
+            match self.follow(None) {
+                Ok(outcome) => return Ok(Some(outcome)),
+                Err(Stop::Failed(error)) => return Err(error),
+                Err(Stop::Anew) => {}
+            }
+        }
+        self.build_anew().map(Some)
+    }
+
+    /// Takes the site as its files now are. Where they cannot be used, all stays as it was.
+    pub fn open_again(&mut self, site: KnowledgeBase) -> Result<Outcome> {
+        let report = site.build(&Silent)?;
+        let before = std::mem::replace(&mut self.site, Arc::new(site));
+        if let Err(error) = self.read_again() {
+            self.site = before;
+            return Err(error);
+        }
+        Ok(anew(None, report))
     }
 
     /// Tells a fact about one object, as [`Live::edit`] does.
@@ -175,66 +220,45 @@ impl Live {
     /// The route of least hardness to the one of several goals that costs least, with everything that was edited so far.
     /// Nothing is read but memory.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        let memory = &self.memory;
-        let robot = answer::pick(&memory.robots(), robot)?;
-        let blank = Answer::blank(&robot, start, goals, memory.generation);
-        let basis = answer::Basis {
-            knowledge: &self.site,
-            graph: memory.routes.graph(),
-            rules: &memory.rules,
-            world: &memory.inputs.world,
-            gauge: &memory.gauge,
-        };
-        basis.search(goals, blank)
+        self.view().route(start, goals, robot)
     }
 
-    /// Writes the kept routes where edits left them stale; how many rows. Until then SQL says of them that they are.
-    pub fn renew_routes(&mut self) -> Result<u64> {
-        if !self.memory.routes_due {
-            return Ok(0);
-        }
-        let Self { site, store, memory } = self;
-        let written = store.transaction(|tx| -> Result<Option<u64>> {
-            let is_ours = |mark: &Mark| mark.table == ROUTES;
-            if generation::read(tx)? != memory.generation || !tx.stale_marks()?.iter().all(is_ours) {
-                return Ok(None);
-            }
-            let robots = site.robots(tx)?;
-            let written = memory.routes.follow(tx, &robots, site.site().starts.as_ref(), &memory.gauge)?;
-            tx.mark_fresh()?;
-            Ok(written)
-        })?;
-        if let Some(written) = written {
-            memory.routes_due = false;
-            return Ok(written);
-        }
-        let report = site.build(&Silent)?;
+    /// Builds the site and takes what came of it into memory.
+    fn build_anew(&mut self) -> Result<Outcome> {
+        let report = self.site.build(&Silent)?;
+        self.read_again()?;
+        Ok(anew(None, report))
+    }
+
+    /// Takes the built site into memory.
+    fn read_again(&mut self) -> Result<()> {
         let Some((store, memory)) = Self::of_built(&self.site)? else {
             let help = Some("open it again".to_owned());
             return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
         };
         (self.store, self.memory) = (store, memory);
-        Ok(report.routes.rows)
+        Ok(())
     }
 
     /// The edit by way of everything, as `adit tune` does it.
     fn edit_anew(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         let (done, report) = self.site.edit(edit, author, false, &Silent)?;
-        let Some((store, memory)) = Self::of_built(&self.site)? else {
-            let help = Some("open it again".to_owned());
-            return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
-        };
-        (self.store, self.memory) = (store, memory);
-        Ok(Outcome {
-            done,
-            generation: report.generation,
-            rooms: report.rooms.changed,
-            doors: report.doors.changed,
-            tree_rows: report.routes.rows as usize,
-            routes_due: false,
-            anew: true,
-            stages: report.stages,
-        })
+        self.read_again()?;
+        Ok(anew(Some(done), report))
+    }
+}
+
+/// What came of deriving everything anew.
+fn anew(done: Option<Done>, report: Report) -> Outcome {
+    Outcome {
+        done,
+        generation: report.generation,
+        rooms: report.rooms.changed,
+        doors: report.doors.changed,
+        tree_rows: report.routes.rows as usize,
+        routes_due: false,
+        anew: true,
+        stages: report.stages,
     }
 }
 
@@ -279,11 +303,13 @@ impl Memory {
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
         let routes = KeptRoutes::new(graph, plan);
-        let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
+        let gauge = Arc::new(Gauge::new(&inputs.world, &states::in_force(tx)?));
+        let layout = view::layout(routes.graph());
         let (knowledge, attached, mut planned) = (derived.knowledge, derived.attached, derived.facts);
         planned.retain(|class, _| !["ROOMS", "DOORS"].contains(&class.as_str()));
         let pending = None;
         let rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
+        let (inputs, rules) = (Arc::new(inputs), Arc::new(rules));
         Ok(Some(Self {
             inputs,
             basis,
@@ -298,6 +324,7 @@ impl Memory {
             routes,
             gauge,
             rules,
+            layout,
             routes_due: false,
         }))
     }
@@ -307,14 +334,17 @@ impl Memory {
         &mut self,
         tx: &mut Tx<'_>,
         site: &KnowledgeBase,
-        (edit, author): (&Edit, &Author),
+        edit: Option<(&Edit, &Author)>,
         clock: &mut Clock,
-    ) -> std::result::Result<(Done, Step), Stop> {
+    ) -> std::result::Result<(Option<Done>, Step), Stop> {
         let is_ours = |mark: &Mark| self.routes_due && mark.table == ROUTES;
         if generation::read(tx)? != self.generation || !tx.stale_marks()?.iter().all(is_ours) {
             return Err(Stop::Anew);
         }
-        let done = edit.apply(tx, site, &self.inputs.rules, author)?;
+        let done = match edit {
+            Some((edit, author)) => Some(edit.apply(tx, site, &self.inputs.rules, author)?),
+            None => None,
+        };
         let told = site.told(tx, &self.inputs.rules)?;
         clock.lap("edit");
         let attached = self.tell(&told, site)?;
@@ -451,7 +481,7 @@ impl Memory {
     }
 
     /// Makes a committed edit part of what is known.
-    fn accept(&mut self, done: Done, step: Step, stages: Vec<Stage>) -> Outcome {
+    fn accept(&mut self, done: Option<Done>, step: Step, stages: Vec<Stage>) -> Outcome {
         let (rooms, doors) = (step.written.rooms.len(), step.written.doors.len());
         let tree_rows = step.routes.rows();
         self.routes_due |= step.routes.is_due;

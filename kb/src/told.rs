@@ -10,6 +10,7 @@ use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
+use crate::clock::{Clock, stored};
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::suggest::did_you_mean;
@@ -206,6 +207,11 @@ impl Told {
             tx.set_site_value(key, value.as_deref())?;
         }
         Ok(())
+    }
+
+    /// Whether the time up to which all of it holds is over.
+    pub fn is_over(&self, clock: &Clock) -> bool {
+        self.valid_until.as_ref().is_some_and(|until| *until <= stored(clock.now()))
     }
 
     /// A number that stands for the facts.
