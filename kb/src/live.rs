@@ -145,6 +145,28 @@ impl Live {
         &self.site
     }
 
+    /// What the expert should know: facts that are lost, tunings that count for nothing, what no rule reads.
+    pub fn notes(&self) -> Vec<String> {
+        let memory = &self.memory;
+        let lost = memory.told.lost(&memory.attached);
+        memory.inputs.notes.iter().chain(&memory.told.notes).cloned().chain(lost).collect()
+    }
+
+    /// Lets others read the database while edits are written.
+    pub fn share(&mut self) -> Result<()> {
+        Ok(self.store.share(true)?)
+    }
+
+    /// Leaves the database as one file, unless others still read it.
+    pub fn unshare(mut self) -> Result<()> {
+        self.store.share(false).or_else(|error| if error.is_busy() { Ok(()) } else { Err(error.into()) })
+    }
+
+    /// Forgets what is in memory, and reads it from the database; built anew where it does not hold.
+    pub fn reopen(&mut self) -> Result<Outcome> {
+        self.build_anew()
+    }
+
     /// Edits a table and writes all that follows, in one transaction. If anything fails, database and memory are as
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {

@@ -32,6 +32,11 @@ impl Renewal {
         self.plan.roots.is_empty()
     }
 
+    /// Whether they start where the kept ones do; else all has to be built anew.
+    pub fn fits(&self) -> bool {
+        self.fits
+    }
+
     /// Some of the trees, with their numbers, computed side by side.
     pub fn trees(&self, first: usize, count: usize) -> Vec<(i64, Vec<TreeRow>)> {
         let end = (first + count).min(self.len());

@@ -3,13 +3,16 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
+use adit_planners::routes::Goal;
+
 use super::Live;
 use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::gauge::Gauge;
-use crate::graph::{Rules, SiteGraph};
+use crate::graph::{End, Rules, SiteGraph};
 use crate::inputs::Inputs;
 use crate::knowledge::KnowledgeBase;
+use crate::report::PlaceCosts;
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
 #[derive(Clone)]
@@ -59,6 +62,29 @@ impl View {
             world: &self.inputs.world,
             gauge: &self.gauge,
         }
+    }
+
+    /// What routes between places cost, by robot, start and goal; those that there are.
+    pub fn place_costs(&self) -> PlaceCosts {
+        let graph = &self.graph;
+        let place = |index| End::Place(index);
+        let all = 0..graph.places.len();
+        let mut costs = PlaceCosts::new();
+        for robot in self.robots.iter() {
+            let goals: Vec<Goal> =
+                all.clone().map(|index| graph.goal(&place(index), Some(robot.as_str()))).collect();
+            for from in all.clone() {
+                let start = graph.start(&place(from), Some(robot.as_str()));
+                let ways = graph.graph().ways(&start, &goals, false).goals;
+                for (to, way) in ways.into_iter().enumerate() {
+                    if let Some(way) = way {
+                        let [start, goal] = [from, to].map(|index| graph.places[index].place.clone());
+                        costs.insert((robot.clone(), start, goal), way.cost);
+                    }
+                }
+            }
+        }
+        costs
     }
 
     /// The site's files.
