@@ -10,6 +10,7 @@ use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
+#[derive(Clone)]
 pub struct SiteGraph {
     /// Rows of `rooms`, by index.
     pub rooms: Vec<Room>,
