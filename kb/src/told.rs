@@ -14,6 +14,7 @@ use crate::clock::{Clock, stored};
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::suggest::did_you_mean;
+use crate::tunings::RowKeys;
 pub use attach::Attached;
 pub use resolve::Tell;
 
@@ -22,6 +23,8 @@ pub use resolve::Tell;
 pub struct Told {
     /// Whole classes, from tables.
     pub classes: Facts,
+    /// The keys of their rows, as edits name them; empty for a table whose rows nobody can name.
+    pub keys: RowKeys,
     /// Facts about single objects that hold now, the oldest first: of two about one property the later one counts.
     pub facts: Vec<Fact>,
     /// Facts whose time is over, by number.
@@ -130,6 +133,11 @@ impl Told {
                 schema.add(&fact.class, &fact.property, fact.kind());
             }
         }
+    }
+
+    /// Whether the same counts: classes and facts, whatever the clock says of the time after.
+    pub fn counts_as(&self, other: &Self) -> bool {
+        self.classes == other.classes && self.facts == other.facts
     }
 
     /// The facts about a class.

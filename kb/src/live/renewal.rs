@@ -53,7 +53,7 @@ impl Live {
             return Ok(None);
         }
         let graph = Arc::clone(memory.routes.graph());
-        let plan = trees::plan(&graph, &memory.robots(), self.site.site().starts.as_ref())?;
+        let plan = trees::plan(&graph, &memory.base.robots(), self.site.site().starts.as_ref())?;
         let fits = plan.starts == memory.routes.plan().starts;
         let gauge = Arc::clone(&memory.gauge);
         Ok(Some(Renewal { graph, gauge, plan, generation: memory.generation, fits }))

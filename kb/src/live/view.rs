@@ -38,7 +38,7 @@ impl Live {
             graph: Arc::clone(memory.routes.graph()),
             gauge: Arc::clone(&memory.gauge),
             rules: Arc::clone(&memory.rules),
-            robots: memory.robots().into(),
+            robots: memory.base.robots().into(),
             layout: Arc::clone(&memory.layout),
             generation: memory.generation,
             routes_due: memory.routes_due,
