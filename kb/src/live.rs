@@ -331,12 +331,13 @@ impl Memory {
         }
         let robots = site.robots(tx)?;
         let uses = made.uses();
-        let graph = crate::graph::SiteGraph::new(made.rooms, made.doors, places(&inputs.world));
+        let mut graph = crate::graph::SiteGraph::new(made.rooms, made.doors, places(&inputs.world));
         let plan = trees::plan(&graph, &robots, site.site().starts.as_ref())?;
         if !before.same_starts(&plan.starts) {
             return Ok(None);
         }
         let kept = Kept::new(made.areas, made.derivations, uses);
+        graph.prepare();
         let routes = KeptRoutes::new(graph, plan);
         let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
         let layout = view::layout(routes.graph());

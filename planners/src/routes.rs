@@ -262,9 +262,7 @@ impl RouteGraph {
     /// Weighs these doors, by index, anew where ways between any two rooms are prepared.
     fn reweigh_hierarchy(&mut self, doors: &[usize]) {
         let Some(mut hierarchy) = self.hierarchy.take() else { return };
-        let doors: Vec<(u32, [f64; 2])> =
-            doors.iter().map(|&door| (door as u32, self.passing_both_ways(door))).collect();
-        hierarchy.reweigh(&doors);
+        hierarchy.reweigh(doors.iter().map(|&door| (door as u32, self.passing_both_ways(door))));
         self.hierarchy = Some(hierarchy);
     }
 

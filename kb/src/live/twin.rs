@@ -45,14 +45,17 @@ impl Twin {
     pub fn write(&mut self, written: &Written) -> &SiteGraph {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
-        let mut graph = match free {
+        let graph = match free {
             Some(mut graph) => {
-                graph.copy_rows(&self.shown, &lag.rooms, &lag.doors);
+                graph.follow(&self.shown, (&lag.rooms, &lag.doors), &written.rooms, &written.doors);
                 graph
             }
-            None => SiteGraph::clone(&self.shown),
+            None => {
+                let mut graph = SiteGraph::clone(&self.shown);
+                graph.write(&written.rooms, &written.doors);
+                graph
+            }
         };
-        graph.write(&written.rooms, &written.doors);
         self.lag.note(written);
         self.other.insert(Arc::new(graph))
     }

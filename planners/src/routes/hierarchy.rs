@@ -39,8 +39,12 @@ impl Hierarchy {
     }
 
     /// Weighs doors anew, by index.
-    pub fn reweigh(&mut self, doors: &[(u32, [f64; 2])]) {
-        if !self.metric.reweigh(&self.topology, doors) {
+    pub fn reweigh(&mut self, doors: impl Iterator<Item = (u32, [f64; 2])>) {
+        let is_other = |(door, passing): &(u32, [f64; 2])| {
+            self.metric.passing[*door as usize].map(f64::to_bits) != passing.map(f64::to_bits)
+        };
+        let doors: Vec<_> = doors.filter(is_other).collect();
+        if !self.metric.reweigh(&self.topology, &doors) {
             self.metric.customize(&self.topology);
         }
     }

@@ -36,7 +36,7 @@ thread_local! {
 
 impl Hierarchy {
     /// The doors of a way of least weight between two rooms; `None` where no way leads there.
-    pub fn doors(&self, start: usize, goal: usize) -> Option<Vec<Passed>> {
+    pub(super) fn doors(&self, start: usize, goal: usize) -> Option<Vec<Passed>> {
         BUFFERS.with_borrow_mut(|buffers| {
             let meeting = self.meet(start, goal, buffers);
             let doors = meeting.map(|meeting| {
