@@ -18,7 +18,7 @@ use crate::{generation, states};
 pub(crate) use search::{Basis, Reply};
 
 /// What became of the question. Never an empty answer without a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// There is a route.
@@ -34,7 +34,7 @@ pub enum Status {
 }
 
 /// A route with its steps, or why there is none.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Answer {
     /// What became of the question.
     pub status: Status,

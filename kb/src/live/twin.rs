@@ -45,16 +45,13 @@ impl Twin {
     pub fn write(&mut self, written: &Written) -> &SiteGraph {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
-        let graph = match free {
-            Some(mut graph) => {
-                graph.follow(&self.shown, (&lag.rooms, &lag.doors), &written.rooms, &written.doors);
-                graph
-            }
-            None => {
-                let mut graph = SiteGraph::clone(&self.shown);
-                graph.write(&written.rooms, &written.doors);
-                graph
-            }
+        let graph = if let Some(mut graph) = free {
+            graph.follow(&self.shown, (&lag.rooms, &lag.doors), &written.rooms, &written.doors);
+            graph
+        } else {
+            let mut graph = SiteGraph::clone(&self.shown);
+            graph.write(&written.rooms, &written.doors);
+            graph
         };
         self.lag.note(written);
         self.other.insert(Arc::new(graph))

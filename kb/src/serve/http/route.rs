@@ -47,7 +47,9 @@ impl Question {
 
     fn answer(&self, view: &View) -> Answered<Response> {
         let answer = match view.route_reply(&self.start, &self.goals, self.robot.as_deref())? {
-            Reply::Json(text) => return Ok(([(header::CONTENT_TYPE, "application/json")], text).into_response()),
+            Reply::Json(text) => {
+                return Ok(([(header::CONTENT_TYPE, "application/json")], text).into_response());
+            }
             Reply::Answer(answer) => answer,
         };
         let code = match answer.status {
@@ -69,10 +71,7 @@ impl Question {
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
     ),
     responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
-pub async fn route(
-    axum::extract::State(shared): Site,
-    RawQuery(query): RawQuery,
-) -> Answered<Response> {
+pub async fn route(axum::extract::State(shared): Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     let seen = Arc::clone(&shared.view.load());
     // over doors an answer takes microseconds, over measured rooms milliseconds
