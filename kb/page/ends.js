@@ -9,6 +9,7 @@ import { endOf } from './thing.js';
 
 // Above this, the list of suggestions holds places only: a browser shows thousands badly.
 const MOST_ROOMS = 500;
+const MOST_PLACES = 200;
 
 let asked = 0;
 
@@ -45,12 +46,24 @@ export function setEnds(ends) {
 /** Leads the start or the goal to what was clicked. */
 export const lead = (end, thing) => setEnds({ [end]: endOf(thing) });
 
+// The two places that lie farthest apart: the way between them shows most of the floor.
+function farApart(places) {
+  let best = [places[0]?.place ?? '', ''];
+  let most = 0;
+  for (const one of places) {
+    for (const other of places) {
+      const far = Math.hypot(one.x - other.x, one.y - other.y);
+      if (far > most) [most, best] = [far, [one.place, other.place]];
+    }
+  }
+  return best;
+}
+
 /** Opens what a link says; without a link, a way between two places, so that there is something to see. */
 export function openEnds(params) {
   const said = { start: params.get('start') ?? '', goal: params.get('goal') ?? '', robot: params.get('robot') ?? '' };
   if (!said.start && !said.goal && !model.ask.start && !model.ask.goal) {
-    const places = model.map.places.map(({ place }) => place);
-    if (places.length > 1) [said.start, said.goal] = [places[0], places.at(-1)];
+    [said.start, said.goal] = farApart(model.map.places.slice(0, MOST_PLACES));
   }
   if (said.start || said.goal) return setEnds({ ...said, robot: said.robot || model.ask.robot });
   if (model.ask.start || model.ask.goal) remember('map', model.ask);

@@ -52,8 +52,9 @@ export class Drawn {
     for (const index of this.rooms) {
       const kind = this.roomClass(index);
       const changed = this.changedRooms.has(index);
-      const name = `${kind}/${changed}`;
-      if (!groups.has(name)) groups.set(name, { kind, changed, path: new Path2D() });
+      const action = kind === -3 ? model.weights.rooms.action[index] : null;
+      const name = `${kind}/${changed}/${action}`;
+      if (!groups.has(name)) groups.set(name, { kind, changed, action, path: new Path2D() });
       const [x0, y0, x1, y1] = model.map.rooms[index].rect;
       groups.get(name).path.rect(x0, y0, x1 - x0, y1 - y0);
     }

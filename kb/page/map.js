@@ -5,7 +5,7 @@ import { byId, el, fill } from './dom.js';
 import { action, number } from './format.js';
 import { Drawn, EASIEST, layerName, roomsWeigh } from './layers.js';
 import { model } from './model.js';
-import { inks, paint, setRoomsAround } from './paint.js';
+import { inks, paint } from './paint.js';
 import { Finder } from './places.js';
 import { closePopover, openPopover } from './popover.js';
 import { weightsOf } from './thing.js';
@@ -29,7 +29,7 @@ export function invalidate() {
   requestAnimationFrame(() => {
     waiting = false;
     if (!shown || canvas.clientWidth === 0) return;
-    paint(context, camera, shown, still, ink, pointed);
+    paint(context, camera, shown, still, ink, pointed, (at) => finder.roomsAt(at));
     // Whoever measures how soon an edit is seen reads it here.
     canvas.dataset.generation = model.weights.generation;
     canvas.dataset.changed = String(shown.changedRooms.size + shown.changedDoors.size);
@@ -49,10 +49,6 @@ function redraw() {
 function newMap() {
   const { map } = model;
   finder = new Finder(map);
-  setRoomsAround((index) => {
-    const [x0, y0, x1, y1] = map.rooms[index].rect;
-    return finder.roomsAt([(x0 + x1) / 2, (y0 + y1) / 2]);
-  });
   const polygons = (list) => {
     const path = new Path2D();
     for (const points of list) {
@@ -169,7 +165,7 @@ export function point(kind, index) {
 export function openCard(kind, index) {
   const { thing, screen } = point(kind, index);
   byId('map-box').scrollIntoView({ block: 'nearest' });
-  openPopover(thing, screen, null);
+  openPopover(thing, screen);
 }
 
 /** Makes the map answer. `lead(end, at)` sets the start or the goal to a point. */
@@ -181,7 +177,7 @@ export function startMap(lead) {
     if (event.shiftKey) return lead('goal', thing);
     if (!model.ask.start) return lead('start', thing);
     if (!model.ask.goal) return lead('goal', thing);
-    return openPopover(thing, at, lead);
+    return openPopover(thing, at);
   }, hover);
   byId('zoom-in').addEventListener('click', () => camera.zoom(1.4));
   byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));

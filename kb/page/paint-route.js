@@ -1,15 +1,16 @@
 /** Paints ways: the present one coloured by action, with its direction; a previewed or refused one dashed. */
 
 import { model } from './model.js';
-import { write } from './paint.js';
 
 /** All ways that are known now. */
-export function paintRoutes(context, camera, shown, ink) {
+export function paintRoutes(context, camera, shown, ink, labels) {
   const previewed = model.preview?.route;
-  if (model.route?.waypoints?.length) way(context, camera, shown, ink, model.route.waypoints);
+  const letters = [];
+  if (previewed?.waypoints && differs(previewed, model.route)) band(context, camera, previewed.waypoints, ink['amber-line']);
+  if (model.route?.waypoints?.length) way(context, camera, shown, ink, model.route.waypoints, letters);
   if (model.whyNot?.route?.waypoints) plain(context, camera, model.whyNot.route.waypoints, ink.shut, ink);
-  if (previewed?.waypoints && differs(previewed, model.route)) plain(context, camera, previewed.waypoints, ink['amber-line'], ink);
-  ends(context, camera, ink);
+  ends(context, camera, ink, labels);
+  for (const { text, at: [x, y] } of letters) labels.put(text, [[x, y - 13, 'center'], [x, y + 13, 'center'], [x + 14, y, 'left'], [x - 14, y, 'right']], '700 12px system-ui, sans-serif');
 }
 
 function differs(one, other) {
@@ -21,6 +22,17 @@ function line(context, points) {
   context.beginPath();
   points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
   context.stroke();
+}
+
+// Under the present way and wider than it: both are seen where they lead the same way.
+function band(context, camera, waypoints, colour) {
+  context.lineCap = 'butt';
+  context.lineJoin = 'round';
+  context.strokeStyle = colour;
+  context.lineWidth = 12;
+  context.setLineDash([5, 3]);
+  line(context, waypoints.map(({ x, y }) => camera.toScreen([x, y])));
+  context.setLineDash([]);
 }
 
 function plain(context, camera, waypoints, colour, ink) {
@@ -38,7 +50,7 @@ function plain(context, camera, waypoints, colour, ink) {
 }
 
 // A waypoint says the action with which one arrives at it.
-function way(context, camera, shown, ink, waypoints) {
+function way(context, camera, shown, ink, waypoints, letters) {
   const points = waypoints.map(({ x, y }) => camera.toScreen([x, y]));
   context.lineCap = 'round';
   context.lineJoin = 'round';
@@ -57,7 +69,8 @@ function way(context, camera, shown, ink, waypoints) {
     line(context, run);
     context.setLineDash([]);
     arrows(context, run, shown.actions.colour(action), ink);
-    label(context, run, shown.actions.letter(action), ink);
+    const at = along(run, 0.3);
+    if (at) letters.push({ text: shown.actions.letter(action), at });
     from = to;
   }
 }
@@ -85,33 +98,30 @@ function arrows(context, run, colour, ink) {
   }
 }
 
-function label(context, run, letter, ink) {
+// The point at this share of a run, or nothing where the run is too short to be spoken of.
+function along(run, share) {
   const whole = run.slice(1).reduce((sum, point, i) => sum + length(run[i], point), 0);
-  if (whole < 40) return;
-  let left = whole * 0.3;
+  if (whole < 14) return null;
+  let left = whole * share;
   for (let i = 0; i + 1 < run.length; i += 1) {
     const here = length(run[i], run[i + 1]);
-    if (left <= here) {
-      const part = left / here;
-      context.font = '700 12px system-ui, sans-serif';
-      write(context, letter, run[i][0] + part * (run[i + 1][0] - run[i][0]), run[i][1] + part * (run[i + 1][1] - run[i][1]) - 12, ink);
-      return;
-    }
+    if (left <= here) return run[i].map((value, axis) => value + (left / here) * (run[i + 1][axis] - value));
     left -= here;
   }
+  return run.at(-1);
 }
 
-function ends(context, camera, ink) {
+function ends(context, camera, ink, labels) {
   const waypoints = model.route?.waypoints ?? [];
   if (!waypoints.length) return;
   const [first, last] = [waypoints[0], waypoints.at(-1)];
   disc(context, camera, first, ink, ink.paper);
   disc(context, camera, last, ink, ink.ink);
-  context.font = '700 13px system-ui, sans-serif';
   const named = (text) => (model.map.places.some(({ place }) => place === text) ? '' : `: ${text}`);
   for (const [waypoint, word, text, down] of [[first, 'start', model.route.start, 17], [last, 'goal', model.route.goal, -17]]) {
     const [px, py] = camera.toScreen([waypoint.x, waypoint.y]);
-    write(context, `${word}${named(text)}`, px, py + down, ink);
+    labels.keep(px, py, 9);
+    labels.put(`${word}${named(text)}`, [[px, py + down, 'center'], [px, py - down, 'center'], [px + 14, py, 'left'], [px - 14, py, 'right']], '700 13px system-ui, sans-serif');
   }
 }
 

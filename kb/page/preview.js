@@ -48,7 +48,7 @@ export function summary(preview) {
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
   else if (!preview.layout_changed) parts.push('No room and no door would weigh otherwise.');
   if (routes?.total) {
-    const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'newly found']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word}`);
+    const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
     const ways = routes.rerouted ? `${routes.rerouted} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
     parts.push(routes.changed || routes.rerouted
       ? `Of ${count(routes.total, 'route')} between places ${list([...kinds, ways].filter(Boolean))}.`
@@ -67,7 +67,7 @@ function thisRoute(preview) {
       : Math.abs(was - becomes) < 5e-7 * Math.max(1, was) ? `The way that you look at stays at ${cost(was)}.`
         : null;
   if (text) return el('p', { text });
-  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? ', another way (dotted in amber)' : ', the same way');
+  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? ', another way (hatched in amber)' : ', the same way');
 }
 
 const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();
