@@ -176,6 +176,11 @@ impl Error {
         }
     }
 
+    /// Whether another program holds the database.
+    pub fn is_busy(&self) -> bool {
+        matches!(self, Self::Locked(_))
+    }
+
     /// The same failure, as a refusal of `what` where a constraint refused it.
     pub(crate) fn refusing(self, what: impl Into<String>) -> Self {
         let Self::Sql(error) = self else { return self };

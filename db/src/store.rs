@@ -161,6 +161,16 @@ impl Store {
         Ok(Tx::new(&self.runtime, transaction, &self.path))
     }
 
+    /// Lets others read while this connection writes (SQLite's WAL mode), or not any more: then the database is one file
+    /// again, unless another connection is open.
+    pub fn share(&mut self, on: bool) -> Result<()> {
+        let sql = if on { "PRAGMA journal_mode = WAL" } else { "PRAGMA journal_mode = DELETE" };
+        self.run(async |connection| {
+            sqlx::query(sql).execute(connection).await?;
+            Ok(())
+        })
+    }
+
     /// Writes a compact copy of the database to `to`, which must not exist.
     pub fn backup(&mut self, to: impl AsRef<Path>) -> Result<()> {
         self.run(async |connection| backup::copy(connection, to.as_ref()).await)

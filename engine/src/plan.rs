@@ -51,7 +51,7 @@ pub(crate) trait Kinds {
 }
 
 /// What a rule does for each binding.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Effect {
     Conclude {
         then: ActionPlan,
@@ -70,7 +70,7 @@ pub(crate) enum Effect {
 }
 
 /// A rule ready to run.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) clauses: Vec<ClausePlan>,
     pub(crate) effect: Effect,

@@ -19,7 +19,7 @@ impl Symbol {
 }
 
 /// All texts of a knowledge base.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
     texts: Vec<Arc<str>>,
     ids: HashMap<Arc<str>, u32>,

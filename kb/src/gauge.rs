@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_db::robot::State;
+use adit_engine::KnowledgeBase as Inference;
 use adit_planners::clearance::Solids;
 use adit_planners::geometry::Point;
 use adit_planners::routes::Way;
@@ -24,6 +25,20 @@ impl Gauge {
         let size =
             |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
         Self { solids: Solids::new(world), sizes: states.iter().map(size).collect() }
+    }
+
+    /// What is solid in the world, for robots of the sizes that rules concluded.
+    pub fn of_sizes(world: &World, knowledge: &Inference) -> Self {
+        let numbers = |property| knowledge.numbers("ROBOTS", property).unwrap_or_default();
+        let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
+        let names = texts("robot").into_iter().zip(texts("state"));
+        let sizes = numbers("width").into_iter().zip(numbers("height"));
+        let size =
+            |((robot, state), (width, height)): ((Option<_>, Option<_>), (Option<f64>, Option<f64>))| {
+                let name = |text: std::sync::Arc<str>| text.to_string();
+                Some(((name(robot?), name(state?)), (width? / 2.0, height?)))
+            };
+        Self { solids: Solids::new(world), sizes: names.zip(sizes).filter_map(size).collect() }
     }
 
     /// For each leg of a way the least metres between the robot's rim and anything solid since the last bend; `None`

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use adit_db::Derived;
-use adit_db::door::Door;
+use adit_db::door::{Door, DoorWeight};
 use adit_db::place::Place;
-use adit_db::room::Room;
+use adit_db::room::{Room, RoomWeight};
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
+#[derive(Clone)]
 pub struct SiteGraph {
     /// Rows of `rooms`, by index.
     pub rooms: Vec<Room>,
@@ -54,27 +54,40 @@ impl SiteGraph {
         &self.graph
     }
 
-    /// Weighs rooms and doors anew, by index, for searches; the rows stay as they are.
-    pub fn reweigh<'w>(
-        &mut self,
-        rooms: impl IntoIterator<Item = (usize, &'w Derived<f64>, &'w Derived<bool>)>,
-        doors: impl IntoIterator<Item = (usize, &'w Derived<f64>, &'w Derived<bool>)>,
-    ) {
-        let rows = &self.rooms;
-        let walking = |(room, hardness, passable): (usize, &Derived<f64>, &Derived<bool>)| {
-            (room, walking(hardness.value, passable.value, rows[room].layer.is_some()))
-        };
-        let passage = |(door, hardness, passable): (usize, &Derived<f64>, &Derived<bool>)| {
-            (door, hardness.value, passable.value.unwrap_or(false))
-        };
-        self.graph.reweigh(rooms.into_iter().map(walking), doors.into_iter().map(passage));
+    /// Gives rooms and doors other weights, by index.
+    pub fn write(&mut self, rooms: &[(usize, RoomWeight)], doors: &[(usize, DoorWeight)]) {
+        for (row, weight) in rooms {
+            let room = &mut self.rooms[*row];
+            (room.hardness, room.action) = (weight.hardness.clone(), weight.action.clone());
+            room.passable = weight.passable.clone();
+        }
+        for (row, weight) in doors {
+            let door = &mut self.doors[*row];
+            (door.hardness, door.action) = (weight.hardness.clone(), weight.action.clone());
+            door.passable = weight.passable.clone();
+        }
+        self.weigh(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _)| *row));
     }
 
-    /// Takes back what [`reweigh`](Self::reweigh) did.
-    pub fn reweigh_as_rows_say(&mut self) {
-        let rooms = self.rooms.iter().map(walking_in).enumerate();
-        let doors = self.doors.iter().map(|door| (door.hardness.value, door.passable.value.unwrap_or(false)));
-        let doors = doors.enumerate().map(|(door, (hardness, passable))| (door, hardness, passable));
+    /// Takes over the weights of some rooms and doors of another copy.
+    pub fn copy_rows(&mut self, from: &Self, rooms: &[usize], doors: &[usize]) {
+        for &row in rooms {
+            self.rooms[row].clone_from(&from.rooms[row]);
+        }
+        for &row in doors {
+            self.doors[row].clone_from(&from.doors[row]);
+        }
+        self.weigh(rooms.iter().copied(), doors.iter().copied());
+    }
+
+    /// Lets searches see the weights of these rows.
+    fn weigh(&mut self, rooms: impl Iterator<Item = usize>, doors: impl Iterator<Item = usize>) {
+        let rows = (&self.rooms, &self.doors);
+        let rooms = rooms.map(|row| (row, walking_in(&rows.0[row])));
+        let doors = doors.map(|row| {
+            let door = &rows.1[row];
+            (row, door.hardness.value, door.passable.value.unwrap_or(false))
+        });
         self.graph.reweigh(rooms, doors);
     }
 

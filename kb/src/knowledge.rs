@@ -156,6 +156,11 @@ impl KnowledgeBase {
         self
     }
 
+    /// Who edits what is taken back again.
+    pub(crate) fn nobody() -> Author {
+        Author { who: "nobody".to_owned(), why: String::new() }
+    }
+
     pub(crate) fn planners(&self) -> &[Box<dyn Planner>] {
         &self.planners
     }
@@ -356,7 +361,8 @@ impl KnowledgeBase {
                 told.classes.insert(class, read);
             }
         }
-        told.notes = tunings::lay_over(&mut told.classes, &row_keys, &tunings::in_force(tx)?)?;
+        told.keys = row_keys;
+        told.notes = tunings::lay_over(&mut told.classes, &told.keys, &tunings::in_force(tx)?)?;
         self.tell_by_the_clock(tx, &mut told)?;
         Ok(told)
     }

@@ -1,20 +1,26 @@
 //! A site's knowledge held in memory between edits: an edit costs what depends on it, not what there is.
 
+mod base;
 mod kept;
+mod renewal;
 mod routes;
+mod twin;
+mod view;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_db::stale::Mark;
 use adit_db::{Store, Tx};
-use adit_engine::{Changes, KnowledgeBase as Inference, Severity, Value};
-use adit_planners::facts::{Column, Facts};
+use adit_engine::{Changes, Severity};
 
-use crate::answer::{self, Answer};
+use crate::answer::Answer;
 use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
+use crate::fork::Fork;
+use crate::fork::pairs::Known;
 use crate::gauge::Gauge;
 use crate::generation::{self, Basis};
 use crate::graph::Rules;
@@ -22,50 +28,50 @@ use crate::grounds::Numbering;
 use crate::inputs::Inputs;
 use crate::knowledge::{KnowledgeBase, keep_standings};
 use crate::progress::Silent;
-use crate::report::Before;
+use crate::report::{Before, Report};
 use crate::store::{LastBuild, Tables, places};
 use crate::told::{Attached, Tell, Told};
 use crate::{classes, states, trees, weights};
+pub(crate) use base::Base;
 use kept::{Kept, Written};
+pub use renewal::Renewal;
 use routes::KeptRoutes;
+pub use view::View;
 
 /// A built site, ready for many edits. What it writes is what [`KnowledgeBase::edit`] would write.
 ///
 /// Rules and map are those of the files when it was opened. Edits of other programs are seen: before the next edit
 /// all is derived anew.
 pub struct Live {
-    site: KnowledgeBase,
+    site: Arc<KnowledgeBase>,
     store: Store,
     memory: Memory,
 }
 
 struct Memory {
-    inputs: Inputs,
+    inputs: Arc<Inputs>,
     basis: Basis,
     generation: u64,
-    told: Told,
-    /// Which objects facts are about.
-    attached: Attached,
-    /// What planners said of classes other than rooms and doors.
-    planned: Facts,
-    /// What facts of an edit that is not committed yet are about.
-    pending: Option<Attached>,
-    knowledge: Inference,
+    base: Base,
     numbering: Numbering,
     kept: Kept,
     routes: KeptRoutes,
-    gauge: Gauge,
+    gauge: Arc<Gauge>,
     /// The rules' names, by number.
-    rules: Rules,
+    rules: Arc<Rules>,
+    /// Names the cut of the floor.
+    layout: Arc<str>,
     /// Whether the kept routes are older than rooms and doors.
     routes_due: bool,
+    /// Routes between places, as far as previews asked for them.
+    known: Arc<Known>,
 }
 
 /// What an edit did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// The edit.
-    pub done: Done,
+    /// The edit; `None` where only time has passed.
+    pub done: Option<Done>,
     /// Number of the knowledge base's state.
     pub generation: u64,
     /// Rooms whose row was written.
@@ -109,11 +115,11 @@ impl Live {
     pub fn open(site: KnowledgeBase) -> Result<Self> {
         if let Some(live) = Self::of_built(&site)? {
             let (store, memory) = live;
-            return Ok(Self { site, store, memory });
+            return Ok(Self { site: Arc::new(site), store, memory });
         }
         site.build(&Silent)?;
         match Self::of_built(&site)? {
-            Some((store, memory)) => Ok(Self { site, store, memory }),
+            Some((store, memory)) => Ok(Self { site: Arc::new(site), store, memory }),
             None => Err(Error::said(
                 "live/stale",
                 "the site's tables were edited while it was opened",
@@ -137,29 +143,88 @@ impl Live {
         &self.site
     }
 
+    /// What the expert should know: facts that are lost, tunings that count for nothing, what no rule reads.
+    pub fn notes(&self) -> Vec<String> {
+        let memory = &self.memory;
+        let lost = memory.base.told.lost(&memory.base.attached);
+        memory.inputs.notes.iter().chain(&memory.base.told.notes).cloned().chain(lost).collect()
+    }
+
+    /// Lets others read the database while edits are written.
+    pub fn share(&mut self) -> Result<()> {
+        Ok(self.store.share(true)?)
+    }
+
+    /// Leaves the database as one file, unless others still read it.
+    pub fn unshare(mut self) -> Result<()> {
+        self.store.share(false).or_else(|error| if error.is_busy() { Ok(()) } else { Err(error.into()) })
+    }
+
+    /// Forgets what is in memory, and reads it from the database; built anew where it does not hold.
+    pub fn reopen(&mut self) -> Result<Outcome> {
+        self.build_anew()
+    }
+
     /// Edits a table and writes all that follows, in one transaction. If anything fails, database and memory are as
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
+        match self.follow(Some((edit, author))) {
+            Ok(outcome) => Ok(outcome),
+            Err(Stop::Failed(error)) => Err(error),
+            Err(Stop::Anew) => self.edit_anew(edit, author),
+        }
+    }
+
+    /// Writes what follows from an edit, or from the clock alone, in one transaction.
+    fn follow(&mut self, edit: Option<(&Edit, &Author)>) -> std::result::Result<Outcome, Stop> {
         let Self { site, store, memory } = self;
         let mut prepared = None;
         let mut clock = Clock::new();
-        let outcome = store.transaction(|tx| {
-            let (done, step) = memory.follow(tx, site, (edit, author), &mut clock)?;
-            prepared = Some(step);
-            Ok(done)
+        let outcome = store.transaction(|tx| -> std::result::Result<(), Stop> {
+            prepared = Some(memory.follow(tx, site, edit, &mut clock)?);
+            Ok(())
         });
         clock.lap("commit");
         match (outcome, prepared) {
-            (Ok(done), Some(step)) => Ok(memory.accept(done, step, clock.stages)),
-            (Ok(_), None) => Err(Error::said("live", "the edit came to nothing", None)),
+            (Ok(()), Some((done, step))) => Ok(memory.accept(done, step, clock.stages)),
+            (Ok(()), None) => Err(Error::said("live", "the edit came to nothing", None).into()),
             (Err(stop), _) => {
                 memory.take_back()?;
-                match stop {
-                    Stop::Failed(error) => Err(error),
-                    Stop::Anew => self.edit_anew(edit, author),
-                }
+                Err(stop)
             }
         }
+    }
+
+    /// Follows what happened without this program: edits of other programs, facts that ended, hours that began or
+    /// ended. `None` where nothing did.
+    pub fn catch_up(&mut self) -> Result<Option<Outcome>> {
+        let memory = &self.memory;
+        let is_ours = |mark: &Mark| memory.routes_due && mark.table == ROUTES;
+        let (generation, is_edited) = self.store.snapshot(|tx| -> Result<_> {
+            Ok((generation::read(tx)?, !tx.stale_marks()?.iter().all(is_ours)))
+        })?;
+        if generation == memory.generation && !is_edited {
+            if !memory.base.told.is_over(&self.site.clock()) {
+                return Ok(None);
+            }
+            match self.follow(None) {
+                Ok(outcome) => return Ok(Some(outcome)),
+                Err(Stop::Failed(error)) => return Err(error),
+                Err(Stop::Anew) => {}
+            }
+        }
+        self.build_anew().map(Some)
+    }
+
+    /// Takes the site as its files now are. Where they cannot be used, all stays as it was.
+    pub fn open_again(&mut self, site: KnowledgeBase) -> Result<Outcome> {
+        let report = site.build(&Silent)?;
+        let before = std::mem::replace(&mut self.site, Arc::new(site));
+        if let Err(error) = self.read_again() {
+            self.site = before;
+            return Err(error);
+        }
+        Ok(anew(None, report))
     }
 
     /// Tells a fact about one object, as [`Live::edit`] does.
@@ -175,66 +240,60 @@ impl Live {
     /// The route of least hardness to the one of several goals that costs least, with everything that was edited so far.
     /// Nothing is read but memory.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        let memory = &self.memory;
-        let robot = answer::pick(&memory.robots(), robot)?;
-        let blank = Answer::blank(&robot, start, goals, memory.generation);
-        let basis = answer::Basis {
-            knowledge: &self.site,
-            graph: memory.routes.graph(),
-            rules: &memory.rules,
-            world: &memory.inputs.world,
-            gauge: &memory.gauge,
-        };
-        basis.search(goals, blank)
+        self.view().route(start, goals, robot)
     }
 
-    /// Writes the kept routes where edits left them stale; how many rows. Until then SQL says of them that they are.
-    pub fn renew_routes(&mut self) -> Result<u64> {
-        if !self.memory.routes_due {
-            return Ok(0);
+    /// A copy of what is known, in memory only, to try edits on.
+    pub fn fork(&self) -> Fork {
+        let memory = &self.memory;
+        Fork {
+            site: Arc::clone(&self.site),
+            inputs: Arc::clone(&memory.inputs),
+            base: memory.base.fork(),
+            graph: Arc::clone(memory.routes.graph()),
+            gauge: Arc::clone(&memory.gauge),
+            rules: Arc::clone(&memory.rules),
+            generation: memory.generation,
+            known: Arc::clone(&memory.known),
         }
-        let Self { site, store, memory } = self;
-        let written = store.transaction(|tx| -> Result<Option<u64>> {
-            let is_ours = |mark: &Mark| mark.table == ROUTES;
-            if generation::read(tx)? != memory.generation || !tx.stale_marks()?.iter().all(is_ours) {
-                return Ok(None);
-            }
-            let robots = site.robots(tx)?;
-            let written = memory.routes.follow(tx, &robots, site.site().starts.as_ref(), &memory.gauge)?;
-            tx.mark_fresh()?;
-            Ok(written)
-        })?;
-        if let Some(written) = written {
-            memory.routes_due = false;
-            return Ok(written);
-        }
-        let report = site.build(&Silent)?;
+    }
+
+    /// Builds the site and takes what came of it into memory.
+    fn build_anew(&mut self) -> Result<Outcome> {
+        let report = self.site.build(&Silent)?;
+        self.read_again()?;
+        Ok(anew(None, report))
+    }
+
+    /// Takes the built site into memory.
+    fn read_again(&mut self) -> Result<()> {
         let Some((store, memory)) = Self::of_built(&self.site)? else {
             let help = Some("open it again".to_owned());
             return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
         };
         (self.store, self.memory) = (store, memory);
-        Ok(report.routes.rows)
+        Ok(())
     }
 
     /// The edit by way of everything, as `adit tune` does it.
     fn edit_anew(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         let (done, report) = self.site.edit(edit, author, false, &Silent)?;
-        let Some((store, memory)) = Self::of_built(&self.site)? else {
-            let help = Some("open it again".to_owned());
-            return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
-        };
-        (self.store, self.memory) = (store, memory);
-        Ok(Outcome {
-            done,
-            generation: report.generation,
-            rooms: report.rooms.changed,
-            doors: report.doors.changed,
-            tree_rows: report.routes.rows as usize,
-            routes_due: false,
-            anew: true,
-            stages: report.stages,
-        })
+        self.read_again()?;
+        Ok(anew(Some(done), report))
+    }
+}
+
+/// What came of deriving everything anew.
+fn anew(done: Option<Done>, report: Report) -> Outcome {
+    Outcome {
+        done,
+        generation: report.generation,
+        rooms: report.rooms.changed,
+        doors: report.doors.changed,
+        tree_rows: report.routes.rows as usize,
+        routes_due: false,
+        anew: true,
+        stages: report.stages,
     }
 }
 
@@ -280,25 +339,21 @@ impl Memory {
         let kept = Kept::new(made.areas, made.derivations, uses);
         let routes = KeptRoutes::new(graph, plan);
         let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
-        let (knowledge, attached, mut planned) = (derived.knowledge, derived.attached, derived.facts);
-        planned.retain(|class, _| !["ROOMS", "DOORS"].contains(&class.as_str()));
-        let pending = None;
+        let layout = view::layout(routes.graph());
         let rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         Ok(Some(Self {
-            inputs,
+            inputs: Arc::new(inputs),
             basis,
             generation,
-            told,
-            attached,
-            planned,
-            pending,
-            knowledge,
+            base: Base::of(derived, told),
             numbering,
             kept,
             routes,
-            gauge,
-            rules,
+            gauge: Arc::new(gauge),
+            rules: Arc::new(rules),
+            layout,
             routes_due: false,
+            known: Arc::default(),
         }))
     }
 
@@ -307,19 +362,22 @@ impl Memory {
         &mut self,
         tx: &mut Tx<'_>,
         site: &KnowledgeBase,
-        (edit, author): (&Edit, &Author),
+        edit: Option<(&Edit, &Author)>,
         clock: &mut Clock,
-    ) -> std::result::Result<(Done, Step), Stop> {
+    ) -> std::result::Result<(Option<Done>, Step), Stop> {
         let is_ours = |mark: &Mark| self.routes_due && mark.table == ROUTES;
         if generation::read(tx)? != self.generation || !tx.stale_marks()?.iter().all(is_ours) {
             return Err(Stop::Anew);
         }
-        let done = edit.apply(tx, site, &self.inputs.rules, author)?;
+        let done = match edit {
+            Some((edit, author)) => Some(edit.apply(tx, site, &self.inputs.rules, author)?),
+            None => None,
+        };
         let told = site.told(tx, &self.inputs.rules)?;
         clock.lap("edit");
-        let attached = self.tell(&told, site)?;
-        let changes = self.knowledge.update(&self.inputs.rules);
-        let failed = self.knowledge.problems(&self.inputs.rules);
+        let Some(attached) = self.base.tell(&told, site)? else { return Err(Stop::Anew) };
+        let changes = self.base.knowledge.update(&self.inputs.rules);
+        let failed = self.base.knowledge.problems(&self.inputs.rules);
         if failed.iter().any(|problem| problem.severity == Severity::Error) {
             let failed = failed.into_iter().filter(|problem| problem.severity == Severity::Error);
             return Err(Stop::Failed(Error::all(failed)));
@@ -327,11 +385,11 @@ impl Memory {
         if site.planners().iter().any(|planner| needs_changed(&planner.signature().needs, &changes)) {
             return Err(Stop::Anew);
         }
-        self.check(&changes)?;
+        weights::check_changes(&self.base.knowledge, &changes, self.routes.graph())?;
         clock.lap("rules");
         let mut numbering = self.numbering.clone();
         let written = self.kept.differences(
-            &self.knowledge,
+            &self.base.knowledge,
             &self.inputs.rules,
             &changes,
             &mut numbering,
@@ -354,110 +412,15 @@ impl Memory {
         Ok((done, Step { told, attached, generation, numbering, written, routes }))
     }
 
-    /// Tells the classes and facts that differ. Other columns than before have to be looked at as a build does.
-    ///
-    /// # Returns
-    /// Which objects facts are now about.
-    fn tell(&mut self, told: &Told, site: &KnowledgeBase) -> std::result::Result<Attached, Stop> {
-        if told.classes.len() != self.told.classes.len() {
-            return Err(Stop::Anew);
-        }
-        let kinds = |table: &adit_planners::facts::Table| -> Vec<_> {
-            let kind = |(name, column): &(String, adit_planners::facts::Column)| {
-                (name.clone(), std::mem::discriminant(column))
-            };
-            table.columns.iter().map(kind).collect()
-        };
-        let mut attached = self.told_of_planned(told, site)?;
-        for (class, table) in &told.classes {
-            let Some(before) = self.told.classes.get(class) else { return Err(Stop::Anew) };
-            if kinds(before) != kinds(table) {
-                return Err(Stop::Anew);
-            }
-            if before != table || !self.told.facts_of(class).eq(told.facts_of(class)) {
-                classes::assert(&mut self.knowledge, class, table)?;
-            }
-            told.tell(&mut self.knowledge, class, &mut attached)?;
-        }
-        Ok(attached)
-    }
-
-    /// Tells the facts about what planners give.
-    fn told_of_planned(&mut self, told: &Told, site: &KnowledgeBase) -> std::result::Result<Attached, Stop> {
-        let planned = |told: &Told| -> Vec<_> {
-            let facts = told.facts.iter().filter(|fact| !told.classes.contains_key(&fact.class));
-            facts.cloned().collect()
-        };
-        let (before, now) = (planned(&self.told), planned(told));
-        let given: Vec<String> =
-            site.planners().iter().flat_map(|planner| planner.signature().gives).collect();
-        let is_given = |class: &str, property: &str| {
-            given.iter().any(|given| {
-                let name = given.split(':').next().unwrap_or(given);
-                classes::split(name.trim()) == (class, property)
-            })
-        };
-        // what a planner said of rooms and doors is not in memory any more
-        let differ = before
-            .iter()
-            .filter(|fact| !now.contains(fact))
-            .chain(now.iter().filter(|f| !before.contains(f)));
-        let is_forgotten = |class: &str| !self.planned.contains_key(class);
-        if differ.into_iter().any(|fact| is_forgotten(&fact.class) && is_given(&fact.class, &fact.property)) {
-            return Err(Stop::Anew);
-        }
-        let mut attached = Attached::default();
-        told.attach(&self.knowledge, |class| !told.classes.contains_key(class), &mut attached);
-        self.pending = Some(attached.clone());
-        self.change_planned(&self.attached.clone(), &attached, told)?;
-        Ok(attached)
-    }
-
-    /// Tells of each object of a planner's class what counts now instead of before.
-    fn change_planned(&mut self, before: &Attached, now: &Attached, told: &Told) -> Result<()> {
-        let is_planned = |class: &str| !told.classes.contains_key(class);
-        for ((class, row, property), fact) in
-            now.cells().iter().filter(|((class, _, _), _)| is_planned(class))
-        {
-            fact.tell_row(&mut self.knowledge, class, *row, property)?;
-        }
-        for cell in
-            before.cells().keys().filter(|cell| is_planned(&cell.0) && !now.cells().contains_key(*cell))
-        {
-            let (class, row, property) = cell;
-            let said = self.planned.get(class).and_then(|table| table.column(property));
-            let value = said.and_then(|column| value_of(column, *row));
-            let told = self.knowledge.tell_row(class, *row, property, value);
-            told.map_err(|error| Error::said("tell/refused", error.to_string(), None))?;
-        }
-        Ok(())
-    }
-
-    /// The robots, in the order of their names.
-    fn robots(&self) -> Vec<String> {
-        let states = self.told.classes.get("ROBOTS").and_then(|table| table.texts("robot").ok());
-        let mut robots: Vec<String> = states.into_iter().flatten().flatten().cloned().collect();
-        robots.dedup();
-        robots
-    }
-
-    fn check(&self, changes: &Changes) -> Result<()> {
-        let graph = self.routes.graph();
-        let (rooms, doors) = (changes.rows("ROOMS", "hardness"), changes.rows("DOORS", "hardness"));
-        let name = |row: usize| format!("room {}", graph.rooms[row].name);
-        weights::check_rows(&self.knowledge, "ROOMS", rooms, name)?;
-        let name = |row: usize| format!("door {}", graph.doors[row].door);
-        weights::check_rows(&self.knowledge, "DOORS", doors, name)
-    }
-
     /// Makes a committed edit part of what is known.
-    fn accept(&mut self, done: Done, step: Step, stages: Vec<Stage>) -> Outcome {
+    fn accept(&mut self, done: Option<Done>, step: Step, stages: Vec<Stage>) -> Outcome {
         let (rooms, doors) = (step.written.rooms.len(), step.written.doors.len());
         let tree_rows = step.routes.rows();
         self.routes_due |= step.routes.is_due;
         let routes_due = self.routes_due;
-        (self.told, self.generation, self.numbering) = (step.told, step.generation, step.numbering);
-        (self.attached, self.pending) = (step.attached, None);
+        (self.generation, self.numbering) = (step.generation, step.numbering);
+        self.base.accept(step.told, step.attached);
+        self.known = Arc::default();
         self.routes.accept(&step.written, step.routes);
         self.kept.accept(step.written, &mut self.numbering);
         Outcome {
@@ -474,31 +437,15 @@ impl Memory {
 
     /// Makes an edit undone that was not committed.
     fn take_back(&mut self) -> Result<()> {
-        let told = self.told.clone();
-        if let Some(pending) = self.pending.take() {
-            self.change_planned(&pending, &self.attached.clone(), &told)?;
-        }
-        for (class, table) in &told.classes {
-            classes::assert(&mut self.knowledge, class, table)?;
-            told.tell(&mut self.knowledge, class, &mut Attached::default())?;
-        }
-        self.knowledge.update(&self.inputs.rules);
+        self.base.take_back()?;
+        self.base.knowledge.update(&self.inputs.rules);
         self.routes.take_back();
         Ok(())
     }
 }
 
-/// A value of a column as it is told.
-fn value_of(column: &Column, row: usize) -> Option<Value> {
-    match column {
-        Column::Number(values) => values[row].map(Value::Number),
-        Column::Text(values) => values[row].as_deref().map(Value::from),
-        Column::Truth(values) => values[row].map(Value::Truth),
-    }
-}
-
 /// Whether something changed that a planner works from.
-fn needs_changed(needs: &[String], changes: &Changes) -> bool {
+pub(crate) fn needs_changed(needs: &[String], changes: &Changes) -> bool {
     needs.iter().any(|need| {
         let (class, property) = classes::split(need);
         changes.classes.get(class).is_some_and(|class| {

@@ -10,9 +10,11 @@ use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
+use crate::clock::{Clock, stored};
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::suggest::did_you_mean;
+use crate::tunings::RowKeys;
 pub use attach::Attached;
 pub use resolve::Tell;
 
@@ -21,6 +23,8 @@ pub use resolve::Tell;
 pub struct Told {
     /// Whole classes, from tables.
     pub classes: Facts,
+    /// The keys of their rows, as edits name them; empty for a table whose rows nobody can name.
+    pub keys: RowKeys,
     /// Facts about single objects that hold now, the oldest first: of two about one property the later one counts.
     pub facts: Vec<Fact>,
     /// Facts whose time is over, by number.
@@ -131,6 +135,11 @@ impl Told {
         }
     }
 
+    /// Whether the same counts: classes and facts, whatever the clock says of the time after.
+    pub fn counts_as(&self, other: &Self) -> bool {
+        self.classes == other.classes && self.facts == other.facts
+    }
+
     /// The facts about a class.
     pub fn facts_of<'t>(&'t self, class: &'t str) -> impl Iterator<Item = &'t Fact> {
         self.facts.iter().filter(move |fact| fact.class == class)
@@ -206,6 +215,11 @@ impl Told {
             tx.set_site_value(key, value.as_deref())?;
         }
         Ok(())
+    }
+
+    /// Whether the time up to which all of it holds is over.
+    pub fn is_over(&self, clock: &Clock) -> bool {
+        self.valid_until.as_ref().is_some_and(|until| *until <= stored(clock.now()))
     }
 
     /// A number that stands for the facts.

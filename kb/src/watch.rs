@@ -1,12 +1,11 @@
 //! Hot reload: on each save of a rule file, a rule test, the map or a table the site is checked, tested and built, and
 //! what does not pass leaves it as it was.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
-use std::path::{Path, PathBuf};
+mod eye;
+
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 use adit_db::Store;
 
@@ -14,6 +13,8 @@ use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::progress::Silent;
 use crate::report::Report;
+pub(crate) use eye::{Eye, Files};
+use eye::{Stamp, stamp};
 
 /// How often the files are looked at.
 pub const PAUSE: Duration = Duration::from_millis(300);
@@ -40,7 +41,8 @@ pub fn watch(
     let mut done: Option<State> = None;
     let mut last = None;
     while !stop.load(Ordering::Relaxed) {
-        let now = eye.look(open);
+        let files = eye.look(open);
+        let now = State { files, edited: edited(eye.database()) };
         // what still changes is being written: it is read when two looks agree
         if last.as_ref() == Some(&now) && done.as_ref() != Some(&now) {
             match open().and_then(|knowledge| knowledge.build(&Silent)) {
@@ -62,69 +64,23 @@ pub fn watch(
 /// What a build would start from.
 #[derive(Clone, Debug, PartialEq)]
 struct State {
-    /// What the files hold; `None`: it cannot be read.
-    files: BTreeMap<PathBuf, Option<u64>>,
+    files: Files,
     /// When the database was last written, where it holds edits that no build has followed up.
     edited: Option<Stamp>,
 }
 
-type Stamp = (SystemTime, u64);
-
-/// Reads files only where their time or size changed.
-#[derive(Default)]
-struct Eye {
-    files: Vec<PathBuf>,
-    database: PathBuf,
-    read: BTreeMap<PathBuf, (Stamp, Option<u64>)>,
-}
-
-impl Eye {
-    fn look(&mut self, open: &dyn Fn() -> Result<KnowledgeBase>) -> State {
-        // a broken site.toml leaves the files to be watched that it named before
-        if let Ok(knowledge) = open() {
-            self.files = knowledge.files();
-            knowledge.database().clone_into(&mut self.database);
-        } else if let Some(file) = self.files.first() {
-            self.read.remove(file);
-        }
-        let files = self.files.clone();
-        let files = files.into_iter().map(|file| {
-            let content = self.content(&file);
-            (file, content)
-        });
-        State { files: files.collect(), edited: self.edited() }
-    }
-
-    fn content(&mut self, file: &Path) -> Option<u64> {
-        let stamp = stamp(file)?;
-        if let Some((_, content)) = self.read.get(file).filter(|(known, _)| *known == stamp) {
-            return *content;
-        }
-        let content = fs::read(file).ok().map(|bytes| {
-            let mut hasher = DefaultHasher::new();
-            bytes.hash(&mut hasher);
-            hasher.finish()
-        });
-        self.read.insert(file.to_owned(), (stamp, content));
-        content
-    }
-
-    fn edited(&self) -> Option<Stamp> {
-        let marks = Store::open_read_only(&self.database).and_then(|mut store| {
-            store.snapshot(|tx| -> std::result::Result<_, adit_db::Error> { tx.stale_marks() })
-        });
-        // one who is writing just now is looked at the next time
-        if marks.is_ok_and(|marks| !marks.is_empty()) { stamp(&self.database) } else { None }
-    }
-}
-
-fn stamp(file: &Path) -> Option<Stamp> {
-    let about = fs::metadata(file).ok().filter(fs::Metadata::is_file)?;
-    Some((about.modified().ok()?, about.len()))
+/// When the database was last written, where it holds edits that no build has followed up.
+fn edited(database: &Path) -> Option<Stamp> {
+    let marks = Store::open_read_only(database).and_then(|mut store| {
+        store.snapshot(|tx| -> std::result::Result<_, adit_db::Error> { tx.stale_marks() })
+    });
+    // one who is writing just now is looked at the next time
+    if marks.is_ok_and(|marks| !marks.is_empty()) { stamp(database) } else { None }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
     use std::panic::{AssertUnwindSafe, catch_unwind};
     use std::sync::mpsc::{Receiver, channel};
     use std::thread;

@@ -1,10 +1,11 @@
 //! What rules say of rooms and doors, checked before it is kept: a hardness is a number that a sum can take.
 
-use adit_engine::{KnowledgeBase as Inference, Value};
+use adit_engine::{Changes, KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
 use crate::classes;
 use crate::error::{Error, Result};
+use crate::graph::SiteGraph;
 use crate::number::number;
 
 /// The largest hardness that the tables take.
@@ -30,8 +31,15 @@ pub fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -
     Err(refusal(knowledge, class, (row, values[row]), name))
 }
 
+/// Checks the hardness of the rooms and doors that an update changed.
+pub fn check_changes(knowledge: &Inference, changes: &Changes, graph: &SiteGraph) -> Result<()> {
+    let (rooms, doors) = (changes.rows("ROOMS", "hardness"), changes.rows("DOORS", "hardness"));
+    check_rows(knowledge, "ROOMS", rooms, |row| format!("room {}", graph.rooms[row].name))?;
+    check_rows(knowledge, "DOORS", doors, |row| format!("door {}", graph.doors[row].door))
+}
+
 /// Checks the hardness of the objects in these rows, of a class that was checked before.
-pub fn check_rows(
+fn check_rows(
     knowledge: &Inference,
     class: &str,
     rows: &[u32],

@@ -13,7 +13,7 @@ pub(crate) struct Writer {
 }
 
 /// A property with what rules make of it, stage by stage: concluded first, then revised level by level.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 #[allow(clippy::struct_excessive_bools)] // each is a fact by itself, none excludes another
 pub(crate) struct Derived {
     /// The rules that conclude it: the greatest priority first, then in the order of the rule base.

@@ -36,7 +36,7 @@ impl Shape {
 }
 
 /// All that is kept of a rule between inferences.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Memory {
     pub(crate) shape: Shape,
     /// For each object of the first clause what came of it.
@@ -59,7 +59,7 @@ pub(crate) struct Memory {
 }
 
 /// Firings by the row that they set.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Inverse {
     starts: Vec<u32>,
     firings: Vec<u32>,

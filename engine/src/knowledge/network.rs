@@ -14,7 +14,7 @@ use crate::rule_base::RuleBase;
 use crate::value::Type;
 
 /// A rule as it stands between two inferences.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Node {
     pub(super) name: String,
     pub(super) version: String,
@@ -27,7 +27,7 @@ pub(super) struct Node {
 }
 
 /// A plan and the types that it was made for.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Planned {
     pub(super) plan: Plan,
     pub(super) uses: Uses,
@@ -38,7 +38,7 @@ pub(super) struct Planned {
 }
 
 /// All rules of a base.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Network {
     /// The rule base that it was made for.
     pub(super) base: Option<u64>,

@@ -13,7 +13,7 @@ use crate::script::names::{Names, Patterns, property_of};
 use crate::value::Type;
 
 /// One step of an action.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Step {
     /// Writes a slot: a `let`, an assignment, or a property that is set.
     Put { slot: usize, value: Node },
@@ -24,7 +24,7 @@ pub(crate) enum Step {
 }
 
 /// A property that an action sets.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) variable: usize,
     pub(crate) name: PropertyName,
@@ -33,7 +33,7 @@ pub(crate) struct Target {
 }
 
 /// An action ready to run.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct ActionPlan {
     pub(crate) steps: Vec<Step>,
     pub(crate) slots: usize,

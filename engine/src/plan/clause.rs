@@ -8,14 +8,14 @@ use crate::script::syntax::Quantifier;
 use crate::value::Type;
 
 /// An equation that an index answers: this column of the clause's class equals this value.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Join {
     pub(crate) column: usize,
     pub(crate) key: Node,
 }
 
 /// A comparison that has the candidate on its left side alone, and the variables before it on its right.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Threshold {
     pub(crate) comparison: Comparison,
     pub(crate) candidate: Node,
@@ -23,7 +23,7 @@ pub(crate) struct Threshold {
 }
 
 /// A clause ready to run.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct ClausePlan {
     pub(crate) quantifier: Quantifier,
     pub(crate) joins: Vec<Join>,

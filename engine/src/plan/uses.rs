@@ -9,7 +9,7 @@ use super::node::Node;
 use super::{Effect, Plan};
 
 /// Columns by the number of the variable through which they are read.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Uses {
     /// Anywhere.
     pub(crate) anywhere: Vec<BTreeSet<usize>>,

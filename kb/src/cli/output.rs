@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use comfy_table::{ContentArrangement, Table, presets};
-use miette::Severity;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
+use crate::problem::Problem;
 
 /// Whether some of the answer could not be written, to a full disk for one.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -67,34 +67,9 @@ pub fn problems(problems: &[miette::Report]) {
     }
 }
 
-/// Problems for programs: code, severity, message, file, line and column (from 1), and help of each.
-pub fn as_json(problems: &[miette::Report]) -> Vec<serde_json::Value> {
-    problems.iter().map(problem_json).collect()
-}
-
-fn problem_json(problem: &miette::Report) -> serde_json::Value {
-    let severity = match problem.severity() {
-        Some(Severity::Advice) => "advice",
-        Some(Severity::Warning) => "warning",
-        _ => "error",
-    };
-    let mut value = serde_json::json!({
-        "code": problem.code().map(|code| code.to_string()),
-        "severity": severity,
-        "message": problem.to_string(),
-        "file": null,
-        "line": null,
-        "column": null,
-        "help": problem.help().map(|help| help.to_string()),
-    });
-    let label = problem.labels().and_then(|mut labels| labels.next());
-    let place = problem.source_code().zip(label);
-    if let Some(found) = place.and_then(|(text, label)| text.read_span(label.inner(), 0, 0).ok()) {
-        value["file"] = found.name().into();
-        value["line"] = (found.line() + 1).into();
-        value["column"] = (found.column() + 1).into();
-    }
-    value
+/// Problems for programs: see [`Problem`].
+pub fn as_json(problems: &[miette::Report]) -> serde_json::Value {
+    serde_json::json!(Problem::all(problems))
 }
 
 fn theme() -> miette::GraphicalTheme {

@@ -170,6 +170,11 @@ impl Kept {
 }
 
 impl Written {
+    /// Whether no room and no door is among it.
+    pub fn is_empty(&self) -> bool {
+        self.rooms.is_empty() && self.doors.is_empty()
+    }
+
     /// Writes the rows.
     pub fn write(&self, tx: &mut Tx<'_>, numbering: &Numbering) -> Result<()> {
         if !self.witnesses_new.is_empty() || !self.witnesses_gone.is_empty() {

@@ -1,5 +1,7 @@
 //! The kept routes, and what of them an edit changes.
 
+use std::sync::Arc;
+
 use adit_db::Tx;
 use adit_db::room::RoomWeight;
 use adit_db::tree::{TreeChange, TreeRow};
@@ -7,25 +9,28 @@ use adit_planners::geometry::Point;
 use adit_planners::routes::{CompactGraph, CompactTree, NONE};
 
 use super::kept::Written;
+use super::twin::Twin;
 use crate::error::Result;
-use crate::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
-use crate::site::Starts;
 use crate::trees::{self, Plan};
 
 /// The graph of the site, and the trees of its kept starts.
 pub struct KeptRoutes {
-    graph: SiteGraph,
+    graph: Twin,
     plan: Plan,
     trees: Trees,
 }
 
+/// Up to so many rooms of trees are searched anew by each edit, in a few milliseconds.
+const AT_ONCE: usize = 400_000;
+
 /// Trees as they are kept between edits.
 enum Trees {
-    /// Where all hardness lies on the doors: arrays, and for each tree the rooms that hold the places.
-    OnDoors { graph: CompactGraph, trees: Vec<CompactTree>, places: Vec<Vec<Option<usize>>> },
-    /// Where rooms weigh metres: they are found when they are asked for, and kept ones follow later.
-    Measured,
+    /// Where all hardness lies on the doors, and trees are few: each edit brings them up to date. Arrays, and for each
+    /// tree the rooms that hold the places.
+    Now { graph: CompactGraph, trees: Vec<CompactTree>, places: Vec<Vec<Option<usize>>> },
+    /// They follow later: see [`Renewal`](super::Renewal).
+    Later,
 }
 
 /// Trees of now, and how their rows differ from those of before.
@@ -46,76 +51,58 @@ impl Renewed {
 impl KeptRoutes {
     /// Takes the graph of a built site, and its trees.
     pub fn new(graph: SiteGraph, plan: Plan) -> Self {
-        let trees = if let Some(compact) = CompactGraph::new(graph.graph()) {
+        let is_small = plan.roots.len() * graph.rooms.len() <= AT_ONCE;
+        let compact = if is_small { CompactGraph::new(graph.graph()) } else { None };
+        let trees = if let Some(compact) = compact {
             let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
             let place = |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
             let places =
                 |(robot, _): &(String, _)| (0..graph.places.len()).map(|index| place(robot, index)).collect();
             let places = plan.roots.iter().map(places).collect();
-            Trees::OnDoors { graph: compact, trees, places }
+            Trees::Now { graph: compact, trees, places }
         } else {
-            Trees::Measured
+            Trees::Later
         };
-        Self { graph, plan, trees }
+        Self { graph: Twin::new(graph), plan, trees }
     }
 
-    /// The graph.
-    pub fn graph(&self) -> &SiteGraph {
-        &self.graph
+    /// The graph as it was committed last.
+    pub fn graph(&self) -> &Arc<SiteGraph> {
+        self.graph.shown()
+    }
+
+    /// The trees that are kept.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// The routes over the doors and rooms as they now weigh; `None` where ways are measured from now on, or no longer.
     ///
     /// Where they are, what is asked from now on is found with the new weights; the kept routes are due.
     pub fn renew(&mut self, written: &Written) -> Option<Renewed> {
-        if written.doors.is_empty() && written.rooms.is_empty() {
+        if written.is_empty() {
             return Some(Renewed { changes: Vec::new(), trees: None, is_due: false });
         }
         let is_on_doors = |(_, room): &(usize, RoomWeight)| {
             room.hardness.value.is_none() && room.passable.value == Some(true)
         };
+        let graph_now = self.graph.write(written);
         match &mut self.trees {
-            Trees::OnDoors { graph, trees, places } if written.rooms.iter().all(is_on_doors) => {
+            Trees::Now { graph, trees, places } if written.rooms.iter().all(is_on_doors) => {
                 for (door, weight) in &written.doors {
                     graph.reweigh(*door, weight_of(weight.hardness.value, weight.passable.value));
                 }
                 let roots = &self.plan.roots;
                 let now: Vec<_> = roots.iter().map(|(_, start)| graph.tree(&start.rooms)).collect();
-                let site = &self.graph;
                 let changes = now.iter().zip(trees.iter()).zip(roots.iter().zip(places));
                 let changes = changes.map(|((now, before), ((_, start), places))| {
-                    differences(site, (before, now), start.at, places)
+                    differences(graph_now, (before, now), start.at, places)
                 });
                 Some(Renewed { changes: changes.collect(), trees: Some(now), is_due: false })
             }
-            Trees::OnDoors { .. } => None,
-            Trees::Measured => {
-                let rooms = written.rooms.iter().map(|(row, of)| (*row, &of.hardness, &of.passable));
-                let doors = written.doors.iter().map(|(row, of)| (*row, &of.hardness, &of.passable));
-                self.graph.reweigh(rooms, doors);
-                Some(Renewed { changes: Vec::new(), trees: None, is_due: true })
-            }
+            Trees::Now { .. } => None,
+            Trees::Later => Some(Renewed { changes: Vec::new(), trees: None, is_due: true }),
         }
-    }
-
-    /// Writes the kept routes as they now are, where ways are measured; how many rows. `None` where others have to be
-    /// kept than before.
-    pub fn follow(
-        &self,
-        tx: &mut Tx<'_>,
-        robots: &[String],
-        wanted: Option<&Starts>,
-        gauge: &Gauge,
-    ) -> Result<Option<u64>> {
-        let plan = trees::plan(&self.graph, robots, wanted)?;
-        if plan.starts != self.plan.starts {
-            return Ok(None);
-        }
-        let mut written = 0;
-        for (tree, rows) in (1..).zip(trees::rows(&self.graph, &plan.roots, gauge)) {
-            written += tx.put_tree(tree, rows)?;
-        }
-        Ok(Some(written))
     }
 
     /// Writes the rows that differ.
@@ -128,32 +115,22 @@ impl KeptRoutes {
         Ok(())
     }
 
-    /// Makes renewed routes the kept ones.
+    /// Makes renewed routes the kept ones, and shows the graph that they were found on.
     pub fn accept(&mut self, written: &Written, renewed: Renewed) {
-        for (row, weight) in &written.rooms {
-            let room = &mut self.graph.rooms[*row];
-            (room.hardness, room.action) = (weight.hardness.clone(), weight.action.clone());
-            room.passable = weight.passable.clone();
+        if !written.is_empty() {
+            self.graph.turn();
         }
-        for (row, weight) in &written.doors {
-            let door = &mut self.graph.doors[*row];
-            (door.hardness, door.action) = (weight.hardness.clone(), weight.action.clone());
-            door.passable = weight.passable.clone();
-        }
-        if let (Some(now), Trees::OnDoors { trees, .. }) = (renewed.trees, &mut self.trees) {
+        if let (Some(now), Trees::Now { trees, .. }) = (renewed.trees, &mut self.trees) {
             *trees = now;
         }
     }
 
-    /// Gives rooms and doors the weights of before an edit that was not committed.
+    /// Forgets an edit that was not committed.
     pub fn take_back(&mut self) {
-        match &mut self.trees {
-            Trees::OnDoors { graph, .. } => {
-                for (row, door) in self.graph.doors.iter().enumerate() {
-                    graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
-                }
+        if let Trees::Now { graph, .. } = &mut self.trees {
+            for (row, door) in self.graph.shown().doors.iter().enumerate() {
+                graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
             }
-            Trees::Measured => self.graph.reweigh_as_rows_say(),
         }
     }
 }

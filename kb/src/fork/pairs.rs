@@ -1,0 +1,98 @@
+//! Routes between places, from each place to all others, as far as a deadline lets them be found.
+
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::sync::Mutex;
+use std::time::Instant;
+
+use adit_planners::routes::{CompactGraph, CompactTree, Goal, NONE};
+use rayon::prelude::*;
+
+use crate::graph::{End, SiteGraph};
+
+/// A robot and a place, by index: where routes start.
+pub type From = (usize, usize);
+
+/// Routes from one start, by place; `None` where there is none.
+pub type Row = Vec<Option<Found>>;
+
+/// A route between two places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// Its cost.
+    pub cost: f64,
+    /// A number that is equal where the same doors are passed in the same order.
+    pub doors: u64,
+}
+
+/// Routes that were found of one state of a site, kept for the next question.
+#[derive(Default)]
+pub struct Known(Mutex<BTreeMap<From, Row>>);
+
+impl Known {
+    /// The routes from these starts, in their order; those not known yet are found until the deadline.
+    pub fn rows(
+        &self,
+        graph: &SiteGraph,
+        robots: &[String],
+        wanted: &[From],
+        deadline: Instant,
+    ) -> BTreeMap<From, Row> {
+        let mut known = self.0.lock().map(|known| known.clone()).unwrap_or_default();
+        let missing: Vec<From> = wanted.iter().filter(|from| !known.contains_key(from)).copied().collect();
+        let found = rows(graph, robots, &missing, deadline);
+        if let Ok(mut kept) = self.0.lock() {
+            kept.extend(found.iter().map(|(from, row)| (*from, row.clone())));
+        }
+        known.extend(found);
+        known
+    }
+}
+
+/// The routes from these starts to all places; the first ones where the deadline comes before the last.
+pub fn rows(graph: &SiteGraph, robots: &[String], wanted: &[From], deadline: Instant) -> BTreeMap<From, Row> {
+    let compact = CompactGraph::new(graph.graph());
+    let mut found = BTreeMap::new();
+    for batch in wanted.chunks(rayon::current_num_threads().max(1) * 2) {
+        if Instant::now() >= deadline {
+            break;
+        }
+        let rows: Vec<Row> = batch
+            .par_iter()
+            .map(|&(robot, place)| row(graph, compact.as_ref(), &robots[robot], place))
+            .collect();
+        found.extend(batch.iter().copied().zip(rows));
+    }
+    found
+}
+
+fn row(graph: &SiteGraph, compact: Option<&CompactGraph>, robot: &str, place: usize) -> Row {
+    let start = graph.start(&End::Place(place), Some(robot));
+    let goals: Vec<Goal> =
+        (0..graph.places.len()).map(|goal| graph.goal(&End::Place(goal), Some(robot))).collect();
+    if let Some(compact) = compact {
+        let tree = compact.tree(&start.rooms);
+        let best = |goal: &Goal| {
+            let reached = goal.rooms.iter().filter(|room| tree.costs[**room].is_finite());
+            reached.min_by(|one, two| tree.costs[**one].total_cmp(&tree.costs[**two])).copied()
+        };
+        return goals.iter().map(|goal| best(goal).map(|room| of_tree(&tree, room))).collect();
+    }
+    let ways = graph.graph().ways(&start, &goals, false).goals;
+    let of_way = |way: adit_planners::routes::Way| {
+        let mut hasher = DefaultHasher::new();
+        way.legs.iter().for_each(|leg| leg.door.hash(&mut hasher));
+        Found { cost: way.cost, doors: hasher.finish() }
+    };
+    ways.into_iter().map(|way| way.map(of_way)).collect()
+}
+
+fn of_tree(tree: &CompactTree, room: usize) -> Found {
+    let mut hasher = DefaultHasher::new();
+    let mut at = room;
+    while tree.before[at] != NONE {
+        tree.doors[at].hash(&mut hasher);
+        at = tree.before[at] as usize;
+    }
+    Found { cost: tree.costs[room], doors: hasher.finish() }
+}

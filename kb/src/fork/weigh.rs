@@ -1,0 +1,122 @@
+//! Rooms and doors that weigh differently after an inference.
+
+use std::collections::BTreeMap;
+
+use adit_db::Derived;
+use adit_db::door::DoorWeight;
+use adit_db::room::RoomWeight;
+use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
+
+use crate::graph::SiteGraph;
+use crate::store::decides_rooms;
+
+/// Rooms and doors by index, with what rules now say of them. Which facts a rule chose is left out.
+#[derive(Clone, Debug, Default)]
+pub struct Reweighed {
+    /// Rooms, ascending.
+    pub rooms: Vec<(usize, RoomWeight)>,
+    /// Doors, ascending.
+    pub doors: Vec<(usize, DoorWeight)>,
+}
+
+impl Reweighed {
+    /// What differs from the graph after an update.
+    pub(crate) fn of(knowledge: &Inference, rules: &RuleBase, changes: &Changes, graph: &SiteGraph) -> Self {
+        let look = Look { knowledge, changes };
+        let mut rooms: BTreeMap<usize, RoomWeight> = BTreeMap::new();
+        let room = |row: usize| graph.rooms[row].weight();
+        look.at("ROOMS", "hardness", number, |row, to| {
+            rooms.entry(row).or_insert_with(|| room(row)).hardness = to;
+        });
+        look.at("ROOMS", "action", text, |row, to| {
+            rooms.entry(row).or_insert_with(|| room(row)).action = to;
+        });
+        let is_decided = decides_rooms(rules);
+        look.at("ROOMS", "passable", truth, |row, mut to| {
+            to.value = to.value.or(if is_decided { None } else { Some(true) });
+            rooms.entry(row).or_insert_with(|| room(row)).passable = to;
+        });
+        let mut doors: BTreeMap<usize, DoorWeight> = BTreeMap::new();
+        let door = |row: usize| {
+            let door = &graph.doors[row];
+            let (hardness, action) = (door.hardness.clone(), door.action.clone());
+            DoorWeight { door: door.door, hardness, action, passable: door.passable.clone() }
+        };
+        look.at("DOORS", "hardness", number, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).hardness = to;
+        });
+        look.at("DOORS", "action", text, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).action = to;
+        });
+        look.at("DOORS", "passable", truth, |row, to| {
+            doors.entry(row).or_insert_with(|| door(row)).passable = to;
+        });
+        rooms.retain(|row, to| {
+            let now = &graph.rooms[*row];
+            differs(&now.hardness, &to.hardness)
+                || differs(&now.action, &to.action)
+                || differs(&now.passable, &to.passable)
+        });
+        doors.retain(|row, to| {
+            let now = &graph.doors[*row];
+            differs(&now.hardness, &to.hardness)
+                || differs(&now.action, &to.action)
+                || differs(&now.passable, &to.passable)
+        });
+        Self { rooms: rooms.into_iter().collect(), doors: doors.into_iter().collect() }
+    }
+
+    /// Whether everything weighs what it weighed.
+    pub fn is_empty(&self) -> bool {
+        self.rooms.is_empty() && self.doors.is_empty()
+    }
+
+    /// Gives the rooms and doors of a graph these weights.
+    pub(crate) fn lay_over(&self, graph: &mut SiteGraph) {
+        graph.write(&self.rooms, &self.doors);
+    }
+}
+
+/// Whether the value or its rule is another one; the number of a witness says nothing here.
+fn differs<T: PartialEq>(now: &Derived<T>, to: &Derived<T>) -> bool {
+    now.value != to.value || now.rule != to.rule
+}
+
+struct Look<'a> {
+    knowledge: &'a Inference,
+    changes: &'a Changes,
+}
+
+impl Look<'_> {
+    fn at<T>(
+        &self,
+        class: &str,
+        property: &str,
+        value: fn(&Value) -> Option<T>,
+        mut found: impl FnMut(usize, Derived<T>),
+    ) {
+        let mut rows = self.changes.rows(class, property).to_vec();
+        rows.extend(self.changes.reasons(class, property));
+        rows.sort_unstable();
+        rows.dedup();
+        let grounds = self.knowledge.grounds(class, property, &rows);
+        for (row, grounds) in rows.into_iter().zip(grounds) {
+            let row = row as usize;
+            let value = self.knowledge.value_at(class, row, property).as_ref().and_then(value);
+            let rule = grounds.map(|grounds| grounds.rule as i64 + 1);
+            found(row, Derived { value, rule, witness: None });
+        }
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    if let Value::Number(number) = value { Some(*number) } else { None }
+}
+
+fn text(value: &Value) -> Option<String> {
+    if let Value::Text(text) = value { Some(text.to_string()) } else { None }
+}
+
+fn truth(value: &Value) -> Option<bool> {
+    if let Value::Truth(truth) = value { Some(*truth) } else { None }
+}

@@ -1,0 +1,72 @@
+//! Problems as programs read them.
+
+use miette::Severity;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+/// One thing that is wrong, or that one should know, with its place where it has one.
+#[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
+pub struct Problem {
+    /// Its kind, as `rule/syntax`.
+    pub code: Option<String>,
+    /// error, warning or advice.
+    pub severity: &'static str,
+    /// In one sentence.
+    pub message: String,
+    /// The file.
+    pub file: Option<String>,
+    /// Line, from 1.
+    pub line: Option<usize>,
+    /// Column, from 1.
+    pub column: Option<usize>,
+    /// Line where the place ends.
+    pub end_line: Option<usize>,
+    /// The column after its last character.
+    pub end_column: Option<usize>,
+    /// What to do about it.
+    pub help: Option<String>,
+}
+
+impl Problem {
+    /// What a diagnostic says.
+    pub fn of(diagnostic: &dyn miette::Diagnostic) -> Self {
+        let severity = match diagnostic.severity() {
+            Some(Severity::Advice) => "advice",
+            Some(Severity::Warning) => "warning",
+            _ => "error",
+        };
+        let mut problem = Self {
+            code: diagnostic.code().map(|code| code.to_string()),
+            severity,
+            message: diagnostic.to_string(),
+            file: None,
+            line: None,
+            column: None,
+            end_line: None,
+            end_column: None,
+            help: diagnostic.help().map(|help| help.to_string()),
+        };
+        let label = diagnostic.labels().and_then(|mut labels| labels.next());
+        let place = diagnostic.source_code().zip(label);
+        if let Some((text, label)) = place
+            && let Ok(found) = text.read_span(label.inner(), 0, 0)
+        {
+            problem.file = found.name().map(str::to_owned);
+            let (line, column) = (found.line() + 1, found.column() + 1);
+            let marked = String::from_utf8_lossy(found.data());
+            let length = |line: &str| line.chars().count();
+            let (end_line, end_column) = match marked.rsplit_once('\n') {
+                Some((before, last)) => (line + before.matches('\n').count() + 1, length(last) + 1),
+                None => (line, column + length(&marked)),
+            };
+            (problem.line, problem.column) = (Some(line), Some(column));
+            (problem.end_line, problem.end_column) = (Some(end_line), Some(end_column));
+        }
+        problem
+    }
+
+    /// What several diagnostics say.
+    pub fn all(diagnostics: &[miette::Report]) -> Vec<Self> {
+        diagnostics.iter().map(|diagnostic| Self::of(diagnostic.as_ref())).collect()
+    }
+}

@@ -1,0 +1,57 @@
+//! `adit serve`: the knowledge base over HTTP, with live events, and the page where an expert tunes it.
+//!
+//! Requests read a [`View`](crate::live::View) that no edit changes; edits are made one after the other at a
+//! [desk](desk). What comes in passes the [gate](gate), what goes wrong leaves as one shape of JSON ([`fault`]).
+
+mod desk;
+mod event;
+mod fault;
+mod gate;
+mod http;
+mod listen;
+mod meter;
+mod page;
+pub(crate) mod role;
+mod routes;
+pub(crate) mod settings;
+mod shared;
+pub(crate) mod token;
+
+use std::sync::Arc;
+use std::sync::mpsc::sync_channel;
+
+use crate::error::{Error, Result};
+use crate::live::Live;
+use settings::Settings;
+use shared::Shared;
+use token::Tokens;
+
+/// Jobs that may wait to be done one after the other.
+const QUEUE: usize = 1_024;
+
+/// Serves a site until the program is told to end.
+///
+/// # Arguments
+/// `ready` hears the address once requests are answered.
+pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<()> {
+    let tokens = Tokens::read(&token::file(&settings.folder))?;
+    if tokens.tokens.is_empty() && !settings.listen.ip().is_loopback() {
+        let message = format!("{} can be reached from elsewhere, and the site has no tokens", settings.listen);
+        let help = "`adit token SITE add NAME --role tune` makes one".to_owned();
+        return Err(Error::said("serve/no-tokens", message, Some(help)));
+    }
+    let mut live = Live::open(settings.open()?)?;
+    live.share()?;
+    let (jobs, waiting) = sync_channel(QUEUE);
+    let shared = Arc::new(Shared::new(settings, desk::seen(&live), tokens, jobs));
+    let desk = desk::start(live, Arc::clone(&shared), waiting)?;
+    let watcher = routes::start(Arc::clone(&shared))?;
+    let served = listen::serve(&shared, ready);
+    shared.ending.send_replace(true);
+    let (desk, watcher) = (desk.join(), watcher.join());
+    served?;
+    match (desk, watcher) {
+        (Ok(live), Ok(())) => live.unshare(),
+        _ => Err(Error::said("serve/ended", "the service ended by a defect of its own", None)),
+    }
+}

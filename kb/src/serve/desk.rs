@@ -1,0 +1,197 @@
+//! Where all edits are made, one after the other, on a thread of its own: the only one that writes.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use adit_db::history::Author;
+use adit_db::tree::TreeRow;
+use jiff::Timestamp;
+
+use super::event::{Changed, Event, Problems};
+use super::shared::{Job, Seen, Shared};
+use super::token::{self, Tokens};
+use crate::clock::stored;
+use crate::edit::Edit;
+use crate::error::{Error, Result};
+use crate::live::{Live, Outcome, Renewal};
+use crate::problem::Problem;
+use crate::watch::{Eye, Files};
+
+/// Rules run here: their deepest nesting needs more than the usual stack.
+const STACK: usize = 16 << 20;
+
+/// How long nobody asks before files, clock and other programs are looked after; then twice a file must look the same.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Where all edits are made.
+pub struct Desk {
+    /// The site.
+    pub live: Live,
+    /// What requests see.
+    pub shared: Arc<Shared>,
+    eye: Eye,
+    /// Files as they were when they were looked at last, and as they were when they were last taken or refused.
+    looked: Option<Files>,
+    taken: Option<Files>,
+}
+
+/// Who did something, why, and what, in a few words.
+pub struct Cause {
+    /// Who.
+    pub who: String,
+    /// Why.
+    pub why: String,
+    /// What.
+    pub what: String,
+}
+
+impl Cause {
+    /// Something that nobody asked for.
+    fn itself(who: &str, what: &str) -> Self {
+        Self { who: who.to_owned(), why: String::new(), what: what.to_owned() }
+    }
+}
+
+/// What requests see of a site.
+pub fn seen(live: &Live) -> Seen {
+    Seen { view: live.view(), since: stored(Timestamp::now()), notes: live.notes() }
+}
+
+/// Works until the service ends; gives the site back.
+pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thread::JoinHandle<Live>> {
+    let work = move || {
+        let eye = Eye::with(vec![token::file(&shared.settings.folder)]);
+        let mut desk = Desk { live, shared, eye, looked: None, taken: None };
+        desk.taken = Some(desk.look());
+        desk.work(&jobs);
+        desk.live
+    };
+    let builder = thread::Builder::new().name("desk".to_owned()).stack_size(STACK);
+    builder.spawn(work).map_err(|error| Error::said("serve/thread", error.to_string(), None))
+}
+
+impl Desk {
+    fn work(&mut self, jobs: &Receiver<Job>) {
+        let mut looked = Instant::now();
+        while !*self.shared.ending.borrow() {
+            let next = jobs.recv_timeout(TICK.saturating_sub(looked.elapsed()));
+            let is_time = looked.elapsed() >= TICK;
+            let done = catch_unwind(AssertUnwindSafe(|| {
+                if let Ok(job) = next {
+                    job(self);
+                }
+                if is_time {
+                    self.look_around();
+                }
+            }));
+            if is_time {
+                looked = Instant::now();
+            }
+            if done.is_err() {
+                // what was in memory may be half-done; what is in the database is not
+                let outcome = self.live.reopen().map(Some);
+                self.report(outcome, &Cause::itself("service", "taken up again after a failure"));
+            }
+        }
+    }
+
+    /// Makes an edit, and tells everyone.
+    pub fn edit(&mut self, edit: &Edit, author: &Author, what: impl FnOnce(&Outcome) -> String) -> Result<Outcome> {
+        let outcome = self.live.edit(edit, author)?;
+        let (who, why) = (author.who.clone(), author.why.clone());
+        let what = what(&outcome);
+        self.publish(&outcome, &Cause { who, why, what });
+        Ok(outcome)
+    }
+
+    /// Shows the site as it now is, and says what changed.
+    pub fn publish(&mut self, outcome: &Outcome, cause: &Cause) {
+        let seen = seen(&self.live);
+        let changed = Changed {
+            generation: outcome.generation,
+            layout: seen.view.layout().to_owned(),
+            who: cause.who.clone(),
+            why: cause.why.clone(),
+            what: cause.what.clone(),
+            rooms: outcome.rooms,
+            doors: outcome.doors,
+            anew: outcome.anew,
+            at: seen.since.clone(),
+        };
+        self.shared.view.store(Arc::new(seen));
+        self.shared.say(Event::new("changed", &changed));
+    }
+
+    /// Keeps routes that were found anew; `false` where a change has overtaken them.
+    pub fn keep(&mut self, renewal: &Renewal, trees: Vec<(i64, Vec<TreeRow>)>, last: bool) -> bool {
+        match self.live.keep(renewal, trees, last) {
+            Ok(true) => {
+                self.shared.view.store(Arc::new(Seen { since: self.shared.view.load().since.clone(), ..seen(&self.live) }));
+                true
+            }
+            Ok(false) => false,
+            Err(error) => {
+                self.say_problems(Problem::all(error.problems()));
+                false
+            }
+        }
+    }
+
+    /// Looks after what happened without us: files that were saved, edits of other programs, the clock.
+    fn look_around(&mut self) {
+        let now = self.look();
+        // what still changes is being written: it is read when two looks agree
+        if self.looked.as_ref() == Some(&now) && self.taken.as_ref() != Some(&now) {
+            self.taken = Some(now.clone());
+            self.take_files();
+        }
+        self.looked = Some(now);
+        let outcome = self.live.catch_up();
+        self.report(outcome, &Cause::itself("another program", "tables were edited, or the time of a fact is over"));
+    }
+
+    fn look(&mut self) -> Files {
+        let settings = &self.shared.settings;
+        self.eye.look(&|| settings.open())
+    }
+
+    /// Takes files as they now are. Those that cannot be used are said, and all stays as it was.
+    fn take_files(&mut self) {
+        let settings = &self.shared.settings;
+        match Tokens::read(&token::file(&settings.folder)) {
+            Ok(tokens) => self.shared.tokens.store(Arc::new(tokens)),
+            Err(error) => return self.report(Err(error), &Cause::itself("files", "")),
+        }
+        let outcome = settings.open().and_then(|site| self.live.open_again(site));
+        if outcome.is_ok() {
+            self.say_problems(Vec::new());
+        }
+        let before = self.shared.view.load().view.generation();
+        let outcome = outcome.map(|outcome| Some(outcome).filter(|outcome| outcome.generation != before));
+        self.report(outcome, &Cause::itself("files", "rules, map or settings were saved"));
+    }
+
+    /// Remembers that the files as they now are have been taken, by whoever wrote them.
+    pub fn files_are_taken(&mut self) {
+        self.taken = Some(self.look());
+        self.say_problems(Vec::new());
+    }
+
+    fn report(&mut self, outcome: Result<Option<Outcome>>, cause: &Cause) {
+        match outcome {
+            Ok(Some(outcome)) => self.publish(&outcome, cause),
+            Ok(None) => {}
+            Err(error) => self.say_problems(Problem::all(error.problems())),
+        }
+    }
+
+    fn say_problems(&mut self, problems: Vec<Problem>) {
+        if **self.shared.problems.load() != problems {
+            self.shared.problems.store(Arc::new(problems.clone()));
+            self.shared.say(Event::new("problems", &Problems { problems }));
+        }
+    }
+}

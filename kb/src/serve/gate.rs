@@ -1,0 +1,118 @@
+//! Who may come in: the host that was called, the page that calls, the token, and what it allows.
+
+use std::sync::Arc;
+
+use axum::extract::{Request, State};
+use axum::http::{HeaderMap, Method, StatusCode, header};
+use axum::middleware::Next;
+use axum::response::Response;
+
+use super::fault::{Answered, Fault};
+use super::role::{Caller, Role};
+use super::shared::Shared;
+
+/// Under which name a caller edits where no token is needed; percent-encoded.
+const WHO: &str = "x-adit-who";
+const NAME_LENGTH: usize = 100;
+
+/// Lets a request pass with its [`Caller`], or refuses it.
+pub async fn pass(
+    State(shared): State<Arc<Shared>>,
+    mut request: Request,
+    next: Next,
+) -> Result<Response, Fault> {
+    let headers = request.headers();
+    check_host(&shared, headers)?;
+    check_origin(headers)?;
+    // the page itself holds nothing: it asks for a token once it is there
+    let is_open = !request.uri().path().starts_with("/api/") && request.uri().path() != "/metrics";
+    let caller = match caller(&shared, headers) {
+        Err(_) if is_open => nobody(),
+        caller => caller?,
+    };
+    request.extensions_mut().insert(caller);
+    Ok(next.run(request).await)
+}
+
+/// A page elsewhere whose name was made to point here (DNS rebinding) calls by that name.
+fn check_host(shared: &Shared, headers: &HeaderMap) -> Answered<()> {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    let name = name_of(host);
+    let listen = shared.settings.listen.ip();
+    let is_ours = ["localhost", "127.0.0.1", "[::1]"].contains(&name)
+        || name.trim_matches(['[', ']']) == listen.to_string()
+        || shared.settings.hosts.iter().any(|known| known.eq_ignore_ascii_case(name));
+    if is_ours {
+        return Ok(());
+    }
+    let fault = Fault::new(
+        StatusCode::FORBIDDEN,
+        "auth/host",
+        format!("this service is not called `{}`", name.chars().take(NAME_LENGTH).collect::<String>()),
+    );
+    Err(fault.helped("start it with `--host NAME` to let it be called so"))
+}
+
+/// The name in `name:port`.
+fn name_of(host: &str) -> &str {
+    match host.rsplit_once(':') {
+        Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
+        _ => host,
+    }
+}
+
+/// Browsers say which page calls; only our own may.
+fn check_origin(headers: &HeaderMap) -> Answered<()> {
+    let Some(origin) = headers.get(header::ORIGIN) else { return Ok(()) };
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    let origin = origin.to_str().unwrap_or_default();
+    let called_by = origin.strip_prefix("http://").or_else(|| origin.strip_prefix("https://"));
+    if called_by == Some(host) {
+        return Ok(());
+    }
+    Err(Fault::new(StatusCode::FORBIDDEN, "auth/origin", "a page from elsewhere may not call this service"))
+}
+
+fn caller(shared: &Shared, headers: &HeaderMap) -> Answered<Caller> {
+    let tokens = shared.tokens.load();
+    let given = headers.get(header::AUTHORIZATION).map(|value| value.to_str().unwrap_or_default());
+    let token = given.map(|value| value.strip_prefix("Bearer ").unwrap_or_default());
+    let unauthorized = |code: &str, message: &str| Fault::new(StatusCode::UNAUTHORIZED, code, message);
+    match token {
+        Some(token) => match tokens.holder(token.trim()) {
+            Some(caller) => Ok(caller),
+            // who sends a token wants to be known: nobody is taken for somebody else
+            None => Err(unauthorized("auth/token-unknown", "nobody holds this token")),
+        },
+        None if tokens.tokens.is_empty() => Ok(Caller { name: said(headers), roles: vec![Role::Admin] }),
+        None => Err(unauthorized("auth/token-missing", "this site asks for a token")
+            .helped("send it as `Authorization: Bearer TOKEN`; `adit token SITE add NAME` makes one")),
+    }
+}
+
+fn nobody() -> Caller {
+    Caller { name: String::new(), roles: Vec::new() }
+}
+
+/// The name that a caller gives, where nobody checks it.
+fn said(headers: &HeaderMap) -> String {
+    let text = headers.get(WHO).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    let text = percent_encoding::percent_decode_str(text).decode_utf8_lossy();
+    let name: String = text.chars().filter(|c| !c.is_control()).take(NAME_LENGTH).collect();
+    if name.trim().is_empty() { "http".to_owned() } else { name.trim().to_owned() }
+}
+
+/// Refuses a caller who may not do this.
+pub fn require(caller: &Caller, role: Role) -> Answered<()> {
+    if caller.may(role) {
+        return Ok(());
+    }
+    let role = format!("{role:?}").to_lowercase();
+    let message = format!("`{}` may not do this: it needs the role `{role}`", caller.name);
+    Err(Fault::new(StatusCode::FORBIDDEN, "auth/role", message))
+}
+
+/// Whether a request may change something.
+pub fn is_write(method: &Method) -> bool {
+    ![Method::GET, Method::HEAD, Method::OPTIONS].contains(method)
+}

@@ -1,0 +1,188 @@
+//! All routes of the service, and what every request passes.
+
+mod edits;
+mod extract;
+mod facts;
+mod history;
+mod map;
+mod queries;
+mod route;
+mod rules;
+mod service;
+mod sql;
+mod stream;
+mod tables;
+mod why;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::body::Body;
+use axum::http::{HeaderValue, Request, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use axum::{Router, middleware};
+use tower::ServiceBuilder;
+use tower_http::catch_panic::CatchPanicLayer;
+use tower_http::compression::CompressionLayer;
+use tower_http::limit::RequestBodyLimitLayer;
+use tower_http::set_header::SetResponseHeaderLayer;
+use tower_http::timeout::TimeoutLayer;
+use utoipa::openapi::OpenApi;
+use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
+use utoipa_axum::router::OpenApiRouter;
+use utoipa_axum::routes;
+
+use super::fault::{Failure, Fault};
+use super::shared::Shared;
+use super::{event, gate, meter, page};
+
+/// The longest body that is read, bytes.
+const BODY: usize = 2 << 20;
+
+/// The longest that one answer may take; streams begin within it.
+const TIMEOUT: Duration = Duration::from_secs(60);
+
+/// Scripts, styles and data come from here and nowhere else.
+const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; \
+                      form-action 'self'; frame-ancestors 'none'";
+
+/// What every handler is given.
+type Site = axum::extract::State<Arc<Shared>>;
+
+/// All routes, and their description.
+fn described() -> (Router<Arc<Shared>>, OpenApi) {
+    let (router, mut api) = OpenApiRouter::<Arc<Shared>>::new()
+        .routes(routes!(service::health))
+        .routes(routes!(service::site))
+        .routes(routes!(service::openapi))
+        .routes(routes!(service::metrics))
+        .routes(routes!(map::map))
+        .routes(routes!(map::weights))
+        .routes(routes!(route::route))
+        .routes(routes!(tables::tables))
+        .routes(routes!(tables::tunings))
+        .routes(routes!(edits::edit))
+        .routes(routes!(edits::preview))
+        .routes(routes!(facts::list, facts::tell))
+        .routes(routes!(facts::retract))
+        .routes(routes!(history::history))
+        .routes(routes!(why::why))
+        .routes(routes!(why::why_not))
+        .routes(routes!(rules::list))
+        .routes(routes!(rules::save, rules::remove))
+        .routes(routes!(rules::check))
+        .routes(routes!(rules::adopt))
+        .routes(routes!(sql::ask, sql::download))
+        .routes(routes!(sql::schema))
+        .routes(routes!(queries::list))
+        .routes(routes!(queries::save, queries::remove))
+        .routes(routes!(stream::events))
+        .split_for_parts();
+    describe(&mut api);
+    (router, api)
+}
+
+/// What the description says besides its routes.
+fn describe(api: &mut OpenApi) {
+    api.info.title = "Adit".to_owned();
+    env!("CARGO_PKG_VERSION").clone_into(&mut api.info.version);
+    api.info.description = Some(
+        "Routes of least hardness through a building, the tables and rules that they follow from, and why. Metres; \
+         hardness has no unit. `generation` numbers the state of the knowledge base that an answer rests on. Every \
+         answer with a status of 400 or more is a `Failure`. The data of events on `/api/events` are `Hello`, \
+         `Changed`, `Rerouted` and `Problems`."
+            .to_owned(),
+    );
+    let mut parts = api.components.take().unwrap_or_default();
+    let mut add = |schemas: Vec<(String, utoipa::openapi::RefOr<utoipa::openapi::Schema>)>| {
+        parts.schemas.extend(schemas);
+    };
+    add(schemas::<Failure>());
+    add(schemas::<event::Hello>());
+    add(schemas::<event::Changed>());
+    add(schemas::<event::Rerouted>());
+    add(schemas::<event::Problems>());
+    let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).build();
+    parts.add_security_scheme("token", SecurityScheme::Http(bearer));
+    api.components = Some(parts);
+}
+
+/// The schema of a type, and of those that it is made of.
+fn schemas<T: utoipa::ToSchema>() -> Vec<(String, utoipa::openapi::RefOr<utoipa::openapi::Schema>)> {
+    let mut all = vec![(T::name().into_owned(), T::schema())];
+    T::schemas(&mut all);
+    all
+}
+
+/// The description of all routes.
+pub fn openapi() -> OpenApi {
+    described().1
+}
+
+/// The routes with all that a request passes: limits, the gate, the shape of failures, the meter.
+pub fn router(shared: Arc<Shared>) -> Router {
+    let (routes, _) = described();
+    let header = |name, value: &'static str| {
+        SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value))
+    };
+    let layers = ServiceBuilder::new()
+        .layer(middleware::from_fn(meter::count))
+        .layer(header(header::CONTENT_SECURITY_POLICY, POLICY))
+        .layer(header(header::X_CONTENT_TYPE_OPTIONS, "nosniff"))
+        .layer(header(header::REFERRER_POLICY, "no-referrer"))
+        .layer(CompressionLayer::new())
+        .layer(middleware::from_fn(shape))
+        .layer(CatchPanicLayer::custom(|_| Fault::internal().into_response()))
+        .layer(middleware::from_fn_with_state(Arc::clone(&shared), limit))
+        .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, TIMEOUT))
+        .layer(RequestBodyLimitLayer::new(BODY))
+        .layer(middleware::from_fn_with_state(Arc::clone(&shared), gate::pass));
+    Router::new()
+        .route("/", get(page::index))
+        .route("/assets/{name}", get(page::asset))
+        .merge(routes)
+        .fallback(unknown)
+        .method_not_allowed_fallback(not_so)
+        .layer(layers)
+        .with_state(shared)
+}
+
+async fn unknown() -> Fault {
+    Fault::missing("service/unknown", "there is nothing at this address").helped("GET /api/openapi.json lists all")
+}
+
+async fn not_so() -> Fault {
+    let message = "this address is not asked in this way";
+    Fault::new(StatusCode::METHOD_NOT_ALLOWED, "service/method", message)
+        .helped("GET /api/openapi.json lists all")
+}
+
+/// Refuses what is more than can be worked on at once.
+async fn limit(
+    axum::extract::State(shared): Site,
+    request: Request<Body>,
+    next: middleware::Next,
+) -> Result<Response, Fault> {
+    let Ok(_place) = shared.places.try_acquire() else { return Err(Fault::busy()) };
+    Ok(next.run(request).await)
+}
+
+/// Gives failures of the layers below, which say them in words, the one shape of failures.
+async fn shape(request: Request<Body>, next: middleware::Next) -> Response {
+    let response = next.run(request).await;
+    let status = response.status();
+    let is_json = response
+        .headers()
+        .get(header::CONTENT_TYPE)
+        .is_some_and(|kind| kind.as_bytes().starts_with(b"application/json"));
+    if status.as_u16() < 400 || is_json {
+        return response;
+    }
+    let (code, message) = match status {
+        StatusCode::PAYLOAD_TOO_LARGE => ("service/too-large", format!("a body may have {BODY} bytes")),
+        StatusCode::SERVICE_UNAVAILABLE => ("service/late", "the answer took too long".to_owned()),
+        _ => ("service/refused", status.canonical_reason().unwrap_or("refused").to_owned()),
+    };
+    Fault::new(status, code, message).into_response()
+}

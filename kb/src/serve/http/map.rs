@@ -1,0 +1,217 @@
+//! The floor: walls, rooms and doors, and what rules say of them.
+
+use axum::Json;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::Site;
+use crate::graph::SiteGraph;
+use crate::serve::fault::Failure;
+use adit_planners::world::{Shape, World};
+
+/// The floor as it is cut.
+#[derive(Serialize, ToSchema)]
+pub struct MapAnswer {
+    /// Names this cut of the floor.
+    layout: String,
+    /// The state that the answer rests on.
+    generation: u64,
+    /// The map's edges: x0, y0, x1, y1.
+    bounds: [f64; 4],
+    /// Everything solid: polygons as x, y, x, y, …
+    walls: Vec<Vec<f64>>,
+    /// What can be passed under.
+    bridges: Vec<BridgeOf>,
+    /// Named areas.
+    areas: Vec<AreaOf>,
+    /// Named doors.
+    named_doors: Vec<NamedDoorOf>,
+    /// Places.
+    places: Vec<PlaceOf>,
+    /// The layers of robots' states; none in the paper's modes.
+    layers: Vec<LayerOf>,
+    /// Rooms, by number.
+    rooms: Vec<RoomOf>,
+    /// Doors, by number.
+    doors: Vec<DoorOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct BridgeOf {
+    rect: [f64; 4],
+    height: f64,
+}
+
+#[derive(Serialize, ToSchema)]
+struct AreaOf {
+    name: String,
+    kind: Option<String>,
+    polygon: Vec<f64>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct NamedDoorOf {
+    name: String,
+    from: [f64; 2],
+    to: [f64; 2],
+}
+
+#[derive(Serialize, ToSchema)]
+struct PlaceOf {
+    place: String,
+    x: f64,
+    y: f64,
+}
+
+#[derive(Serialize, ToSchema, PartialEq)]
+struct LayerOf {
+    robot: String,
+    state: String,
+    /// For bodies longer than wide: which way they lie, degrees.
+    facing: Option<f64>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct RoomOf {
+    room: i64,
+    name: String,
+    /// Index among the layers.
+    layer: Option<usize>,
+    rect: [f64; 4],
+    /// Metres; null: unlimited.
+    height: Option<f64>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct DoorOf {
+    door: i64,
+    /// door or change (of shape).
+    kind: &'static str,
+    room1: i64,
+    room2: i64,
+    /// Where it is crossed, or the area of a change: x0, y0, x1, y1.
+    segment: [f64; 4],
+    one_way: bool,
+}
+
+/// The floor: walls, rooms and doors.
+#[utoipa::path(get, path = "/api/map", tag = "map", security(("token" = [])), responses((status = 200, body = MapAnswer), (status = "4XX", body = Failure)))]
+pub async fn map(axum::extract::State(shared): Site) -> Json<MapAnswer> {
+    let seen = shared.view.load();
+    let (graph, world) = (seen.view.graph(), &seen.view.inputs().world);
+    let (layers, rooms) = rooms(graph);
+    let b = world.bounds;
+    Json(MapAnswer {
+        layout: seen.view.layout().to_owned(),
+        generation: seen.view.generation(),
+        bounds: [b.x0, b.y0, b.x1, b.y1],
+        walls: walls(world),
+        bridges: world.bridges.iter().map(|bridge| BridgeOf { rect: rect(&bridge.rect), height: bridge.height }).collect(),
+        areas: world
+            .areas
+            .iter()
+            .map(|area| AreaOf { name: area.name.clone(), kind: area.kind.clone(), polygon: corners(&area.shape) })
+            .collect(),
+        named_doors: world
+            .named_doors
+            .iter()
+            .map(|door| NamedDoorOf { name: door.name.clone(), from: [door.from.x, door.from.y], to: [door.to.x, door.to.y] })
+            .collect(),
+        places: graph.places.iter().map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y }).collect(),
+        layers,
+        rooms,
+        doors: graph
+            .doors
+            .iter()
+            .map(|door| DoorOf {
+                door: door.door,
+                kind: if matches!(door.kind, adit_db::door::DoorKind::Door) { "door" } else { "change" },
+                room1: door.side1.room,
+                room2: door.side2.room,
+                segment: door.segment,
+                one_way: door.one_way,
+            })
+            .collect(),
+    })
+}
+
+fn rooms(graph: &SiteGraph) -> (Vec<LayerOf>, Vec<RoomOf>) {
+    let mut layers: Vec<LayerOf> = Vec::new();
+    let mut rooms = Vec::with_capacity(graph.rooms.len());
+    for room in &graph.rooms {
+        let layer = room.layer.as_ref().map(|(robot, state)| {
+            // rooms of a layer come one after the other, so the last is mostly it
+            let of = LayerOf { robot: robot.clone(), state: state.clone(), facing: room.facing };
+            layers.iter().rposition(|known| *known == of).unwrap_or_else(|| {
+                layers.push(of);
+                layers.len() - 1
+            })
+        });
+        rooms.push(RoomOf { room: room.room, name: room.name.clone(), layer, rect: room.rect, height: room.height });
+    }
+    (layers, rooms)
+}
+
+/// Everything solid, but what stands beyond the map's edges.
+fn walls(world: &World) -> Vec<Vec<f64>> {
+    let cells = world.occupancy.iter().flat_map(|cells| cells.rectangles());
+    let shapes = world.obstacles.iter().map(|obstacle| corners(&obstacle.shape));
+    cells.map(|cell| corners(&Shape::Rect(cell))).chain(shapes).collect()
+}
+
+fn corners(shape: &Shape) -> Vec<f64> {
+    match shape {
+        Shape::Rect(r) => vec![r.x0, r.y0, r.x1, r.y0, r.x1, r.y1, r.x0, r.y1],
+        Shape::Polygon(corners) => corners.iter().flat_map(|corner| [corner.x, corner.y]).collect(),
+    }
+}
+
+fn rect(r: &adit_planners::geometry::Rect) -> [f64; 4] {
+    [r.x0, r.y0, r.x1, r.y1]
+}
+
+/// What rules say of rooms and doors, in the order of `/api/map`.
+#[derive(Serialize, ToSchema)]
+pub struct WeightsAnswer {
+    /// The cut of the floor that it is about.
+    layout: String,
+    /// The state that the answer rests on.
+    generation: u64,
+    /// Of rooms.
+    rooms: Weights,
+    /// Of doors.
+    doors: Weights,
+}
+
+/// Values by index; null: unknown.
+#[derive(Serialize, ToSchema)]
+struct Weights {
+    /// Hardness; of rooms by the metre.
+    hardness: Vec<Option<f64>>,
+    /// What to do.
+    action: Vec<Option<String>>,
+    /// Whether it is passed.
+    passable: Vec<Option<bool>>,
+}
+
+/// What rules say of rooms and doors, in the order of `/api/map`.
+#[utoipa::path(get, path = "/api/weights", tag = "map", security(("token" = [])), responses((status = 200, body = WeightsAnswer), (status = "4XX", body = Failure)))]
+pub async fn weights(axum::extract::State(shared): Site) -> Json<WeightsAnswer> {
+    let seen = shared.view.load();
+    let graph = seen.view.graph();
+    let (rooms, doors) = (&graph.rooms, &graph.doors);
+    Json(WeightsAnswer {
+        layout: seen.view.layout().to_owned(),
+        generation: seen.view.generation(),
+        rooms: Weights {
+            hardness: rooms.iter().map(|room| room.hardness.value).collect(),
+            action: rooms.iter().map(|room| room.action.value.clone()).collect(),
+            passable: rooms.iter().map(|room| room.passable.value).collect(),
+        },
+        doors: Weights {
+            hardness: doors.iter().map(|door| door.hardness.value).collect(),
+            action: doors.iter().map(|door| door.action.value.clone()).collect(),
+            passable: doors.iter().map(|door| door.passable.value).collect(),
+        },
+    })
+}

@@ -1,0 +1,80 @@
+//! Routes between any two ends.
+
+use std::sync::Arc;
+
+use axum::Json;
+use axum::extract::RawQuery;
+use axum::http::StatusCode;
+
+use super::Site;
+use crate::answer::{Answer, Status};
+use crate::live::View;
+use crate::serve::fault::{Answered, Failure, Fault};
+
+/// Goals that one question may name.
+const GOALS: usize = 100;
+
+/// What is asked.
+struct Question {
+    start: String,
+    goals: Vec<String>,
+    robot: Option<String>,
+}
+
+impl Question {
+    fn read(query: &str) -> Answered<Self> {
+        let (mut start, mut goals, mut robot) = (None, Vec::new(), None);
+        for (name, value) in form_urlencoded::parse(query.as_bytes()) {
+            match &*name {
+                "start" => start = Some(value.into_owned()),
+                "goal" => goals.push(value.into_owned()),
+                "robot" => robot = Some(value.into_owned()),
+                other => {
+                    let message = format!("a route has `start`, `goal` and `robot`, and not `{other}`");
+                    return Err(Fault::bad("service/question", message));
+                }
+            }
+        }
+        match start {
+            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot }),
+            _ => {
+                let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
+                Err(Fault::bad("service/question", message).helped("/api/route?start=dock&goal=ward%206"))
+            }
+        }
+    }
+
+    fn answer(&self, view: &View) -> Answered<Answer> {
+        let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
+        let code = match answer.status {
+            Status::UnknownStart => "route/unknown-start",
+            Status::UnknownGoal => "route/unknown-goal",
+            Status::Ok | Status::SameRoom | Status::NoRoute => return Ok(answer),
+        };
+        Err(Fault::new(StatusCode::NOT_FOUND, code, answer.reason.unwrap_or_default()))
+    }
+}
+
+/// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
+///
+/// What was edited or told before is known to it, also where routes kept in the database have yet to follow.
+#[utoipa::path(get, path = "/api/route", tag = "routes", security(("token" = [])),
+    params(
+        ("start" = String, Query, description = "A place, a room or `x,y` in metres"),
+        ("goal" = String, Query, description = "A place, a room or `x,y`; may stand several times"),
+        ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
+    ),
+    responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
+pub async fn route(
+    axum::extract::State(shared): Site,
+    RawQuery(query): RawQuery,
+) -> Answered<Json<Answer>> {
+    let question = Question::read(query.as_deref().unwrap_or_default())?;
+    let seen = Arc::clone(&shared.view.load());
+    // over doors an answer takes microseconds, over measured rooms milliseconds
+    if seen.view.graph().graph().is_on_doors() {
+        return question.answer(&seen.view).map(Json);
+    }
+    let answer = tokio::task::spawn_blocking(move || question.answer(&seen.view));
+    answer.await.map_err(|_| Fault::internal())?.map(Json)
+}

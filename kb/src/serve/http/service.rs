@@ -1,0 +1,103 @@
+//! The service itself: whether it lives, what it serves, what it counts, how it is described.
+
+use std::sync::OnceLock;
+
+use axum::Json;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::Site;
+use crate::problem::Problem;
+use crate::serve::fault::{Answered, Failure};
+use crate::serve::role::{Caller, Role};
+use crate::serve::{gate, meter};
+
+/// Whether the service lives: two bytes.
+#[utoipa::path(get, path = "/api/health", tag = "service", responses((status = 200, body = String, content_type = "text/plain")))]
+pub async fn health() -> &'static str {
+    "ok"
+}
+
+/// What is served, and where it stands.
+#[derive(Serialize, ToSchema)]
+pub struct SiteAnswer {
+    /// The site's name.
+    name: String,
+    /// Number of the knowledge base's state; it grows with every change.
+    generation: u64,
+    /// Names the cut of the floor: while it stays, numbers of rooms and doors mean what they meant.
+    layout: String,
+    /// by-state, paper or minimum.
+    rooms_mode: &'static str,
+    /// The robots' names.
+    robots: Vec<String>,
+    /// The map's edges, metres: x0, y0, x1, y1.
+    bounds: [f64; 4],
+    /// How many rooms there are.
+    rooms: usize,
+    /// How many doors.
+    doors: usize,
+    /// How many places.
+    places: usize,
+    /// What the caller may do.
+    roles: Vec<Role>,
+    /// Who the caller is.
+    who: String,
+    /// When the last change came into force, in UTC.
+    changed_at: String,
+    /// What is wrong with files that were saved; the site goes on with those of before.
+    problems: Vec<Problem>,
+    /// Whether the rules are the shipped ones, which the site has no copy of.
+    shipped_rules: bool,
+    /// Whether routes kept in the database have yet to follow the last change; answers of this service do so at once.
+    routes_due: bool,
+    /// What the expert should know, in sentences.
+    notes: Vec<String>,
+    /// The program's version.
+    version: &'static str,
+}
+
+/// What is served, and where it stands.
+#[utoipa::path(get, path = "/api/site", tag = "service", security(("token" = [])), responses((status = 200, body = SiteAnswer), (status = "4XX", body = Failure)))]
+pub async fn site(axum::extract::State(shared): Site, caller: Caller) -> Json<SiteAnswer> {
+    let seen = shared.view.load();
+    let view = &seen.view;
+    let (graph, site) = (view.graph(), view.site().site());
+    let bounds = view.inputs().world.bounds;
+    Json(SiteAnswer {
+        name: site.name.clone(),
+        generation: view.generation(),
+        layout: view.layout().to_owned(),
+        rooms_mode: site.rooms.name(),
+        robots: view.robots().to_vec(),
+        bounds: [bounds.x0, bounds.y0, bounds.x1, bounds.y1],
+        rooms: graph.rooms.len(),
+        doors: graph.doors.len(),
+        places: graph.places.len(),
+        roles: caller.allowed(),
+        who: caller.name,
+        changed_at: seen.since.clone(),
+        problems: shared.problems.load().to_vec(),
+        shipped_rules: view.site().rule_folder().is_none(),
+        routes_due: view.routes_due(),
+        notes: seen.notes.clone(),
+        version: env!("CARGO_PKG_VERSION"),
+    })
+}
+
+/// This description.
+#[utoipa::path(get, path = "/api/openapi.json", tag = "service", responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+pub async fn openapi() -> Response {
+    static TEXT: OnceLock<String> = OnceLock::new();
+    let text = TEXT.get_or_init(|| super::openapi().to_json().unwrap_or_default());
+    ([(header::CONTENT_TYPE, "application/json")], text.as_str()).into_response()
+}
+
+/// What is counted and timed, for Prometheus.
+#[utoipa::path(get, path = "/metrics", tag = "service", security(("token" = [])), responses((status = 200, body = String, content_type = "text/plain"), (status = "4XX", body = Failure)))]
+pub async fn metrics(state: Site, caller: Caller) -> Answered<Response> {
+    gate::require(&caller, Role::Read)?;
+    Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], meter::text(&state)).into_response())
+}

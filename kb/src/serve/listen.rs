@@ -1,0 +1,100 @@
+//! The way in from the network: connections with limits of their own, until the program is told to end.
+
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use hyper::service::service_fn;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::server::graceful::GracefulShutdown;
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+use tower::ServiceExt;
+
+use super::shared::Shared;
+use super::{http, meter};
+use crate::error::{Error, Result};
+
+/// Connections that are open at once; more wait to be accepted.
+const CONNECTIONS: usize = 4_096;
+
+/// How long a client may take over the head of a request, and keep an idle connection.
+const HEAD: Duration = Duration::from_secs(30);
+
+/// How long open requests may take to end when the service does.
+const FAREWELL: Duration = Duration::from_secs(5);
+
+/// Answers requests until the program is told to end (Ctrl-C, SIGTERM).
+pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()> {
+    let failed = |error: std::io::Error| Error::said("serve/runtime", error.to_string(), None);
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(failed)?;
+    meter::start();
+    runtime.block_on(async {
+        let listen = shared.settings.listen;
+        let listener = TcpListener::bind(listen).await.map_err(|error| {
+            let help = "`--listen 127.0.0.1:0` takes any free port".to_owned();
+            Error::said("serve/address", format!("cannot listen on {listen}: {error}"), Some(help))
+        })?;
+        ready(listener.local_addr().map_err(failed)?);
+        accept(shared, &listener).await;
+        Ok(())
+    })
+}
+
+async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
+    let router = http::router(Arc::clone(shared));
+    let mut server = hyper::server::conn::http1::Builder::new();
+    server.timer(TokioTimer::new()).header_read_timeout(HEAD);
+    let open = GracefulShutdown::new();
+    let places = Arc::new(Semaphore::new(CONNECTIONS));
+    let mut end = std::pin::pin!(told_to_end());
+    loop {
+        let Ok(place) = Arc::clone(&places).acquire_owned().await else { break };
+        let stream = tokio::select! {
+            accepted = listener.accept() => match accepted {
+                Ok((stream, _)) => stream,
+                // too many open files, or a client that went away at once: the next one may fare better
+                Err(_) => {
+                    tokio::time::sleep(Duration::from_millis(50)).await;
+                    continue;
+                }
+            },
+            () = &mut end => break,
+        };
+        stream.set_nodelay(true).ok();
+        let router = router.clone();
+        let service = service_fn(move |request| router.clone().oneshot(request));
+        let connection = open.watch(server.serve_connection(TokioIo::new(stream), service));
+        tokio::spawn(async move {
+            // a client that breaks off is no failure of ours
+            connection.await.ok();
+            drop(place);
+        });
+    }
+    shared.ending.send_replace(true);
+    tokio::time::timeout(FAREWELL, open.shutdown()).await.ok();
+}
+
+/// Waits for Ctrl-C, or SIGTERM.
+async fn told_to_end() {
+    let interrupt = async {
+        if tokio::signal::ctrl_c().await.is_err() {
+            std::future::pending::<()>().await;
+        }
+    };
+    #[cfg(unix)]
+    let terminate = async {
+        match tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate()) {
+            Ok(mut signal) => {
+                signal.recv().await;
+            }
+            Err(_) => std::future::pending().await,
+        }
+    };
+    #[cfg(not(unix))]
+    let terminate = std::future::pending::<()>();
+    tokio::select! {
+        () = interrupt => {}
+        () = terminate => {}
+    }
+}

@@ -1,0 +1,38 @@
+//! The page: its files, from the program itself.
+
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use rust_embed::RustEmbed;
+
+use super::fault::Fault;
+
+/// The folder `kb/page`.
+#[derive(RustEmbed)]
+#[folder = "$CARGO_MANIFEST_DIR/page"]
+struct Page;
+
+/// The page itself.
+pub async fn index() -> Response {
+    file("index.html")
+}
+
+/// A file of the page.
+pub async fn asset(axum::extract::Path(name): axum::extract::Path<String>) -> Response {
+    file(&name)
+}
+
+fn file(name: &str) -> Response {
+    let Some(file) = Page::get(name) else {
+        return Fault::new(StatusCode::NOT_FOUND, "service/unknown", "there is no such file").into_response();
+    };
+    let kind = match name.rsplit_once('.').map(|(_, extension)| extension) {
+        Some("html") => "text/html; charset=utf-8",
+        Some("css") => "text/css; charset=utf-8",
+        Some("js") => "text/javascript; charset=utf-8",
+        Some("svg") => "image/svg+xml",
+        _ => "application/octet-stream",
+    };
+    // a page that stays open over an update asks anew
+    let headers = [(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-cache")];
+    (headers, file.data.into_owned()).into_response()
+}

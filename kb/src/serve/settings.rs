@@ -1,0 +1,39 @@
+//! How the service is started.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use crate::error::Result;
+use crate::knowledge::KnowledgeBase;
+
+/// How the service is started.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The site's folder.
+    pub folder: PathBuf,
+    /// The database, instead of the site's own.
+    pub database: Option<PathBuf>,
+    /// The rules, instead of the site's own.
+    pub rules: Option<PathBuf>,
+    /// Where to listen.
+    pub listen: SocketAddr,
+    /// Names besides those of this machine under which browsers may call the service.
+    pub hosts: Vec<String>,
+    /// Time that one SQL query may take.
+    pub sql_deadline: Duration,
+    /// Rows that one SQL query may give.
+    pub sql_rows: usize,
+    /// Requests that are worked on at once.
+    pub requests: usize,
+    /// Streams of events that are open at once.
+    pub subscribers: usize,
+}
+
+impl Settings {
+    /// The site, opened as its files now are.
+    pub fn open(&self) -> Result<KnowledgeBase> {
+        let site = KnowledgeBase::open(&self.folder)?;
+        Ok(site.with_database(self.database.as_deref()).with_rules(self.rules.as_deref()))
+    }
+}

@@ -1,0 +1,145 @@
+//! What all requests share: the view that they read, the way to the one who writes, and the stream of events.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{SyncSender, TrySendError};
+
+use adit_db::{Store, Tx};
+use arc_swap::ArcSwap;
+use parking::Readers;
+use tokio::sync::{broadcast, oneshot, watch};
+
+use super::desk::Desk;
+use super::event::Event;
+use super::fault::{Answered, Fault};
+use super::settings::Settings;
+use super::token::Tokens;
+use crate::error::Result;
+use crate::live::View;
+use crate::problem::Problem;
+
+mod parking;
+
+/// Something that is done where edits are done, one after the other.
+pub type Job = Box<dyn FnOnce(&mut Desk) + Send>;
+
+/// What all requests share.
+pub struct Shared {
+    /// How the service was started.
+    pub settings: Settings,
+    /// The site after the last edit.
+    pub view: ArcSwap<Seen>,
+    /// Who may do what; none: whoever reaches the service may do all.
+    pub tokens: ArcSwap<Tokens>,
+    /// What is wrong with files that were saved; the site goes on with those of before.
+    pub problems: ArcSwap<Vec<Problem>>,
+    /// What subscribers hear.
+    pub events: broadcast::Sender<Arc<Event>>,
+    /// Turns true when the service ends.
+    pub ending: watch::Sender<bool>,
+    jobs: SyncSender<Job>,
+    readers: Readers,
+    subscribers: AtomicUsize,
+}
+
+/// The site after an edit, and when that was.
+pub struct Seen {
+    /// The site.
+    pub view: View,
+    /// When it became so, in UTC.
+    pub since: String,
+    /// What the expert should know: facts that are lost, tunings that count for nothing.
+    pub notes: Vec<String>,
+}
+
+/// Events that a subscriber may lag behind before it is dropped.
+const BACKLOG: usize = 256;
+
+impl Shared {
+    /// Of a site that was just opened.
+    pub fn new(settings: Settings, seen: Seen, tokens: Tokens, jobs: SyncSender<Job>) -> Self {
+        Self {
+            readers: Readers::new(seen.view.site().database()),
+            view: ArcSwap::from_pointee(seen),
+            tokens: ArcSwap::from_pointee(tokens),
+            problems: ArcSwap::default(),
+            events: broadcast::channel(BACKLOG).0,
+            ending: watch::channel(false).0,
+            subscribers: AtomicUsize::new(0),
+            settings,
+            jobs,
+        }
+    }
+
+    /// Has something done where edits are done, after all that was asked before.
+    pub async fn at_desk<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
+    ) -> Answered<T> {
+        let (answer, answered) = oneshot::channel();
+        let job: Job = Box::new(move |desk| {
+            answer.send(work(desk)).ok();
+        });
+        self.jobs.try_send(job).map_err(|error| match error {
+            TrySendError::Full(_) => Fault::busy(),
+            TrySendError::Disconnected(_) => Fault::internal(),
+        })?;
+        // a job that panicked leaves no answer
+        answered.await.map_err(|_| Fault::internal())?
+    }
+
+    /// Has something done where edits are done, and does not wait for it; `false` where too much waits already.
+    pub fn leave_at_desk(&self, work: impl FnOnce(&mut Desk) + Send + 'static) -> bool {
+        self.jobs.try_send(Box::new(work)).is_ok()
+    }
+
+    /// Reads one state of the database, beside all that goes on.
+    pub async fn read<T: Send + 'static>(
+        self: &Arc<Self>,
+        work: impl FnOnce(&mut Tx<'_>) -> Result<T> + Send + 'static,
+    ) -> Answered<T> {
+        let shared = Arc::clone(self);
+        let done = tokio::task::spawn_blocking(move || shared.readers.with(|store| store.snapshot(work)));
+        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+    }
+
+    /// Reads as [`read`](Self::read) does, with the whole store.
+    pub async fn with_store<T: Send + 'static>(
+        self: &Arc<Self>,
+        work: impl FnOnce(&mut Store) -> Result<T> + Send + 'static,
+    ) -> Answered<T> {
+        let shared = Arc::clone(self);
+        let done = tokio::task::spawn_blocking(move || shared.readers.with(work));
+        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+    }
+
+    /// Tells subscribers; nobody may be there.
+    pub fn say(&self, event: Event) {
+        self.events.send(Arc::new(event)).ok();
+    }
+
+    /// A place among the subscribers, until it is dropped; `None` where all are taken.
+    pub fn subscribe(self: &Arc<Self>) -> Option<Subscription> {
+        let taken = self.subscribers.fetch_add(1, Ordering::Relaxed);
+        let subscription = Subscription { shared: Arc::clone(self), events: self.events.subscribe() };
+        (taken < self.settings.subscribers).then_some(subscription)
+    }
+
+    /// How many subscribers there are.
+    pub fn subscribed(&self) -> usize {
+        self.subscribers.load(Ordering::Relaxed)
+    }
+}
+
+/// A subscriber's place.
+pub struct Subscription {
+    shared: Arc<Shared>,
+    /// What is said.
+    pub events: broadcast::Receiver<Arc<Event>>,
+}
+
+impl Drop for Subscription {
+    fn drop(&mut self) {
+        self.shared.subscribers.fetch_sub(1, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,152 @@
+//! Tokens: who may do what. The file `tokens.toml` of a site keeps their hashes; a token itself is shown once.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use subtle::ConstantTimeEq;
+
+use super::role::{Caller, Role};
+use crate::error::{Error, Result};
+
+/// The file's name, in the folder of the site.
+pub const FILE: &str = "tokens.toml";
+
+/// Random bytes of a token.
+const BYTES: usize = 24;
+
+/// The tokens of a site.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tokens {
+    /// One for each holder.
+    #[serde(default, rename = "token")]
+    pub tokens: Vec<Token>,
+}
+
+/// A token, as it is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Token {
+    /// Its holder: edits are kept under this name.
+    pub name: String,
+    /// What the holder may do.
+    pub roles: Vec<Role>,
+    /// The SHA-256 of the token in hexadecimal digits. A token is random and long, so no slower hash is needed.
+    pub sha256: String,
+}
+
+/// The file of a site.
+pub fn file(folder: &Path) -> PathBuf {
+    folder.join(FILE)
+}
+
+impl Tokens {
+    /// Reads the file; none is no tokens.
+    pub fn read(file: &Path) -> Result<Self> {
+        match fs::read_to_string(file) {
+            Ok(text) => toml::from_str(&text).map_err(|error| {
+                let message = format!("{}: {}", file.display(), error.message());
+                Error::said("tokens/unreadable", message, Some("`adit token` writes this file".to_owned()))
+            }),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(Error::io("read", file, &error)),
+        }
+    }
+
+    /// Writes the file whole, readable by its owner only.
+    pub fn write(&self, file: &Path) -> Result<()> {
+        let text = toml::to_string(self)
+            .map_err(|error| Error::said("tokens/unwritable", error.to_string(), None))?;
+        let text = format!("# Written by `adit token`. Who holds a token may do what its roles say.\n{text}");
+        let next = file.with_extension("toml.new");
+        let written = fs::write(&next, text).and_then(|()| private(&next)).and_then(|()| fs::rename(&next, file));
+        written.map_err(|error| Error::io("write", file, &error))
+    }
+
+    /// A new token for a holder; the text is nowhere else.
+    pub fn add(&mut self, name: &str, roles: &[Role]) -> Result<String> {
+        if name.trim().is_empty() || name.contains(char::is_control) {
+            return Err(Error::said("tokens/name", format!("a token cannot be called {name:?}"), None));
+        }
+        if self.tokens.iter().any(|token| token.name == name) {
+            let help = format!("`adit token SITE remove {name}` takes the old one away");
+            return Err(Error::said("tokens/exists", format!("there is a token `{name}` already"), Some(help)));
+        }
+        let mut bytes = [0; BYTES];
+        getrandom::fill(&mut bytes)
+            .map_err(|error| Error::said("tokens/random", format!("no random numbers: {error}"), None))?;
+        let text = format!("adit_{}", hex(&bytes));
+        let mut roles = roles.to_vec();
+        roles.sort_unstable();
+        roles.dedup();
+        self.tokens.push(Token { name: name.to_owned(), roles, sha256: hash(&text) });
+        Ok(text)
+    }
+
+    /// Takes a holder's token away.
+    pub fn remove(&mut self, name: &str) -> Result<()> {
+        let before = self.tokens.len();
+        self.tokens.retain(|token| token.name != name);
+        if self.tokens.len() == before {
+            return Err(Error::said("tokens/unknown", format!("there is no token `{name}`"), None));
+        }
+        Ok(())
+    }
+
+    /// Who holds this token. Every one that is kept is compared, in a time that does not tell how much was right.
+    pub fn holder(&self, text: &str) -> Option<Caller> {
+        let hash = hash(text);
+        let mut found = None;
+        for token in &self.tokens {
+            if bool::from(token.sha256.as_bytes().ct_eq(hash.as_bytes())) {
+                found = Some(Caller { name: token.name.clone(), roles: token.roles.clone() });
+            }
+        }
+        found
+    }
+}
+
+fn hash(text: &str) -> String {
+    hex(&Sha256::digest(text.as_bytes()))
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        write!(text, "{byte:02x}").ok();
+        text
+    })
+}
+
+#[cfg(unix)]
+fn private(file: &Path) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    fs::set_permissions(file, fs::Permissions::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn private(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_token_is_known_by_its_text_alone_and_only_until_it_is_removed() {
+        let mut tokens = Tokens::default();
+        let anna = tokens.add("anna", &[Role::Tune]).unwrap();
+        tokens.add("dock robot", &[Role::Tell]).unwrap();
+        let holder = tokens.holder(&anna).unwrap();
+        assert_eq!(holder.name, "anna");
+        assert!(holder.may(Role::Tell) && holder.may(Role::Read) && !holder.may(Role::Rules));
+        assert!(tokens.holder(&anna[..anna.len() - 1]).is_none());
+        assert!(!toml::to_string(&tokens).unwrap().contains(&anna));
+        tokens.remove("anna").unwrap();
+        assert!(tokens.holder(&anna).is_none());
+        assert!(tokens.remove("anna").is_err());
+    }
+}
