@@ -54,7 +54,7 @@ export function debounced(act, wait) {
 
 /** A table with a header row; cells are nodes or text. */
 export function grid(caption, columns, rows, attributes = {}) {
-  const head = el('tr', {}, ...columns.map((name) => el('th', { scope: 'col', text: name })));
+  const head = el('tr', {}, ...columns.map((name) => (name ? el('th', { scope: 'col', text: name }) : el('th', { scope: 'col' }, el('span', { class: 'unseen', text: 'what to do' })))));
   const body = rows.map((row) => el('tr', {}, ...row.map((cell) => el('td', {}, cell ?? ''))));
   const table = el('table', attributes, el('caption', { class: 'unseen', text: caption }), el('thead', {}, head), el('tbody', {}, ...body));
   return el('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption }, table);

@@ -68,6 +68,8 @@ function newMap() {
   fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...layers);
   if ([...byId('layer').options].some((option) => option.value === before)) byId('layer').value = before;
   byId('layer-choice').hidden = layers.length < 2;
+  const [x0, y0, x1, y1] = map.bounds;
+  byId('map-box').style.setProperty('--aspect', String((x1 - x0) / (y1 - y0)));
   pointed = null;
   if (layout === null || String(map.bounds) !== String(camera.bounds)) fit();
   layout = map.layout;
