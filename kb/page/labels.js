@@ -82,7 +82,7 @@ function places(labels, camera) {
 function doors(labels, camera, shown, weights) {
   for (const index of shown.doors) {
     const { door, segment: [x0, y0, x1, y1] } = model.map.doors[index];
-    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24) continue;
+    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 36) continue;
     const shut = weights.doors.passable[index] === true ? '' : ' ✕';
     const upright = Math.abs(x1 - x0) < Math.abs(y1 - y0);
     const at = (share) => [...camera.toScreen([x0 + share * (x1 - x0), y0 + share * (y1 - y0)])];

@@ -9,6 +9,9 @@ export const EASIEST = 'easiest';
 /** Whether rooms carry hardness here; in the paper's modes the doors do. */
 export const roomsWeigh = () => model.map.layers.length > 0;
 
+/** Whether a layer is of the robot whose way is asked. */
+export const ofRobot = (layer) => !model.ask.robot || model.map.layers[layer].robot === model.ask.robot;
+
 /** What is drawn of one layer (or of all) with the present weights and preview. */
 export class Drawn {
   constructor(layer) {
@@ -22,7 +25,9 @@ export class Drawn {
     this.classes = new Classes(counts.hardness.filter((value, i) => value !== null && counts.passable[i] !== false));
     this.changedRooms = new Map((model.preview?.rooms.list ?? []).map((room) => [model.roomIndex.get(room.room), room]));
     this.changedDoors = new Map((model.preview?.doors.list ?? []).map((door) => [model.doorIndex.get(door.door), door]));
-    this.rooms = map.rooms.flatMap((room, index) => (layer === EASIEST || room.layer === layer ? [index] : []));
+    const shows = map.layers.map((_, index) => (layer === EASIEST ? ofRobot(index) : index === layer));
+    this.rooms = map.rooms.flatMap((room, index) => (room.layer === null || shows[room.layer] ? [index] : []));
+    this.shownRooms = new Set(this.rooms);
     this.doors = map.doors.flatMap((door, index) => (this.showsDoor(door, index) ? [index] : []));
     this.shownDoors = new Set(this.doors);
     this.roomGroups = this.groupRooms();
@@ -35,7 +40,7 @@ export class Drawn {
     if (door.kind === 'change') return false;
     const notable = weights.doors.passable[index] === false || weights.doors.hardness[index] > 0;
     const layer = map.rooms[model.roomIndex.get(door.room1)].layer;
-    return this.layer === EASIEST ? notable || this.changedDoors.has(index) : layer === this.layer;
+    return this.layer === EASIEST ? ofRobot(layer) && (notable || this.changedDoors.has(index)) : layer === this.layer;
   }
 
   /** The class of a room: of its hardness; -1 barred, -2 unknown, -3 where rooms weigh nothing. */
@@ -82,7 +87,7 @@ export class Drawn {
 
   /** The room that is seen at a point: of those there the one that lies on top. */
   topRoom(indices) {
-    const here = indices.filter((index) => this.layer === EASIEST || model.map.rooms[index].layer === this.layer);
+    const here = indices.filter((index) => this.shownRooms.has(index));
     const weight = (index) => (model.weights.rooms.passable[index] === false ? Infinity : model.weights.rooms.hardness[index] ?? 1e308);
     return here.sort((a, b) => weight(a) - weight(b) || a - b)[0] ?? -1;
   }

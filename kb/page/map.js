@@ -3,7 +3,7 @@
 import { Camera } from './camera.js';
 import { byId, el, fill } from './dom.js';
 import { action, number } from './format.js';
-import { Drawn, EASIEST, layerName, roomsWeigh } from './layers.js';
+import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
 import { model } from './model.js';
 import { inks, paint } from './paint.js';
 import { Finder } from './places.js';
@@ -63,16 +63,22 @@ function newMap() {
     still.namedDoors.moveTo(...from);
     still.namedDoors.lineTo(...to);
   }
-  const layers = map.layers.map((layer, index) => el('option', { value: String(index), text: `only rooms of ${layerName(layer)}` }));
-  const before = byId('layer').value;
-  fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...layers);
-  if ([...byId('layer').options].some((option) => option.value === before)) byId('layer').value = before;
-  byId('layer-choice').hidden = layers.length < 2;
+  layerChoice();
   const [x0, y0, x1, y1] = map.bounds;
   byId('map-box').style.setProperty('--aspect', String((x1 - x0) / (y1 - y0)));
   pointed = null;
   if (layout === null || String(map.bounds) !== String(camera.bounds)) fit();
   layout = map.layout;
+}
+
+// The layers of the robot whose way is asked.
+function layerChoice() {
+  const { layers } = model.map;
+  const options = layers.flatMap((layer, index) => (ofRobot(index) ? [el('option', { value: String(index), text: `only rooms of ${layerName(layer)}` })] : []));
+  const before = byId('layer').value;
+  fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...options);
+  if (options.some((option) => option.value === before)) byId('layer').value = before;
+  byId('layer-choice').hidden = options.length < 2;
 }
 
 const fit = () => { if (canvas.clientWidth) camera.fit(model.map.bounds); };
@@ -187,6 +193,13 @@ export function startMap(lead) {
   byId('layer').addEventListener('change', redraw);
   model.on('map', newMap);
   model.on('weights preview', redraw);
+  let robot = model.ask.robot;
+  model.on('ask', () => {
+    if (robot === model.ask.robot || !model.map) return;
+    robot = model.ask.robot;
+    layerChoice();
+    redraw();
+  });
   model.on('route whyNot', invalidate);
   onTheme(() => {
     ink = null;

@@ -58,7 +58,7 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
   context.lineWidth = pixel;
   context.stroke(still.areas);
   context.setLineDash([]);
-  paintDoors(context, shown, ink, pixel);
+  paintDoors(context, shown, ink, pixel, Math.max(1.5, Math.min(4.5, camera.scale * 0.6)));
   context.lineWidth = 4 * pixel;
   context.strokeStyle = ink.ink;
   context.stroke(still.namedDoors);
@@ -70,18 +70,17 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
   labelFloor(labels, camera, shown, find);
 }
 
-function paintDoors(context, shown, ink, pixel) {
+// `wide` is the width of a door that weighs, in pixels: slim where the whole of a large floor is seen.
+function paintDoors(context, shown, ink, pixel, wide) {
   for (const group of shown.doorGroups) {
-    const weighed = group.kind >= 0 || group.kind === -1;
-    context.lineWidth = (group.changed ? 6 : weighed ? 4.5 : 1.5) * pixel;
     context.setLineDash(group.kind === -1 ? [3 * pixel, 3 * pixel] : []);
-    if (group.kind >= 0 && !group.changed) {
+    if (group.kind >= 0 && !group.changed && wide > 3) {
       // A dark line around it: the palest class would not be seen on the floor.
       context.strokeStyle = ink.ink;
-      context.lineWidth = 7 * pixel;
+      context.lineWidth = (wide + 2.5) * pixel;
       context.stroke(group.path);
-      context.lineWidth = 4.5 * pixel;
     }
+    context.lineWidth = (group.changed ? wide + 1.5 : group.kind === -2 ? 1.5 : wide) * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : group.kind >= 0 ? shown.classes.colour(group.kind) : group.kind === -1 ? ink.shut : ink.faint;
     context.stroke(group.path);
   }

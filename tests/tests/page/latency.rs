@@ -11,7 +11,7 @@ use serde_json::json;
 /// A floor of about 10,000 doors: pillars in rows.
 fn large_floor() -> TestSite {
     let site = TestSite::empty();
-    let (columns, rows) = (62, 27);
+    let (columns, rows) = (108, 46);
     let mut map = format!("width = {}.0\ndepth = {}.0\n", columns * 4, rows * 4);
     for column in 0..columns {
         for row in 0..rows {
@@ -20,7 +20,7 @@ fn large_floor() -> TestSite {
         }
     }
     map.push_str(
-        "[[place]]\nname = \"west\"\nat = [0.5, 0.5]\n[[place]]\nname = \"east\"\nat = [247.5, 107.5]\n",
+        "[[place]]\nname = \"west\"\nat = [0.5, 0.5]\n[[place]]\nname = \"east\"\nat = [431.5, 183.5]\n",
     );
     site.write("map.toml", map);
     site.write("site.toml", "name = \"large floor\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"minimum\"\nstarts = [\"west\"]\n");
