@@ -23,6 +23,15 @@ pub enum Cell {
 }
 
 impl Cell {
+    /// How much room it takes, about.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::Text(text) => text.len(),
+            Self::Blob(bytes) => bytes.len(),
+            _ => 8,
+        }
+    }
+
     pub(crate) fn bind(&self, arguments: &mut SqliteArguments) -> Result<()> {
         match self {
             Self::Null => arguments.add(None::<i64>),

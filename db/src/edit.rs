@@ -59,6 +59,14 @@ pub async fn set_cell(
     Ok(Edited { id, key, old, new })
 }
 
+/// What a cell holds.
+pub async fn cell(connection: &mut SqliteConnection, table: &str, key: &str, column: &str) -> Result<Cell> {
+    let table = Table::editable(connection, table).await?;
+    let quoted = table.column(column)?;
+    let found = table.locate(connection, key).await?;
+    table.read(connection, &quoted, &found).await
+}
+
 /// What a cell would hold after [`set_cell`], and the row's whole key; nothing is changed. A part of the key is refused,
 /// since with it a row would be another one.
 pub async fn try_cell(
@@ -144,6 +152,11 @@ pub async fn remove_row(
 }
 
 impl Tx<'_> {
+    /// What a cell holds.
+    pub fn cell(&mut self, table: &str, key: &str, column: &str) -> Result<Cell> {
+        self.run(async |connection| cell(connection, table, key, column).await)
+    }
+
     /// Sets one cell. `key` is the row's key, its columns joined by `/`; the robot may be left out where that leaves
     /// one row. The table's types and ranges decide what is taken. The routes are stale until the next build.
     pub fn set_cell(&mut self, cell: (&str, &str, &str), value: &Cell, author: &Author) -> Result<Edited> {

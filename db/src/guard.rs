@@ -2,13 +2,16 @@
 //! The only file of the crate that calls C.
 #![allow(unsafe_code)]
 
-use std::ffi::{CString, c_int};
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
 use libsqlite3_sys::{
-    SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_LIMIT_ATTACHED, SQLITE_LIMIT_COLUMN,
-    SQLITE_LIMIT_LENGTH, SQLITE_LIMIT_LIKE_PATTERN_LENGTH, SQLITE_LIMIT_SQL_LENGTH, SQLITE_OK, sqlite3,
-    sqlite3_db_config, sqlite3_errmsg, sqlite3_finalize, sqlite3_limit, sqlite3_prepare_v2, sqlite3_stmt,
+    SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DENY, SQLITE_FUNCTION,
+    SQLITE_LIMIT_ATTACHED, SQLITE_LIMIT_COLUMN, SQLITE_LIMIT_COMPOUND_SELECT, SQLITE_LIMIT_EXPR_DEPTH,
+    SQLITE_LIMIT_FUNCTION_ARG, SQLITE_LIMIT_LENGTH, SQLITE_LIMIT_LIKE_PATTERN_LENGTH,
+    SQLITE_LIMIT_SQL_LENGTH, SQLITE_LIMIT_TRIGGER_DEPTH, SQLITE_LIMIT_VARIABLE_NUMBER, SQLITE_LIMIT_VDBE_OP,
+    SQLITE_OK, SQLITE_READ, SQLITE_RECURSIVE, SQLITE_SELECT, sqlite3, sqlite3_db_config, sqlite3_errmsg,
+    sqlite3_finalize, sqlite3_limit, sqlite3_prepare_v2, sqlite3_set_authorizer, sqlite3_stmt,
     sqlite3_stmt_readonly,
 };
 use sqlx::sqlite::LockedSqliteHandle;
@@ -27,6 +30,12 @@ pub(crate) fn restrict(handle: &mut LockedSqliteHandle<'_>) {
         (SQLITE_LIMIT_SQL_LENGTH, SQL_LENGTH),
         (SQLITE_LIMIT_COLUMN, 500),
         (SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 100),
+        (SQLITE_LIMIT_EXPR_DEPTH, 100),
+        (SQLITE_LIMIT_COMPOUND_SELECT, 50),
+        (SQLITE_LIMIT_VDBE_OP, 250_000),
+        (SQLITE_LIMIT_FUNCTION_ARG, 32),
+        (SQLITE_LIMIT_VARIABLE_NUMBER, 100),
+        (SQLITE_LIMIT_TRIGGER_DEPTH, 10),
     ];
     for (limit, value) in limits {
         // SAFETY: `handle` locks an open connection; the call takes any value.
@@ -35,6 +44,33 @@ pub(crate) fn restrict(handle: &mut LockedSqliteHandle<'_>) {
     for (setting, on) in [(SQLITE_DBCONFIG_DEFENSIVE, 1), (SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0)] {
         // SAFETY: as above; both settings take an int and a pointer to int, which may be null.
         unsafe { sqlite3_db_config(database, setting, on as c_int, ptr::null_mut::<c_int>()) };
+    }
+    // SAFETY: as above; the function has no state, so it may be called as long as the connection is open.
+    unsafe { sqlite3_set_authorizer(database, Some(may), ptr::null_mut()) };
+}
+
+/// Functions that do more than compute, or tell of more than the data.
+const FORBIDDEN: [&[u8]; 6] =
+    [b"load_extension", b"fts3_tokenizer", b"readfile", b"writefile", b"edit", b"sqlite_compileoption_get"];
+
+/// What SQLite asks before each part of a statement: only reading, and functions that compute, are allowed.
+unsafe extern "C" fn may(
+    _: *mut c_void,
+    action: c_int,
+    _: *const c_char,
+    second: *const c_char,
+    _: *const c_char,
+    _: *const c_char,
+) -> c_int {
+    match action {
+        SQLITE_SELECT | SQLITE_READ | SQLITE_RECURSIVE => SQLITE_OK,
+        SQLITE_FUNCTION if !second.is_null() => {
+            // SAFETY: SQLite hands the function's name, which ends in NUL and lives as long as the call.
+            let name = unsafe { CStr::from_ptr(second) }.to_bytes();
+            let is_forbidden = FORBIDDEN.iter().any(|forbidden| forbidden.eq_ignore_ascii_case(name));
+            if is_forbidden { SQLITE_DENY } else { SQLITE_OK }
+        }
+        _ => SQLITE_DENY,
     }
 }
 

@@ -93,6 +93,15 @@ pub async fn read(connection: &mut SqliteConnection, most: u32) -> Result<Vec<Ed
     query.bind(most).fetch_all(connection).await?.iter().map(edit).collect()
 }
 
+/// Edits before one of a number, the newest first; at most `most`.
+pub async fn before(connection: &mut SqliteConnection, before: Option<i64>, most: u32) -> Result<Vec<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history
+         WHERE ?1 IS NULL OR id < ?1 ORDER BY id DESC LIMIT ?2",
+    );
+    query.bind(before).bind(most).fetch_all(connection).await?.iter().map(edit).collect()
+}
+
 /// One edit.
 pub async fn entry(connection: &mut SqliteConnection, id: i64) -> Result<Option<Edit>> {
     let query = sqlx::query(
@@ -114,6 +123,11 @@ impl Tx<'_> {
     /// Edits, the newest first; at most `most`.
     pub fn history(&mut self, most: u32) -> Result<Vec<Edit>> {
         self.run(async |connection| read(connection, most).await)
+    }
+
+    /// Edits before one of a number, the newest first; at most `most`.
+    pub fn history_before(&mut self, id: Option<i64>, most: u32) -> Result<Vec<Edit>> {
+        self.run(async |connection| before(connection, id, most).await)
     }
 
     /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.

@@ -27,6 +27,7 @@ pub mod relation;
 pub mod robot;
 pub mod room;
 pub mod route;
+pub mod saved;
 pub mod site;
 pub mod stale;
 mod store;

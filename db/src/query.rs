@@ -21,11 +21,13 @@ pub struct Limits {
     pub deadline: Duration,
     /// Rows; the rest is left out, and said to be.
     pub rows: usize,
+    /// Bytes of all texts together, with eight for each number; the rest is left out likewise.
+    pub bytes: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { deadline: Duration::from_secs(10), rows: 100_000 }
+        Self { deadline: Duration::from_secs(10), rows: 100_000, bytes: 64 << 20 }
     }
 }
 
@@ -76,13 +78,15 @@ async fn guarded(connection: &mut SqliteConnection, sql: &str, limits: &Limits) 
     let text = || AssertSqlSafe(sql.to_owned());
     let statement = (&mut *connection).prepare(text().into_sql_str()).await?;
     let columns: Vec<String> = statement.columns().iter().map(|column| column.name().to_owned()).collect();
-    let mut rows = Vec::new();
+    let (mut rows, mut bytes) = (Vec::new(), 0);
     let mut stream = sqlx::query(text()).fetch(connection);
     while let Some(row) = stream.try_next().await? {
-        if rows.len() == limits.rows {
+        let row = cells(&row)?;
+        bytes += row.iter().map(Cell::bytes).sum::<usize>();
+        if rows.len() == limits.rows || bytes > limits.bytes {
             return Ok(Answer { columns, rows, truncated: true });
         }
-        rows.push(cells(&row)?);
+        rows.push(row);
     }
     Ok(Answer { columns, rows, truncated: false })
 }

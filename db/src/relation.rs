@@ -36,6 +36,7 @@ pub(crate) const OWN: &[&str] = &[
     "route",
     "routes",
     "rules",
+    "saved_queries",
     "site",
     "site_hours",
     "stale_marks",
@@ -53,7 +54,7 @@ pub(crate) const OWN: &[&str] = &[
 ];
 
 /// How rows are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Form {
     /// A table.
@@ -71,6 +72,17 @@ pub struct UserTable {
     pub form: Form,
 }
 
+/// A table or view, with the names of its columns.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
+pub struct Named {
+    /// Its name.
+    pub name: String,
+    /// Table or view.
+    pub kind: Form,
+    /// Its columns.
+    pub columns: Vec<String>,
+}
+
 /// A column of a [`Relation`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RelationColumn {
@@ -80,6 +92,8 @@ pub struct RelationColumn {
     pub declared: String,
     /// Its place in the primary key, from 1; 0 if it is no part of it.
     pub key: i64,
+    /// Whether it needs a value: none is refused, and nothing stands in for it.
+    pub required: bool,
     /// A value for each row.
     pub values: Vec<Cell>,
 }
@@ -110,11 +124,30 @@ pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTa
     Ok(tables)
 }
 
+/// All tables and views, ours and the user's, with the names of their columns.
+pub async fn all(connection: &mut SqliteConnection) -> Result<Vec<Named>> {
+    let query = sqlx::query(
+        "SELECT s.name, s.type, c.name FROM sqlite_schema AS s, pragma_table_info(s.name) AS c
+         WHERE s.type IN ('table', 'view') AND substr(s.name, 1, 7) <> 'sqlite_' ORDER BY s.name, c.cid",
+    );
+    let mut all: Vec<Named> = Vec::new();
+    for row in query.fetch_all(connection).await? {
+        let (name, column): (String, String) = (row.try_get(0)?, row.try_get(2)?);
+        let form = if row.try_get::<&str, _>(1)? == "view" { Form::View } else { Form::Table };
+        match all.last_mut().filter(|last| last.name == name) {
+            Some(last) => last.columns.push(column),
+            None => all.push(Named { name, kind: form, columns: vec![column] }),
+        }
+    }
+    Ok(all)
+}
+
 /// The columns of a table or view, without values.
 pub(crate) async fn columns(connection: &mut SqliteConnection, table: &str) -> Result<Vec<RelationColumn>> {
     // the name is matched as the schema spells it, so that no text of a user is ever taken for an identifier
     let query = sqlx::query(
-        "SELECT c.name, upper(c.type), c.pk FROM sqlite_schema AS s, pragma_table_info(s.name) AS c
+        "SELECT c.name, upper(c.type), c.pk, c.[notnull] AND c.dflt_value IS NULL
+         FROM sqlite_schema AS s, pragma_table_info(s.name) AS c
          WHERE s.name = ? AND s.type IN ('table', 'view') ORDER BY c.cid",
     );
     let rows = query.bind(table).fetch_all(connection).await?;
@@ -126,6 +159,7 @@ pub(crate) async fn columns(connection: &mut SqliteConnection, table: &str) -> R
             name: row.try_get(0)?,
             declared: row.try_get(1)?,
             key: row.try_get(2)?,
+            required: row.try_get(3)?,
             values: Vec::new(),
         })
     };
@@ -166,6 +200,11 @@ impl Tx<'_> {
     /// The tables and views that are not ours, by name.
     pub fn user_tables(&mut self) -> Result<Vec<UserTable>> {
         self.run(user_tables)
+    }
+
+    /// All tables and views, ours and the user's, with the names of their columns.
+    pub fn relations(&mut self) -> Result<Vec<Named>> {
+        self.run(all)
     }
 
     /// Reads a table or view whole, ours or the user's: by its key, or by all its columns where it has none.

@@ -44,7 +44,7 @@ pub struct Route {
 }
 
 /// A row of the view `action_sequence`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Step {
     /// From 1.
     pub step: i64,
@@ -71,7 +71,7 @@ pub struct Step {
 }
 
 /// A row of the view `waypoints`: where a route bends, changes shape, starts or ends.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Waypoint {
     /// From 1.
     pub waypoint: i64,

@@ -16,7 +16,7 @@ use crate::suggest::did_you_mean;
 use crate::{generation, reason, states};
 
 /// What became of the question. Never an empty answer without a word.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// There is a route.
@@ -32,7 +32,7 @@ pub enum Status {
 }
 
 /// A route with its steps, or why there is none.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Answer {
     /// What became of the question.
     pub status: Status,

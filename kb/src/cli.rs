@@ -7,6 +7,7 @@ mod new;
 mod output;
 mod picture;
 mod route;
+mod serve;
 mod sql;
 mod tell;
 mod test;
@@ -64,6 +65,10 @@ pub enum Verb {
     History(HistoryArgs),
     /// Take back the last edit, or edit N of the history
     Undo(UndoArgs),
+    /// Serve the site: HTTP, live events, and the page where experts tune it
+    Serve(ServeArgs),
+    /// Who may do what by HTTP: add, list and remove tokens
+    Token(TokenArgs),
     /// Integrity, versions, backup
     Doctor(DoctorArgs),
 }
@@ -351,6 +356,71 @@ pub struct UndoArgs {
     pub edit: Option<i64>,
 }
 
+/// `adit serve`.
+#[derive(Args, Debug)]
+pub struct ServeArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Where to listen; port 0 takes any free one. To be reached from elsewhere the site needs tokens
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:7373")]
+    pub listen: std::net::SocketAddr,
+    /// A name besides `localhost` and the address itself by which browsers may call the service
+    #[arg(long = "host", value_name = "NAME")]
+    pub hosts: Vec<String>,
+    /// Seconds that one SQL query may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
+    pub sql_seconds: f64,
+    /// Rows that one SQL query may give
+    #[arg(long, value_name = "ROWS", default_value_t = 100_000)]
+    pub sql_rows: usize,
+    /// Requests that are worked on at once; more are told to come back
+    #[arg(long, value_name = "N", default_value_t = 1_024)]
+    pub requests: usize,
+    /// Streams of events that are open at once
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub subscribers: usize,
+}
+
+/// A time of more than nothing and less than an hour.
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    if seconds > 0.0 && seconds < 3600.0 { Ok(seconds) } else { Err("between 0 and 3600 seconds".to_owned()) }
+}
+
+/// `adit token`.
+#[derive(Args, Debug)]
+pub struct TokenArgs {
+    /// Folder of the site
+    pub site: PathBuf,
+    /// What to do
+    #[command(subcommand)]
+    pub verb: TokenVerb,
+    /// Print the list as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What to do with tokens.
+#[derive(Subcommand, Debug)]
+pub enum TokenVerb {
+    /// Make a token; it is printed this once
+    Add {
+        /// Who holds it: edits are kept under this name
+        name: String,
+        /// What the holder may do, besides reading; may stand several times
+        #[arg(long = "role", value_enum, default_values = ["read"])]
+        roles: Vec<crate::serve::role::Role>,
+    },
+    /// Who has a token, and what it allows
+    List,
+    /// Make a token void
+    Remove {
+        /// Who holds it
+        name: String,
+    },
+}
+
 /// `adit doctor`.
 #[derive(Args, Debug)]
 pub struct DoctorArgs {
@@ -388,6 +458,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::History(args) => tune::history(args).map(|()| 0),
         Verb::Undo(args) => tune::undo(args).map(|()| 0),
+        Verb::Serve(args) => serve::run(args).map(|()| 0),
+        Verb::Token(args) => serve::token(args).map(|()| 0),
         Verb::Doctor(args) => doctor::doctor(args).map(|sound| u8::from(!sound)),
     };
     match outcome {
@@ -427,6 +499,8 @@ impl Verb {
             Self::Draw(args) => args.site.json,
             Self::History(args) => args.site.json,
             Self::Undo(args) => args.site.json,
+            Self::Serve(args) => args.site.json,
+            Self::Token(args) => args.json,
             Self::Doctor(args) => args.site.json,
         }
     }

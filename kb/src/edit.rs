@@ -24,6 +24,8 @@ pub(crate) use tuning::known as known_tuning;
 pub enum Edit {
     /// One cell: table, key, column, value.
     Set(String, String, String, String),
+    /// One cell that must still hold what the editor saw: table, key and column, the value seen, the value from now on.
+    SetFrom([String; 3], String, String),
     /// A new row: table, key, and the columns that the key does not say.
     Add(String, String, Vec<(String, String)>),
     /// A row that goes: table, key.
@@ -71,6 +73,14 @@ impl Edit {
                 let found = tx.set_cell((table, key, column), &cell, author);
                 found.map_err(|error| explain(tx, &error, table, key, value))?
             }
+            Self::SetFrom([table, key, column], seen, value) => {
+                let set = Self::Set(table.clone(), key.clone(), column.clone(), value.clone());
+                let done = set.apply(tx, site, rules, author)?;
+                if !is_equal(&done.old, &cell(seen)) {
+                    return Err(conflict(tx, (table, &done, column))?);
+                }
+                return Ok(done);
+            }
             Self::Add(table, key, cells) => {
                 let row = row(tx, table, key, cells)?;
                 let named: Vec<(&str, Cell)> =
@@ -112,7 +122,9 @@ impl Edit {
 impl Edit {
     /// A word about a cell that was set and does not count, since a tuning that is on says otherwise.
     pub(crate) fn overridden(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
-        let Self::Set(table, _, column, _) = self else { return Ok(None) };
+        let (Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..)) = self else {
+            return Ok(None);
+        };
         let cells = tunings::in_force(tx)?;
         let cell =
             cells.iter().find(|cell| cell.table == *table && cell.key == done.key && cell.column == *column);
@@ -125,8 +137,36 @@ impl Edit {
     }
 }
 
-/// A number where the text is one.
+/// Whether both are the same value; a whole number is the same with and without a point.
+fn is_equal(one: &Cell, other: &Cell) -> bool {
+    let number = |cell: &Cell| match cell {
+        Cell::Integer(value) => Some(*value as f64),
+        Cell::Real(value) => Some(*value),
+        _ => None,
+    };
+    match (number(one), number(other)) {
+        (Some(one), Some(other)) => one.total_cmp(&other).is_eq(),
+        _ => one == other,
+    }
+}
+
+/// That a cell is another one by now: who made it so, and when.
+fn conflict(tx: &mut Tx<'_>, (table, done, column): (&str, &Done, &str)) -> Result<Error> {
+    // the entry of the edit that is about to be taken back is the newest one
+    let before = tx.history_before(Some(done.id), 1_000)?;
+    let last = before.into_iter().find(|edit| {
+        edit.table == table && edit.key == done.key && edit.column.as_deref().is_none_or(|of| of == column)
+    });
+    let by = last.map_or_else(String::new, |edit| format!(", set by {} at {}", edit.who, edit.at));
+    let message = format!("{table}.{}.{column} is {} by now{by}", done.key, done.old);
+    Ok(Error::said("edit/conflict", message, Some("look at the present value, then set it again".to_owned())))
+}
+
+/// A number where the text is one; no value where there is no text.
 fn cell(text: &str) -> Cell {
+    if text.is_empty() {
+        return Cell::Null;
+    }
     if let Ok(integer) = text.parse::<i64>() {
         return Cell::Integer(integer);
     }
@@ -136,7 +176,7 @@ fn cell(text: &str) -> Cell {
     }
 }
 
-const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
+pub(crate) const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
 const DERIVED: [&str; 17] = [
     "rooms",
     "doors",

@@ -175,6 +175,23 @@ impl KnowledgeBase {
         &self.database
     }
 
+    /// The folder that the rules are read from; `None` where they are the shipped ones.
+    pub fn rule_folder(&self) -> Option<&Path> {
+        rules::folder(&self.site, self.rules.as_deref())
+    }
+
+    /// What the rules would be worth if a file of theirs held this text; nothing is saved.
+    ///
+    /// # Arguments
+    /// `file` is a name in the folder of the rules, as `doors.rhai` or `tests/doors.toml`; without `text` it would be gone.
+    pub fn try_rules(&self, file: &str, text: Option<&str>) -> Result<Tested> {
+        let Rules { base, tests } = rules::load_with(&self.site, self.rules.as_deref(), (file, text))?;
+        let mut store = Store::open_read_only(&self.database)?;
+        let (told, generation) =
+            store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?;
+        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
+    }
+
     /// The files that a build reads, `site.toml` first.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = self.site.files();

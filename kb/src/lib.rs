@@ -45,7 +45,7 @@ mod robots;
 mod rows;
 mod rules;
 mod scene;
-//mod serve;
+mod serve;
 mod shipped;
 mod site;
 mod states;

@@ -160,6 +160,14 @@ impl Live {
         self.store.share(false).or_else(|error| if error.is_busy() { Ok(()) } else { Err(error.into()) })
     }
 
+    /// Keeps a query of somebody's under a name, or takes it away; whether there is, or was, one.
+    pub fn keep_query(&mut self, name: &str, query: Option<(&str, &str)>) -> Result<bool> {
+        self.store.transaction(|tx| match query {
+            Some((query, who)) => Ok(tx.save_query(name, query, who).map(|()| true)?),
+            None => Ok(tx.remove_query(name)?),
+        })
+    }
+
     /// Forgets what is in memory, and reads it from the database; built anew where it does not hold.
     pub fn reopen(&mut self) -> Result<Outcome> {
         self.build_anew()

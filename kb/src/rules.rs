@@ -22,21 +22,59 @@ pub struct Rules {
 
 /// Reads and compiles the rule base that is in force, and reads its tests.
 pub fn load(site: &Site, instead: Option<&Path>) -> Result<Rules> {
-    let (rules, tests) = if let Some(folder) = folder(site, instead) {
-        let tests = folder.join(TESTS);
-        let tests = if tests.is_dir() { folder_files(&tests, "toml")? } else { Vec::new() };
-        (folder_files(folder, "rhai")?, tests)
-    } else {
-        let base = site.rooms.rule_base();
-        (shipped_files(base, ".rhai"), shipped_files(&format!("{base}/{TESTS}"), ".toml"))
+    let Sources { rules, tests } = sources(site, instead)?;
+    compile(&rules, &tests)
+}
+
+/// As [`load`], with another text in one file, or without the file.
+pub fn load_with(site: &Site, instead: Option<&Path>, (file, text): (&str, Option<&str>)) -> Result<Rules> {
+    let Sources { mut rules, mut tests } = sources(site, instead)?;
+    let (files, name) = match file.strip_prefix("tests/") {
+        Some(_) => (&mut tests, file),
+        None => (&mut rules, file),
     };
-    match (RuleBase::compile(&rules), RuleTests::read(&tests)) {
+    let is_it = |source: &SourceFile| Path::new(source.name()).ends_with(name);
+    match (files.iter().position(is_it), text) {
+        (Some(place), Some(text)) => files[place] = SourceFile::new(files[place].name().to_owned(), text),
+        (Some(place), None) => drop(files.remove(place)),
+        (None, Some(text)) => {
+            let folder = folder(site, instead).unwrap_or(Path::new(""));
+            files.push(SourceFile::new(folder.join(name).display().to_string(), text));
+            files.sort_by(|one, other| one.name().cmp(other.name()));
+        }
+        (None, None) => {}
+    }
+    compile(&rules, &tests)
+}
+
+fn compile(rules: &[SourceFile], tests: &[SourceFile]) -> Result<Rules> {
+    match (RuleBase::compile(rules), RuleTests::read(tests)) {
         (Ok(base), Ok(tests)) => Ok(Rules { base, tests }),
         (base, tests) => {
             let problems = base.err().into_iter().chain(tests.err()).flat_map(|problems| problems.0);
             Err(Error::all(problems))
         }
     }
+}
+
+/// The files of a rule base and of its tests.
+pub struct Sources {
+    /// Rules.
+    pub rules: Vec<SourceFile>,
+    /// Tests.
+    pub tests: Vec<SourceFile>,
+}
+
+/// The files of the rule base that is in force, read.
+pub fn sources(site: &Site, instead: Option<&Path>) -> Result<Sources> {
+    if let Some(folder) = folder(site, instead) {
+        let tests = folder.join(TESTS);
+        let tests = if tests.is_dir() { folder_files(&tests, "toml")? } else { Vec::new() };
+        return Ok(Sources { rules: folder_files(folder, "rhai")?, tests });
+    }
+    let base = site.rooms.rule_base();
+    let tests = shipped_files(&format!("{base}/{TESTS}"), ".toml");
+    Ok(Sources { rules: shipped_files(base, ".rhai"), tests })
 }
 
 /// The folder of the user's that the rule base is read from; `None` where it is the shipped one.

@@ -36,7 +36,8 @@ const QUEUE: usize = 1_024;
 pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<()> {
     let tokens = Tokens::read(&token::file(&settings.folder))?;
     if tokens.tokens.is_empty() && !settings.listen.ip().is_loopback() {
-        let message = format!("{} can be reached from elsewhere, and the site has no tokens", settings.listen);
+        let message =
+            format!("{} can be reached from elsewhere, and the site has no tokens", settings.listen);
         let help = "`adit token SITE add NAME --role tune` makes one".to_owned();
         return Err(Error::said("serve/no-tokens", message, Some(help)));
     }

@@ -50,13 +50,16 @@ impl KnowledgeBase {
     ///
     /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn why(&self, what: &str) -> Result<Why> {
-        self.fresh()?.snapshot(|tx| {
-            let subject = Subject::find(tx, what)?;
-            let conclusions = conclusions(tx, &subject)?;
-            let object = format!("{}.{}", subject.class, subject.key);
-            Ok(Why { generation: generation::read(tx)?, object, name: subject.name, conclusions })
-        })
+        self.fresh()?.snapshot(|tx| of(tx, what))
     }
+}
+
+/// Why an object, or one property of it, is as the database has it.
+pub(crate) fn of(tx: &mut Tx<'_>, what: &str) -> Result<Why> {
+    let subject = Subject::find(tx, what)?;
+    let conclusions = conclusions(tx, &subject)?;
+    let object = format!("{}.{}", subject.class, subject.key);
+    Ok(Why { generation: generation::read(tx)?, object, name: subject.name, conclusions })
 }
 
 /// What is concluded about the subject; a property that is named must be among it.

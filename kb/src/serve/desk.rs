@@ -99,7 +99,12 @@ impl Desk {
     }
 
     /// Makes an edit, and tells everyone.
-    pub fn edit(&mut self, edit: &Edit, author: &Author, what: impl FnOnce(&Outcome) -> String) -> Result<Outcome> {
+    pub fn edit(
+        &mut self,
+        edit: &Edit,
+        author: &Author,
+        what: impl FnOnce(&Outcome) -> String,
+    ) -> Result<Outcome> {
         let outcome = self.live.edit(edit, author)?;
         let (who, why) = (author.who.clone(), author.why.clone());
         let what = what(&outcome);
@@ -129,7 +134,10 @@ impl Desk {
     pub fn keep(&mut self, renewal: &Renewal, trees: Vec<(i64, Vec<TreeRow>)>, last: bool) -> bool {
         match self.live.keep(renewal, trees, last) {
             Ok(true) => {
-                self.shared.view.store(Arc::new(Seen { since: self.shared.view.load().since.clone(), ..seen(&self.live) }));
+                self.shared.view.store(Arc::new(Seen {
+                    since: self.shared.view.load().since.clone(),
+                    ..seen(&self.live)
+                }));
                 true
             }
             Ok(false) => false,
@@ -150,7 +158,10 @@ impl Desk {
         }
         self.looked = Some(now);
         let outcome = self.live.catch_up();
-        self.report(outcome, &Cause::itself("another program", "tables were edited, or the time of a fact is over"));
+        self.report(
+            outcome,
+            &Cause::itself("another program", "tables were edited, or the time of a fact is over"),
+        );
     }
 
     fn look(&mut self) -> Files {

@@ -95,14 +95,7 @@ impl From<Error> for Fault {
             1 => first.message,
             more => format!("{}; and {} more", first.message, more - 1),
         };
-        Self {
-            status: status(&code).as_u16(),
-            code,
-            message,
-            help: first.help,
-            problems,
-            current: None,
-        }
+        Self { status: status(&code).as_u16(), code, message, help: first.help, problems, current: None }
     }
 }
 
@@ -116,7 +109,9 @@ impl From<adit_db::Error> for Fault {
 fn status(code: &str) -> StatusCode {
     let (class, kind) = code.split_once('/').unwrap_or((code, ""));
     match (class, kind) {
-        ("rule" | "rules" | "test" | "map" | "rooms" | "site" | "hours", _) => StatusCode::UNPROCESSABLE_ENTITY,
+        ("rule" | "rules" | "test" | "map" | "rooms" | "site" | "hours", _) => {
+            StatusCode::UNPROCESSABLE_ENTITY
+        }
         (_, "missing" | "nothing-to-undo") => StatusCode::NOT_FOUND,
         (_, kind) if kind.starts_with("unknown") => StatusCode::NOT_FOUND,
         ("file" | "database" | "live" | "planner", _) => StatusCode::INTERNAL_SERVER_ERROR,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, Method, StatusCode, header};
+use axum::http::{HeaderMap, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
@@ -110,9 +110,4 @@ pub fn require(caller: &Caller, role: Role) -> Answered<()> {
     let role = format!("{role:?}").to_lowercase();
     let message = format!("`{}` may not do this: it needs the role `{role}`", caller.name);
     Err(Fault::new(StatusCode::FORBIDDEN, "auth/role", message))
-}
-
-/// Whether a request may change something.
-pub fn is_write(method: &Method) -> bool {
-    ![Method::GET, Method::HEAD, Method::OPTIONS].contains(method)
 }

@@ -18,6 +18,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::body::Body;
+use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -25,7 +26,6 @@ use axum::{Router, middleware};
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
-use tower_http::limit::RequestBodyLimitLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
 use tower_http::timeout::TimeoutLayer;
 use utoipa::openapi::OpenApi;
@@ -136,7 +136,7 @@ pub fn router(shared: Arc<Shared>) -> Router {
         .layer(CatchPanicLayer::custom(|_| Fault::internal().into_response()))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), limit))
         .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, TIMEOUT))
-        .layer(RequestBodyLimitLayer::new(BODY))
+        .layer(DefaultBodyLimit::max(BODY))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), gate::pass));
     Router::new()
         .route("/", get(page::index))
@@ -149,7 +149,8 @@ pub fn router(shared: Arc<Shared>) -> Router {
 }
 
 async fn unknown() -> Fault {
-    Fault::missing("service/unknown", "there is nothing at this address").helped("GET /api/openapi.json lists all")
+    Fault::missing("service/unknown", "there is nothing at this address")
+        .helped("GET /api/openapi.json lists all")
 }
 
 async fn not_so() -> Fault {

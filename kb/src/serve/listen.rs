@@ -15,6 +15,9 @@ use super::shared::Shared;
 use super::{http, meter};
 use crate::error::{Error, Result};
 
+/// Rules run on these threads, too, in previews: their deepest nesting needs more than the usual stack.
+const STACK: usize = 16 << 20;
+
 /// Connections that are open at once; more wait to be accepted.
 const CONNECTIONS: usize = 4_096;
 
@@ -27,7 +30,8 @@ const FAREWELL: Duration = Duration::from_secs(5);
 /// Answers requests until the program is told to end (Ctrl-C, SIGTERM).
 pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()> {
     let failed = |error: std::io::Error| Error::said("serve/runtime", error.to_string(), None);
-    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build().map_err(failed)?;
+    let mut runtime = tokio::runtime::Builder::new_multi_thread();
+    let runtime = runtime.enable_all().thread_stack_size(STACK).build().map_err(failed)?;
     meter::start();
     runtime.block_on(async {
         let listen = shared.settings.listen;

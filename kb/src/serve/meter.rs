@@ -28,7 +28,8 @@ pub async fn count(request: Request, next: Next) -> Response {
     let response = next.run(request).await;
     let path: Arc<str> = path.map_or_else(|| "unknown".into(), |path| path.as_str().into());
     let status = response.status().as_u16() / 100;
-    counter!("adit_requests_total", "route" => path.to_string(), "status" => format!("{status}xx")).increment(1);
+    counter!("adit_requests_total", "route" => path.to_string(), "status" => format!("{status}xx"))
+        .increment(1);
     histogram!("adit_request_seconds", "route" => path.to_string()).record(began.elapsed().as_secs_f64());
     response
 }

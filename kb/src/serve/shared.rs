@@ -7,7 +7,7 @@ use std::sync::mpsc::{SyncSender, TrySendError};
 use adit_db::{Store, Tx};
 use arc_swap::ArcSwap;
 use parking::Readers;
-use tokio::sync::{broadcast, oneshot, watch};
+use tokio::sync::{Semaphore, broadcast, oneshot, watch};
 
 use super::desk::Desk;
 use super::event::Event;
@@ -37,6 +37,8 @@ pub struct Shared {
     pub events: broadcast::Sender<Arc<Event>>,
     /// Turns true when the service ends.
     pub ending: watch::Sender<bool>,
+    /// Places of requests that are worked on.
+    pub places: Semaphore,
     jobs: SyncSender<Job>,
     readers: Readers,
     subscribers: AtomicUsize,
@@ -66,6 +68,7 @@ impl Shared {
             events: broadcast::channel(BACKLOG).0,
             ending: watch::channel(false).0,
             subscribers: AtomicUsize::new(0),
+            places: Semaphore::new(settings.requests),
             settings,
             jobs,
         }

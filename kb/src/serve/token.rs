@@ -62,7 +62,8 @@ impl Tokens {
             .map_err(|error| Error::said("tokens/unwritable", error.to_string(), None))?;
         let text = format!("# Written by `adit token`. Who holds a token may do what its roles say.\n{text}");
         let next = file.with_extension("toml.new");
-        let written = fs::write(&next, text).and_then(|()| private(&next)).and_then(|()| fs::rename(&next, file));
+        let written =
+            fs::write(&next, text).and_then(|()| private(&next)).and_then(|()| fs::rename(&next, file));
         written.map_err(|error| Error::io("write", file, &error))
     }
 
@@ -73,7 +74,11 @@ impl Tokens {
         }
         if self.tokens.iter().any(|token| token.name == name) {
             let help = format!("`adit token SITE remove {name}` takes the old one away");
-            return Err(Error::said("tokens/exists", format!("there is a token `{name}` already"), Some(help)));
+            return Err(Error::said(
+                "tokens/exists",
+                format!("there is a token `{name}` already"),
+                Some(help),
+            ));
         }
         let mut bytes = [0; BYTES];
         getrandom::fill(&mut bytes)

@@ -106,18 +106,34 @@ pub async fn map(axum::extract::State(shared): Site) -> Json<MapAnswer> {
         generation: seen.view.generation(),
         bounds: [b.x0, b.y0, b.x1, b.y1],
         walls: walls(world),
-        bridges: world.bridges.iter().map(|bridge| BridgeOf { rect: rect(&bridge.rect), height: bridge.height }).collect(),
+        bridges: world
+            .bridges
+            .iter()
+            .map(|bridge| BridgeOf { rect: rect(&bridge.rect), height: bridge.height })
+            .collect(),
         areas: world
             .areas
             .iter()
-            .map(|area| AreaOf { name: area.name.clone(), kind: area.kind.clone(), polygon: corners(&area.shape) })
+            .map(|area| AreaOf {
+                name: area.name.clone(),
+                kind: area.kind.clone(),
+                polygon: corners(&area.shape),
+            })
             .collect(),
         named_doors: world
             .named_doors
             .iter()
-            .map(|door| NamedDoorOf { name: door.name.clone(), from: [door.from.x, door.from.y], to: [door.to.x, door.to.y] })
+            .map(|door| NamedDoorOf {
+                name: door.name.clone(),
+                from: [door.from.x, door.from.y],
+                to: [door.to.x, door.to.y],
+            })
             .collect(),
-        places: graph.places.iter().map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y }).collect(),
+        places: graph
+            .places
+            .iter()
+            .map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y })
+            .collect(),
         layers,
         rooms,
         doors: graph
@@ -147,7 +163,13 @@ fn rooms(graph: &SiteGraph) -> (Vec<LayerOf>, Vec<RoomOf>) {
                 layers.len() - 1
             })
         });
-        rooms.push(RoomOf { room: room.room, name: room.name.clone(), layer, rect: room.rect, height: room.height });
+        rooms.push(RoomOf {
+            room: room.room,
+            name: room.name.clone(),
+            layer,
+            rect: room.rect,
+            height: room.height,
+        });
     }
     (layers, rooms)
 }

@@ -65,10 +65,7 @@ impl Question {
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
     ),
     responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
-pub async fn route(
-    axum::extract::State(shared): Site,
-    RawQuery(query): RawQuery,
-) -> Answered<Json<Answer>> {
+pub async fn route(axum::extract::State(shared): Site, RawQuery(query): RawQuery) -> Answered<Json<Answer>> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     let seen = Arc::clone(&shared.view.load());
     // over doors an answer takes microseconds, over measured rooms milliseconds

@@ -1,0 +1,140 @@
+//! Facts that people and robots tell.
+
+use axum::Json;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::Site;
+use super::edits::{self, Edited, Fact, Scalar};
+use super::extract::{Asked, Body, Named};
+use crate::edit::Edit;
+use crate::serve::fault::{Answered, Failure};
+use crate::serve::gate::require;
+use crate::serve::role::{Caller, Role};
+
+/// Facts that are told.
+#[derive(Serialize, ToSchema)]
+pub struct FactsAnswer {
+    /// The state that the answer rests on.
+    generation: u64,
+    /// In the order in which they were told.
+    facts: Vec<FactOf>,
+}
+
+/// A fact that is told.
+#[derive(Serialize, ToSchema)]
+struct FactOf {
+    /// Its number.
+    id: i64,
+    /// The class.
+    class: String,
+    /// The object: its name, or `x,y`.
+    object: String,
+    /// The property.
+    property: String,
+    /// What it is.
+    #[schema(value_type = Object)]
+    value: serde_json::Value,
+    /// When it ends, in UTC.
+    until: Option<String>,
+    /// Who told it.
+    who: String,
+    /// When, in UTC.
+    at: String,
+    /// Why.
+    why: String,
+    /// holds, lost (it no longer finds what it is about) or expired.
+    standing: &'static str,
+}
+
+/// All facts that are told.
+#[utoipa::path(get, path = "/api/facts", tag = "facts", security(("token" = [])), responses((status = 200, body = FactsAnswer), (status = "4XX", body = Failure)))]
+pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
+    let answer = site.read(|tx| {
+        let generation = crate::generation::read(tx)?;
+        let standings = tx.standings()?;
+        let standing = |id: i64| {
+            let state = standings.iter().find(|standing| standing.told == id);
+            match state.map(|standing| standing.state.as_str()) {
+                Some("lost") => "lost",
+                Some("expired") => "expired",
+                _ => "holds",
+            }
+        };
+        let facts = tx.facts_told()?.into_iter().map(|fact| FactOf {
+            standing: standing(fact.id),
+            id: fact.id,
+            class: fact.class,
+            object: fact.key.or_else(|| fact.at.map(|[x, y]| format!("{x},{y}"))).unwrap_or_default(),
+            property: fact.property,
+            value: match (fact.kind.as_str(), fact.value) {
+                ("truth", adit_db::Cell::Integer(truth)) => serde_json::json!(truth != 0),
+                (_, value) => serde_json::json!(value),
+            },
+            until: fact.until,
+            who: fact.who,
+            at: fact.told_at,
+            why: fact.why,
+        });
+        Ok(FactsAnswer { generation, facts: facts.collect() })
+    });
+    answer.await.map(Json)
+}
+
+/// A fact, with its reason.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TellBody {
+    class: String,
+    object: String,
+    property: String,
+    value: Scalar,
+    #[serde(default)]
+    until: Option<String>,
+    #[serde(default)]
+    for_seconds: Option<u32>,
+    #[serde(default)]
+    why: String,
+}
+
+/// What telling a fact did.
+#[derive(Serialize, ToSchema)]
+pub struct Told {
+    /// The fact's number.
+    fact: i64,
+    #[serde(flatten)]
+    edited: Edited,
+}
+
+/// Tells a fact: "door 7 is closed", "spill in room d". It stands before what rules conclude until it ends.
+#[utoipa::path(post, path = "/api/facts", tag = "facts", security(("token" = [])), request_body = TellBody,
+    responses((status = 200, body = Told), (status = "4XX", body = Failure)))]
+pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Answered<Json<Told>> {
+    require(&caller, Role::Tell)?;
+    let TellBody { class, object, property, value, until, for_seconds, why } = body;
+    let edit = Fact { class, object, property, value, until, for_seconds }.edit()?;
+    let edited = edits::make(&site, &caller, edit, why).await?;
+    let fact = edited.done.as_ref().and_then(|done| done.key.parse().ok()).unwrap_or_default();
+    Ok(Json(Told { fact, edited }))
+}
+
+/// Why it is no longer told.
+#[derive(Deserialize)]
+pub struct Why {
+    #[serde(default)]
+    why: String,
+}
+
+/// Takes a fact back.
+#[utoipa::path(delete, path = "/api/facts/{fact}", tag = "facts", security(("token" = [])),
+    params(("fact" = i64, Path, description = "Its number"), ("why" = Option<String>, Query, description = "Why")),
+    responses((status = 200, body = Edited), (status = "4XX", body = Failure)))]
+pub async fn retract(
+    site: Site,
+    caller: Caller,
+    Named(fact): Named<i64>,
+    Asked(Why { why }): Asked<Why>,
+) -> Answered<Json<Edited>> {
+    require(&caller, Role::Tell)?;
+    edits::make(&site, &caller, Edit::Retract(fact), why).await.map(Json)
+}

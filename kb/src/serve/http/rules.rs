@@ -1,0 +1,341 @@
+//! The rule base: its files, tried and saved.
+
+use std::fs;
+use std::path::Path;
+
+use axum::Json;
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+use utoipa::ToSchema;
+
+use super::Site;
+use super::extract::{Asked, Body, Named};
+use crate::error::Error;
+use crate::knowledge::{KnowledgeBase, Tested};
+use crate::live::View;
+use crate::problem::Problem;
+use crate::rules::{self, TESTS};
+use crate::serve::desk::{Cause, Desk};
+use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::gate::require;
+use crate::serve::role::{Caller, Role};
+use crate::shipped;
+
+/// The longest rule file, bytes.
+const LONGEST: usize = 1 << 20;
+
+/// The rule base.
+#[derive(Serialize, ToSchema)]
+pub struct RulesAnswer {
+    /// The state that the answer rests on.
+    generation: u64,
+    /// The folder's name; null: the rules are the shipped ones, which are only read.
+    folder: Option<String>,
+    /// Rules.
+    files: Vec<FileOf>,
+    /// Tests of rules.
+    tests: Vec<FileOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct FileOf {
+    /// Its name in the folder, as `doors.rhai` or `tests/doors.toml`.
+    file: String,
+    /// Names its text: whoever saves says what was read.
+    version: String,
+    /// Its text.
+    text: String,
+}
+
+/// The rule base: its files, and its tests.
+#[utoipa::path(get, path = "/api/rules", tag = "rules", security(("token" = [])), responses((status = 200, body = RulesAnswer), (status = "4XX", body = Failure)))]
+pub async fn list(site: Site) -> Answered<Json<RulesAnswer>> {
+    let view = site.view.load().view.clone();
+    let read = tokio::task::spawn_blocking(move || read(&view));
+    read.await.map_err(|_| Fault::internal())?.map(Json)
+}
+
+fn read(view: &View) -> Answered<RulesAnswer> {
+    let site = view.site();
+    let sources = rules::sources(site.site(), site.rule_folder())?;
+    let file = |prefix: &str, name: &str, text: &str| {
+        let name = Path::new(name).file_name().map(|name| name.to_string_lossy().into_owned());
+        let file = format!("{prefix}{}", name.unwrap_or_default());
+        FileOf { file, version: version(text), text: text.to_owned() }
+    };
+    let files = sources.rules.iter().map(|source| file("", source.name(), source.text()));
+    let tests = sources.tests.iter().map(|source| file("tests/", source.name(), source.text()));
+    let folder = site.rule_folder().and_then(Path::file_name);
+    Ok(RulesAnswer {
+        generation: view.generation(),
+        folder: folder.map(|name| name.to_string_lossy().into_owned()),
+        files: files.collect(),
+        tests: tests.collect(),
+    })
+}
+
+fn version(text: &str) -> String {
+    let digest = Sha256::digest(text.as_bytes());
+    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// A text that is tried.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CheckBody {
+    /// The file.
+    file: String,
+    /// Its text.
+    text: String,
+}
+
+/// What a text is worth.
+#[derive(Serialize, ToSchema)]
+pub struct Checked {
+    /// What is wrong with the rules, each with its place.
+    problems: Vec<Problem>,
+    /// What the tests gave; null where rules are wrong, so that no test runs.
+    tests: Option<TestsOf>,
+}
+
+/// What the tests of the rules gave.
+#[derive(Serialize, ToSchema)]
+pub struct TestsOf {
+    passed: usize,
+    failed: usize,
+    /// What failed, each with its place.
+    failures: Vec<Problem>,
+}
+
+impl TestsOf {
+    fn of(tested: Tested, folder: &Path) -> Self {
+        let failed = tested.outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
+        let passed = tested.outcomes.len() - failed;
+        let failures = tested.outcomes.into_iter().flat_map(|outcome| outcome.failures);
+        let failures = failures.map(|failure| near(Problem::of(&failure.diagnostic), folder)).collect();
+        Self { passed, failed, failures }
+    }
+}
+
+/// A problem that names its file as the folder does.
+fn near(mut problem: Problem, folder: &Path) -> Problem {
+    if let Some(file) = &problem.file
+        && let Ok(file) = Path::new(file).strip_prefix(folder)
+    {
+        problem.file = Some(file.display().to_string());
+    }
+    problem
+}
+
+fn near_all(error: &Error, folder: &Path) -> Vec<Problem> {
+    Problem::all(error.problems()).into_iter().map(|problem| near(problem, folder)).collect()
+}
+
+fn folder_of(site: &KnowledgeBase) -> &Path {
+    site.rule_folder().unwrap_or(Path::new(""))
+}
+
+/// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules. Nothing is saved.
+#[utoipa::path(post, path = "/api/rules/check", tag = "rules", security(("token" = [])), request_body = CheckBody,
+    responses((status = 200, body = Checked), (status = "4XX", body = Failure)))]
+pub async fn check(site: Site, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
+    check_name(&body.file)?;
+    check_length(&body.text)?;
+    let view = site.view.load().view.clone();
+    let checked = tokio::task::spawn_blocking(move || {
+        let (site, folder) = (view.site(), folder_of(view.site()));
+        match site.try_rules(&body.file, Some(&body.text)) {
+            Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, folder)) },
+            Err(error) => Checked { problems: near_all(&error, folder), tests: None },
+        }
+    });
+    Ok(Json(checked.await.map_err(|_| Fault::internal())?))
+}
+
+/// A text to be saved.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SaveBody {
+    /// The text.
+    text: String,
+    /// The version that was read before; null for a file that is new.
+    version: Option<String>,
+}
+
+/// What saving did.
+#[derive(Serialize, ToSchema)]
+pub struct Saved {
+    /// Number of the knowledge base's state from now on.
+    generation: u64,
+    /// Names the text; null where the file is gone.
+    version: Option<String>,
+    /// What the tests gave.
+    tests: Option<TestsOf>,
+    /// Rooms with another hardness, action or passability.
+    rooms: usize,
+    /// Doors with another hardness, action or passability.
+    doors: usize,
+    /// Names the cut of the floor.
+    layout: String,
+}
+
+/// Saves a rule file or a test of rules, if all rules are right with it and every test passes; else nothing is saved.
+#[utoipa::path(put, path = "/api/rules/{*file}", tag = "rules", security(("token" = [])), request_body = SaveBody,
+    params(("file" = String, Path, description = "`doors.rhai`, or `tests/doors.toml`")),
+    responses((status = 200, body = Saved), (status = 409, description = "the file is another by now", body = Failure),
+        (status = 422, description = "the rules are wrong with it", body = Failure), (status = "4XX", body = Failure)))]
+pub async fn save(
+    site: Site,
+    caller: Caller,
+    Named(file): Named<String>,
+    Body(body): Body<SaveBody>,
+) -> Answered<Json<Saved>> {
+    require(&caller, Role::Rules)?;
+    check_name(&file)?;
+    check_length(&body.text)?;
+    let SaveBody { text, version } = body;
+    site.at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version)).await.map(Json)
+}
+
+/// Which version is meant.
+#[derive(Deserialize)]
+pub struct Version {
+    version: Option<String>,
+}
+
+/// Takes a rule file away, if all rules are right without it.
+#[utoipa::path(delete, path = "/api/rules/{*file}", tag = "rules", security(("token" = [])),
+    params(("file" = String, Path, description = "`doors.rhai`, or `tests/doors.toml`"),
+           ("version" = Option<String>, Query, description = "The version that was read before")),
+    responses((status = 200, body = Saved), (status = 409, body = Failure), (status = 422, body = Failure), (status = "4XX", body = Failure)))]
+pub async fn remove(
+    site: Site,
+    caller: Caller,
+    Named(file): Named<String>,
+    Asked(Version { version }): Asked<Version>,
+) -> Answered<Json<Saved>> {
+    require(&caller, Role::Rules)?;
+    check_name(&file)?;
+    site.at_desk(move |desk| replace(desk, &caller, (&file, None), version)).await.map(Json)
+}
+
+/// Puts another text in place of a file's, or takes the file away; if the site cannot be built so, all is as it was.
+fn replace(
+    desk: &mut Desk,
+    caller: &Caller,
+    (file, text): (&str, Option<String>),
+    read: Option<String>,
+) -> Answered<Saved> {
+    let site = desk.shared.settings.open()?;
+    let Some(folder) = site.rule_folder().map(Path::to_owned) else {
+        let message = "the rules are the shipped ones, which cannot be edited";
+        return Err(Fault::conflict("rules/shipped", message).helped("copy them into the site first"));
+    };
+    let path = folder.join(file);
+    let before = fs::read_to_string(&path).ok();
+    if before.as_deref().map(version) != read {
+        let message = format!("{file} is another by now: somebody saved it since it was read");
+        return Err(
+            Fault::conflict("rules/conflict", message).helped("read it again, then make the change again")
+        );
+    }
+    let refused = |error: Error| {
+        let problems = near_all(&error, &folder);
+        Fault { problems, status: 422, ..Fault::from(error) }
+    };
+    let tested = site.try_rules(file, text.as_deref()).map_err(refused)?;
+    let tests = TestsOf::of(tested, &folder);
+    if tests.failed > 0 {
+        let message = format!("{} of {} tests of the rules fail", tests.failed, tests.failed + tests.passed);
+        let mut fault = Fault::new(axum::http::StatusCode::UNPROCESSABLE_ENTITY, "rules/tests", message);
+        fault.problems = tests.failures;
+        return Err(fault);
+    }
+    put(&path, text.as_deref())?;
+    let outcome = match desk.live.open_again(site) {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            put(&path, before.as_deref())?;
+            return Err(refused(error));
+        }
+    };
+    let doing = if text.is_some() { "saved" } else { "removed" };
+    desk.publish(
+        &outcome,
+        &Cause { who: caller.name.clone(), why: String::new(), what: format!("{file} {doing}") },
+    );
+    desk.files_are_taken();
+    Ok(Saved {
+        generation: outcome.generation,
+        version: text.as_deref().map(version),
+        tests: Some(tests),
+        rooms: outcome.rooms,
+        doors: outcome.doors,
+        layout: desk.live.view().layout().to_owned(),
+    })
+}
+
+/// Writes a file whole, or takes it away.
+fn put(path: &Path, text: Option<&str>) -> Answered<()> {
+    let done = match text {
+        Some(text) => {
+            let next = path.with_extension("new");
+            let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+            made.and_then(|()| fs::write(&next, text)).and_then(|()| fs::rename(&next, path))
+        }
+        None => fs::remove_file(path),
+    };
+    done.map_err(|error| Error::io("write", path, &error).into())
+}
+
+/// Only files of the rule base itself, by plain names.
+fn check_name(file: &str) -> Answered<()> {
+    let name = file.strip_prefix("tests/").unwrap_or(file);
+    let extension = if name.len() < file.len() { ".toml" } else { ".rhai" };
+    let is_plain = |c: char| c.is_alphanumeric() || ['-', '_', '.', ' '].contains(&c);
+    let stem = name.strip_suffix(extension).unwrap_or_default();
+    if !stem.is_empty() && !stem.starts_with(['.', ' ']) && stem.chars().all(is_plain) && name.len() < 100 {
+        return Ok(());
+    }
+    Err(Fault::bad("rules/name", "a rule file is called NAME.rhai, and a test of rules tests/NAME.toml"))
+}
+
+fn check_length(text: &str) -> Answered<()> {
+    if text.len() <= LONGEST {
+        return Ok(());
+    }
+    Err(Fault::bad("rules/too-long", format!("a rule file may have {LONGEST} bytes")))
+}
+
+/// Copies the shipped rules into the site, so that they can be edited.
+#[utoipa::path(post, path = "/api/rules/adopt", tag = "rules", security(("token" = [])), responses((status = 200, body = RulesAnswer), (status = "4XX", body = Failure)))]
+pub async fn adopt(site: Site, caller: Caller) -> Answered<Json<RulesAnswer>> {
+    require(&caller, Role::Rules)?;
+    site.at_desk(move |desk| copy(desk, &caller)).await.map(Json)
+}
+
+fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {
+    let settings = desk.shared.settings.clone();
+    let site = settings.open()?;
+    if site.rule_folder().is_some() {
+        return Err(Fault::conflict("rules/own", "the site has rules of its own already"));
+    }
+    let (base, into) = (site.site().rooms.rule_base(), settings.folder.join("rules"));
+    shipped::write::<shipped::Rules>(base, &into)?;
+    shipped::write::<shipped::Rules>(&format!("{base}/{TESTS}"), &into.join(TESTS))?;
+    let file = settings.folder.join("site.toml");
+    let text = fs::read_to_string(&file).map_err(|error| Error::io("read", &file, &error))?;
+    put(&file, Some(&format!("rules = \"rules\"\n{text}")))?;
+    let outcome = settings.open().and_then(|site| desk.live.open_again(site));
+    let outcome = match outcome {
+        Ok(outcome) => outcome,
+        Err(error) => {
+            put(&file, Some(&text))?;
+            return Err(error.into());
+        }
+    };
+    let what = "the shipped rules were copied into the site".to_owned();
+    desk.publish(&outcome, &Cause { who: caller.name.clone(), why: String::new(), what });
+    desk.files_are_taken();
+    read(&desk.live.view())
+}

@@ -1,0 +1,53 @@
+//! Live events.
+
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
+
+use axum::response::sse::{self, KeepAlive, Sse};
+use futures_util::Stream;
+use futures_util::stream;
+use tokio::sync::{broadcast::error::RecvError, watch};
+
+use super::Site;
+use crate::serve::event::{Event, Hello};
+use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::shared::Subscription;
+
+/// How often a stream on which nothing happens shows that it lives.
+const ALIVE: Duration = Duration::from_secs(15);
+
+/// Live events: `hello` first, then `changed` after each change, `routes` with the routes between places that cost more
+/// or less, and `problems` when a file is saved that cannot be used. A reader that lags far behind is cut off.
+#[utoipa::path(get, path = "/api/events", tag = "service", security(("token" = [])),
+    responses((status = 200, content_type = "text/event-stream", body = String), (status = "4XX", body = Failure)))]
+pub async fn events(site: Site) -> Answered<Sse<impl Stream<Item = Result<sse::Event, Infallible>>>> {
+    let subscription = site.subscribe().ok_or_else(Fault::busy)?;
+    // subscribed before the state is read, so that no change falls between both
+    let view = site.view.load().view.clone();
+    let hello = Hello { generation: view.generation(), layout: view.layout().to_owned() };
+    let first = Some(Arc::new(Event::new("hello", &hello)));
+    let ending = site.ending.subscribe();
+    let events = stream::unfold((first, subscription, ending), next);
+    Ok(Sse::new(events).keep_alive(KeepAlive::new().interval(ALIVE)))
+}
+
+type Place = (Option<Arc<Event>>, Subscription, watch::Receiver<bool>);
+
+async fn next(
+    (first, mut subscription, mut ending): Place,
+) -> Option<(Result<sse::Event, Infallible>, Place)> {
+    let event = match first {
+        Some(first) => first,
+        None => tokio::select! {
+            event = subscription.events.recv() => match event {
+                Ok(event) => event,
+                // who missed events begins anew, and learns where things stand
+                Err(RecvError::Lagged(_) | RecvError::Closed) => return None,
+            },
+            _ = ending.wait_for(|ends| *ends) => return None,
+        },
+    };
+    let said = sse::Event::default().event(event.name).data(&event.data);
+    Some((Ok(said), (None, subscription, ending)))
+}

@@ -1,0 +1,159 @@
+//! The tables that people tune, and named tunings.
+
+use adit_db::relation::{Form, Relation, RelationColumn};
+use adit_db::{Cell, Tx};
+use axum::Json;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::Site;
+use crate::error::Result;
+use crate::serve::fault::{Answered, Failure};
+use crate::{edit, generation, tunings};
+
+/// All tables that may be edited.
+#[derive(Serialize, ToSchema)]
+pub struct TablesAnswer {
+    /// The state that the answer rests on.
+    generation: u64,
+    /// The tables: the robots' first.
+    tables: Vec<TableOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct TableOf {
+    table: String,
+    columns: Vec<ColumnOf>,
+    /// The rows' keys, as edits name them.
+    keys: Vec<String>,
+    /// A value for each column.
+    #[schema(value_type = Vec<Vec<Object>>)]
+    rows: Vec<Vec<Cell>>,
+    /// Cells that a tuning which is on sets otherwise.
+    overridden: Vec<Overridden>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct ColumnOf {
+    name: String,
+    /// number, truth or text.
+    kind: &'static str,
+    /// Whether it is a part of the key.
+    key: bool,
+    /// Its unit, where it has one.
+    unit: Option<&'static str>,
+    /// Whether it needs a value.
+    required: bool,
+}
+
+#[derive(Serialize, ToSchema)]
+struct Overridden {
+    key: String,
+    column: String,
+    #[schema(value_type = Object)]
+    value: Cell,
+    tuning: String,
+}
+
+/// The tables that people tune: robots, changes, loads, hours, and the site's own.
+#[utoipa::path(get, path = "/api/tables", tag = "tables", security(("token" = [])), responses((status = 200, body = TablesAnswer), (status = "4XX", body = Failure)))]
+pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
+    site.read(read_all).await.map(Json)
+}
+
+fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
+    let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
+    let names: Vec<String> =
+        edit::TUNABLE.iter().map(ToString::to_string).chain(own.map(|table| table.name)).collect();
+    let in_force = tunings::in_force(tx)?;
+    let mut tables = Vec::new();
+    for name in names {
+        let relation = tx.read_table(&name)?;
+        // a table without a key has no rows that an edit could name
+        if !relation.columns.iter().any(|column| column.key > 0) {
+            continue;
+        }
+        let overridden = in_force.iter().filter(|cell| cell.table == name).map(|cell| Overridden {
+            key: cell.key.clone(),
+            column: cell.column.clone(),
+            value: cell.value.clone(),
+            tuning: cell.tuning.clone(),
+        });
+        tables.push(table(&relation, overridden.collect()));
+    }
+    Ok(TablesAnswer { generation: generation::read(tx)?, tables })
+}
+
+fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
+    let count = relation.columns.first().map_or(0, |column| column.values.len());
+    let mut rows: Vec<usize> = (0..count).collect();
+    // robots stand in the order that breaks ties
+    if let Some(position) = relation.columns.iter().find(|column| column.name == "position") {
+        let place = |row: &usize| match position.values[*row] {
+            Cell::Integer(place) => place,
+            _ => i64::MAX,
+        };
+        rows.sort_by_key(place);
+    }
+    let all_keys = crate::tables::keys(relation);
+    TableOf {
+        table: relation.name.clone(),
+        columns: relation.columns.iter().map(column).collect(),
+        keys: rows.iter().map(|row| all_keys[*row].clone()).collect(),
+        rows: rows
+            .iter()
+            .map(|row| relation.columns.iter().map(|column| column.values[*row].clone()).collect())
+            .collect(),
+        overridden,
+    }
+}
+
+fn column(column: &RelationColumn) -> ColumnOf {
+    ColumnOf {
+        name: column.name.clone(),
+        kind: match column.declared.as_str() {
+            "REAL" | "INTEGER" => "number",
+            _ => "text",
+        },
+        key: column.key > 0,
+        unit: matches!(column.name.as_str(), "height" | "width" | "length").then_some("m"),
+        required: column.required,
+    }
+}
+
+/// Named tunings.
+#[derive(Serialize, ToSchema)]
+pub struct TuningsAnswer {
+    tunings: Vec<TuningOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct TuningOf {
+    tuning: String,
+    /// Whether it counts now.
+    on: bool,
+    /// What it sets.
+    #[schema(value_type = Vec<Object>)]
+    cells: Vec<adit_db::tuning::TuningCell>,
+}
+
+/// Named tunings: sets of cells that count instead of the tables' own while they are on.
+#[utoipa::path(get, path = "/api/tunings", tag = "tables", security(("token" = [])), responses((status = 200, body = TuningsAnswer), (status = "4XX", body = Failure)))]
+pub async fn tunings(site: Site) -> Answered<Json<TuningsAnswer>> {
+    let answer = site.read(|tx| {
+        let active = tx.active_tunings()?;
+        let mut tunings: Vec<TuningOf> = Vec::new();
+        for cell in tx.tuning_cells()? {
+            match tunings.last_mut().filter(|last| last.tuning == cell.tuning) {
+                Some(last) => last.cells.push(cell),
+                None => tunings.push(TuningOf {
+                    tuning: cell.tuning.clone(),
+                    on: active.contains(&cell.tuning),
+                    cells: vec![cell],
+                }),
+            }
+        }
+        Ok(TuningsAnswer { tunings })
+    });
+    answer.await.map(Json)
+}

@@ -1,0 +1,46 @@
+//! Why something is as it is, and why not otherwise.
+
+use axum::Json;
+use serde::Deserialize;
+
+use super::Site;
+use super::extract::Asked;
+use crate::serve::fault::{Answered, Failure};
+use crate::why::Why;
+use crate::why_not::WhyNot;
+
+/// What is asked about.
+#[derive(Deserialize)]
+pub struct What {
+    what: String,
+}
+
+/// Why a room, a door or one of its properties is as it is: the rule, the facts, the values.
+#[utoipa::path(get, path = "/api/why", tag = "reasons", security(("token" = [])),
+    params(("what" = String, Query, description = "`door 7`, `room d`, `doors.7.hardness`")),
+    responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json<Why>> {
+    site.read(move |tx| crate::why::of(tx, &what)).await.map(Json)
+}
+
+/// Which way is asked about.
+#[derive(Deserialize)]
+pub struct Through {
+    start: String,
+    goal: String,
+    through: String,
+    robot: Option<String>,
+}
+
+/// Why the best route does not lead through a room or door: what that would cost, and what decides.
+#[utoipa::path(get, path = "/api/why-not", tag = "reasons", security(("token" = [])),
+    params(("start" = String, Query, description = "A place, a room or `x,y`"), ("goal" = String, Query, description = "A place, a room or `x,y`"),
+           ("through" = String, Query, description = "`room d`, `door 7`"), ("robot" = Option<String>, Query, description = "Whose route")),
+    responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+pub async fn why_not(site: Site, Asked(asked): Asked<Through>) -> Answered<Json<WhyNot>> {
+    let view = site.view.load().view.clone();
+    let answer = site.with_store(move |_| {
+        view.site().why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref())
+    });
+    answer.await.map(Json)
+}
