@@ -34,6 +34,13 @@ impl Twin {
         Self { shown: Arc::new(graph), other: None, lag: Lag::default() }
     }
 
+    /// Keeps ways between any two rooms ready, in both copies.
+    pub fn prepare(&mut self) {
+        let mut graph = SiteGraph::clone(&self.shown);
+        graph.prepare();
+        *self = Self::new(graph);
+    }
+
     /// The graph as it was committed last.
     pub fn shown(&self) -> &Arc<SiteGraph> {
         &self.shown
