@@ -1,7 +1,9 @@
 //! What the journeys share: the built program, sites in a temporary folder, and the clients that users have.
 
+pub mod browser;
 pub mod floor;
 pub mod oracle;
+pub mod service;
 
 use std::fs;
 use std::path::{Path, PathBuf};

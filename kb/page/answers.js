@@ -1,0 +1,144 @@
+/** The cards under the map: why something is so, why not that way, and facts told from the map. */
+
+import { call, get, path, post } from './api.js';
+import { button, byId, el, fill } from './dom.js';
+import { action, cost, list, number, value } from './format.js';
+import { model } from './model.js';
+import { complain, said } from './notice.js';
+import { refresh } from './refresh.js';
+import { address } from './router.js';
+import { showSaved } from './saved.js';
+
+function card(id, title, ...content) {
+  byId(id)?.remove();
+  const heading = el('h2', { text: title, tabindex: '-1' });
+  const close = button('Close', () => {
+    if (id === 'why-not-card') model.set('whyNot', null);
+    byId(id).remove();
+    byId('canvas').focus({ preventScroll: true });
+  }, { class: 'quiet close' });
+  const made = el('section', { class: 'card answer', id, 'aria-label': title }, close, heading, ...content);
+  byId('answers').prepend(made);
+  made.scrollIntoView({ block: 'nearest' });
+  heading.focus({ preventScroll: true });
+  return made;
+}
+
+/** A link to the line of a rule. */
+export function ruleLink(rule, file, line) {
+  if (!file) return el('q', { text: rule });
+  const name = file.split('/').at(-1);
+  return el('a', { href: address('rules', { file: name, line: String(line ?? '') }), text: `${rule}` });
+}
+
+const WORDS = { passable: 'may be passed' };
+
+function conclusion(of, facts) {
+  const what = `${WORDS[of.property] ?? of.property}: ${typeof of.value === 'number' && of.property !== 'passable' ? number(of.value) : of.property === 'passable' ? value(Boolean(of.value)) : of.property === 'action' ? action(of.value) : value(of.value)}`;
+  const because = el('span', {}, ', by the rule ', ruleLink(of.rule, of.file, of.line));
+  const witness = Object.entries(of.witness ?? {}).map(([variable, object]) => el('li', {}, el('b', { text: variable }), ` is ${object}`, el('span', { class: 'hint', text: propertiesOf(object, facts) })));
+  return el('li', {}, el('b', { text: what }), of.rule ? because : null, of.rule || !of.why ? null : ` (${of.why})`, witness.length ? el('ul', { class: 'plain' }, ...witness) : null);
+}
+
+function propertiesOf(object, facts) {
+  const found = facts?.find((fact) => `${fact.class} ${fact.key}` === object);
+  const known = Object.entries(found?.properties ?? {}).map(([name, of]) => `${name} ${value(of)}`);
+  return known.length ? `: ${known.join(', ')}` : '';
+}
+
+/** Asks why something is as it is, and shows it. @param {string} what `door 7`, `room d` */
+export async function why(what) {
+  try {
+    const answer = await get(path('/api/why', { what }));
+    const facts = answer.facts ?? [];
+    const told = answer.conclusions.length ? [] : [el('p', { text: 'No rule says anything of it.' })];
+    card('why-card', `Why is ${answer.name ?? what} as it is?`, ...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer));
+  } catch (error) {
+    card('why-card', `Why is ${what} as it is?`, said(error));
+  }
+}
+
+// Facts that are no rule's witness: what was told of the object itself.
+function lone(facts, answer) {
+  const named = new Set(answer.conclusions.flatMap((of) => Object.values(of.witness ?? {})));
+  const rest = facts.filter((fact) => !named.has(`${fact.class} ${fact.key}`));
+  if (!rest.length) return null;
+  return el('ul', { class: 'plain' }, ...rest.map((fact) => el('li', { class: 'hint', text: `${fact.class} ${fact.key}${propertiesOf(`${fact.class} ${fact.key}`, facts)}` })));
+}
+
+/** Asks why the route does not lead through something, and shows it. */
+export async function whyNot(through) {
+  const { start, goal, robot } = model.ask;
+  const title = `Why not through ${through}?`;
+  const busy = card('why-not-card', title, el('p', { class: 'hint', text: 'Looking…' }));
+  try {
+    const answer = await get(path('/api/why-not', { start, goal, through, robot }));
+    if (!busy.isConnected) return;
+    const sentence = el('p', { class: 'sentence', text: answer.sentence ?? answer.reason ?? '' });
+    const numbers = answer.cost !== null && answer.cost !== undefined
+      ? el('p', { class: 'hint', text: `The best way costs ${cost(answer.best)}, the one through ${through} ${cost(answer.cost)}. It is dotted on the map.` }) : null;
+    card('why-not-card', title, sentence, numbers, details(answer));
+    model.set('whyNot', answer);
+  } catch (error) {
+    card('why-not-card', title, said(error));
+  }
+}
+
+function details(answer) {
+  const rejected = (answer.rejected ?? []).map((of) => el('li', { text: rejection(of) }));
+  const concluded = (answer.conclusions ?? []).map((of) => conclusion(of, answer.facts));
+  const deciding = (answer.deciding ?? []).map((of) => el('li', { text: typeof of === 'string' ? of : of.sentence ?? of.message ?? list(Object.entries(of).map(([name, item]) => `${name} ${value(item)}`)) }));
+  if (!rejected.length && !concluded.length && !deciding.length) return null;
+  return el('details', {}, el('summary', { text: 'What decides there' }),
+    deciding.length ? el('ul', {}, ...deciding) : null,
+    rejected.length ? el('ul', { class: 'rejected' }, ...rejected) : null,
+    concluded.length ? el('ul', { class: 'reasons' }, ...concluded) : null,
+    answer.truncated ? el('p', { class: 'hint', text: 'There is more; this is the first of it.' }) : null);
+}
+
+function rejection(of) {
+  const who = `${of.class ?? ''} ${of.key ?? ''}`.trim();
+  const numbers = of.left !== undefined && of.left !== null ? `: ${value(of.left)} against ${value(of.right)}` : '';
+  return `${who} does not fit: ${of.test ?? of.reason}${numbers} (rule “${of.rule}”)`;
+}
+
+/** What may be told of a thing from the map: that it is shut. */
+export function tellWays(thing) {
+  const ways = [];
+  if (thing.named) ways.push({ text: `Close ${thing.named.name}…`, fact: { class: 'NAMED_DOORS', object: thing.named.name, property: 'closed', value: true } });
+  if (thing.kind === 'door') ways.push({ text: `Close door ${model.map.doors[thing.index].door}…`, fact: { class: 'DOORS', object: String(model.map.doors[thing.index].door), property: 'passable', value: false } });
+  if (thing.kind === 'room') ways.push({ text: `Keep out of room ${model.map.rooms[thing.index].name}…`, fact: { class: 'ROOMS', object: model.map.rooms[thing.index].name, property: 'passable', value: false } });
+  return ways;
+}
+
+/** Asks until when, and tells it. */
+export function closeDoor(fact, label) {
+  const until = el('input', { type: 'time', id: 'close-until' });
+  const reason = el('input', { id: 'close-why', placeholder: 'why (if you like)' });
+  const form = el('form', { class: 'line-form' },
+    el('label', {}, 'Until (empty: until taken back) ', until), el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
+  const made = card('tell-card', label.replace('…', ''), form);
+  form.addEventListener('submit', async (event) => {
+    event.preventDefault();
+    try {
+      const answer = await post('/api/facts', { ...fact, until: until.value || null, why: reason.value || null });
+      made.remove();
+      showSaved(`${label.replace('…', '')}: told.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+      await refresh(answer.generation);
+    } catch (error) {
+      fill(made, said(error), form);
+    }
+  });
+  until.focus();
+}
+
+/** Takes a told fact back. */
+export async function takeBack(fact) {
+  try {
+    const answer = await call('DELETE', `/api/facts/${fact}`);
+    showSaved('Taken back.', []);
+    await refresh(answer?.generation);
+  } catch (error) {
+    complain(error);
+  }
+}

@@ -1,0 +1,85 @@
+/** Small helpers for the document. What users named goes in as text, never as HTML. */
+
+/** The element with this id. @param {string} id */
+export const byId = (id) => document.getElementById(id);
+
+/**
+ * A new element. `on` holds listeners, `text` the text; what is true is set without a value, what is null or false is left out.
+ * @param {string} tag
+ * @param {Object} [attributes]
+ * @param {...(Node|string|null)} children
+ */
+export function el(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name === 'on') for (const [event, listener] of Object.entries(value)) made.addEventListener(event, listener);
+    else if (name === 'text') made.textContent = value;
+    else if (name === 'value') made.value = value;
+    else if (value === true) made.setAttribute(name, '');
+    else if (value !== null && value !== undefined && value !== false) made.setAttribute(name, value);
+  }
+  made.append(...children.filter((child) => child !== null && child !== undefined));
+  return made;
+}
+
+/** A button that does something; while it does, it cannot be pressed again. */
+export function button(text, act, attributes = {}) {
+  const made = el('button', { type: 'button', text, ...attributes });
+  made.addEventListener('click', async (event) => {
+    made.disabled = true;
+    try {
+      await act(event);
+    } finally {
+      made.disabled = false;
+    }
+  });
+  return made;
+}
+
+/** Puts these children in place of what is there. */
+export function fill(parent, ...children) {
+  parent.replaceChildren(...children.filter((child) => child !== null && child !== undefined));
+}
+
+/** Calls `act` once it was not asked for during `wait` milliseconds; `flush` calls it at once. */
+export function debounced(act, wait) {
+  let timer = 0;
+  const later = () => {
+    clearTimeout(timer);
+    timer = setTimeout(act, wait);
+  };
+  later.cancel = () => clearTimeout(timer);
+  return later;
+}
+
+/** A table with a header row; cells are nodes or text. */
+export function grid(caption, columns, rows, attributes = {}) {
+  const head = el('tr', {}, ...columns.map((name) => (name ? el('th', { scope: 'col', text: name }) : el('th', { scope: 'col' }, el('span', { class: 'unseen', text: 'what to do' })))));
+  const body = rows.map((row) => el('tr', {}, ...row.map((cell) => el('td', {}, cell ?? ''))));
+  const table = el('table', attributes, el('caption', { class: 'unseen', text: caption }), el('thead', {}, head), el('tbody', {}, ...body));
+  return el('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption }, table);
+}
+
+/** Offers a text as a file. */
+export function download(name, type, text) {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  const link = el('a', { href: address, download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+/** Copies a text, and says so on the button for a moment. */
+export async function copy(text, pressed) {
+  const before = pressed.textContent;
+  try {
+    await navigator.clipboard.writeText(text);
+    pressed.textContent = 'Copied';
+  } catch {
+    // Without https there is no clipboard: show the text, selected, to be copied by hand.
+    const box = el('textarea', { class: 'copy-box', 'aria-label': 'To copy', readonly: true, rows: '3', value: text });
+    pressed.closest('.card, section').append(box);
+    box.select();
+    box.addEventListener('blur', () => box.remove());
+  }
+  setTimeout(() => { pressed.textContent = before; }, 1500);
+}

@@ -1,0 +1,88 @@
+/** Facts: what people and robots told of single things, and until when. */
+
+import { get, post } from './api.js';
+import { takeBack } from './answers.js';
+import { button, byId, el, fill, grid } from './dom.js';
+import { moment, value } from './format.js';
+import { model } from './model.js';
+import { said } from './notice.js';
+import { refresh } from './refresh.js';
+import { isOpen, onTab } from './router.js';
+import { showSaved } from './saved.js';
+
+const USUAL = {
+  door: { text: 'A door lets nobody through', class: 'DOORS', property: 'passable', value: 'false', object: 'number of the door, or x,y' },
+  room: { text: 'A room is not entered', class: 'ROOMS', property: 'passable', value: 'false', object: 'name of the room, or x,y' },
+  named: { text: 'A named door is closed', class: 'NAMED_DOORS', property: 'closed', value: 'true', object: 'name of the door' },
+  other: { text: 'Something else' },
+};
+const STANDING = { holds: 'holds', lost: 'lost: what it is about is no longer there', expired: 'over' };
+
+function field(label, id, attributes = {}) {
+  return el('label', { 'data-field': id }, `${label} `, el('input', { id: `fact-${id}`, autocomplete: 'off', ...attributes }));
+}
+
+function form() {
+  const kind = el('select', { id: 'fact-kind' }, ...Object.entries(USUAL).map(([name, { text }]) => el('option', { value: name, text })));
+  const made = el('form', { class: 'fact-form', on: { submit: tell } }, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
+    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { type: 'time' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
+  const choose = () => {
+    const usual = USUAL[kind.value];
+    for (const name of ['class', 'property', 'value']) {
+      made.querySelector(`[data-field=${name}]`).hidden = kind.value !== 'other';
+      made.querySelector(`#fact-${name}`).required = kind.value === 'other';
+    }
+    made.querySelector('#fact-object').placeholder = usual.object ?? 'its name, or x,y';
+  };
+  kind.addEventListener('change', choose);
+  choose();
+  return made;
+}
+
+/** What was typed as a value: a number, yes or no, or a text. */
+export function typed(text) {
+  if (text === 'true' || text === 'false') return text === 'true';
+  return text !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
+}
+
+async function tell(event) {
+  event.preventDefault();
+  const read = (name) => byId(`fact-${name}`).value.trim();
+  const usual = USUAL[read('kind')];
+  const fact = { class: usual.class ?? read('class'), object: read('object'), property: usual.property ?? read('property'), value: typed(usual.value ?? read('value')), until: read('until') || null, why: read('why') || null };
+  try {
+    const answer = await post('/api/facts', fact);
+    byId('fact-object').value = '';
+    fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
+    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+    await refresh(answer.generation);
+    await load();
+  } catch (error) {
+    fill(byId('fact-said'), said(error));
+  }
+}
+
+async function load() {
+  try {
+    const { facts } = await get('/api/facts');
+    const rows = facts.map((fact) => [`${fact.class} ${fact.object}`, `${fact.property}: ${value(fact.value)}`, fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
+      model.may('tell') ? button('Take back', async () => { await takeBack(fact.id); await load(); }, { 'aria-label': `Take back fact ${fact.id}` }) : null]);
+    fill(byId('facts-list'), facts.length ? grid('What is told', ['of', 'what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
+  } catch (error) {
+    fill(byId('facts-list'), said(error));
+  }
+}
+
+function show() {
+  if (!byId('fact-kind')) {
+    fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
+      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), form(), el('div', { id: 'fact-said' })) : null);
+  }
+  return load();
+}
+
+/** Makes the tab; it follows while it is open. */
+export function startFacts() {
+  onTab('facts', show);
+  model.on('generation', () => { if (isOpen('facts')) load(); });
+}

@@ -1,0 +1,113 @@
+/** The words on the map. None covers another: what matters most is written first, and what finds no room is left out. */
+
+import { number } from './format.js';
+import { EASIEST, roomsWeigh } from './layers.js';
+import { model } from './model.js';
+
+const MOST_ROOMS = 500;
+const PLAIN = '12px system-ui, sans-serif';
+const BOLD = '600 12px system-ui, sans-serif';
+
+/** Writes the labels of one frame. */
+export class Labels {
+  constructor(context, ink) {
+    this.context = context;
+    this.ink = ink;
+    this.taken = [];
+  }
+
+  /** Keeps a box free, of what was drawn otherwise. */
+  keep(x, y, half) {
+    this.taken.push([x - half, y - half, x + half, y + half]);
+  }
+
+  /** Writes a text at the first of these spots where it covers nothing; says whether it did. */
+  put(text, spots, font = PLAIN) {
+    const { context, ink } = this;
+    context.font = font;
+    const width = context.measureText(text).width;
+    for (const [x, y, align] of spots) {
+      const left = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+      const box = [left - 1, y - 8, left + width + 1, y + 8];
+      if (this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
+      this.taken.push(box);
+      context.textAlign = 'left';
+      context.textBaseline = 'middle';
+      context.lineWidth = 3.5;
+      context.lineJoin = 'round';
+      context.strokeStyle = ink.paper;
+      context.strokeText(text, left, y);
+      context.fillStyle = ink.ink;
+      context.fillText(text, left, y);
+      return true;
+    }
+    return false;
+  }
+}
+
+const around = ([x, y], by) => [[x + by, y, 'left'], [x, y - by - 6, 'center'], [x, y + by + 6, 'center'], [x - by, y, 'right']];
+
+/** All labels of the floor, the most telling first. `find` gives the rooms of all layers at a point. */
+export function labelFloor(labels, camera, shown, find) {
+  places(labels, camera);
+  const { map, weights } = model;
+  for (const door of map.named_doors) {
+    if (camera.scale > 6) labels.put(door.name, around(camera.toScreen([(door.from[0] + door.to[0]) / 2, (door.from[1] + door.to[1]) / 2]), 8), BOLD);
+  }
+  for (const { rect: [x0, y0, x1, y1], height } of map.bridges) {
+    const [px, py] = camera.toScreen([(x0 + x1) / 2, (y0 + y1) / 2]);
+    const half = ((y1 - y0) * camera.scale) / 2;
+    if ((x1 - x0) * camera.scale > 8) labels.put(`${number(height)} m high`, [[px, py - half + 10, 'center'], [px, py - half - 9, 'center'], [px, py + half + 9, 'center']]);
+  }
+  for (const area of map.areas) {
+    const [px, py] = camera.toScreen([area.polygon[0], area.polygon[1]]);
+    labels.put(area.kind ? `${area.name} (${area.kind})` : area.name, [[px + 4, py - 9, 'left'], [px + 4, py + 9, 'left']]);
+  }
+  if (!roomsWeigh()) doors(labels, camera, shown, weights);
+  rooms(labels, camera, shown, find);
+}
+
+function places(labels, camera) {
+  const { context, ink } = labels;
+  for (const place of model.map.places) {
+    const at = camera.toScreen([place.x, place.y]);
+    context.fillStyle = ink.ink;
+    context.beginPath();
+    context.arc(at[0], at[1], 3, 0, 7);
+    context.fill();
+    labels.put(place.place, around(at, 7), BOLD);
+  }
+}
+
+function doors(labels, camera, shown, weights) {
+  for (const index of shown.doors) {
+    const { door, segment: [x0, y0, x1, y1] } = model.map.doors[index];
+    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 36) continue;
+    const shut = weights.doors.passable[index] === true ? '' : ' ✕';
+    const upright = Math.abs(x1 - x0) < Math.abs(y1 - y0);
+    const at = (share) => [...camera.toScreen([x0 + share * (x1 - x0), y0 + share * (y1 - y0)])];
+    const beside = [0.5, 0.25, 0.75].flatMap((share) => {
+      const [px, py] = at(share);
+      return upright ? [[px + 8, py, 'left'], [px - 8, py, 'right']] : [[px, py - 13, 'center'], [px, py + 13, 'center']];
+    });
+    labels.put(`door ${door}${shut}`, beside);
+  }
+}
+
+function rooms(labels, camera, shown, find) {
+  const [sx0, sy0, sx1, sy1] = camera.seen();
+  const { map, weights } = model;
+  let left = MOST_ROOMS;
+  for (const index of shown.rooms) {
+    const [x0, y0, x1, y1] = map.rooms[index].rect;
+    if (x1 < sx0 || x0 > sx1 || y1 < sy0 || y0 > sy1 || Math.min((x1 - x0) * camera.scale * 0.8, (y1 - y0) * camera.scale) < 22) continue;
+    const middle = [(x0 + x1) / 2, (y0 + y1) / 2];
+    if (roomsWeigh() && shown.layer === EASIEST && shown.topRoom(find(middle)) !== index) continue;
+    const [px, py] = camera.toScreen(middle);
+    const letter = weights.rooms.passable[index] === false ? '✕' : shown.actions.letter(weights.rooms.action[index]);
+    const lower = py + Math.min(18, ((y1 - y0) * camera.scale) / 4);
+    labels.put(`${map.rooms[index].name} · ${letter}`, [[px, py, 'center'], [px, lower, 'center'], [px, 2 * py - lower, 'center']]);
+    left -= 1;
+    if (left === 0) break;
+  }
+}

@@ -1,0 +1,209 @@
+/** The map: the canvas with what is told of it, legend, layers, the word at the mouse, the popover at a click. */
+
+import { Camera } from './camera.js';
+import { byId, el, fill } from './dom.js';
+import { action, number } from './format.js';
+import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
+import { model } from './model.js';
+import { inks, paint } from './paint.js';
+import { Finder } from './places.js';
+import { closePopover, openPopover } from './popover.js';
+import { weightsOf } from './thing.js';
+import { onTheme } from './theme.js';
+
+const canvas = byId('canvas');
+const context = canvas.getContext('2d');
+const camera = new Camera(canvas, () => { closePopover(); invalidate(); });
+let finder = null;
+let shown = null;
+let still = null;
+let ink = null;
+let pointed = null;
+let waiting = false;
+let layout = null;
+
+/** Draws the map again at the next frame. */
+export function invalidate() {
+  if (waiting) return;
+  waiting = true;
+  requestAnimationFrame(() => {
+    waiting = false;
+    if (!shown || canvas.clientWidth === 0) return;
+    paint(context, camera, shown, still, ink, pointed, (at) => finder.roomsAt(at));
+    // Whoever measures how soon an edit is seen reads it here.
+    canvas.dataset.generation = model.weights.generation;
+    canvas.dataset.changed = String(shown.changedRooms.size + shown.changedDoors.size);
+  });
+}
+
+/** Everything that follows from weights, preview or layer. */
+function redraw() {
+  if (!model.map || !model.weights) return;
+  const chosen = byId('layer').value;
+  shown = new Drawn(chosen === EASIEST || chosen === '' ? EASIEST : Number(chosen));
+  ink ??= inks(context);
+  legend();
+  invalidate();
+}
+
+function newMap() {
+  const { map } = model;
+  finder = new Finder(map);
+  const polygons = (list) => {
+    const path = new Path2D();
+    for (const points of list) {
+      points.forEach((value, i) => { if (i % 2 === 0) (i ? path.lineTo(value, points[i + 1]) : path.moveTo(value, points[i + 1])); });
+      path.closePath();
+    }
+    return path;
+  };
+  still = { walls: polygons(map.walls), areas: polygons(map.areas.map((area) => area.polygon)), bridges: new Path2D(), namedDoors: new Path2D() };
+  for (const { rect: [x0, y0, x1, y1] } of map.bridges) still.bridges.rect(x0, y0, x1 - x0, y1 - y0);
+  for (const { from, to } of map.named_doors) {
+    still.namedDoors.moveTo(...from);
+    still.namedDoors.lineTo(...to);
+  }
+  layerChoice();
+  const [x0, y0, x1, y1] = map.bounds;
+  byId('map-box').style.setProperty('--aspect', String((x1 - x0) / (y1 - y0)));
+  pointed = null;
+  if (layout === null || String(map.bounds) !== String(camera.bounds)) fit();
+  layout = map.layout;
+}
+
+// The layers of the robot whose way is asked.
+function layerChoice() {
+  const { layers } = model.map;
+  const options = layers.flatMap((layer, index) => (ofRobot(index) ? [el('option', { value: String(index), text: `only rooms of ${layerName(layer)}` })] : []));
+  const before = byId('layer').value;
+  fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...options);
+  if (options.some((option) => option.value === before)) byId('layer').value = before;
+  byId('layer-choice').hidden = options.length < 2;
+}
+
+const fit = () => { if (canvas.clientWidth) camera.fit(model.map.bounds); };
+
+function legend() {
+  const { actions, classes } = shown;
+  const items = classes.bounds.map((_, index) => swatch(classes.colour(index), classes.label(index)));
+  const title = roomsWeigh() ? 'Hardness of a metre:' : 'Hardness of a door:';
+  const used = new Set([...model.weights.rooms.action, ...(roomsWeigh() ? [] : model.weights.doors.action)]);
+  const ways = actions.names.filter((name) => used.has(name)).map((name) => el('li', {}, stroke(name), el('b', { text: actions.letter(name) }), ` ${action(name)}`));
+  const barred = el('li', {}, el('span', { class: 'swatch barred', 'aria-hidden': 'true' }), 'shut or not entered ✕');
+  const amber = model.preview ? [el('li', {}, el('span', { class: 'swatch changed', 'aria-hidden': 'true' }), 'would change')] : [];
+  fill(byId('legend'), el('li', { class: 'legend-title', text: title }), ...items, barred, ...amber, el('li', { class: 'legend-title', text: 'Action:' }), ...ways);
+}
+
+function swatch(colour, text) {
+  const box = el('span', { class: 'swatch', 'aria-hidden': 'true' });
+  box.style.setProperty('--fill', colour);
+  return el('li', {}, box, text);
+}
+
+function stroke(name) {
+  const line = el('span', { class: 'line-swatch', 'aria-hidden': 'true' });
+  line.style.setProperty('--fill', shown.actions.colour(name));
+  return line;
+}
+
+/** What lies at a point of the screen: the nearest door that is drawn, else the room on top. */
+function thingAt(point, reach = 8) {
+  const at = camera.toMap(point);
+  const near = reach / camera.scale;
+  const door = finder.doorAt(at, near, (index) => shown.shownDoors.has(index));
+  const common = { at, place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
+  if (door >= 0) return { kind: 'door', index: door, ...common };
+  const room = shown.topRoom(finder.roomsAt(at));
+  return room >= 0 ? { kind: 'room', index: room, ...common } : { kind: 'wall', index: -1, ...common };
+}
+
+function hover(point) {
+  const thing = point && finder && shown ? thingAt(point) : null;
+  const tip = byId('tip');
+  if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidate();
+  pointed = thing?.kind === 'wall' ? null : thing;
+  tip.hidden = !pointed || !byId('popover').hidden;
+  if (tip.hidden) return;
+  tip.textContent = tipText(pointed);
+  const left = Math.min(point[0] + 14, canvas.clientWidth - tip.offsetWidth - 4);
+  tip.style.setProperty('left', `${Math.max(4, left)}px`);
+  tip.style.setProperty('top', `${point[1] + 18 + tip.offsetHeight > canvas.clientHeight ? point[1] - tip.offsetHeight - 8 : point[1] + 18}px`);
+}
+
+function tipText(thing) {
+  const { title, text } = weightsOf(thing);
+  const changed = (thing.kind === 'room' ? shown.changedRooms : shown.changedDoors).get(thing.index);
+  if (!changed) return `${title}: ${text}`;
+  const hardness = changed.old.hardness === changed.new.hardness ? '' : ` hardness ${number(changed.old.hardness)} → ${number(changed.new.hardness)}`;
+  const acted = changed.old.action === changed.new.action ? '' : ` ${action(changed.old.action)} → ${action(changed.new.action)}`;
+  const opened = changed.old.passable === changed.new.passable ? '' : changed.new.passable ? ' opens' : ' shuts';
+  return `${title} would change:${hardness}${acted}${opened}`;
+}
+
+function resize() {
+  const dense = window.devicePixelRatio || 1;
+  const first = canvas.width === 300 && canvas.height === 150;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (!width) return;
+  if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
+    canvas.width = Math.round(width * dense);
+    canvas.height = Math.round(height * dense);
+    if (model.map && (first || camera.scale === 1)) fit();
+    invalidate();
+  }
+}
+
+/** Shows a room or door of the list: in the middle, with a line around it. */
+export function point(kind, index) {
+  const { map } = model;
+  const [x0, y0, x1, y1] = kind === 'room' ? map.rooms[index].rect : map.doors[index].segment;
+  const layer = kind === 'room' ? map.rooms[index].layer : map.rooms[model.roomIndex.get(map.doors[index].room1)].layer;
+  if (layer !== null && shown.layer !== EASIEST && shown.layer !== layer) {
+    byId('layer').value = String(layer);
+    redraw();
+  }
+  const at = [(x0 + x1) / 2, (y0 + y1) / 2];
+  camera.show(at);
+  pointed = { kind, index, at };
+  invalidate();
+  return { thing: { kind, index, at, areas: finder.areasAt(at) }, screen: camera.toScreen(at) };
+}
+
+/** Opens the card of a room or door of the list, as a click on it would. */
+export function openCard(kind, index) {
+  const { thing, screen } = point(kind, index);
+  byId('map-box').scrollIntoView({ block: 'nearest' });
+  openPopover(thing, screen);
+}
+
+/** Makes the map answer. `lead(end, at)` sets the start or the goal to a point. */
+export function startMap(lead) {
+  camera.listen((at, event) => {
+    if (!finder || !shown) return;
+    const thing = thingAt(at, event.pointerType === 'touch' ? 16 : 8);
+    byId('tip').hidden = true;
+    if (event.shiftKey) return lead('goal', thing);
+    if (!model.ask.start) return lead('start', thing);
+    if (!model.ask.goal) return lead('goal', thing);
+    return openPopover(thing, at);
+  }, hover);
+  byId('zoom-in').addEventListener('click', () => camera.zoom(1.4));
+  byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));
+  byId('zoom-fit').addEventListener('click', fit);
+  byId('layer').addEventListener('change', redraw);
+  model.on('map', newMap);
+  model.on('weights preview', redraw);
+  let robot = model.ask.robot;
+  model.on('ask', () => {
+    if (robot === model.ask.robot || !model.map) return;
+    robot = model.ask.robot;
+    layerChoice();
+    redraw();
+  });
+  model.on('route whyNot', invalidate);
+  onTheme(() => {
+    ink = null;
+    redraw();
+  });
+  new ResizeObserver(resize).observe(canvas);
+}

@@ -1,0 +1,45 @@
+/** What the page knows. Whoever shows a part of it listens for its name. */
+
+class Model extends EventTarget {
+  /** `/api/site` */ site = null;
+  /** `/api/map` */ map = null;
+  /** `/api/weights` */ weights = null;
+  /** `/api/tables` */ tables = null;
+  /** What is asked: start, goal, robot. */ ask = { start: '', goal: '', robot: '' };
+  /** `/api/route`, or `{error}` */ route = null;
+  /** `/api/preview` of the edited cells */ preview = null;
+  /** Edited cells that are not saved, by table, key and column. */ pending = new Map();
+  /** The answer to "why not that way?" */ whyNot = null;
+  /** `/api/firm` of the present route */ firm = null;
+  /** The newest generation seen. */ generation = 0;
+  /** Where rooms are in `map.rooms`, by their number. */ roomIndex = new Map();
+  /** Where doors are in `map.doors`, by their number. */ doorIndex = new Map();
+
+  /** Sets one part and tells who listens for it. */
+  set(name, value) {
+    this[name] = value;
+    if (name === 'map') {
+      this.roomIndex = new Map(value.rooms.map((room, index) => [room.room, index]));
+      this.doorIndex = new Map(value.doors.map((door, index) => [door.door, index]));
+    }
+    this.dispatchEvent(new Event(name));
+  }
+
+  /** Calls `act` whenever one of these parts was set. */
+  on(names, act) {
+    for (const name of names.split(' ')) this.addEventListener(name, act);
+  }
+
+  /** Whether whoever looks at the page may do this. */
+  may(role) {
+    const roles = this.site?.roles ?? [];
+    return roles.includes(role) || roles.includes('admin') || (role === 'tell' && roles.includes('tune'));
+  }
+
+  /** The table with this name. */
+  table(name) {
+    return this.tables?.tables.find((table) => table.table === name);
+  }
+}
+
+export const model = new Model();

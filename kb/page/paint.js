@@ -1,0 +1,106 @@
+/** Paints one frame of the map. */
+
+import { Labels, labelFloor } from './labels.js';
+import { model } from './model.js';
+import { hatching } from './palette.js';
+import { colour } from './theme.js';
+import { paintRoutes } from './paint-route.js';
+
+/** Colours and patterns of the present theme, made once until it changes. */
+export function inks(context) {
+  const named = Object.fromEntries(['ink', 'faint', 'paper', 'wall', 'free', 'amber', 'amber-line', 'shut', 'line'].map((name) => [name, colour(name)]));
+  return {
+    ...named,
+    bridge: hatching(context, colour('bridge'), null, 1.6),
+    changed: hatching(context, colour('amber-line'), colour('amber')),
+    barred: hatching(context, colour('shut'), colour('free'), 1.2),
+    unknown: hatching(context, colour('faint'), colour('free'), 1),
+  };
+}
+
+/** Everything, from the floor up to the labels. `shown` is a Drawn, `still` the walls' paths, `find` gives the rooms at a point. */
+export function paint(context, camera, shown, still, ink, pointed, find) {
+  const dense = window.devicePixelRatio || 1;
+  const { clientWidth: width, clientHeight: height } = context.canvas;
+  context.setTransform(dense, 0, 0, dense, 0, 0);
+  context.clearRect(0, 0, width, height);
+  context.fillStyle = ink.paper;
+  context.fillRect(0, 0, width, height);
+  const world = () => context.setTransform(dense * camera.scale, 0, 0, -dense * camera.scale, dense * camera.shift[0], dense * camera.shift[1]);
+  const screen = () => context.setTransform(dense, 0, 0, dense, 0, 0);
+  const pixel = 1 / camera.scale;
+  const tile = new DOMMatrix([pixel, 0, 0, pixel, 0, 0]);
+  for (const pattern of [ink.bridge, ink.changed, ink.barred, ink.unknown]) pattern.setTransform(tile);
+
+  world();
+  context.fillStyle = ink.free;
+  const [x0, y0, x1, y1] = model.map.bounds;
+  context.fillRect(x0, y0, x1 - x0, y1 - y0);
+  for (const group of shown.roomGroups) {
+    context.fillStyle = group.changed ? ink.changed : group.kind >= 0 ? shown.classes.colour(group.kind)
+      : group.kind === -1 ? ink.barred : group.kind === -2 ? ink.unknown : shown.actions.colour(group.action);
+    if (group.kind === -3 && !group.changed) context.globalAlpha = 0.13;
+    context.fill(group.path);
+    context.globalAlpha = 1;
+    context.lineWidth = group.changed ? 1.5 * pixel : 0.6 * pixel;
+    context.strokeStyle = group.changed ? ink['amber-line'] : ink.line;
+    context.stroke(group.path);
+  }
+  context.fillStyle = ink.bridge;
+  context.fill(still.bridges);
+  context.fillStyle = ink.wall;
+  context.fill(still.walls);
+  context.strokeStyle = ink.wall;
+  context.lineWidth = 2 * pixel;
+  context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  context.setLineDash([6 * pixel, 4 * pixel]);
+  context.strokeStyle = ink.ink;
+  context.lineWidth = pixel;
+  context.stroke(still.areas);
+  context.setLineDash([]);
+  paintDoors(context, shown, ink, pixel, Math.max(1.5, Math.min(4.5, camera.scale * 0.6)));
+  context.lineWidth = 4 * pixel;
+  context.strokeStyle = ink.ink;
+  context.stroke(still.namedDoors);
+  if (pointed) outline(context, pointed, ink, pixel);
+
+  screen();
+  const labels = new Labels(context, ink);
+  paintRoutes(context, camera, shown, ink, labels);
+  labelFloor(labels, camera, shown, find);
+}
+
+// `wide` is the width of a door that weighs, in pixels: slim where the whole of a large floor is seen.
+function paintDoors(context, shown, ink, pixel, wide) {
+  for (const group of shown.doorGroups) {
+    context.setLineDash(group.kind === -1 ? [3 * pixel, 3 * pixel] : []);
+    if (group.kind >= 0 && !group.changed && wide > 3) {
+      // A dark line around it: the palest class would not be seen on the floor.
+      context.strokeStyle = ink.ink;
+      context.lineWidth = (wide + 2.5) * pixel;
+      context.stroke(group.path);
+    }
+    context.lineWidth = (group.changed ? wide + 1.5 : group.kind === -2 ? 1.5 : wide) * pixel;
+    context.strokeStyle = group.changed ? ink['amber-line'] : group.kind >= 0 ? shown.classes.colour(group.kind) : group.kind === -1 ? ink.shut : ink.faint;
+    context.stroke(group.path);
+  }
+  context.setLineDash([]);
+}
+
+function outline(context, pointed, ink, pixel) {
+  context.strokeStyle = ink.ink;
+  context.lineWidth = 2 * pixel;
+  if (pointed.kind === 'room') {
+    const [x0, y0, x1, y1] = model.map.rooms[pointed.index].rect;
+    context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+  } else if (pointed.kind === 'door') {
+    const [x0, y0, x1, y1] = model.map.doors[pointed.index].segment;
+    context.lineWidth = 9 * pixel;
+    context.globalAlpha = 0.5;
+    context.beginPath();
+    context.moveTo(x0, y0);
+    context.lineTo(x1, y1);
+    context.stroke();
+    context.globalAlpha = 1;
+  }
+}

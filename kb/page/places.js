@@ -1,0 +1,99 @@
+/** What lies where: rooms and doors by a point, through a grid of buckets. */
+
+const CELLS = 64;
+
+/** Buckets over the map's bounds. */
+export class Buckets {
+  constructor([x0, y0, x1, y1]) {
+    this.origin = [x0, y0];
+    this.size = Math.max((x1 - x0) / CELLS, (y1 - y0) / CELLS, 1e-6);
+    this.buckets = new Map();
+  }
+
+  cells([x0, y0, x1, y1]) {
+    const at = (value, axis) => Math.floor((value - this.origin[axis]) / this.size);
+    const cells = [];
+    for (let i = at(x0, 0); i <= at(x1, 0); i += 1) for (let j = at(y0, 1); j <= at(y1, 1); j += 1) cells.push(i * 100003 + j);
+    return cells;
+  }
+
+  add(rect, index) {
+    for (const cell of this.cells(rect)) {
+      const found = this.buckets.get(cell);
+      if (found) found.push(index);
+      else this.buckets.set(cell, [index]);
+    }
+  }
+
+  near(rect) {
+    const found = new Set();
+    for (const cell of this.cells(rect)) for (const index of this.buckets.get(cell) ?? []) found.add(index);
+    return [...found];
+  }
+}
+
+/** The distance from a point to a segment. */
+export function distanceTo([x, y], [x0, y0, x1, y1]) {
+  const [dx, dy] = [x1 - x0, y1 - y0];
+  const square = dx * dx + dy * dy;
+  const along = square ? Math.max(0, Math.min(1, ((x - x0) * dx + (y - y0) * dy) / square)) : 0;
+  return Math.hypot(x - x0 - along * dx, y - y0 - along * dy);
+}
+
+/** Finds rooms, doors, named doors and places of one map. */
+export class Finder {
+  constructor(map) {
+    this.map = map;
+    this.rooms = new Buckets(map.bounds);
+    this.doors = new Buckets(map.bounds);
+    map.rooms.forEach((room, index) => this.rooms.add(room.rect, index));
+    map.doors.forEach((door, index) => {
+      const [x0, y0, x1, y1] = door.segment;
+      this.doors.add([Math.min(x0, x1), Math.min(y0, y1), Math.max(x0, x1), Math.max(y0, y1)], index);
+    });
+  }
+
+  /** Indices of the rooms at a point, whatever their layer. */
+  roomsAt([x, y]) {
+    return this.rooms.near([x, y, x, y]).filter((index) => {
+      const [x0, y0, x1, y1] = this.map.rooms[index].rect;
+      return x >= x0 && x <= x1 && y >= y0 && y <= y1;
+    });
+  }
+
+  /** The index of the nearest door within reach among those that are drawn, or -1. */
+  doorAt(at, reach, drawn) {
+    const [x, y] = at;
+    let best = -1;
+    let least = reach;
+    for (const index of this.doors.near([x - reach, y - reach, x + reach, y + reach])) {
+      const distance = drawn(index) ? distanceTo(at, this.map.doors[index].segment) : Infinity;
+      if (distance <= least) [best, least] = [index, distance];
+    }
+    return best;
+  }
+
+  /** The named door within reach, or undefined. */
+  namedDoorAt(at, reach) {
+    return this.map.named_doors.find((door) => distanceTo(at, [...door.from, ...door.to]) <= reach);
+  }
+
+  /** The place within reach, or undefined. */
+  placeAt([x, y], reach) {
+    return this.map.places.find((place) => Math.hypot(place.x - x, place.y - y) <= reach);
+  }
+
+  /** Names of the areas around a point. */
+  areasAt([x, y]) {
+    return this.map.areas.filter((area) => inside([x, y], area.polygon));
+  }
+}
+
+function inside([x, y], polygon) {
+  let within = false;
+  for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {
+    const [xi, yi, xj, yj] = [polygon[i], polygon[i + 1], polygon[j], polygon[j + 1]];
+    if (yi > y !== yj > y && x < ((xj - xi) * (y - yi)) / (yj - yi) + xi) within = !within;
+  }
+  return within;
+}

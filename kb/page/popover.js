@@ -1,0 +1,61 @@
+/** What one can do with what lies at a point of the map. */
+
+import { closeDoor, tellWays, why, whyNot } from './answers.js';
+import { button, byId, el, fill } from './dom.js';
+import { list } from './format.js';
+import { model } from './model.js';
+import { endOf, nameOf, weightsOf } from './thing.js';
+import { lead } from './ends.js';
+
+let before = null;
+
+/** Closes it, and gives the focus back to where it was. */
+export function closePopover() {
+  const box = byId('popover');
+  if (box.hidden) return;
+  const inside = box.contains(document.activeElement);
+  box.hidden = true;
+  if (inside) (before ?? byId('canvas')).focus({ preventScroll: true });
+}
+
+/** Opens it at a point of the canvas. */
+export function openPopover(thing, [px, py]) {
+  before = document.activeElement;
+  const box = byId('popover');
+  const act = (text, does) => button(text, () => { closePopover(); return does(); });
+  const { title, text } = weightsOf(thing);
+  const solid = thing.kind === 'wall';
+  const around = thing.areas?.length ? el('p', { class: 'hint', text: `in ${list(thing.areas.map((area) => area.name))}` }) : null;
+  const named = solid ? '' : nameOf(thing);
+  fill(
+    box,
+    el('h3', { text: thing.place ? `${thing.place.place}, ${title}` : title }),
+    el('p', { text }),
+    around,
+    solid ? null : act('Start here', () => lead('start', thing)),
+    solid ? null : act('Go here', () => lead('goal', thing)),
+    solid ? null : act('Why is it so?', () => why(named)),
+    !solid && model.ask.start && model.ask.goal ? act(`Why not through ${named}?`, () => whyNot(named)) : null,
+    ...(model.may('tell') ? tellWays(thing).map(({ text: label, fact }) => act(label, () => closeDoor(fact, label))) : []),
+    button('Close', closePopover, { class: 'quiet' }),
+  );
+  box.hidden = false;
+  place(box, px, py);
+  box.querySelector('button').focus({ preventScroll: true });
+  box.setAttribute('aria-label', `${title}: ${endOf(thing)}`);
+}
+
+function place(box, px, py) {
+  const { clientWidth: width, clientHeight: height } = byId('map-box');
+  const left = px + 12 + box.offsetWidth > width ? px - box.offsetWidth - 12 : px + 12;
+  const top = Math.min(py + 12, height - box.offsetHeight - 8);
+  box.style.setProperty('left', `${Math.max(6, Math.min(left, width - box.offsetWidth - 6))}px`);
+  box.style.setProperty('top', `${Math.max(6, top)}px`);
+}
+
+byId('popover').addEventListener('keydown', (event) => {
+  if (event.key === 'Escape') {
+    event.stopPropagation();
+    closePopover();
+  }
+});

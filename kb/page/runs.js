@@ -1,0 +1,59 @@
+/** The steps of a route as a person would say them. */
+
+import { action, metres } from './format.js';
+import { model } from './model.js';
+
+/**
+ * Steps of one action in a row become one run: {action, metres, cost, steps, end, changes}.
+ * @param {Object} route the answer of `/api/route`
+ */
+export function runs(route) {
+  const made = [];
+  let at = route.waypoints[0];
+  for (const step of route.steps) {
+    let run = made.at(-1);
+    if (!run || run.action !== step.action) {
+      run = { action: step.action, metres: 0, cost: 0, steps: [], change: null };
+      made.push(run);
+    }
+    // The last room of the paper's modes has no way in it that counts: its end is the door.
+    const last = step === route.steps.at(-1) && route.distance === undefined;
+    if (at && !last) run.metres += Math.hypot(step.x - at.x, step.y - at.y);
+    if (!last) at = step;
+    run.cost += step.hardness ?? 0;
+    run.steps.push(step);
+    if (step.kind === 'change') run.change = step;
+  }
+  return made.filter((run) => run.metres > 0 || run.cost > 0 || made.length === 1);
+}
+
+/** Where a run leads: `to door 104`, `to ward 12`, `to where it changes shape`. */
+export function leadsTo(all, index, goal) {
+  if (index === all.length - 1) return `to ${goal}`;
+  const next = all[index + 1].steps[0];
+  if (next.kind === 'door') return `to door ${next.place}`;
+  if (next.kind === 'change') return `then changes shape${next.state ? ` to ${next.state}` : ''}`;
+  return `to room ${next.place}`;
+}
+
+/** A run in words. */
+export const sentence = (all, index, goal) => `${metres(all[index].metres)} ${leadsTo(all, index, goal)}`;
+
+/** One step in words: `room c, 15.2`, `door 28`. */
+export function stepText(step) {
+  const where = step.kind === 'change' ? `change of shape to ${step.state ?? '?'}` : `${step.kind} ${step.place}`;
+  return `${where}: ${action(step.action)}`;
+}
+
+/** What why asks of a run: its dearest step. */
+export function telling(run) {
+  const step = run.steps.reduce((best, one) => ((one.hardness ?? 0) > (best.hardness ?? 0) ? one : best), run.steps[0]);
+  return `${step.kind === 'room' ? 'room' : 'door'} ${step.place}`;
+}
+
+/** The SQL that gives this route's steps from the site's database. */
+export function asSql({ start, goal, robot }) {
+  const text = (value) => `'${value.replaceAll("'", "''")}'`;
+  const whose = (model.site?.robots.length ?? 1) > 1 ? ` AND robot = ${text(robot)}` : '';
+  return `SELECT step, kind, place, action, cost FROM action_sequence WHERE start = ${text(start)} AND goal = ${text(goal)}${whose} ORDER BY step;`;
+}

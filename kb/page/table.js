@@ -1,0 +1,145 @@
+/** The tables beside the map. A cell that is edited shows old and new until it is saved. */
+
+import { byId, el, fill } from './dom.js';
+import { exact, value as inWords } from './format.js';
+import { model } from './model.js';
+import { cellId, discard, editCell, keyName } from './pending.js';
+
+const MOST_ROWS = 200;
+const TITLES = { robots: 'Robot states', changes: 'Changes of shape', loads: 'Loads', hours: 'Opening hours' };
+
+/** What is shown: by table, its structure as text and its cells. */
+const views = new Map();
+
+function structure(table) {
+  return JSON.stringify([table.columns, table.keys, model.may('tune')]);
+}
+
+// The order of rows is no number to tune, and columns in which nothing stands only take room.
+function columnsOf(table) {
+  const names = table.columns.map((column, index) => ({ ...column, index }));
+  const used = ({ index, required }) => required || table.rows.some((row) => row[index] !== null);
+  const oneRobot = (column) => column.key && column.name === 'robot' && table.columns.filter(({ key }) => key).length > 1 && new Set(table.rows.map((row) => row[column.index])).size <= 1;
+  return names.filter((column) => used(column) && !oneRobot(column) && !(table.table === 'robots' && column.name === 'position'));
+}
+
+function build(table, open) {
+  const columns = columnsOf(table);
+  const cells = new Map();
+  const head = el('tr', {}, ...columns.map(({ name, unit }) => el('th', { scope: 'col' }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)));
+  const rows = table.keys.slice(0, MOST_ROWS).map((key, at) => el('tr', { 'data-key': key }, ...columns.map((column) => {
+    if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
+    const cell = makeCell(table, key, column, table.rows[at][column.index]);
+    cells.set(cellId(table.table, key, column.name), { ...cell, at, column });
+    return cell.td;
+  })));
+  const title = TITLES[table.table] ?? table.table;
+  const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows)));
+  const more = table.keys.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${table.keys.length} rows; SQL shows all.` }) : null;
+  const empty = table.keys.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
+  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty);
+  return { node, cells, structure: structure(table) };
+}
+
+function makeCell(table, key, column, value) {
+  const label = `${column.name} of ${keyName(key)}`;
+  const struck = el('s', { class: 'old', hidden: true });
+  const note = el('span', { class: 'note', role: 'status', hidden: true });
+  const input = column.kind === 'truth'
+    ? el('select', { 'aria-label': label }, el('option', { value: '', text: '' }), el('option', { value: 'true', text: 'yes' }), el('option', { value: 'false', text: 'no' }))
+    : el('input', { 'aria-label': label, inputmode: column.kind === 'number' ? 'decimal' : null, spellcheck: 'false', size: column.kind === 'number' ? '5' : '12' });
+  input.value = exact(value);
+  input.disabled = !model.may('tune');
+  const cell = { td: el('td', { class: column.kind }, struck, input, note), input, struck, note, value };
+  const read = () => {
+    const typed = parse(input.value, column);
+    editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed });
+  };
+  input.addEventListener('input', read);
+  input.addEventListener('keydown', (event) => {
+    if (event.key === 'Escape') discard(cellId(table.table, key, column.name));
+    if (event.key === 'Enter') byId('save')?.focus();
+  });
+  return cell;
+}
+
+/** What was typed, as the column's kind; or what is wrong with it. */
+export function parse(text, column) {
+  const typed = text.trim();
+  if (typed === '') return column.required ? { value: '', wrong: 'needs a value' } : { value: null };
+  if (column.kind === 'truth') return { value: typed === 'true' };
+  if (column.kind !== 'number') return { value: typed };
+  const value = Number(typed.replace(',', '.'));
+  return Number.isFinite(value) ? { value } : { value: typed, wrong: 'needs a number' };
+}
+
+function update(table) {
+  const view = views.get(table.table);
+  for (const [id, cell] of view.cells) {
+    const now = table.rows[cell.at][cell.column.index];
+    const pending = model.pending.get(id);
+    cell.value = now;
+    if (!pending && document.activeElement !== cell.input) cell.input.value = exact(now);
+    if (pending && pending.old !== now) warn(cell, pending, now);
+  }
+  const marks = new Map((table.overridden ?? []).map((mark) => [cellId(table.table, mark.key, mark.column), mark]));
+  for (const [id, cell] of view.cells) {
+    const mark = marks.get(id);
+    cell.td.title = mark ? `The tuning ${mark.tuning} says ${inWords(mark.value)} while it is on` : '';
+    cell.td.classList.toggle('overridden', Boolean(mark));
+  }
+}
+
+function warn(cell, pending, now) {
+  cell.td.classList.add('moved');
+  cell.note.textContent = `meanwhile ${inWords(now)}`;
+  cell.note.hidden = false;
+  cell.moved = pending.old;
+}
+
+function tables() {
+  const present = model.tables.tables;
+  const names = new Set(present.map(({ table }) => table));
+  for (const name of [...views.keys()]) if (!names.has(name)) views.delete(name);
+  let anew = views.size !== present.length;
+  for (const table of present) {
+    const known = views.get(table.table);
+    if (known?.structure !== structure(table)) {
+      views.set(table.table, build(table, known?.node.open ?? table.table === 'robots'));
+      anew = true;
+    }
+    update(table);
+  }
+  if (anew) fill(byId('tables'), ...present.map(({ table }) => views.get(table).node));
+  byId('tables-title').hidden = present.length === 1;
+  marks();
+}
+
+/** Shows which cells are edited: old struck through, new beside it. */
+function marks() {
+  for (const view of views.values()) {
+    for (const [id, cell] of view.cells) {
+      const pending = model.pending.get(id);
+      cell.td.classList.toggle('edited', Boolean(pending));
+      cell.struck.hidden = !pending;
+      cell.struck.textContent = pending ? inWords(pending.old) : '';
+      const moved = pending && cell.moved !== undefined && pending.old === cell.moved;
+      if (!moved) {
+        cell.moved = undefined;
+        cell.td.classList.remove('moved');
+        cell.note.hidden = !pending?.wrong;
+        cell.note.textContent = pending?.wrong ?? '';
+      }
+      cell.input.toggleAttribute('aria-invalid', Boolean(pending?.wrong));
+      const shownAs = pending ? exact(pending.value) : exact(cell.value);
+      // While somebody types, `2.` must not become `2` under the hand.
+      if (parse(cell.input.value, cell.column).value !== (pending ? pending.value : cell.value)) cell.input.value = shownAs;
+    }
+  }
+}
+
+/** Shows the tables and keeps them up to date. */
+export function startTables() {
+  model.on('tables', tables);
+  model.on('pending', marks);
+}

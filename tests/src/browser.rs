@@ -1,0 +1,181 @@
+//! A real browser (Chromium, without a window) for the journeys on the page.
+
+use std::io::{BufRead, BufReader};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use fantoccini::elements::Element;
+use fantoccini::{Client, ClientBuilder, Locator};
+use hyper_util::client::legacy::connect::HttpConnector;
+use serde_json::{Value, json};
+
+use crate::service::exchange;
+
+/// How long a journey waits for what must come.
+const PATIENCE: Duration = Duration::from_secs(15);
+
+/// What the browser is seen on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Screen {
+    /// A desk: 1380 x 880.
+    Desktop,
+    /// A phone in the hall: 390 x 844, touched.
+    Phone,
+}
+
+/// Chromium with a page.
+pub struct Browser {
+    driver: Child,
+    address: String,
+    session: String,
+    /// For all that has no word here.
+    pub client: Client,
+}
+
+impl Browser {
+    /// Opens an address.
+    ///
+    /// # Panics
+    /// Where `chromedriver` or `chromium` is missing: `tests/run` installs them.
+    pub async fn open(address: &str, screen: Screen) -> Self {
+        let mut driver = Command::new("chromedriver")
+            .arg("--port=0")
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("chromedriver is installed (tests/run installs it)");
+        let out = BufReader::new(driver.stdout.take().expect("its output is piped"));
+        let port = out
+            .lines()
+            .map_while(Result::ok)
+            .find_map(|line| {
+                let (_, port) = line.split_once("successfully on port ")?;
+                port.trim_end_matches('.').parse::<u16>().ok()
+            })
+            .expect("chromedriver says its port");
+        let mut options = json!({ "args": [
+            "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--force-prefers-reduced-motion",
+            "--window-size=1380,1020", "--lang=en",
+        ] });
+        if screen == Screen::Phone {
+            options["mobileEmulation"] =
+                json!({ "deviceMetrics": { "width": 390, "height": 844, "pixelRatio": 2.0, "touch": true } });
+        }
+        let driver_address = format!("127.0.0.1:{port}");
+        let wishes = json!({ "goog:chromeOptions": options, "unhandledPromptBehavior": "accept" });
+        let client = ClientBuilder::new(HttpConnector::new())
+            .capabilities(wishes.as_object().expect("an object").clone())
+            .connect(&format!("http://{driver_address}"))
+            .await
+            .expect("Chromium starts (tests/run installs it)");
+        let session = client.session_id().await.expect("asked").expect("a session");
+        let browser = Self { driver, address: driver_address, session, client };
+        browser.goto(address).await;
+        browser
+    }
+
+    /// Goes to an address and waits until the map is drawn, where it is the map's.
+    pub async fn goto(&self, address: &str) {
+        self.client.goto(address).await.expect("the page loads");
+        self.until("document.body.dataset.connected === 'true'", "the page follows the service").await;
+    }
+
+    /// The first element that is shown, once there is one.
+    pub async fn find(&self, css: &str) -> Element {
+        self.until(&format!("[...document.querySelectorAll({css:?})].some((e) => e.checkVisibility())"), css)
+            .await;
+        for element in self.client.find_all(Locator::Css(css)).await.expect("a selector") {
+            if element.is_displayed().await.unwrap_or(false) {
+                return element;
+            }
+        }
+        panic!("{css} went away");
+    }
+
+    /// Clicks the first such element; once more where the page has just put another in its place.
+    pub async fn click(&self, css: &str) {
+        let began = Instant::now();
+        while let Err(error) = self.find(css).await.click().await {
+            assert!(began.elapsed() < PATIENCE, "{css} cannot be clicked: {error}");
+            tokio::time::sleep(Duration::from_millis(30)).await;
+        }
+    }
+
+    /// Clicks the button with this text inside an element.
+    pub async fn press(&self, within: &str, text: &str) {
+        let script = format!(
+            "[...document.querySelectorAll('{within} button, {within} a')].find((b) => b.checkVisibility() && b.textContent.includes({text:?}))"
+        );
+        self.until(&format!("Boolean({script})"), &format!("a button `{text}` in {within}")).await;
+        self.run(&format!("{script}.click()")).await;
+    }
+
+    /// Types a text in place of what is there.
+    pub async fn type_into(&self, css: &str, text: &str) {
+        let field = self.find(css).await;
+        field.clear().await.expect("a field");
+        field.send_keys(text).await.expect("typed");
+    }
+
+    /// What an element says, as it is seen.
+    pub async fn text(&self, css: &str) -> String {
+        self.find(css).await.text().await.expect("a text")
+    }
+
+    /// Runs JavaScript on the page and gives what it returns.
+    pub async fn run(&self, script: &str) -> Value {
+        self.client.execute(script, Vec::new()).await.unwrap_or_else(|error| panic!("{script}: {error}"))
+    }
+
+    /// The value of an expression.
+    pub async fn value(&self, expression: &str) -> Value {
+        self.run(&format!("return {expression}")).await
+    }
+
+    /// Waits until an expression is true.
+    #[track_caller]
+    pub fn until<'a>(&'a self, expression: &'a str, what: &'a str) -> impl Future<Output = ()> + 'a {
+        let caller = std::panic::Location::caller();
+        async move {
+            let began = Instant::now();
+            let script = format!("try {{ return Boolean({expression}) }} catch (e) {{ return false }}");
+            while self.run(&script).await != Value::Bool(true) {
+                if began.elapsed() > PATIENCE {
+                    let seen = self.run("return document.body.innerText").await;
+                    let seen = seen.as_str().unwrap_or_default().chars().take(3_000).collect::<String>();
+                    panic!("waited in vain for: {what} ({caller}). The page says:\n{seen}");
+                }
+                tokio::time::sleep(Duration::from_millis(20)).await;
+            }
+        }
+    }
+
+    /// Waits until an element says this.
+    pub async fn says(&self, css: &str, text: &str) {
+        let expression = format!(
+            "[...document.querySelectorAll({css:?})].some((e) => e.checkVisibility() && e.innerText.includes({text:?}))"
+        );
+        self.until(&expression, &format!("{css} says `{text}`")).await;
+    }
+
+    /// A picture of what is seen, to be looked at: `target/screenshots/NAME.png`.
+    pub async fn screenshot(&self, name: &str) {
+        let exe = std::env::current_exe().expect("a test knows its own path");
+        let folder: PathBuf =
+            exe.ancestors().nth(3).expect("tests run in target/PROFILE/deps").join("screenshots");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let picture = self.client.screenshot().await.expect("a picture");
+        std::fs::write(folder.join(format!("{name}.png")), picture).expect("written");
+    }
+}
+
+impl Drop for Browser {
+    fn drop(&mut self) {
+        // The session first: a driver that is killed leaves its browser behind.
+        let path = format!("/session/{}", self.session);
+        let _ = exchange(&self.address, "DELETE", &path, None);
+        let _ = self.driver.kill();
+        let _ = self.driver.wait();
+    }
+}

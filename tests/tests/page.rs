@@ -1,0 +1,38 @@
+//! Journeys of an expert on the page, in a real browser.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+#[path = "page/accessible.rs"]
+mod accessible;
+#[path = "page/ask.rs"]
+mod ask;
+#[path = "page/experience.rs"]
+mod experience;
+#[path = "page/keyboard.rs"]
+mod keyboard;
+#[path = "page/latency.rs"]
+mod latency;
+#[path = "page/live.rs"]
+mod live;
+#[path = "page/rules.rs"]
+mod rules;
+#[path = "page/sql.rs"]
+mod sql;
+#[path = "page/tune.rs"]
+mod tune;
+
+use adit_tests::TestSite;
+use adit_tests::browser::{Browser, Screen};
+use adit_tests::service::Service;
+
+/// An example site, its service and its page at a desk.
+async fn at_a_desk(example: &str, hash: &str) -> (TestSite, Service, Browser) {
+    let site = TestSite::example(example).built();
+    let service = Service::start(&site);
+    let browser = Browser::open(&service.page(hash), Screen::Desktop).await;
+    (site, service, browser)
+}
+
+/// The cell of the table of robots with this state's hardness.
+fn hardness_of(state: &str) -> String {
+    format!("[data-table='robots'] [data-key='robot/{state}'] input[aria-label^='hardness']")
+}

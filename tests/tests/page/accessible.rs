@@ -1,0 +1,95 @@
+//! An accessibility checker (axe-core) finds nothing serious: each tab, light and dark, at a desk and on a phone.
+
+use std::path::PathBuf;
+
+use adit_tests::TestSite;
+use adit_tests::browser::{Browser, Screen};
+use adit_tests::service::Service;
+use serde_json::Value;
+
+fn axe() -> String {
+    let exe = std::env::current_exe().unwrap();
+    let file: PathBuf = exe.ancestors().nth(3).unwrap().join("axe/node_modules/axe-core/axe.min.js");
+    std::fs::read_to_string(file).expect("axe-core is installed (tests/run installs it)")
+}
+
+/// Violations of impact serious or critical: rule and elements.
+async fn violations(browser: &Browser, axe: &str) -> Vec<String> {
+    let script = format!(
+        "const done = arguments[arguments.length - 1]; {axe}; \
+         window.axe.run(document, {{ resultTypes: ['violations'] }}).then((r) => done(r.violations \
+         .filter((v) => ['serious', 'critical'].includes(v.impact)) \
+         .map((v) => v.id + ': ' + v.nodes.map((n) => n.html.slice(0, 120) + ' ' + (n.any[0]?.message ?? '')).join(' | '))), (e) => done(['axe: ' + e]));"
+    );
+    let found = browser.client.execute_async(&script, Vec::new()).await.unwrap();
+    found.as_array().unwrap().iter().filter_map(Value::as_str).map(str::to_owned).collect()
+}
+
+async fn every_tab(screen: Screen) {
+    let site = TestSite::example("clinic").built();
+    let service = Service::start(&site);
+    let axe = axe();
+    let mut all = Vec::new();
+    let browser = Browser::open(&service.page(""), screen).await;
+    for theme in ["light", "dark"] {
+        browser.run(&format!("localStorage.setItem('adit-theme', '{theme}'); location.reload()")).await;
+        browser.until("document.querySelector('#route .runs')", "the way is there").await;
+        for tab in [
+            "map?start=dock&goal=ward%2012",
+            "rules",
+            "sql?q=SELECT%20*%20FROM%20robots",
+            "facts",
+            "experience",
+            "history",
+        ] {
+            let name = tab.split('?').next().unwrap();
+            browser.run(&format!("location.hash = '#{tab}'")).await;
+            browser.find(&format!("[data-tab='{name}']")).await;
+            match name {
+                "map" => {
+                    browser.type_into(&crate::hardness_of("SQUAT"), "7").await;
+                    browser.says("#preview-summary", "otherwise").await;
+                    browser.press("#route .run-more", "Why?").await;
+                    browser.find("#why-card .reasons").await;
+                }
+                "rules" => browser.says("#rules .under", "rule").await,
+                "sql" => browser.says("#sql-answer", "rows").await,
+                _ => {}
+            }
+            tokio::time::sleep(std::time::Duration::from_millis(150)).await;
+            browser.screenshot(&format!("{screen:?}-{theme}-{name}").to_lowercase()).await;
+            for found in violations(&browser, &axe).await {
+                all.push(format!("{screen:?} {theme} {name}: {found}"));
+            }
+            let wide = browser.value("document.documentElement.scrollWidth - innerWidth").await;
+            if wide.as_f64().unwrap() > 0.0 {
+                all.push(format!("{screen:?} {theme} {name}: {wide} pixels too wide"));
+            }
+        }
+        browser.run("location.hash = '#map'").await;
+        browser.press("#preview", "Discard").await;
+    }
+    assert!(all.is_empty(), "{}", all.join("\n"));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn nothing_serious_at_a_desk() {
+    every_tab(Screen::Desktop).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn nothing_serious_on_a_phone() {
+    every_tab(Screen::Phone).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_is_touched_is_as_large_as_a_finger() {
+    let site = TestSite::example("clinic").built();
+    let service = Service::start(&site);
+    let browser = Browser::open(&service.page("#map?start=dock&goal=ward%2012"), Screen::Phone).await;
+    browser.says("#route", "walk").await;
+    let small = "[...document.querySelectorAll('button, nav a, select, input, summary')].filter((e) => e.checkVisibility() \
+        && e.getBoundingClientRect().height < 43.5).map((e) => e.outerHTML.slice(0, 100) + ' ' + e.getBoundingClientRect().height)";
+    let small = browser.value(small).await;
+    assert!(small.as_array().unwrap().is_empty(), "{small:#}");
+}

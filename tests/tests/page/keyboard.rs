@@ -1,0 +1,64 @@
+//! All of it without a mouse.
+
+use adit_tests::browser::Browser;
+
+use crate::at_a_desk;
+
+const TAB: &str = "\u{e004}";
+const ENTER: &str = "\u{e007}";
+const ESCAPE: &str = "\u{e00c}";
+
+async fn press(browser: &Browser, keys: &str) {
+    browser.client.active_element().await.unwrap().send_keys(keys).await.unwrap();
+}
+
+/// Presses Tab until the focus is on what this expression finds in `e`.
+async fn tab_to(browser: &Browser, test: &str) {
+    for _ in 0..80 {
+        press(browser, TAB).await;
+        if browser.value(&format!("((e) => Boolean({test}))(document.activeElement)")).await == true {
+            return;
+        }
+    }
+    panic!("Tab never comes to {test}");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_way_is_asked_a_cell_tuned_and_taken_back_by_keys_alone() {
+    let (_site, _service, browser) = at_a_desk("paper", "").await;
+    browser.says("#route", "Now say where to").await;
+    // The first Tab offers to skip what stands on every page.
+    press(&browser, TAB).await;
+    assert_eq!(browser.value("document.activeElement.id").await, "skip");
+    press(&browser, ENTER).await;
+    tab_to(&browser, "e.id === 'goal'").await;
+    press(&browser, "c").await;
+    press(&browser, ENTER).await;
+    browser.says("#route-title", "home to c").await;
+
+    // The map moves and answers.
+    tab_to(&browser, "e.id === 'canvas'").await;
+    assert_ne!(
+        browser.value("getComputedStyle(document.activeElement).outlineStyle").await,
+        "none",
+        "the focus is seen"
+    );
+    press(&browser, "+").await;
+    press(&browser, "\u{e014}").await;
+    press(&browser, ENTER).await;
+    browser.says("#popover", "Start here").await;
+    press(&browser, ESCAPE).await;
+    browser.until("document.activeElement.id === 'canvas'", "the focus is back on the map").await;
+
+    tab_to(&browser, "e.getAttribute('aria-label') === 'hardness of SQUAT'").await;
+    press(&browser, "\u{e009}a\u{e000}3").await;
+    browser.says("#preview", "SQUAT hardness 4 → 3").await;
+    browser.says("#preview-summary", "otherwise").await;
+    tab_to(&browser, "e.id === 'save'").await;
+    press(&browser, ENTER).await;
+    browser.says("#saved", "4 → 3").await;
+    browser.run("document.getElementById('content').focus()").await;
+    tab_to(&browser, "e.id === 'undo'").await;
+    press(&browser, ENTER).await;
+    browser.says("#saved", "Taken back").await;
+}
