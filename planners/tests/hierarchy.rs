@@ -1,5 +1,5 @@
 //! Ways between any two rooms, prepared: the least cost, whatever was weighed anew before.
-#![allow(clippy::float_cmp)] // infinities, and sums of the same numbers in the same order
+#![allow(clippy::float_cmp, clippy::unwrap_used)] // sums of the same numbers in the same order; helpers of tests
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
