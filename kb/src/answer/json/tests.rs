@@ -28,7 +28,7 @@ fn floor(side: usize) -> SiteGraph {
         height: None,
         width: 4.1,
         hardness: Derived::default(),
-        action: if number % 7 == 0 { Derived::default() } else { Derived::by(1, None, "walk".to_owned()) },
+        action: if number.is_multiple_of(7) { Derived::default() } else { Derived::by(1, None, "walk".to_owned()) },
         passable: Derived::by(2, None, true),
     };
     let pairs = (0..side * side).flat_map(|room| {
@@ -57,9 +57,9 @@ fn door(number: usize, rooms: [usize; 2], all: &[Room]) -> Door {
         width: 4.1,
         segment: [x0, y0, x1, y1],
         hardness: Derived::by(3, None, hardness(number)),
-        action: Derived::by(3, None, if number % 3 == 0 { "side-walk" } else { "walk" }.to_owned()),
-        passable: Derived::by(3, None, number % 31 != 0),
-        one_way: number % 11 == 0,
+        action: Derived::by(3, None, if number.is_multiple_of(3) { "side-walk" } else { "walk" }.to_owned()),
+        passable: Derived::by(3, None, !number.is_multiple_of(31)),
+        one_way: number.is_multiple_of(11),
     }
 }
 
