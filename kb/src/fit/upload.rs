@@ -104,7 +104,7 @@ fn lines(text: &str) -> Vec<Vec<String>> {
     let mut reader = csv::ReaderBuilder::new();
     let reader = reader.delimiter(separator).has_headers(false).flexible(true).trim(csv::Trim::All);
     // a text is read whole and is in UTF-8, so that nothing can fail
-    let lines = reader.from_reader(text.as_bytes()).into_records().map_while(Result::ok);
+    let lines = reader.from_reader(text.as_bytes()).into_records().map_while(std::result::Result::ok);
     let cells = |line: csv::StringRecord| line.iter().map(str::to_owned).collect::<Vec<_>>();
     lines.map(cells).filter(|line| line.iter().any(|cell| !cell.is_empty())).collect()
 }
