@@ -47,7 +47,8 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
                 renew(&shared, generation);
                 changed = Instant::now();
             } else {
-                let patience = if view.routes_due() { QUIET.saturating_sub(changed.elapsed()) } else { PAUSE };
+                let patience =
+                    if view.routes_due() { QUIET.saturating_sub(changed.elapsed()) } else { PAUSE };
                 shared.wait_for_change(generation, patience.max(SHORTEST));
             }
         }
