@@ -121,7 +121,7 @@ export function closeDoor(fact, label) {
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     try {
-      const answer = await post('/api/facts', { ...fact, until: until.value || null, why: reason.value || null });
+      const answer = await post('/api/facts', { ...fact, until: until.value || undefined, why: reason.value || undefined });
       made.remove();
       showSaved(`${label.replace('…', '')}: told.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
       await refresh(answer.generation);

@@ -121,7 +121,7 @@ function settle(id, current) {
 }
 
 async function saveAll() {
-  const why = byId('save-why').value.trim() || null;
+  const why = byId('save-why').value.trim() || undefined;
   const done = [];
   const words = [];
   let generation;

@@ -62,29 +62,19 @@ impl Drop for Service {
 }
 
 /// One request over a connection of its own; the status and the answer's JSON, or its text.
-pub fn request(address: &str, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
-    let answer = exchange(address, method, path, body).expect("somebody answers there");
-    let status = answer.split(' ').nth(1).and_then(|status| status.parse().ok()).expect("a status line");
-    let (_, body) = answer.split_once("\r\n\r\n").expect("headers end");
-    (status, serde_json::from_str(body).unwrap_or(Value::String(body.to_owned())))
-}
-
-/// What comes back for a request: status line, headers, body.
-pub(crate) fn exchange(
-    address: &str,
-    method: &str,
-    path: &str,
-    body: Option<&Value>,
-) -> std::io::Result<String> {
-    let mut stream = TcpStream::connect(address)?;
+fn request(address: &str, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
+    let mut stream = TcpStream::connect(address).expect("somebody listens there");
     let body = body.map(Value::to_string).unwrap_or_default();
     write!(
         stream,
         "{method} {path} HTTP/1.1\r\nHost: {address}\r\nContent-Type: application/json\r\n\
          Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
         body.len()
-    )?;
+    )
+    .expect("sent");
     let mut answer = String::new();
-    stream.read_to_string(&mut answer)?;
-    Ok(answer)
+    stream.read_to_string(&mut answer).expect("an answer in UTF-8");
+    let status = answer.split(' ').nth(1).and_then(|status| status.parse().ok()).expect("a status line");
+    let (_, body) = answer.split_once("\r\n\r\n").expect("headers end");
+    (status, serde_json::from_str(body).unwrap_or(Value::String(body.to_owned())))
 }
