@@ -1,19 +1,21 @@
 //! Answers to "how do I get from here to there": from the kept routes, or computed where none is kept.
 
+mod json;
+mod search;
 mod steps;
 
 use adit_db::route::{Route, Step, Waypoint};
 use adit_db::{Store, Tx};
-use adit_planners::routes::Goal;
-use adit_planners::world::World;
 use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::gauge::Gauge;
-use crate::graph::{End, Rules, SiteGraph};
+use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
-use crate::{generation, reason, states};
+use crate::{generation, states};
+
+pub(crate) use search::{Basis, Reply};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
@@ -145,56 +147,6 @@ impl Answer {
     }
 }
 
-/// What routes are found with.
-pub(crate) struct Basis<'a> {
-    /// The site.
-    pub knowledge: &'a KnowledgeBase,
-    /// Its rooms and doors.
-    pub graph: &'a SiteGraph,
-    /// The rules' names.
-    pub rules: &'a Rules,
-    /// The map.
-    pub world: &'a World,
-    /// What measures clearances.
-    pub gauge: &'a Gauge,
-}
-
-impl Basis<'_> {
-    /// The route to the one of the goals that costs least, into the answer.
-    pub fn search(&self, names: &[String], mut answer: Answer) -> Result<Answer> {
-        let Self { graph, rules, .. } = self;
-        let mut ends = Vec::new();
-        for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
-            let Some(end) = graph.end(name) else {
-                let meant =
-                    did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
-                answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
-                answer.status = if index == 0 { Status::UnknownStart } else { Status::UnknownGoal };
-                return Ok(answer);
-            };
-            ends.push(end);
-        }
-        for end in &ends {
-            check_point(self.world, end)?;
-        }
-        let start = graph.start(&ends[0], Some(&answer.robot));
-        let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(&answer.robot))).collect();
-        let Some((goal, way)) = graph.graph().way(&start, &goals) else {
-            answer.status = Status::NoRoute;
-            let reason = reason::no_route(self.knowledge, graph, rules, &start, &ends, &answer.robot)?;
-            answer.reason = Some(reason);
-            return Ok(answer);
-        };
-        answer.goal.clone_from(&names[goal]);
-        answer.steps = steps::steps(graph, rules, &way, goals[goal].at.is_some());
-        answer.waypoints = steps::waypoints(graph, &way, self.gauge);
-        answer.cost = Some(way.cost);
-        answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
-        answer.status = if way.legs.len() == 1 { Status::SameRoom } else { Status::Ok };
-        Ok(answer)
-    }
-}
-
 /// The kept route that costs least, if routes to all of the goals are kept.
 fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<Option<Route>> {
     let mut best: Option<Route> = None;
@@ -210,21 +162,6 @@ fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<O
         }
     }
     Ok(best)
-}
-
-/// A point of the command line must lie on the floor.
-fn check_point(world: &World, end: &End) -> Result<()> {
-    let End::Point(point) = end else { return Ok(()) };
-    let named = format!("{},{}", point.x, point.y);
-    if !world.bounds.contains(*point) {
-        let b = world.bounds;
-        let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
-        return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
-    }
-    if world.is_solid(*point) {
-        return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
-    }
-    Ok(())
 }
 
 /// The robot that is meant, or the only one.

@@ -6,6 +6,7 @@ use adit_db::robot::State;
 use adit_engine::KnowledgeBase as Inference;
 use adit_planners::clearance::Solids;
 use adit_planners::geometry::Point;
+use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::Way;
 use adit_planners::world::World;
 
@@ -15,6 +16,8 @@ use crate::trees::heading;
 /// Everything solid of a map, and the sizes of the states.
 pub struct Gauge {
     solids: Solids,
+    /// What encloses the obstacles of the map, by index.
+    obstacles: RectIndex,
     /// By robot and state: half the width, and the height; metres.
     sizes: BTreeMap<(String, String), (f64, f64)>,
 }
@@ -24,7 +27,9 @@ impl Gauge {
     pub fn new(world: &World, states: &[State]) -> Self {
         let size =
             |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
-        Self { solids: Solids::new(world), sizes: states.iter().map(size).collect() }
+        let obstacles =
+            RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
+        Self { solids: Solids::new(world), obstacles, sizes: states.iter().map(size).collect() }
     }
 
     /// What is solid in the world, for robots of the sizes that rules concluded.
@@ -38,7 +43,15 @@ impl Gauge {
                 let name = |text: std::sync::Arc<str>| text.to_string();
                 Some(((name(robot?), name(state?)), (width? / 2.0, height?)))
             };
-        Self { solids: Solids::new(world), sizes: names.zip(sizes).filter_map(size).collect() }
+        let obstacles =
+            RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
+        Self { solids: Solids::new(world), obstacles, sizes: names.zip(sizes).filter_map(size).collect() }
+    }
+
+    /// Whether a point of the world lies inside something solid, as [`World::is_solid`] says.
+    pub fn is_solid(&self, world: &World, at: Point) -> bool {
+        let drawn = self.obstacles.at(at).into_iter().any(|index| world.obstacles[index].shape.contains(at));
+        drawn || world.occupancy.as_ref().is_some_and(|cells| cells.is_blocked_at(at))
     }
 
     /// For each leg of a way the least metres between the robot's rim and anything solid since the last bend; `None`

@@ -1,12 +1,18 @@
 //! The graph of a site, for searches: rooms and doors by index, and where points and names lie in it.
 
-use std::collections::BTreeMap;
+mod texts;
+
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use adit_db::door::{Door, DoorWeight};
 use adit_db::place::Place;
 use adit_db::room::{Room, RoomWeight};
 use adit_planners::geometry::{Point, Rect};
+use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+
+pub use texts::{Texts, word};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
 #[derive(Clone)]
@@ -18,8 +24,17 @@ pub struct SiteGraph {
     /// Rows of `places`, by index.
     pub places: Vec<Place>,
     graph: RouteGraph,
-    room_by_key: BTreeMap<i64, usize>,
-    room_by_name: BTreeMap<String, usize>,
+    index: Arc<Index>,
+    texts: Option<Texts>,
+}
+
+/// Where to find what; the same for all copies, however they are weighed.
+struct Index {
+    /// Only looked up in: no order of theirs can reach an answer.
+    room_by_key: HashMap<i64, usize>,
+    room_by_name: HashMap<String, usize>,
+    place_by_name: HashMap<String, usize>,
+    rooms: RectIndex,
 }
 
 /// Names of the rules by their number.
@@ -39,14 +54,33 @@ pub enum End {
 impl SiteGraph {
     /// Indexes the tables.
     pub fn new(rooms: Vec<Room>, doors: Vec<Door>, places: Vec<Place>) -> Self {
-        let room_by_key: BTreeMap<i64, usize> =
-            rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
-        let room_by_name = rooms.iter().enumerate().map(|(index, room)| (room.name.clone(), index)).collect();
+        let room_by_key = rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
         let route_rooms =
             rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking_in(room) }).collect();
         let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
         let graph = RouteGraph::new(route_rooms, route_doors);
-        Self { rooms, doors, places, graph, room_by_key, room_by_name }
+        let named = |(index, room): (usize, &Room)| (room.name.clone(), index);
+        // of places of one name the first counts
+        let placed = |(index, place): (usize, &Place)| (place.place.clone(), index);
+        let index = Index {
+            room_by_key,
+            room_by_name: rooms.iter().enumerate().map(named).collect(),
+            place_by_name: places.iter().enumerate().rev().map(placed).collect(),
+            rooms: RectIndex::new(rooms.iter().map(rect_of)),
+        };
+        Self { rooms, doors, places, graph, index: Arc::new(index), texts: None }
+    }
+
+    /// Makes answers quick between any two ends. Copies made from now on are prepared, too.
+    pub fn prepare(&mut self) {
+        self.graph.prepare();
+        self.texts.get_or_insert_with(|| Texts::new(self.rooms.len(), self.doors.len()));
+    }
+
+    /// What answers over doors say of rooms and doors; `None` where it is not [prepared](Self::prepare), or rooms weigh
+    /// their metres.
+    pub fn texts(&self) -> Option<&Texts> {
+        self.texts.as_ref().filter(|_| self.graph.is_on_doors())
     }
 
     /// The graph that is searched.
@@ -56,6 +90,31 @@ impl SiteGraph {
 
     /// Gives rooms and doors other weights, by index.
     pub fn write(&mut self, rooms: &[(usize, RoomWeight)], doors: &[(usize, DoorWeight)]) {
+        self.put(rooms, doors);
+        self.weigh(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _)| *row));
+    }
+
+    /// Takes over the weights of some rooms and doors of another copy, and gives some other weights, by index.
+    pub fn follow(
+        &mut self,
+        from: &Self,
+        (late_rooms, late_doors): (&[usize], &[usize]),
+        rooms: &[(usize, RoomWeight)],
+        doors: &[(usize, DoorWeight)],
+    ) {
+        for &row in late_rooms {
+            self.rooms[row].clone_from(&from.rooms[row]);
+        }
+        for &row in late_doors {
+            self.doors[row].clone_from(&from.doors[row]);
+        }
+        self.put(rooms, doors);
+        let rooms = late_rooms.iter().copied().chain(rooms.iter().map(|(row, _)| *row));
+        let doors = late_doors.iter().copied().chain(doors.iter().map(|(row, _)| *row));
+        self.weigh(rooms, doors);
+    }
+
+    fn put(&mut self, rooms: &[(usize, RoomWeight)], doors: &[(usize, DoorWeight)]) {
         for (row, weight) in rooms {
             let room = &mut self.rooms[*row];
             (room.hardness, room.action) = (weight.hardness.clone(), weight.action.clone());
@@ -66,18 +125,6 @@ impl SiteGraph {
             (door.hardness, door.action) = (weight.hardness.clone(), weight.action.clone());
             door.passable = weight.passable.clone();
         }
-        self.weigh(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _)| *row));
-    }
-
-    /// Takes over the weights of some rooms and doors of another copy.
-    pub fn copy_rows(&mut self, from: &Self, rooms: &[usize], doors: &[usize]) {
-        for &row in rooms {
-            self.rooms[row].clone_from(&from.rooms[row]);
-        }
-        for &row in doors {
-            self.doors[row].clone_from(&from.doors[row]);
-        }
-        self.weigh(rooms.iter().copied(), doors.iter().copied());
     }
 
     /// Lets searches see the weights of these rows.
@@ -88,12 +135,16 @@ impl SiteGraph {
             let door = &rows.1[row];
             (row, door.hardness.value, door.passable.value.unwrap_or(false))
         });
+        let (rooms, doors): (Vec<_>, Vec<_>) = (rooms.collect(), doors.collect());
+        if let Some(texts) = &mut self.texts {
+            texts.forget(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _, _)| *row));
+        }
         self.graph.reweigh(rooms, doors);
     }
 
     /// Index of the room with this key.
     pub fn room(&self, key: i64) -> Option<usize> {
-        self.room_by_key.get(&key).copied()
+        self.index.room_by_key.get(&key).copied()
     }
 
     /// The door with this key.
@@ -121,10 +172,10 @@ impl SiteGraph {
 
     /// What a name means: a place, a room, or `x,y`.
     pub fn end(&self, name: &str) -> Option<End> {
-        if let Some(index) = self.places.iter().position(|place| place.place == name) {
-            return Some(End::Place(index));
+        if let Some(index) = self.index.place_by_name.get(name) {
+            return Some(End::Place(*index));
         }
-        if let Some(index) = self.room_by_name.get(name) {
+        if let Some(index) = self.index.room_by_name.get(name) {
             return Some(End::Room(*index));
         }
         let (x, y) = name.split_once(',')?;
@@ -157,13 +208,14 @@ impl SiteGraph {
         let at = self.point(end);
         let mut layers = Vec::new();
         let mut found = Vec::new();
-        for (index, room) in self.rooms.iter().enumerate() {
+        for index in self.index.rooms.at(at) {
+            let room = &self.rooms[index];
             let of_robot = match (&room.layer, robot) {
                 (Some((of, _)), Some(robot)) => of == robot,
                 _ => true,
             };
             let layer = (&room.layer, room.facing);
-            if of_robot && is_weighed(room) && rect_of(room).contains(at) && !layers.contains(&layer) {
+            if of_robot && is_weighed(room) && !layers.contains(&layer) {
                 layers.push(layer);
                 found.push(index);
             }
@@ -218,7 +270,7 @@ fn walking_in(room: &Room) -> Walking {
     walking(room.hardness.value, room.passable.value, room.layer.is_some())
 }
 
-fn route_door(door: &Door, rooms: &BTreeMap<i64, usize>) -> Option<RouteDoor> {
+fn route_door(door: &Door, rooms: &HashMap<i64, usize>) -> Option<RouteDoor> {
     let [x0, y0, x1, y1] = door.segment;
     Some(RouteDoor {
         door: u32::try_from(door.door).ok()?,

@@ -46,6 +46,8 @@ pub struct Live {
     site: Arc<KnowledgeBase>,
     store: Store,
     memory: Memory,
+    /// Whether ways between any two rooms are kept ready.
+    is_prepared: bool,
 }
 
 struct Memory {
@@ -115,11 +117,11 @@ impl Live {
     pub fn open(site: KnowledgeBase) -> Result<Self> {
         if let Some(live) = Self::of_built(&site)? {
             let (store, memory) = live;
-            return Ok(Self { site: Arc::new(site), store, memory });
+            return Ok(Self { site: Arc::new(site), store, memory, is_prepared: false });
         }
         site.build(&Silent)?;
         match Self::of_built(&site)? {
-            Some((store, memory)) => Ok(Self { site: Arc::new(site), store, memory }),
+            Some((store, memory)) => Ok(Self { site: Arc::new(site), store, memory, is_prepared: false }),
             None => Err(Error::said(
                 "live/stale",
                 "the site's tables were edited while it was opened",
@@ -148,6 +150,13 @@ impl Live {
         let memory = &self.memory;
         let lost = memory.base.told.lost(&memory.base.attached);
         memory.inputs.notes.iter().chain(&memory.base.told.notes).cloned().chain(lost).collect()
+    }
+
+    /// Keeps ways between any two rooms ready, from now on: an answer then takes microseconds where all hardness lies on the
+    /// doors, and each edit a little longer.
+    pub fn prepare(&mut self) {
+        self.is_prepared = true;
+        self.memory.routes.prepare();
     }
 
     /// Lets others read the database while edits are written.
@@ -185,7 +194,7 @@ impl Live {
 
     /// Writes what follows from an edit, or from the clock alone, in one transaction.
     fn follow(&mut self, edit: Option<(&Edit, &Author)>) -> std::result::Result<Outcome, Stop> {
-        let Self { site, store, memory } = self;
+        let Self { site, store, memory, .. } = self;
         let mut prepared = None;
         let mut clock = Clock::new();
         let outcome = store.transaction(|tx| -> std::result::Result<(), Stop> {
@@ -280,6 +289,9 @@ impl Live {
             return Err(Error::said("live/stale", "the site's tables were edited meanwhile", help));
         };
         (self.store, self.memory) = (store, memory);
+        if self.is_prepared {
+            self.memory.routes.prepare();
+        }
         Ok(())
     }
 

@@ -43,6 +43,7 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     }
     let mut live = Live::open(settings.open()?)?;
     live.share()?;
+    live.prepare();
     let (jobs, waiting) = sync_channel(QUEUE);
     let shared = Arc::new(Shared::new(settings, desk::seen(&live), tokens, jobs));
     let desk = desk::start(live, Arc::clone(&shared), waiting)?;

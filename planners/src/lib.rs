@@ -14,6 +14,7 @@ pub mod overlays;
 pub mod planner;
 pub mod prime_areas;
 pub mod read;
+pub mod rect_index;
 pub mod rooms;
 pub mod routes;
 mod skyline;

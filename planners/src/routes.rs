@@ -1,6 +1,7 @@
 //! Routes of least total hardness over rooms and doors.
 //!
-//! Where all hardness lies on the doors (the paper's Table 6), the search is Dijkstra's ([`Tree`]);
+//! Where all hardness lies on the doors (the paper's Table 6), the search is Dijkstra's ([`Tree`]), or goes up and down a
+//! hierarchy of rooms where one was [prepared](RouteGraph::prepare);
 //! [petgraph](https://docs.rs/petgraph) holds the graph and is the reference that tests compare with. Its `dijkstra`
 //! returns no predecessors and cannot tell two doors between the same rooms apart, so the loop is our own.
 //!
@@ -11,6 +12,7 @@ mod blocked;
 mod compact;
 mod cone;
 mod gates;
+mod hierarchy;
 mod lazy;
 mod mesh;
 mod on_doors;
@@ -25,6 +27,7 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::geometry::{Point, Rect};
 use gates::Gate;
+use hierarchy::Hierarchy;
 use mesh::Mesh;
 use taut::{Outcome, Search, Wanted};
 
@@ -41,6 +44,12 @@ pub struct RouteRoom {
     pub rect: Rect,
     /// What walking in it weighs.
     pub walking: Walking,
+}
+
+impl RouteRoom {
+    fn is_measured(&self) -> bool {
+        matches!(self.walking, Walking::PerMetre(_))
+    }
 }
 
 /// What walking in a room weighs.
@@ -130,7 +139,11 @@ enum Passing {
 pub struct RouteGraph {
     rooms: Vec<RouteRoom>,
     doors: Vec<RouteDoor>,
-    graph: DiGraph<(), u32>,
+    /// How many rooms weigh their metres.
+    measured: usize,
+    /// The rooms joined by the doors that can be passed, when first asked for.
+    graph: OnceLock<DiGraph<(), u32>>,
+    hierarchy: Option<Hierarchy>,
     mesh: Mesh,
     /// For each end of a door whether a way may bend there.
     bends: Vec<bool>,
@@ -146,16 +159,33 @@ impl RouteGraph {
         let mesh = Mesh::new(&rooms, &doors);
         let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
         let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
-        let graph = DiGraph::default();
-        let mut all = Self { rooms, doors, graph, mesh, bends, passing, gates };
+        let measured = rooms.iter().filter(|room| room.is_measured()).count();
+        let graph = OnceLock::new();
+        let mut all = Self { rooms, doors, measured, graph, hierarchy: None, mesh, bends, passing, gates };
         all.passing = (0..all.doors.len()).map(|door| all.passing_of(door)).collect();
         all.find_bends(&(0..all.doors.len()).collect::<Vec<_>>());
-        all.join();
         all
     }
 
+    /// Makes [`way`](Self::way) quick between any two rooms, where all hardness lies on the doors; elsewhere it does
+    /// nothing. What is prepared follows [`reweigh`](Self::reweigh), and clones share what does not hang on weights.
+    ///
+    /// It takes about half a second for 100,000 doors.
+    pub fn prepare(&mut self) {
+        if self.hierarchy.is_none() && self.is_on_doors() {
+            let passing = (0..self.doors.len()).map(|door| self.passing_both_ways(door)).collect();
+            self.hierarchy = Some(Hierarchy::new(&self.rooms, &self.doors, passing));
+        }
+    }
+
+    /// What passing a door weighs from its first room and from its second; infinite where it is not passed.
+    fn passing_both_ways(&self, door: usize) -> [f64; 2] {
+        let weight = self.passage(door).unwrap_or(f64::INFINITY);
+        [weight, if self.doors[door].one_way { f64::INFINITY } else { weight }]
+    }
+
     /// Joins the rooms by the doors that can be passed.
-    fn join(&mut self) {
+    fn joined(&self) -> DiGraph<(), u32> {
         let mut graph = DiGraph::with_capacity(self.rooms.len(), self.doors.len() * 2);
         for _ in &self.rooms {
             graph.add_node(());
@@ -167,45 +197,73 @@ impl RouteGraph {
                 graph.add_edge(b, a, index as u32);
             }
         }
-        self.graph = graph;
+        graph
     }
 
     /// Weighs rooms and doors anew, by index; what is not named stays as it is.
+    ///
+    /// Where all hardness lies on the doors, and no room comes to weigh or to be entered otherwise, it takes as long as
+    /// there are doors named, and ways that lead through them.
     pub fn reweigh(
         &mut self,
         rooms: impl IntoIterator<Item = (usize, Walking)>,
         doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
     ) {
-        let orders: Vec<Ordering> = (0..self.doors.len()).map(|door| self.order(door)).collect();
-        let mut is_other_price = false;
-        for (room, walking) in rooms {
-            self.rooms[room].walking = walking;
+        let was_on_doors = self.is_on_doors();
+        let (mut touched, mut orders, mut is_other_price) = (Vec::new(), Vec::new(), false);
+        let rooms: Vec<(usize, Walking)> =
+            rooms.into_iter().filter(|(room, walking)| self.rooms[*room].walking != *walking).collect();
+        if !rooms.is_empty() {
+            touched = (0..self.doors.len()).collect();
+            orders = touched.iter().map(|&door| self.order(door)).collect();
         }
+        for (room, walking) in rooms {
+            let room = &mut self.rooms[room];
+            self.measured -= usize::from(room.is_measured());
+            room.walking = walking;
+            self.measured += usize::from(room.is_measured());
+        }
+        let is_all = !touched.is_empty();
         for (door, hardness, passable) in doors {
             let before = self.doors[door].weight();
             (self.doors[door].hardness, self.doors[door].passable) = (hardness, passable);
             is_other_price |= self.doors[door].is_change() && self.doors[door].weight() != before;
-        }
-        let changed: Vec<usize> =
-            (0..self.doors.len()).filter(|&door| self.passing[door] != self.passing_of(door)).collect();
-        let is_shut = |passing: Passing| passing == Passing::Shut;
-        let mut is_joined_anew = false;
-        for &door in &changed {
-            let now = self.passing_of(door);
-            is_joined_anew |= is_shut(now) != is_shut(self.passing[door]);
-            self.passing[door] = now;
-        }
-        if is_joined_anew {
-            self.join();
-        }
-        self.find_bends(&changed);
-        // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
-        let all = is_other_price || !changed.is_empty();
-        for (door, before) in orders.into_iter().enumerate() {
-            if all || before != self.order(door) {
-                self.gates[door] = [OnceLock::new(), OnceLock::new()];
+            if !is_all {
+                touched.push(door);
             }
         }
+        let changed: Vec<usize> =
+            touched.iter().copied().filter(|&door| self.passing[door] != self.passing_of(door)).collect();
+        let is_shut = |passing: Passing| passing == Passing::Shut;
+        for &door in &changed {
+            let now = self.passing_of(door);
+            if is_shut(now) != is_shut(self.passing[door]) {
+                self.graph.take();
+            }
+            self.passing[door] = now;
+        }
+        self.find_bends(&changed);
+        self.reweigh_hierarchy(&touched);
+        if was_on_doors && self.is_on_doors() {
+            return;
+        }
+        // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
+        if is_other_price || !changed.is_empty() {
+            self.gates.fill_with(Default::default);
+        } else {
+            for (door, before) in orders.into_iter().enumerate() {
+                if before != self.order(door) {
+                    self.gates[door] = Default::default();
+                }
+            }
+        }
+    }
+
+    /// Weighs these doors, by index, anew where ways between any two rooms are prepared.
+    fn reweigh_hierarchy(&mut self, doors: &[usize]) {
+        let Some(mut hierarchy) = self.hierarchy.take() else { return };
+        hierarchy.reweigh(doors.iter().map(|&door| (door as u32, self.passing_both_ways(door))));
+        self.hierarchy = Some(hierarchy);
     }
 
     /// Finds about which ends of these doors a way may bend.
@@ -240,7 +298,14 @@ impl RouteGraph {
     /// Where rooms weigh metres, the way is the shortest one of its kind to within the rounding of numbers between
     /// points where hardness changes or a shape is changed, and those points are the best ones near the
     /// best of points at most half a metre apart.
+    ///
+    /// Where all hardness lies on the doors, and ways are [prepared](Self::prepare), nothing is looked at but what lies
+    /// above start and goal in the hierarchy; elsewhere [`tree`](Self::tree) finds the way. Both cost the same; where
+    /// several ways do, they may give different ones.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
+        if let Some(hierarchy) = self.hierarchy.as_ref().filter(|_| self.is_on_doors()) {
+            return self.way_by(hierarchy, start, goals);
+        }
         if self.is_on_doors() {
             let all = self.ways(start, goals, false).goals.into_iter().enumerate();
             let ways = all.filter_map(|(goal, way)| Some((goal, way?)));
@@ -281,7 +346,7 @@ impl RouteGraph {
 
     /// Whether no room weighs its metres.
     pub fn is_on_doors(&self) -> bool {
-        !self.rooms.iter().any(|room| matches!(room.walking, Walking::PerMetre(_)))
+        self.measured == 0
     }
 
     /// For each room whether open doors join it with one of these.
@@ -315,6 +380,6 @@ impl RouteGraph {
 
     /// petgraph's graph of the passable doors; edge weights are indices into [`RouteGraph::doors`].
     pub fn petgraph(&self) -> &DiGraph<(), u32> {
-        &self.graph
+        self.graph.get_or_init(|| self.joined())
     }
 }

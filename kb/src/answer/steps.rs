@@ -5,26 +5,26 @@ use adit_db::route::{Step, Waypoint};
 use adit_planners::routes::{Leg, Way};
 
 use crate::gauge::{Gauge, bends, headings};
-use crate::graph::{Rules, SiteGraph};
+use crate::graph::{Rules, SiteGraph, word};
 use crate::trees::heading;
 
 /// The steps of a way; where it does not lead to a point, nothing is walked in the last room.
 pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::with_capacity(way.legs.len() * 2);
+    let mut before = 0.0;
     for (index, leg) in way.legs.iter().enumerate() {
-        let weight = leg.door.and_then(|door| graph.graph().doors()[door].weight()).unwrap_or(0.0);
         let is_goal = leg.door.is_none();
         let heading = heading(leg.from, leg.to).filter(|_| !is_goal || to_point);
-        steps.push(Step { heading, ..room_step(graph, rules, leg, leg.cost - weight) });
-        let Some(door) = leg.door else { continue };
-        let Some(door) = graph.door(i64::from(graph.graph().doors()[door].door)) else { continue };
-        let (kind, layer_of) = match door.kind {
-            DoorKind::Door => ("door", leg.room),
-            DoorKind::Change => ("change", way.legs.get(index + 1).map_or(leg.room, |next| next.room)),
+        steps.push(Step { heading, ..room_step(graph, rules, leg, before + leg.hardness) });
+        before = leg.cost;
+        let Some(door) = leg.door.map(|door| &graph.doors[door]) else { continue };
+        let layer_of = match door.kind {
+            DoorKind::Door => leg.room,
+            DoorKind::Change => way.legs.get(index + 1).map_or(leg.room, |next| next.room),
         };
         steps.push(Step {
             step: 0,
-            kind: kind.to_owned(),
+            kind: word(door.kind).to_owned(),
             place: door.door.to_string(),
             state: graph.rooms[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
             action: door.action.value.clone(),

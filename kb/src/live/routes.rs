@@ -71,6 +71,11 @@ impl KeptRoutes {
         self.graph.shown()
     }
 
+    /// Keeps ways between any two rooms ready.
+    pub fn prepare(&mut self) {
+        self.graph.prepare();
+    }
+
     /// The trees that are kept.
     pub fn plan(&self) -> &Plan {
         &self.plan

@@ -34,6 +34,13 @@ impl Twin {
         Self { shown: Arc::new(graph), other: None, lag: Lag::default() }
     }
 
+    /// Keeps ways between any two rooms ready, in both copies.
+    pub fn prepare(&mut self) {
+        let mut graph = SiteGraph::clone(&self.shown);
+        graph.prepare();
+        *self = Self::new(graph);
+    }
+
     /// The graph as it was committed last.
     pub fn shown(&self) -> &Arc<SiteGraph> {
         &self.shown
@@ -45,14 +52,14 @@ impl Twin {
     pub fn write(&mut self, written: &Written) -> &SiteGraph {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
-        let mut graph = match free {
-            Some(mut graph) => {
-                graph.copy_rows(&self.shown, &lag.rooms, &lag.doors);
-                graph
-            }
-            None => SiteGraph::clone(&self.shown),
+        let graph = if let Some(mut graph) = free {
+            graph.follow(&self.shown, (&lag.rooms, &lag.doors), &written.rooms, &written.doors);
+            graph
+        } else {
+            let mut graph = SiteGraph::clone(&self.shown);
+            graph.write(&written.rooms, &written.doors);
+            graph
         };
-        graph.write(&written.rooms, &written.doors);
         self.lag.note(written);
         self.other.insert(Arc::new(graph))
     }

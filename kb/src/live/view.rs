@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adit_planners::routes::Goal;
 
 use super::Live;
-use crate::answer::{self, Answer};
+use crate::answer::{self, Answer, Reply};
 use crate::error::Result;
 use crate::gauge::Gauge;
 use crate::graph::{End, Rules, SiteGraph};
@@ -52,6 +52,13 @@ impl View {
         let robot = answer::pick(&self.robots, robot)?;
         let blank = Answer::blank(&robot, start, goals, self.generation);
         self.basis().search(goals, blank)
+    }
+
+    /// As [`route`](Self::route), as JSON where there is a route.
+    pub(crate) fn route_reply(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Reply> {
+        let robot = answer::pick(&self.robots, robot)?;
+        let blank = Answer::blank(&robot, start, goals, self.generation);
+        self.basis().reply(goals, blank)
     }
 
     fn basis(&self) -> answer::Basis<'_> {

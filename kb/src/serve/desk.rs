@@ -126,7 +126,7 @@ impl Desk {
             anew: outcome.anew,
             at: seen.since.clone(),
         };
-        self.shared.view.store(Arc::new(seen));
+        self.shared.show(seen);
         self.shared.say(Event::new("changed", &changed));
     }
 
@@ -134,10 +134,8 @@ impl Desk {
     pub fn keep(&mut self, renewal: &Renewal, trees: Vec<(i64, Vec<TreeRow>)>, last: bool) -> bool {
         match self.live.keep(renewal, trees, last) {
             Ok(true) => {
-                self.shared.view.store(Arc::new(Seen {
-                    since: self.shared.view.load().since.clone(),
-                    ..seen(&self.live)
-                }));
+                let since = self.shared.view.load().since.clone();
+                self.shared.show(Seen { since, ..seen(&self.live) });
                 true
             }
             Ok(false) => false,
@@ -157,11 +155,12 @@ impl Desk {
             self.take_files();
         }
         self.looked = Some(now);
-        let outcome = self.live.catch_up();
-        self.report(
-            outcome,
-            &Cause::itself("another program", "tables were edited, or the time of a fact is over"),
-        );
+        match self.live.catch_up() {
+            Ok(Some(outcome)) if !outcome.anew => {
+                self.publish(&outcome, &Cause::itself("clock", "the time of a fact or of opening hours is over"));
+            }
+            outcome => self.report(outcome, &Cause::itself("another program", "tables were edited")),
+        }
     }
 
     fn look(&mut self) -> Files {

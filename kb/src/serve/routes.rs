@@ -15,8 +15,9 @@ use crate::live::{Renewal, View};
 /// How long no change may come before kept routes are found anew.
 const QUIET: Duration = Duration::from_millis(400);
 
-/// How often it is looked whether something changed.
-const PAUSE: Duration = Duration::from_millis(5);
+/// How long it is waited for a change before it is looked whether the service ends.
+const PAUSE: Duration = Duration::from_millis(500);
+const SHORTEST: Duration = Duration::from_millis(1);
 
 /// Up to so many pairs of places are compared; a site with more is asked for what is of interest.
 const PAIRS: usize = 5_000;
@@ -46,7 +47,8 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
                 renew(&shared, generation);
                 changed = Instant::now();
             } else {
-                thread::sleep(PAUSE);
+                let patience = if view.routes_due() { QUIET.saturating_sub(changed.elapsed()) } else { PAUSE };
+                shared.wait_for_change(generation, patience.max(SHORTEST));
             }
         }
     };

@@ -1,8 +1,9 @@
 //! What all requests share: the view that they read, the way to the one who writes, and the stream of events.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::time::Duration;
 
 use adit_db::{Store, Tx};
 use arc_swap::ArcSwap;
@@ -40,6 +41,7 @@ pub struct Shared {
     /// Places of requests that are worked on.
     pub places: Semaphore,
     jobs: SyncSender<Job>,
+    shown: (Mutex<u64>, Condvar),
     readers: Readers,
     subscribers: AtomicUsize,
 }
@@ -61,6 +63,7 @@ impl Shared {
     /// Of a site that was just opened.
     pub fn new(settings: Settings, seen: Seen, tokens: Tokens, jobs: SyncSender<Job>) -> Self {
         Self {
+            shown: (Mutex::new(seen.view.generation()), Condvar::new()),
             readers: Readers::new(seen.view.site().database()),
             view: ArcSwap::from_pointee(seen),
             tokens: ArcSwap::from_pointee(tokens),
@@ -114,6 +117,20 @@ impl Shared {
         let shared = Arc::clone(self);
         let done = tokio::task::spawn_blocking(move || shared.readers.with(work));
         done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+    }
+
+    /// Shows the site as it now is.
+    pub fn show(&self, seen: Seen) {
+        let generation = seen.view.generation();
+        self.view.store(Arc::new(seen));
+        *self.shown.0.lock().unwrap_or_else(PoisonError::into_inner) = generation;
+        self.shown.1.notify_all();
+    }
+
+    /// Waits until another state is shown than that of this number, or the time is over.
+    pub fn wait_for_change(&self, generation: u64, patience: Duration) {
+        let shown = self.shown.0.lock().unwrap_or_else(PoisonError::into_inner);
+        drop(self.shown.1.wait_timeout_while(shown, patience, |shown| *shown == generation));
     }
 
     /// Tells subscribers; nobody may be there.

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use adit_db::Cell;
 use adit_db::history::Author;
 use axum::Json;
 use serde::{Deserialize, Serialize};
@@ -240,7 +241,12 @@ pub fn words(edit: &Edit, outcome: &Outcome) -> String {
             format!("tuning {tuning}: no {table}.{row}.{column} any more")
         }
         Edit::Switch(tuning, on) => format!("tuning {tuning} is {}", if *on { "on" } else { "off" }),
-        Edit::Undo(_) => format!("undone: {key}: {old} → {new}"),
+        Edit::Undo(_) => match (old, new) {
+            // a row as JSON says too much
+            (Cell::Text(row), Cell::Null) if row.starts_with('{') => format!("undone: {key} is gone again"),
+            (Cell::Null, Cell::Text(row)) if row.starts_with('{') => format!("undone: {key} is back"),
+            _ => format!("undone: {key}: {old} → {new}"),
+        },
     }
 }
 

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::RawQuery;
-use axum::http::StatusCode;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse, Response};
 
 use super::Site;
-use crate::answer::{Answer, Status};
+use crate::answer::{Answer, Reply, Status};
 use crate::live::View;
 use crate::serve::fault::{Answered, Failure, Fault};
 
@@ -44,12 +45,17 @@ impl Question {
         }
     }
 
-    fn answer(&self, view: &View) -> Answered<Answer> {
-        let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
+    fn answer(&self, view: &View) -> Answered<Response> {
+        let answer = match view.route_reply(&self.start, &self.goals, self.robot.as_deref())? {
+            Reply::Json(text) => {
+                return Ok(([(header::CONTENT_TYPE, "application/json")], text).into_response());
+            }
+            Reply::Answer(answer) => answer,
+        };
         let code = match answer.status {
             Status::UnknownStart => "route/unknown-start",
             Status::UnknownGoal => "route/unknown-goal",
-            Status::Ok | Status::SameRoom | Status::NoRoute => return Ok(answer),
+            Status::Ok | Status::SameRoom | Status::NoRoute => return Ok(Json(answer).into_response()),
         };
         Err(Fault::new(StatusCode::NOT_FOUND, code, answer.reason.unwrap_or_default()))
     }
@@ -65,13 +71,13 @@ impl Question {
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
     ),
     responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
-pub async fn route(axum::extract::State(shared): Site, RawQuery(query): RawQuery) -> Answered<Json<Answer>> {
+pub async fn route(axum::extract::State(shared): Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     let seen = Arc::clone(&shared.view.load());
     // over doors an answer takes microseconds, over measured rooms milliseconds
     if seen.view.graph().graph().is_on_doors() {
-        return question.answer(&seen.view).map(Json);
+        return question.answer(&seen.view);
     }
     let answer = tokio::task::spawn_blocking(move || question.answer(&seen.view));
-    answer.await.map_err(|_| Fault::internal())?.map(Json)
+    answer.await.map_err(|_| Fault::internal())?
 }

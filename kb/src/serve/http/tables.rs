@@ -28,7 +28,7 @@ struct TableOf {
     keys: Vec<String>,
     /// A value for each column.
     #[schema(value_type = Vec<Vec<Object>>)]
-    rows: Vec<Vec<Cell>>,
+    rows: Vec<Vec<serde_json::Value>>,
     /// Cells that a tuning which is on sets otherwise.
     overridden: Vec<Overridden>,
 }
@@ -98,20 +98,33 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
     let all_keys = crate::tables::keys(relation);
     TableOf {
         table: relation.name.clone(),
-        columns: relation.columns.iter().map(column).collect(),
+        columns: relation.columns.iter().map(|known| column(relation, known)).collect(),
         keys: rows.iter().map(|row| all_keys[*row].clone()).collect(),
         rows: rows
             .iter()
-            .map(|row| relation.columns.iter().map(|column| column.values[*row].clone()).collect())
+            .map(|row| relation.columns.iter().map(|column| value(relation, column, *row)).collect())
             .collect(),
         overridden,
     }
 }
 
-fn column(column: &RelationColumn) -> ColumnOf {
+/// Whether a column holds truth values, which SQL has as 0 and 1.
+fn holds_truths(relation: &Relation, column: &RelationColumn) -> bool {
+    column.declared.contains("BOOL") || (relation.name.as_str(), column.name.as_str()) == ("loads", "carried")
+}
+
+fn value(relation: &Relation, column: &RelationColumn, row: usize) -> serde_json::Value {
+    match &column.values[row] {
+        Cell::Integer(truth) if holds_truths(relation, column) => (*truth != 0).into(),
+        cell => serde_json::json!(cell),
+    }
+}
+
+fn column(relation: &Relation, column: &RelationColumn) -> ColumnOf {
     ColumnOf {
         name: column.name.clone(),
         kind: match column.declared.as_str() {
+            _ if holds_truths(relation, column) => "truth",
             "REAL" | "INTEGER" => "number",
             _ => "text",
         },

@@ -1,0 +1,137 @@
+//! A route over doors as JSON, put together from what is written of its rooms and doors already.
+
+use adit_planners::routes::{Leg, Way};
+use serde_json::{Result, to_writer};
+
+use super::{Answer, Status};
+use crate::graph::{Rules, SiteGraph, Texts};
+use crate::trees::heading;
+
+/// About so many bytes are said of a leg.
+const LEG: usize = 700;
+
+/// The answer with this way, as serde writes it.
+///
+/// # Arguments
+/// `answer` says who asked for what; `site` is the graph, what is written of it, and the names of rules.
+pub(super) fn write(answer: &Answer, site: (&SiteGraph, &Texts, &Rules), way: &Way) -> Result<Vec<u8>> {
+    let mut out = Vec::with_capacity(300 + way.legs.len() * LEG);
+    for (name, value) in [
+        (r#"{"status":"#, serde_json::to_string(&Status::of(way))?),
+        (r#","robot":"#, serde_json::to_string(&answer.robot)?),
+        (r#","start":"#, serde_json::to_string(&answer.start)?),
+        (r#","goal":"#, serde_json::to_string(&answer.goal)?),
+        (r#","generation":"#, answer.generation.to_string()),
+        (r#","cost":"#, serde_json::to_string(&way.cost)?),
+    ] {
+        out.extend_from_slice(name.as_bytes());
+        out.extend_from_slice(value.as_bytes());
+    }
+    let legs = Legs::new(site, way)?;
+    out.extend_from_slice(br#","steps":["#);
+    legs.steps(&mut out)?;
+    out.extend_from_slice(br#"],"waypoints":["#);
+    legs.waypoints(&mut out)?;
+    out.extend_from_slice(b"]}");
+    Ok(out)
+}
+
+struct Legs<'a> {
+    site: (&'a SiteGraph, &'a Texts, &'a Rules),
+    way: &'a Way,
+    /// For each leg its heading and its cost, one behind the other, as they are written.
+    numbers: Vec<u8>,
+    /// Where each leg's heading and cost end.
+    ends: Vec<[usize; 2]>,
+}
+
+impl<'a> Legs<'a> {
+    fn new(site: (&'a SiteGraph, &'a Texts, &'a Rules), way: &'a Way) -> Result<Self> {
+        let mut numbers = Vec::with_capacity(way.legs.len() * 24);
+        let mut ends = Vec::with_capacity(way.legs.len());
+        for leg in &way.legs {
+            to_writer(&mut numbers, &heading(leg.from, leg.to))?;
+            let heading_ends = numbers.len();
+            to_writer(&mut numbers, &leg.cost)?;
+            ends.push([heading_ends, numbers.len()]);
+        }
+        Ok(Self { site, way, numbers, ends })
+    }
+
+    fn heading(&self, leg: usize) -> &[u8] {
+        let begins = if leg == 0 { 0 } else { self.ends[leg - 1][1] };
+        &self.numbers[begins..self.ends[leg][0]]
+    }
+
+    fn cost(&self, leg: usize) -> &[u8] {
+        &self.numbers[self.ends[leg][0]..self.ends[leg][1]]
+    }
+
+    /// What was spent before a leg.
+    fn cost_before(&self, leg: usize) -> &[u8] {
+        if leg == 0 { b"0.0" } else { self.cost(leg - 1) }
+    }
+
+    fn steps(&self, out: &mut Vec<u8>) -> Result<()> {
+        let (graph, texts, rules) = self.site;
+        let mut number = 1_usize;
+        for (index, leg) in self.way.legs.iter().enumerate() {
+            let room = texts.room(graph, rules, leg.room)?;
+            let door = leg.door.map(|door| texts.door(graph, rules, door)).transpose()?;
+            let mut step = |text: &[u8], cost: &[u8], rule: &[u8]| -> Result<()> {
+                out.extend_from_slice(if number == 1 { br#"{"step":"#.as_slice() } else { br#",{"step":"# });
+                to_writer(&mut *out, &number)?;
+                out.extend_from_slice(text);
+                out.extend_from_slice(cost);
+                match door {
+                    Some(door) => out.extend_from_slice(door.point()),
+                    None => put_point(out, leg)?,
+                }
+                out.extend_from_slice(self.heading(index));
+                out.extend_from_slice(rule);
+                number += 1;
+                Ok(())
+            };
+            step(room.step(), self.cost_before(index), room.rule())?;
+            if let Some(door) = door {
+                step(door.step(), self.cost(index), door.rule())?;
+            }
+        }
+        Ok(())
+    }
+
+    fn waypoints(&self, out: &mut Vec<u8>) -> Result<()> {
+        let (graph, texts, rules) = self.site;
+        for (index, leg) in self.way.legs.iter().enumerate() {
+            let room = texts.room(graph, rules, leg.room)?;
+            if index == 0 {
+                out.extend_from_slice(br#"{"waypoint":1"#);
+                put_point(out, &Leg { to: leg.from, ..*leg })?;
+                out.extend_from_slice(b"null");
+                out.extend_from_slice(room.point());
+                out.extend_from_slice(b"0.0}");
+            }
+            out.extend_from_slice(br#",{"waypoint":"#);
+            to_writer(&mut *out, &(index + 2))?;
+            match leg.door {
+                Some(door) => out.extend_from_slice(texts.door(graph, rules, door)?.point()),
+                None => put_point(out, leg)?,
+            }
+            out.extend_from_slice(self.heading(index));
+            out.extend_from_slice(room.point());
+            out.extend_from_slice(self.cost(index));
+            out.push(b'}');
+        }
+        Ok(())
+    }
+}
+
+/// Where a leg ends, up to the heading.
+fn put_point(out: &mut Vec<u8>, leg: &Leg) -> Result<()> {
+    out.extend_from_slice(br#","x":"#);
+    to_writer(&mut *out, &leg.to.x)?;
+    out.extend_from_slice(br#","y":"#);
+    to_writer(&mut *out, &leg.to.y)?;
+    out.extend_from_slice(br#","heading":"#);
+    Ok(())
+}

@@ -1,0 +1,126 @@
+//! Routes as they are found in memory, with what is said of them.
+
+use adit_planners::routes::{Goal, Way};
+use adit_planners::world::World;
+
+use super::{Answer, Status, json, steps};
+use crate::error::{Error, Result};
+use crate::gauge::Gauge;
+use crate::graph::{End, Rules, SiteGraph};
+use crate::knowledge::KnowledgeBase;
+use crate::reason;
+use crate::suggest::did_you_mean;
+
+/// What routes are found with.
+pub(crate) struct Basis<'a> {
+    /// The site.
+    pub knowledge: &'a KnowledgeBase,
+    /// Its rooms and doors.
+    pub graph: &'a SiteGraph,
+    /// The rules' names.
+    pub rules: &'a Rules,
+    /// The map.
+    pub world: &'a World,
+    /// What measures clearances.
+    pub gauge: &'a Gauge,
+}
+
+/// An answer, as JSON where that is at hand.
+pub(crate) enum Reply {
+    /// A route, as its [`Answer`] would be written.
+    Json(Vec<u8>),
+    /// Any answer.
+    Answer(Answer),
+}
+
+/// A way that was found.
+struct Found {
+    /// To which goal, by index.
+    goal: usize,
+    way: Way,
+    /// Whether it leads to a point, not to anywhere in a room.
+    is_to_point: bool,
+}
+
+impl Basis<'_> {
+    /// The route to the one of the goals that costs least, into the answer.
+    pub fn search(&self, names: &[String], mut answer: Answer) -> Result<Answer> {
+        if let Some(found) = self.find(names, &mut answer)? {
+            self.tell(names, &found, &mut answer);
+        }
+        Ok(answer)
+    }
+
+    /// As [`search`](Self::search), as JSON where the site's graph is [prepared](SiteGraph::prepare).
+    pub fn reply(&self, names: &[String], mut answer: Answer) -> Result<Reply> {
+        let Some(found) = self.find(names, &mut answer)? else { return Ok(Reply::Answer(answer)) };
+        if let Some(texts) = self.graph.texts() {
+            answer.goal.clone_from(&names[found.goal]);
+            let text = json::write(&answer, (self.graph, texts, self.rules), &found.way);
+            return text.map(Reply::Json).map_err(|error| Error::said("route/json", error.to_string(), None));
+        }
+        self.tell(names, &found, &mut answer);
+        Ok(Reply::Answer(answer))
+    }
+
+    /// The way to the one of the goals that costs least; where there is none, the answer says why.
+    fn find(&self, names: &[String], answer: &mut Answer) -> Result<Option<Found>> {
+        let Self { graph, rules, .. } = self;
+        let mut ends = Vec::with_capacity(names.len() + 1);
+        for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
+            let Some(end) = graph.end(name) else {
+                let meant =
+                    did_you_mean(name, graph.names()).map_or(String::new(), |help| format!("; {help}"));
+                answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
+                answer.status = if index == 0 { Status::UnknownStart } else { Status::UnknownGoal };
+                return Ok(None);
+            };
+            ends.push(end);
+        }
+        for end in &ends {
+            self.check_point(end)?;
+        }
+        let start = graph.start(&ends[0], Some(&answer.robot));
+        let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(&answer.robot))).collect();
+        let Some((goal, way)) = graph.graph().way(&start, &goals) else {
+            answer.status = Status::NoRoute;
+            let reason = reason::no_route(self.knowledge, graph, rules, &start, &ends, &answer.robot)?;
+            answer.reason = Some(reason);
+            return Ok(None);
+        };
+        Ok(Some(Found { goal, way, is_to_point: goals[goal].at.is_some() }))
+    }
+
+    fn tell(&self, names: &[String], found: &Found, answer: &mut Answer) {
+        let Self { graph, rules, .. } = self;
+        let way = &found.way;
+        answer.goal.clone_from(&names[found.goal]);
+        answer.steps = steps::steps(graph, rules, way, found.is_to_point);
+        answer.waypoints = steps::waypoints(graph, way, self.gauge);
+        answer.cost = Some(way.cost);
+        answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
+        answer.status = Status::of(way);
+    }
+
+    /// A point that is asked for must lie on the floor.
+    fn check_point(&self, end: &End) -> Result<()> {
+        let End::Point(point) = end else { return Ok(()) };
+        let named = format!("{},{}", point.x, point.y);
+        if !self.world.bounds.contains(*point) {
+            let b = self.world.bounds;
+            let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
+            return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
+        }
+        if self.gauge.is_solid(self.world, *point) {
+            return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
+        }
+        Ok(())
+    }
+}
+
+impl Status {
+    /// What a way makes of the question.
+    pub(super) fn of(way: &Way) -> Self {
+        if way.legs.len() == 1 { Self::SameRoom } else { Self::Ok }
+    }
+}

@@ -1,0 +1,57 @@
+//! Rectangles, found by the points that they hold.
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use crate::geometry::{Point, Rect};
+
+/// Rectangles by number, found by where they are.
+#[derive(Clone, Debug)]
+pub struct RectIndex {
+    tree: RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>,
+}
+
+impl RectIndex {
+    /// Numbers rectangles from 0.
+    pub fn new(rects: impl IntoIterator<Item = Rect>) -> Self {
+        let item = |(number, r): (u32, Rect)| {
+            GeomWithData::new(Rectangle::from_corners([r.x0, r.y0], [r.x1, r.y1]), number)
+        };
+        Self { tree: RTree::bulk_load((0..).zip(rects).map(item).collect()) }
+    }
+
+    /// The rectangles that hold a point, on their outline or inside, in the order of their numbers.
+    pub fn at(&self, point: Point) -> Vec<usize> {
+        let near = self.tree.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
+        let mut numbers: Vec<usize> = near.map(|rect| rect.data as usize).collect();
+        numbers.sort_unstable();
+        numbers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn the_rectangles_at_a_point_are_those_that_contain_it(
+            rects in prop::collection::vec((0_i8..9, 0_i8..9, 1_i8..5, 1_i8..5), 0..30),
+            points in prop::collection::vec((0_i8..28, 0_i8..28), 20),
+        ) {
+            let rect = |(x, y, width, height): (i8, i8, i8, i8)| {
+                Rect::new(x.into(), y.into(), (x + width).into(), (y + height).into())
+            };
+            let rects: Vec<Rect> = rects.into_iter().map(rect).collect();
+            let index = RectIndex::new(rects.iter().copied());
+            for (x, y) in points {
+                let point = Point::new(f64::from(x) / 2.0, f64::from(y) / 2.0);
+                let all: Vec<usize> =
+                    (0..rects.len()).filter(|&number| rects[number].contains(point)).collect();
+                prop_assert_eq!(index.at(point), all);
+            }
+        }
+    }
+}

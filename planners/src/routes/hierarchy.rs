@@ -1,0 +1,51 @@
+//! Ways of least hardness between any two rooms, where all hardness lies on the doors: a customizable contraction
+//! hierarchy (Dibbelt, Strasser, Wagner 2016).
+//!
+//! Rooms are ranked once; then weights of doors may change as they like. A weight is a number as rules give it, doors may
+//! lead one way, and what no state passes weighs infinity.
+
+mod customize;
+mod metric;
+mod order;
+mod partial;
+mod query;
+mod topology;
+mod way;
+
+use std::sync::Arc;
+
+use super::{RouteDoor, RouteRoom};
+use metric::Metric;
+use topology::Topology;
+
+/// Rooms and doors, ready for ways between any two rooms.
+#[derive(Clone, Debug)]
+pub(super) struct Hierarchy {
+    /// What clones share.
+    topology: Arc<Topology>,
+    metric: Metric,
+}
+
+impl Hierarchy {
+    /// Ranks the rooms, and weighs all doors.
+    ///
+    /// # Arguments
+    /// `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not
+    /// passed.
+    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<[f64; 2]>) -> Self {
+        let topology = Arc::new(Topology::new(rooms, doors));
+        let metric = Metric::new(&topology, passing);
+        Self { topology, metric }
+    }
+
+    /// Weighs doors anew, by index.
+    pub fn reweigh(&mut self, doors: impl Iterator<Item = (u32, [f64; 2])>) {
+        let is_other = |(door, passing): &(u32, [f64; 2])| {
+            self.metric.passing[*door as usize].map(f64::to_bits) != passing.map(f64::to_bits)
+        };
+        let doors: Vec<_> = doors.filter(is_other).collect();
+        if !self.metric.reweigh(&self.topology, &doors) {
+            self.metric.customize(&self.topology);
+        }
+    }
+}

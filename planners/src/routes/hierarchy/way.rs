@@ -1,0 +1,54 @@
+//! The way to the goal that costs least, as a hierarchy finds it.
+
+use super::Hierarchy;
+use super::query::Passed;
+use crate::geometry::Point;
+use crate::routes::{Goal, Leg, RouteGraph, Start, Way};
+
+/// A way that was found.
+struct Found {
+    start: usize,
+    goal: usize,
+    doors: Vec<Passed>,
+    cost: f64,
+}
+
+impl RouteGraph {
+    /// The best way to the goal that costs least; of several the first goal's, from the first room, in their order.
+    pub(in crate::routes) fn way_by(
+        &self,
+        hierarchy: &Hierarchy,
+        start: &Start,
+        goals: &[Goal],
+    ) -> Option<(usize, Way)> {
+        let mut best: Option<Found> = None;
+        for (index, goal) in goals.iter().enumerate() {
+            for &to in &goal.rooms {
+                for &from in start.rooms.iter().filter(|&&room| self.is_entered(room)) {
+                    let Some(doors) = hierarchy.doors(from, to) else { continue };
+                    // as it is driven, so that it is the sum that a search from door to door finds
+                    let cost = doors.iter().fold(0.0, |cost, passed| cost + passed.weight);
+                    if best.as_ref().is_none_or(|best| cost < best.cost) {
+                        best = Some(Found { start: from, goal: index, doors, cost });
+                    }
+                }
+            }
+        }
+        let found = best?;
+        Some((found.goal, self.driven(start, &found, goals[found.goal].at)))
+    }
+
+    /// The way from door to door.
+    fn driven(&self, start: &Start, found: &Found, goal: Option<Point>) -> Way {
+        let mut legs = Vec::with_capacity(found.doors.len() + 1);
+        let (mut room, mut from, mut cost) = (found.start, start.at, 0.0);
+        for passed in &found.doors {
+            let to = self.doors[passed.door as usize].at;
+            cost += passed.weight;
+            legs.push(Leg { room, from, to, hardness: 0.0, door: Some(passed.door as usize), cost });
+            (room, from) = (passed.room as usize, to);
+        }
+        legs.push(Leg { room, from, to: goal.unwrap_or(from), hardness: 0.0, door: None, cost });
+        Way { legs, cost }
+    }
+}

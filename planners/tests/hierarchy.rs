@@ -1,0 +1,220 @@
+//! Ways between any two rooms, prepared: the least cost, whatever was weighed anew before.
+#![allow(clippy::float_cmp)] // infinities, and sums of the same numbers in the same order
+
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
+use petgraph::algo::dijkstra;
+use petgraph::graph::NodeIndex;
+use proptest::prelude::*;
+
+const SIDE: usize = 6;
+const ROOMS: usize = SIDE * SIDE;
+
+/// Rooms of 1 m in a square; some are not entered.
+fn rooms(is_entered: &[bool]) -> Vec<RouteRoom> {
+    let room = |(index, &is_entered): (usize, &bool)| {
+        let (x, y) = ((index % SIDE) as f64, (index / SIDE) as f64);
+        let walking = if is_entered { Walking::OnDoors } else { Walking::Unknown };
+        RouteRoom { rect: Rect::new(x, y, x + 1.0, y + 1.0), walking }
+    };
+    is_entered.iter().enumerate().map(room).collect()
+}
+
+fn door(door: u32, room1: usize, room2: usize, hardness: Option<f64>) -> RouteDoor {
+    let at = Point::new(f64::from(door), 0.5);
+    RouteDoor {
+        door,
+        room1,
+        room2,
+        crossing: Rect::new(at.x, 0.0, at.x, 1.0),
+        at,
+        hardness,
+        passable: true,
+        one_way: false,
+    }
+}
+
+/// A hardness as rules may give it: nothing, small whole numbers with many ties, numbers of any size, and none.
+fn any_hardness() -> impl Strategy<Value = Option<f64>> {
+    prop_oneof![
+        1 => Just(None),
+        2 => Just(Some(0.0)),
+        4 => (1_u8..5).prop_map(|whole| Some(f64::from(whole))),
+        4 => (0.01..20.0).prop_map(Some),
+        1 => Just(Some(1e-12)),
+        1 => Just(Some(1e12)),
+    ]
+}
+
+/// Doors between neighbours, some of them twice, and some between any two rooms.
+fn any_doors() -> impl Strategy<Value = Vec<RouteDoor>> {
+    let step = prop_oneof![4 => Just(1_usize), 4 => Just(SIDE), 1 => 0..ROOMS];
+    let any = (0..ROOMS, step, any_hardness(), prop::bool::weighted(0.9), prop::bool::weighted(0.2));
+    prop::collection::vec(any, 0..120).prop_map(|doors| {
+        let build = |(number, (room, step, hardness, passable, one_way)): (usize, (_, _, _, _, _))| {
+            let door = door(number as u32 + 1, room, (room + step) % ROOMS, hardness);
+            RouteDoor { passable, one_way, ..door }
+        };
+        doors.into_iter().enumerate().map(build).collect()
+    })
+}
+
+type Edit = (Vec<(prop::sample::Index, Option<f64>, bool)>, Option<(usize, bool)>);
+
+/// Doors that come to weigh something else; and a room that is entered from now on, or no longer.
+fn any_edit() -> impl Strategy<Value = Edit> {
+    let door = (any::<prop::sample::Index>(), any_hardness(), prop::bool::weighted(0.9));
+    (prop::collection::vec(door, 0..5), prop::option::weighted(0.1, (0..ROOMS, any::<bool>())))
+}
+
+fn prepared(rooms: Vec<RouteRoom>, doors: Vec<RouteDoor>) -> RouteGraph {
+    let mut graph = RouteGraph::new(rooms, doors);
+    graph.prepare();
+    graph
+}
+
+fn edit(graph: &mut RouteGraph, (doors, room): &Edit) {
+    let count = graph.doors().len();
+    let weighed: Vec<_> = doors
+        .iter()
+        .filter(|_| count > 0)
+        .map(|(door, hardness, passable)| (door.index(count), *hardness, *passable))
+        .collect();
+    let walking = |is_entered: bool| if is_entered { Walking::OnDoors } else { Walking::Unknown };
+    graph.reweigh(room.map(|(room, is_entered)| (room, walking(is_entered))), weighed);
+}
+
+fn way(graph: &RouteGraph, from: usize, to: usize) -> Option<Way> {
+    let start = Start { rooms: vec![from], at: Point::default() };
+    graph.way(&start, &[Goal { rooms: vec![to], at: None }]).map(|(_, way)| way)
+}
+
+/// The doors that a way passes, by index.
+fn doors_of(way: &Way) -> Vec<usize> {
+    way.legs.iter().filter_map(|leg| leg.door).collect()
+}
+
+/// Whether each leg's door leads from its room into the next one's, for a robot that passes it.
+fn is_driven(graph: &RouteGraph, way: &Way, to: usize) -> bool {
+    let rooms: Vec<usize> = way.legs.iter().map(|leg| leg.room).collect();
+    let mut seen = rooms.clone();
+    seen.sort_unstable();
+    seen.dedup();
+    let follows = |(leg, next): (usize, &usize)| {
+        let door = graph.doors()[way.legs[leg].door.unwrap()];
+        let (one, two) = (door.room1, door.room2);
+        let leads = (one, two) == (rooms[leg], *next) || !door.one_way && (two, one) == (rooms[leg], *next);
+        leads && door.weight().is_some()
+    };
+    seen.len() == rooms.len() && rooms.last() == Some(&to) && rooms[1..].iter().enumerate().all(follows)
+}
+
+/// Whether two sums of the same size are the same but for their rounding.
+fn is_same(one: f64, two: f64) -> bool {
+    (one - two).abs() <= 1e-12 * one.abs().max(two.abs())
+}
+
+fn check(graph: &RouteGraph) -> Result<(), TestCaseError> {
+    for from in (0..ROOMS).step_by(5) {
+        let start = Start { rooms: vec![from], at: Point::default() };
+        let tree = graph.tree(&start);
+        let reference = dijkstra(graph.petgraph(), NodeIndex::new(from), None, |edge| {
+            graph.doors()[*edge.weight() as usize].hardness.unwrap()
+        });
+        for to in 0..ROOMS {
+            let Some(way) = way(graph, from, to) else {
+                prop_assert!(tree.rooms[to].is_none(), "{from} to {to}");
+                continue;
+            };
+            let arrival = tree.rooms[to].unwrap();
+            prop_assert!(is_same(way.cost, arrival.cost), "{from} to {to}: {} {}", way.cost, arrival.cost);
+            prop_assert!(is_same(way.cost, reference[&NodeIndex::new(to)]));
+            prop_assert!(is_driven(graph, &way, to), "{from} to {to}: {way:?}");
+            let (mut room, mut doors) = (to, Vec::new());
+            while let Some((before, door)) = tree.rooms[room].unwrap().from {
+                doors.push(door);
+                room = before;
+            }
+            doors.reverse();
+            if doors == doors_of(&way) {
+                prop_assert_eq!(way.cost.to_bits(), arrival.cost.to_bits());
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_way_costs_what_the_search_from_door_to_door_finds(
+        is_entered in prop::collection::vec(prop::bool::weighted(0.95), ROOMS),
+        doors in any_doors(),
+        edits in prop::collection::vec(any_edit(), 0..6),
+    ) {
+        let mut graph = prepared(rooms(&is_entered), doors);
+        check(&graph)?;
+        for one in &edits {
+            edit(&mut graph, one);
+            check(&graph)?;
+        }
+    }
+
+    #[test]
+    fn ways_do_not_hang_on_what_was_weighed_before(
+        doors in any_doors(),
+        edits in prop::collection::vec(any_edit(), 1..12),
+    ) {
+        let mut edited = prepared(rooms(&[true; ROOMS]), doors);
+        for one in &edits {
+            edit(&mut edited, one);
+        }
+        let anew = prepared(edited.rooms().to_vec(), edited.doors().to_vec());
+        for (from, to) in (0..ROOMS).flat_map(|from| (0..ROOMS).map(move |to| (from, to))) {
+            prop_assert_eq!(way(&edited, from, to), way(&anew, from, to));
+        }
+    }
+
+    #[test]
+    fn a_clone_keeps_its_weights(doors in any_doors(), one in any_edit()) {
+        let before = prepared(rooms(&[true; ROOMS]), doors);
+        let ways: Vec<_> = (0..ROOMS).map(|to| way(&before, 0, to)).collect();
+        let mut copy = before.clone();
+        edit(&mut copy, &one);
+        prop_assert_eq!(ways, (0..ROOMS).map(|to| way(&before, 0, to)).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn of_two_equal_doors_the_lower_number_is_passed() {
+    let graph = prepared(rooms(&[true; ROOMS]), vec![door(9, 0, 1, Some(3.0)), door(4, 1, 0, Some(3.0))]);
+    assert_eq!(doors_of(&way(&graph, 0, 1).unwrap()), [1]);
+}
+
+#[test]
+fn rooms_that_no_doors_join_have_no_way() {
+    let graph = prepared(rooms(&[true; ROOMS]), vec![door(1, 0, 1, Some(3.0))]);
+    assert_eq!(way(&graph, 0, 2), None);
+    assert_eq!(way(&graph, 2, 0), None);
+    assert_eq!(way(&graph, 2, 2).unwrap().cost, 0.0);
+}
+
+#[test]
+fn of_several_goals_the_cheapest_is_chosen_and_of_equal_ones_the_first() {
+    let doors = vec![door(1, 0, 1, Some(3.0)), door(2, 0, 2, Some(2.0)), door(3, 0, 3, Some(2.0))];
+    let graph = prepared(rooms(&[true; ROOMS]), doors);
+    let goal = |room: usize| Goal { rooms: vec![room], at: None };
+    let start = Start { rooms: vec![0], at: Point::default() };
+    let (chosen, way) = graph.way(&start, &[goal(1), goal(2), goal(3)]).unwrap();
+    assert_eq!((chosen, way.cost), (1, 2.0));
+}
+
+#[test]
+fn a_start_in_several_rooms_leaves_from_the_best_one() {
+    let doors = vec![door(1, 0, 2, Some(3.0)), door(2, 1, 2, Some(2.0))];
+    let graph = prepared(rooms(&[true; ROOMS]), doors);
+    let start = Start { rooms: vec![0, 1], at: Point::default() };
+    let (_, way) = graph.way(&start, &[Goal { rooms: vec![2], at: None }]).unwrap();
+    assert_eq!((way.legs[0].room, way.cost), (1, 2.0));
+}
