@@ -82,14 +82,16 @@ impl Browser {
 
     /// The first element that is shown, once there is one.
     pub async fn find(&self, css: &str) -> Element {
-        self.until(&format!("[...document.querySelectorAll({css:?})].some((e) => e.checkVisibility())"), css)
-            .await;
-        for element in self.client.find_all(Locator::Css(css)).await.expect("a selector") {
-            if element.is_displayed().await.unwrap_or(false) {
-                return element;
+        let began = Instant::now();
+        loop {
+            for element in self.client.find_all(Locator::Css(css)).await.expect("a selector") {
+                if element.is_displayed().await.unwrap_or(false) {
+                    return element;
+                }
             }
+            assert!(began.elapsed() < PATIENCE, "{css} is not shown");
+            tokio::time::sleep(Duration::from_millis(20)).await;
         }
-        panic!("{css} went away");
     }
 
     /// Clicks the first such element; once more where the page has just put another in its place.
