@@ -47,12 +47,16 @@ export function summary(preview) {
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
   else if (!preview.layout_changed) parts.push('No room and no door would weigh otherwise.');
-  if (routes?.total) {
+  // Where there are too many to compare while somebody types, the service says how many it did.
+  const compared = routes?.compared ?? routes?.total ?? 0;
+  if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
+  else if (routes?.total) {
+    const all = compared < routes.total ? `${compared} of ${count(routes.total, 'route')} between places that were compared in time` : `${count(routes.total, 'route')} between places`;
     const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
     const ways = routes.rerouted ? `${routes.rerouted} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
     parts.push(routes.changed || routes.rerouted
-      ? `Of ${count(routes.total, 'route')} between places ${list([...kinds, ways].filter(Boolean))}.`
-      : `None of ${count(routes.total, 'route')} between places changes.`);
+      ? `Of ${all} ${list([...kinds, ways].filter(Boolean))}.`
+      : `None of ${all} changes.`);
   }
   return parts;
 }
@@ -95,9 +99,10 @@ function show() {
       : wrong.length === cells.length ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
   const clashes = [...conflicts].filter(([id]) => model.pending.has(id)).map(([id, error]) => conflict(id, error));
   const why = el('input', { id: 'save-why', placeholder: 'if you like', value: before });
+  const who = sessionStorage.getItem('adit-token') ? null : el('label', {}, 'Your name ', el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '', on: { input: (event) => localStorage.setItem('adit-who', event.target.value.trim()) } }));
   const save = button(cells.length === 1 ? 'Save' : `Save ${cells.length} cells`, saveAll, { id: 'save', class: 'strong' });
   save.disabled = wrong.length > 0 || Boolean(failed && failed.status !== 0) || clashes.length > 0;
-  fill(byId('preview'), typed, ...told, ...clashes, el('label', {}, 'Why ', why), el('div', { class: 'buttons' }, save, button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' })));
+  fill(byId('preview'), typed, ...told, ...clashes, el('label', {}, 'Why ', why), who, el('div', { class: 'buttons' }, save, button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' })));
   if (focused && focused !== 'discard') byId(focused)?.focus();
   return undefined;
 }
@@ -142,6 +147,7 @@ async function saveAll() {
   }
   if (done.length) showSaved(`Saved: ${list(words)}.`, done);
   const keepFailure = failed;
+  if (!model.pending.size) model.preview = null;
   // What was saved is shown as saved even before the new weights are here.
   if (done.length) {
     byId('save-why').value = '';
@@ -160,7 +166,7 @@ export function startPreview() {
     if (!model.pending.size) {
       ask.cancel();
       stop?.abort();
-      model.set('preview', null);
+      if (model.preview) model.set('preview', null);
     } else {
       ask();
       askFirm();
