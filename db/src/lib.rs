@@ -33,6 +33,7 @@ pub mod stale;
 mod store;
 pub mod told;
 mod transaction;
+pub mod traversal;
 pub mod tree;
 pub mod tuning;
 

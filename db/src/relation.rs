@@ -46,6 +46,7 @@ pub(crate) const OWN: &[&str] = &[
     "strips",
     "told",
     "told_states",
+    "traversals",
     "tree_rows",
     "tuning_cells",
     "waypoints",

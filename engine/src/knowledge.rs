@@ -91,7 +91,7 @@ impl KnowledgeBase {
             unreported: self.unreported.clone(),
             generation: self.generation,
             network: self.network.clone(),
-            limits: self.limits.clone(),
+            limits: self.limits,
         }
     }
 

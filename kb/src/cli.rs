@@ -3,6 +3,8 @@
 mod build;
 mod demo;
 mod doctor;
+mod firm;
+mod fit;
 mod new;
 mod output;
 mod picture;
@@ -57,6 +59,10 @@ pub enum Verb {
     Why(WhyArgs),
     /// Why the route does not lead through a room or door: what that would cost, and what rules rejected there
     WhyNot(WhyNotArgs),
+    /// How firm a route is: how far each hardness may change before another way is the best
+    Firm(FirmArgs),
+    /// The hardness that fits best what robots measured on their way
+    Fit(FitArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
@@ -296,6 +302,50 @@ pub struct WhyNotArgs {
     pub robot: Option<String>,
 }
 
+/// `adit firm`.
+#[derive(Args, Debug)]
+pub struct FirmArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub start: String,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub goal: String,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+}
+
+/// `adit fit`.
+#[derive(Args, Debug)]
+pub struct FitArgs {
+    /// The site
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Add the traversals of a CSV file with the columns distance and measured, state or action, and perhaps mission,
+    /// robot and measure: all of them or none
+    #[arg(long, value_name = "FILE")]
+    pub add: Option<PathBuf>,
+    /// Remove all traversals first
+    #[arg(long)]
+    pub clear: bool,
+    /// What was measured: seconds, joules, ...
+    #[arg(long)]
+    pub measure: Option<String>,
+    /// The state that keeps its hardness; otherwise the one with the most metres
+    #[arg(long, value_name = "STATE", conflicts_with = "per_metre")]
+    pub reference: Option<String>,
+    /// Take the measure a metre as hardness, and keep none
+    #[arg(long)]
+    pub per_metre: bool,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+}
+
 /// `adit sql`.
 #[derive(Args, Debug)]
 pub struct SqlArgs {
@@ -454,6 +504,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Watch(args) => watch::run(args).map(|()| 0),
         Verb::Why(args) => why::why(args).map(|()| 0),
         Verb::WhyNot(args) => why::why_not(args).map(|()| 0),
+        Verb::Firm(args) => firm::run(args).map(|()| 0),
+        Verb::Fit(args) => fit::run(args).map(|()| 0),
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::History(args) => tune::history(args).map(|()| 0),
@@ -495,6 +547,8 @@ impl Verb {
             Self::Watch(args) => args.site.json,
             Self::Why(args) => args.site.json,
             Self::WhyNot(args) => args.site.json,
+            Self::Firm(args) => args.site.json,
+            Self::Fit(args) => args.site.json,
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
             Self::History(args) => args.site.json,

@@ -6,6 +6,7 @@ mod rehearse;
 mod weigh;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use adit_engine::Severity;
 
@@ -36,7 +37,11 @@ pub struct Fork {
     pub generation: u64,
     /// Routes between places, of the site as it is.
     pub(crate) known: Arc<Known>,
+    pub(crate) patience: Duration,
 }
+
+/// How long a preview looks for routes between places, unless told otherwise.
+pub(crate) const PATIENCE: Duration = Duration::from_millis(100);
 
 /// What became of a fork that was told other facts.
 pub(crate) enum Followed {
@@ -47,13 +52,24 @@ pub(crate) enum Followed {
 }
 
 impl Fork {
+    /// Looks for routes between places for so long in a preview; what is not found by then is not compared.
+    #[must_use]
+    pub fn with_patience(mut self, patience: Duration) -> Self {
+        self.patience = patience;
+        self
+    }
+
     /// Tells it all that is told, instead of what was, and concludes what follows. The graph follows, too.
     ///
     /// After an error the fork is of no more use.
     pub(crate) fn tell(&mut self, told: Told) -> Result<Followed> {
         let Some(reweighed) = self.conclude(told.clone())? else {
+            let before = Arc::clone(&self.graph);
             self.cut_anew(told)?;
-            return Ok(Followed::CutAnew);
+            return Ok(match Reweighed::between(&before, &self.graph) {
+                Some(reweighed) => Followed::Reweighed(reweighed),
+                None => Followed::CutAnew,
+            });
         };
         if !reweighed.is_empty() {
             let mut graph = SiteGraph::clone(&self.graph);

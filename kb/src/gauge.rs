@@ -36,16 +36,17 @@ impl Gauge {
     pub fn of_sizes(world: &World, knowledge: &Inference) -> Self {
         let numbers = |property| knowledge.numbers("ROBOTS", property).unwrap_or_default();
         let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
-        let names = texts("robot").into_iter().zip(texts("state"));
-        let sizes = numbers("width").into_iter().zip(numbers("height"));
-        let size =
-            |((robot, state), (width, height)): ((Option<_>, Option<_>), (Option<f64>, Option<f64>))| {
-                let name = |text: std::sync::Arc<str>| text.to_string();
-                Some(((name(robot?), name(state?)), (width? / 2.0, height?)))
-            };
+        let (robots, states) = (texts("robot"), texts("state"));
+        let (widths, heights) = (numbers("width"), numbers("height"));
+        let size = |row: usize| {
+            let (robot, state) = (robots.get(row)?.as_ref()?, states.get(row)?.as_ref()?);
+            let size = ((*widths.get(row)?)? / 2.0, (*heights.get(row)?)?);
+            Some(((robot.to_string(), state.to_string()), size))
+        };
+        let sizes = (0..robots.len()).filter_map(size).collect();
         let obstacles =
             RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
-        Self { solids: Solids::new(world), obstacles, sizes: names.zip(sizes).filter_map(size).collect() }
+        Self { solids: Solids::new(world), obstacles, sizes }
     }
 
     /// Whether a point of the world lies inside something solid, as [`World::is_solid`] says.

@@ -255,7 +255,7 @@ fn rect_of(room: &Room) -> Rect {
 
 /// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh
 /// metres only where a rule says so. Rooms that are not passable, or not known to be, are not entered.
-fn walking(hardness: Option<f64>, passable: Option<bool>, of_state: bool) -> Walking {
+pub(crate) fn walking(hardness: Option<f64>, passable: Option<bool>, of_state: bool) -> Walking {
     if passable != Some(true) {
         return Walking::Unknown;
     }

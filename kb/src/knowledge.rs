@@ -20,7 +20,7 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use crate::clock::{Clock, stored};
-use crate::derive::{Derived, Stage, derive};
+use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::gauge::Gauge;
@@ -340,16 +340,6 @@ impl KnowledgeBase {
             report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }
         Ok(report)
-    }
-
-    /// What a build would derive, in memory only, with the rules that it follows.
-    pub(crate) fn derived_anew(&self, tx: &mut Tx<'_>) -> Result<(Derived, RuleBase)> {
-        let inputs = self.inputs(&Silent)?;
-        let before = Before::read(tx)?;
-        let told = self.told(tx, &inputs.rules)?;
-        let mut memory = LastBuild::new(tx, &before);
-        let derived = derive(&inputs.world, &told, &self.planners, &inputs.rules, &mut memory, &Silent)?;
-        Ok((derived, inputs.rules))
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.

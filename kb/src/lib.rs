@@ -25,6 +25,8 @@ mod derive;
 pub mod draw;
 pub mod edit;
 mod error;
+pub mod firm;
+pub mod fit;
 pub mod fork;
 mod gauge;
 mod generation;

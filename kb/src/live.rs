@@ -272,6 +272,7 @@ impl Live {
             rules: Arc::clone(&memory.rules),
             generation: memory.generation,
             known: Arc::clone(&memory.known),
+            patience: crate::fork::PATIENCE,
         }
     }
 

@@ -3,7 +3,6 @@
 mod routes;
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use adit_db::door::Door;
 use adit_db::room::Room;
@@ -19,9 +18,6 @@ pub use routes::{PlaceRoute, PlaceRoutes};
 
 /// How many rooms, doors or routes are listed.
 const LISTED: usize = 5_000;
-
-/// How long routes between places are looked for.
-const PATIENCE: Duration = Duration::from_millis(150);
 
 /// A route that is asked for beside a preview.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,7 +126,6 @@ impl Fork {
         let (before, known) = (Arc::clone(&self.graph), Arc::clone(&self.known));
         let robots = self.base.robots();
         let followed = self.tell(rehearsed.after)?;
-        let deadline = Instant::now() + PATIENCE;
         let after = Arc::clone(&self.graph);
         let (layout_changed, reweighed) = match followed {
             Followed::Reweighed(reweighed) => (false, reweighed),
@@ -140,7 +135,7 @@ impl Fork {
         let routes = if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
-            routes::compare((&before, &known), &after, &robots, layout_changed, deadline)
+            routes::compare((&before, &known), &after, &robots, layout_changed, self.patience)
         };
         Ok(Preview {
             generation: self.generation,

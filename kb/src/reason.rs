@@ -64,7 +64,7 @@ fn not_entered(room: &Room, rules: &Rules) -> String {
     let place = format!("room {} at ({x:.2}, {y:.2})", room.name);
     match (room.passable.value, room.passable.rule.and_then(|rule| rules.get(&rule))) {
         (Some(false), Some(rule)) => format!("{place} is not entered (rule \"{rule}\")"),
-        (Some(false), None) => format!("{place} is not entered"),
+        (Some(false), None) => format!("{place} is told not to be entered (`adit tell SITE --list`)"),
         (None, _) => format!("whether {place} is entered is unknown: no rule says so, or rules disagree"),
         (Some(true), _) => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
     }
@@ -90,7 +90,9 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     let place = format!("door {} at ({x:.2}, {y:.2})", door.door);
     match (door.passable.value, rule) {
         (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
-        (Some(false), None) => format!("{place} lets no state through: {needed}"),
+        (Some(false), None) => {
+            format!("{place} is told to let nobody through, whatever its size (`adit tell SITE --list`)")
+        }
         _ => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
     }
 }

@@ -1,18 +1,20 @@
-//! Why something is as it is: what the database keeps of each conclusion.
+//! Why something is as it is: the rule behind each conclusion, what it chose, and the values that it read there.
 
-use adit_db::Tx;
-use adit_db::cell::Cell;
-use adit_db::conclusion::Conclusion;
+mod facts;
+
+use adit_db::Cell;
+use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::generation;
-use crate::knowledge::KnowledgeBase;
+use crate::fork::Fork;
+use crate::live::Live;
 use crate::subject::Subject;
 use crate::suggest::did_you_mean;
+pub use facts::Facts;
 
 /// What is concluded about an object, and why.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Why {
     /// The state of the knowledge base that the answer rests on.
     pub generation: u64,
@@ -22,16 +24,19 @@ pub struct Why {
     pub name: String,
     /// Each property that rules conclude.
     pub conclusions: Vec<Reasoned>,
+    /// The objects that the conclusions rest on, each with the properties that their rules read.
+    pub facts: Vec<Facts>,
 }
 
-/// A concluded value.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// A value that was concluded, or told in place of what rules conclude.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Reasoned {
     /// The property.
     pub property: String,
     /// Its value.
+    #[schema(value_type = Object)]
     pub value: Cell,
-    /// The rule.
+    /// The rule; `null`: the value was told.
     pub rule: Option<String>,
     /// Its version.
     pub version: Option<String>,
@@ -40,88 +45,142 @@ pub struct Reasoned {
     /// Its line.
     pub line: Option<i64>,
     /// What the rule chose, by its variables; under `revised by` the rules that changed the value after it.
+    #[schema(value_type = Option<Object>)]
     pub witness: Option<serde_json::Value>,
     /// All of it in one sentence.
     pub why: String,
 }
 
-impl KnowledgeBase {
+impl Live {
     /// Why an object (`door 7`, `room d`, `doors.7`), or one property of it (`doors.7.hardness`), is as it is.
-    ///
-    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn why(&self, what: &str) -> Result<Why> {
-        self.fresh()?.snapshot(|tx| of(tx, what))
+        self.fork().why(what)
     }
 }
 
-/// Why an object, or one property of it, is as the database has it.
-pub(crate) fn of(tx: &mut Tx<'_>, what: &str) -> Result<Why> {
-    let subject = Subject::find(tx, what)?;
-    let conclusions = conclusions(tx, &subject)?;
-    let object = format!("{}.{}", subject.class, subject.key);
-    Ok(Why { generation: generation::read(tx)?, object, name: subject.name, conclusions })
-}
-
-/// What is concluded about the subject; a property that is named must be among it.
-pub fn conclusions(tx: &mut Tx<'_>, subject: &Subject) -> Result<Vec<Reasoned>> {
-    let all = tx.conclusions(&subject.class, &subject.cell())?;
-    let Some(property) = &subject.property else {
-        return Ok(all.into_iter().map(|found| reasoned(subject, found)).collect());
-    };
-    let known: Vec<String> = all.iter().map(|found| found.property.clone()).collect();
-    let found: Vec<Reasoned> = all
-        .into_iter()
-        .filter(|found| found.property == *property)
-        .map(|found| reasoned(subject, found))
-        .collect();
-    if !found.is_empty() {
-        return Ok(found);
+impl Fork {
+    /// As [`Live::why`].
+    pub fn why(&self, what: &str) -> Result<Why> {
+        let subject = Subject::find(self, what)?;
+        let (conclusions, facts) = self.conclusions(&subject)?;
+        let object = format!("{}.{}", subject.class, subject.key);
+        Ok(Why { generation: self.generation, object, name: subject.name, conclusions, facts })
     }
-    let message = format!(
-        "no rule concluded `{property}` of {}: it was told, is unknown, or is no property",
-        subject.name
-    );
-    let help = did_you_mean(property, known.iter().map(String::as_str))
-        .or_else(|| (!known.is_empty()).then(|| format!("concluded are {}", known.join(", "))));
-    Err(Error::said("why/not-concluded", message, help))
-}
 
-fn reasoned(subject: &Subject, found: Conclusion) -> Reasoned {
-    let witness: Option<serde_json::Value> =
-        found.witness.as_deref().and_then(|witness| serde_json::from_str(witness).ok());
-    let by = found.rule.as_ref().map_or(String::new(), |rule| {
-        let version = found.version.as_deref().unwrap_or_default();
-        match (&found.file, found.line) {
-            (Some(file), Some(line)) => {
-                format!(", by rule \"{rule}\" ({file}, line {line}, version {version})")
+    /// What is concluded about the subject, with the facts behind it; a property that is named must be among it.
+    pub(crate) fn conclusions(&self, subject: &Subject) -> Result<(Vec<Reasoned>, Vec<Facts>)> {
+        let class = subject.class.to_uppercase();
+        let mut properties: Vec<&str> = self
+            .inputs
+            .rules
+            .concluded()
+            .into_iter()
+            .filter(|name| name.class == class)
+            .map(|name| name.property.as_str())
+            .collect();
+        // what a route is made of first
+        let rank = |name: &&str| {
+            ["hardness", "action", "passable"].iter().position(|first| first == name).unwrap_or(3)
+        };
+        properties.sort_by_key(rank);
+        let (mut found, mut facts) = (Vec::new(), Vec::new());
+        for property in &properties {
+            if subject.property.as_deref().is_none_or(|wanted| wanted == *property) {
+                found.extend(self.reasoned(subject, &class, property, &mut facts));
             }
-            _ => format!(", by rule \"{rule}\""),
         }
-    });
-    let facts = witness.as_ref().map_or(String::new(), chosen);
-    let why = format!("{} {} is {}{by}{facts}", subject.name, found.property, word(&found));
-    let Conclusion { property, value, rule, version, file, line, .. } = found;
-    Reasoned { property, value, rule, version, file, line, witness, why }
+        match &subject.property {
+            Some(property) if found.is_empty() => {
+                let message = format!(
+                    "no rule concluded `{property}` of {}: it was told, is unknown, or is no property",
+                    subject.name
+                );
+                let help = did_you_mean(property, properties.iter().copied()).or_else(|| {
+                    (!properties.is_empty()).then(|| format!("concluded are {}", properties.join(", ")))
+                });
+                Err(Error::said("why/not-concluded", message, help))
+            }
+            _ => Ok((found, facts)),
+        }
+    }
+
+    fn reasoned(
+        &self,
+        subject: &Subject,
+        class: &str,
+        property: &str,
+        facts: &mut Vec<Facts>,
+    ) -> Option<Reasoned> {
+        let (knowledge, rules) = (&self.base.knowledge, &self.inputs.rules);
+        let found = knowledge.why(rules, class, &subject.key, property)?;
+        let mut witness = serde_json::Map::new();
+        let mut chosen = Vec::new();
+        let support = match &found.origin {
+            Origin::Rule(support) => Some(support),
+            Origin::Told => found.revisions.last().map(|revision| &revision.support),
+        };
+        if let Origin::Rule(support) = &found.origin {
+            for one in support.witnesses.iter().filter(|one| one.class != class || one.key != subject.key) {
+                let read = Facts::of(self, support, one);
+                let values = read.as_ref().map_or_else(String::new, Facts::in_brackets);
+                chosen.push(format!("{} = {} {}{values}", one.variable, one.class, one.key));
+                witness.insert(one.variable.clone(), format!("{} {}", one.class, one.key).into());
+            }
+        }
+        let supports = support.into_iter().chain(found.revisions.iter().map(|revision| &revision.support));
+        for support in supports {
+            for one in &support.witnesses {
+                Facts::add(facts, Facts::of(self, support, one));
+            }
+        }
+        let mut revised: Vec<&str> = found.revisions.iter().map(|revision| &*revision.support.rule).collect();
+        revised.dedup();
+        if !revised.is_empty() {
+            witness.insert("revised by".to_owned(), serde_json::json!(revised));
+        }
+        let by = support.map_or_else(|| self.told_by(subject, class, property), by_rule);
+        let quoted: Vec<String> = revised.iter().map(|rule| format!("\"{rule}\"")).collect();
+        let part = |word: &str, of: &[String]| {
+            if of.is_empty() { String::new() } else { format!("{word} {}", of.join(", ")) }
+        };
+        let value = found.value.as_ref().map_or("unknown".to_owned(), Value::to_string);
+        let why = format!(
+            "{} {property} is {value}{by}{}{}",
+            subject.name,
+            part(" with", &chosen),
+            part("; revised by", &quoted)
+        );
+        Some(Reasoned {
+            property: property.to_owned(),
+            value: found.value.as_ref().map_or(Cell::Null, cell),
+            rule: support.map(|support| support.rule.clone()),
+            version: support.map(|support| support.version.clone()),
+            file: support.map(|support| support.file.clone()),
+            line: support.map(|support| support.line as i64),
+            witness: (!witness.is_empty()).then_some(serde_json::Value::Object(witness)),
+            why,
+        })
+    }
+
+    /// Which fact says so.
+    fn told_by(&self, subject: &Subject, class: &str, property: &str) -> String {
+        let row = self.base.knowledge.row(class, &subject.key);
+        let cell = row.map(|row| (class.to_owned(), row, property.to_owned()));
+        let fact = cell.and_then(|cell| self.base.attached.cells().get(&cell));
+        fact.map_or_else(|| ", as told".to_owned(), |fact| format!(", as fact {} tells", fact.id))
+    }
 }
 
-/// What a rule chose, and what changed the value after it.
-fn chosen(witness: &serde_json::Value) -> String {
-    let facts = witness.as_object().into_iter().flatten();
-    let chosen = facts.filter_map(|(variable, object)| Some(format!("{variable} = {}", object.as_str()?)));
-    let chosen: Vec<String> = chosen.collect();
-    let revised = witness["revised by"].as_array().into_iter().flatten();
-    let revised: Vec<String> = revised.filter_map(|rule| Some(format!("\"{}\"", rule.as_str()?))).collect();
-    let part = |word: &str, of: &[String]| {
-        if of.is_empty() { String::new() } else { format!("{word} {}", of.join(", ")) }
-    };
-    format!("{}{}", part(" with", &chosen), part("; revised by", &revised))
+fn by_rule(support: &Support) -> String {
+    let Support { rule, file, line, version, .. } = support;
+    format!(", by rule \"{rule}\" ({file}, line {line}, version {version})")
 }
 
-/// A value as people read it; the database holds truth values as 0 and 1.
-fn word(found: &Conclusion) -> String {
-    match (&found.value, found.property.as_str()) {
-        (Cell::Null, _) => "unknown".to_owned(),
-        (Cell::Integer(truth), "passable" | "open") => (*truth != 0).to_string(),
-        (value, _) => value.to_string(),
+/// A value as SQL holds it.
+fn cell(value: &Value) -> Cell {
+    match value {
+        Value::Number(number) => Cell::Real(*number),
+        Value::Text(text) => Cell::Text(text.to_string()),
+        Value::Truth(truth) => Cell::Integer((*truth).into()),
     }
 }

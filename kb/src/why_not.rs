@@ -1,26 +1,28 @@
-//! Why not another way: what the best route through a room or door would cost, and what rules rejected there.
+//! Why not another way: what the best route through a room or door would cost, contrasted with the best one, what
+//! decides, and what would have to be otherwise.
 
-use adit_db::Tx;
-use adit_db::door::Door;
+mod contrast;
+mod through;
+
+use std::time::{Duration, Instant};
+
 use adit_engine::Rejected;
-use adit_planners::geometry::Point;
-use adit_planners::routes::{Goal, Start};
 use serde::Serialize;
 
-use crate::answer::pick_robot;
+use crate::answer::{self, Answer};
 use crate::error::{Error, Result};
-use crate::generation;
-use crate::graph::{End, SiteGraph};
-use crate::knowledge::KnowledgeBase;
+use crate::firm::{Path, Prober, Routes, overtaken};
+use crate::fork::Fork;
+use crate::live::Live;
 use crate::subject::Subject;
-use crate::suggest::did_you_mean;
-use crate::why::{Reasoned, conclusions};
+use crate::why::Reasoned;
+use through::Question;
 
-/// Points of a room or a door over which a way is tried.
-const POINTS: usize = 9;
+/// How long is looked for a cell that would decide otherwise.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Why a route does not lead through a room or door.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct WhyNot {
     /// The state of the knowledge base that the answer rests on.
     pub generation: u64,
@@ -36,61 +38,111 @@ pub struct WhyNot {
     pub best: Option<f64>,
     /// Cost of the best route found through the room or door; `None`: none leads there and on.
     pub cost: Option<f64>,
-    /// In one sentence.
+    /// In a few words.
     pub reason: String,
+    /// With numbers: what it would cost, what would be done instead of what, and what would have to be otherwise.
+    pub sentence: String,
+    /// What decides, one thing a sentence: the dearest door or room, or for each state the comparison that it fails.
+    pub deciding: Vec<String>,
+    /// The cell that would have to change least for this way to be the best, where one alone can do it.
+    pub would_win: Option<WouldWin>,
     /// What is concluded about the room or door.
     pub conclusions: Vec<Reasoned>,
     /// What rules did not take on the way to that, and why not.
+    #[schema(value_type = Vec<Object>)]
     pub rejected: Vec<Rejected>,
     /// Whether there were more objects than are looked at.
     pub truncated: bool,
+    /// The route through the room or door; `None` where there is none.
+    #[schema(value_type = Option<Object>)]
+    pub route: Option<Answer>,
 }
 
-impl KnowledgeBase {
+/// A cell with which another way would be the best.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct WouldWin {
+    /// Its table.
+    pub table: String,
+    /// Its row.
+    pub key: String,
+    /// Its column.
+    pub column: String,
+    /// What it is.
+    pub value: f64,
+    /// From where on the way would be the best; there it costs as much as any other.
+    pub wins_at: f64,
+    /// What it would cost there.
+    pub cost: f64,
+}
+
+impl Live {
     /// Why the best route from `start` to `goal` does not lead through a room or door (`room d`, `door 7`).
-    ///
-    /// Where tables, `site.toml` or the map were edited since the last build, everything is derived again first.
     pub fn why_not(&self, start: &str, goal: &str, through: &str, robot: Option<&str>) -> Result<WhyNot> {
-        self.fresh()?.snapshot(|tx| {
-            let subject = Subject::find(tx, through)?;
-            let robot = pick_robot(tx, robot)?;
-            let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
-            let question = Question::new(&graph, start, goal, &robot)?;
-            let key = subject.key.parse().unwrap_or_default();
-            let cost = match subject.class.as_str() {
-                "rooms" => graph.room(key).and_then(|room| question.through_room(room)),
-                "doors" => graph.door(key).and_then(|door| question.through_door(door)),
-                _ => {
-                    let message = format!("a route leads through rooms and doors, not {}", subject.name);
-                    return Err(Error::said("why/through", message, None));
-                }
-            };
-            let best = question.best();
-            let reason = reason(&subject, graph.door(key), (start, goal), best, cost);
-            let (rejected, truncated) = self.rejected(tx, &subject)?;
-            Ok(WhyNot {
-                generation: generation::read(tx)?,
-                robot,
-                start: start.to_owned(),
-                goal: goal.to_owned(),
-                best,
-                cost,
-                reason,
-                conclusions: conclusions(tx, &Subject { property: None, ..subject.clone() })?,
-                through: subject.name,
-                rejected,
-                truncated,
-            })
-        })
+        self.fork().why_not(start, goal, through, robot)
+    }
+}
+
+impl Fork {
+    /// As [`Live::why_not`], of the state that was forked; the site is not held up meanwhile.
+    pub fn why_not(mut self, start: &str, goal: &str, through: &str, robot: Option<&str>) -> Result<WhyNot> {
+        let subject = Subject::find(&self, through)?;
+        let robot = answer::pick(&self.base.robots(), robot)?;
+        let question = Question::new(&self, start, goal, &robot)?;
+        let key = subject.key.parse().unwrap_or_default();
+        let way = match subject.class.as_str() {
+            "rooms" => self.graph.room(key).and_then(|room| question.through_room(room)),
+            "doors" => self.graph.door(key).and_then(|door| question.through_door(door)),
+            _ => {
+                let message = format!("a route leads through rooms and doors, not {}", subject.name);
+                return Err(Error::said("why/through", message, None));
+            }
+        };
+        let best = question.best();
+        let is_to_point = question.is_to_point();
+        let (rejected, truncated) = self.rejected(&subject);
+        let named = Subject { property: None, ..subject.clone() };
+        let (conclusions, _) = self.conclusions(&named)?;
+        let costs = (best.as_ref().map(|best| best.cost), way.as_ref().map(|way| way.cost));
+        let reason = contrast::reason(&subject, self.graph.door(key), (start, goal), costs);
+        let route = way.as_ref().map(|way| {
+            let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
+            self.basis().along(way, is_to_point, &mut answer);
+            answer
+        });
+        let mut answer = WhyNot {
+            generation: self.generation,
+            robot,
+            start: start.to_owned(),
+            goal: goal.to_owned(),
+            through: subject.name,
+            best: costs.0,
+            cost: costs.1,
+            sentence: reason.clone(),
+            reason,
+            deciding: Vec::new(),
+            would_win: None,
+            conclusions,
+            rejected,
+            truncated,
+            route,
+        };
+        match (best, way) {
+            (Some(best), Some(way)) if !contrast::is_best(best.cost, way.cost) => {
+                let paths = (Path::of(&best), Path::of(&way));
+                answer.contrast(self, paths)?;
+            }
+            (_, None) => answer.deciding = contrast::failures(&answer.rejected),
+            _ => {}
+        }
+        Ok(answer)
     }
 
-    /// What rules rejected on the way to the values of a room or door, derived anew in memory.
-    fn rejected(&self, tx: &mut Tx<'_>, subject: &Subject) -> Result<(Vec<Rejected>, bool)> {
-        let (mut derived, rules) = self.derived_anew(tx)?;
+    /// What rules rejected on the way to the values of a room or door.
+    fn rejected(&mut self, subject: &Subject) -> (Vec<Rejected>, bool) {
         let class = subject.class.to_uppercase();
         let (mut rejected, mut truncated) = (Vec::new(), false);
         for property in ["hardness", "action", "passable"] {
-            let asked = derived.knowledge.why_not(&rules, &class, &subject.key, property);
+            let asked = self.base.knowledge.why_not(&self.inputs.rules, &class, &subject.key, property);
             for one in asked.iter().flat_map(|why| &why.rejected) {
                 // one rule mostly gives all three, and rejects the same for each
                 if !rejected.contains(one) {
@@ -99,108 +151,42 @@ impl KnowledgeBase {
             }
             truncated |= asked.is_some_and(|why| why.truncated);
         }
-        Ok((rejected, truncated))
+        (rejected, truncated)
     }
 }
 
-/// Ways from a start to a goal.
-struct Question<'g> {
-    graph: &'g SiteGraph,
-    start: Start,
-    goal: Goal,
-}
-
-impl<'g> Question<'g> {
-    fn new(graph: &'g SiteGraph, start: &str, goal: &str, robot: &str) -> Result<Self> {
-        let end = |name: &str| {
-            graph.end(name).ok_or_else(|| {
-                let message = format!("`{name}` is no place, no room and no point `x,y`");
-                Error::said("route/unknown", message, did_you_mean(name, graph.names()))
-            })
-        };
-        let (start, goal) = (end(start)?, end(goal)?);
-        Ok(Self { graph, start: graph.start(&start, Some(robot)), goal: graph.goal(&goal, Some(robot)) })
-    }
-
-    fn best(&self) -> Option<f64> {
-        self.cost(&self.start, &self.goal)
-    }
-
-    fn cost(&self, start: &Start, goal: &Goal) -> Option<f64> {
-        self.graph.graph().way(start, std::slice::from_ref(goal)).map(|(_, way)| way.cost)
-    }
-
-    /// What it costs to come to a point in a room.
-    fn to(&self, room: usize, at: Point) -> Option<f64> {
-        self.cost(&self.start, &Goal { rooms: vec![room], at: Some(at) })
-    }
-
-    /// What it costs to go on from a point in a room.
-    fn on(&self, room: usize, at: Point) -> Option<f64> {
-        self.cost(&Start { rooms: vec![room], at }, &self.goal)
-    }
-
-    /// By where it is entered at least cost, by its middle, or by one of its doors.
-    fn through_room(&self, room: usize) -> Option<f64> {
-        let first = Goal { rooms: vec![room], at: None };
-        let entered =
-            self.graph.graph().way(&self.start, &[first]).and_then(|(_, way)| way.legs.last().copied());
-        let middle = self.graph.point(&End::Room(room));
-        let doors = self.graph.graph().doors().iter();
-        let doors = doors.filter(|door| !door.is_change() && (door.room1 == room || door.room2 == room));
-        let points = entered.map(|leg| leg.to).into_iter().chain([middle]);
-        let points = points.chain(doors.map(|door| door.crossing.centre())).take(POINTS);
-        points.filter_map(|at| Some(self.to(room, at)? + self.on(room, at)?)).min_by(f64::total_cmp)
-    }
-
-    /// By one of some points of the door; both ways, unless it is passed one way only.
-    fn through_door(&self, door: &Door) -> Option<f64> {
-        let hardness = door.hardness.value.filter(|_| door.passable.value == Some(true))?;
-        let (one, two) = (self.graph.room(door.side1.room)?, self.graph.room(door.side2.room)?);
-        let ways = [(one, two), (two, one)];
-        let ways = if door.one_way { &ways[..1] } else { &ways[..] };
-        let [x0, y0, x1, y1] = door.segment;
-        let share = |part: usize| part as f64 / (POINTS - 1) as f64;
-        let along = |part| Point::new(x0 + (x1 - x0) * share(part), y0 + (y1 - y0) * share(part));
-        let points: Vec<Point> = if self.graph.graph().is_on_doors() {
-            vec![Point::new(door.at[0], door.at[1])]
+impl WhyNot {
+    /// Fills in what decides between the best way and this one, and what would have to be otherwise.
+    fn contrast(&mut self, fork: Fork, (best, way): (Path, Path)) -> Result<()> {
+        let routes = Routes::new(&fork, &self.start, &self.goal, &self.robot)?;
+        let (best, way) = if routes.is_on_doors() {
+            let doors = |path: Path| Path { metres: Vec::new(), doors: path.doors };
+            (doors(best), doors(way))
         } else {
-            (0..POINTS).map(along).collect()
+            (best, way)
         };
-        let cost =
-            |(from, to): (usize, usize), at: Point| Some(self.to(from, at)? + hardness + self.on(to, at)?);
-        let all = ways.iter().flat_map(|&way| points.iter().filter_map(move |&at| cost(way, at)));
-        all.min_by(f64::total_cmp)
+        let mut prober = Prober::new(fork);
+        self.would_win = would_win(&mut prober, &routes, &way)?;
+        self.deciding = contrast::deciding(&prober, &best, &way);
+        self.sentence = contrast::sentence(self);
+        Ok(())
     }
 }
 
-fn reason(
-    subject: &Subject,
-    door: Option<&Door>,
-    (start, goal): (&str, &str),
-    best: Option<f64>,
-    cost: Option<f64>,
-) -> String {
-    use crate::number::number;
-    let name = &subject.name;
-    match (best, cost) {
-        // the way through a door is measured by one point of it
-        (Some(best), Some(cost)) if cost <= best * (1.0 + 1e-9) => {
-            format!("the best route from {start} to {goal} leads through {name}, hardness {}", number(best))
+/// The cell that has to change least, as a share of what it is, for a way to cost no more than any other.
+fn would_win(prober: &mut Prober, routes: &Routes, way: &Path) -> Result<Option<WouldWin>> {
+    let deadline = Instant::now() + PATIENCE;
+    let mut found: Option<(f64, WouldWin)> = None;
+    for lever in prober.levers()? {
+        if Instant::now() >= deadline {
+            break;
         }
-        (Some(best), Some(cost)) => format!(
-            "through {name} it costs {}, {} more than the best route from {start} to {goal} ({})",
-            number(cost),
-            number(cost - best),
-            number(best)
-        ),
-        (None, Some(cost)) => format!("through {name} it costs {}", number(cost)),
-        (_, None) => match door.filter(|_| subject.class == "doors") {
-            Some(door) if door.passable.value == Some(false) => format!("{name} lets no state through"),
-            Some(door) if door.passable.value.is_none() || door.hardness.value.is_none() => {
-                format!("{name} has no hardness: no rule gives it one, or rules disagree")
-            }
-            _ => format!("no way leads from {start} through {name} to {goal}"),
-        },
+        let Some((wins_at, cost)) = overtaken(prober, routes, way, &lever, deadline)? else { continue };
+        let share = (wins_at - lever.value).abs() / lever.value.abs().max(0.1);
+        if found.as_ref().is_none_or(|(least, _)| share < *least) {
+            let (table, key, column) = (lever.class.to_lowercase(), lever.key, lever.column);
+            found = Some((share, WouldWin { table, key, column, value: lever.value, wins_at, cost }));
+        }
     }
+    Ok(found.map(|(_, cell)| cell))
 }

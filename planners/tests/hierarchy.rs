@@ -1,5 +1,5 @@
 //! Ways between any two rooms, prepared: the least cost, whatever was weighed anew before.
-#![allow(clippy::float_cmp)] // infinities, and sums of the same numbers in the same order
+#![allow(clippy::float_cmp, clippy::unwrap_used)] // sums of the same numbers in the same order; helpers of tests
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
@@ -183,6 +183,59 @@ proptest! {
         let mut copy = before.clone();
         edit(&mut copy, &one);
         prop_assert_eq!(ways, (0..ROOMS).map(|to| way(&before, 0, to)).collect::<Vec<_>>());
+    }
+}
+
+/// A floor of so many rooms a side with some walls, and numbers as if they were drawn.
+fn floor(side: usize, draw: &mut impl FnMut(u64) -> u64) -> RouteGraph {
+    let square = |room: usize| {
+        let (x, y) = ((room % side) as f64, (room / side) as f64);
+        RouteRoom { rect: Rect::new(x, y, x + 1.0, y + 1.0), walking: Walking::OnDoors }
+    };
+    let mut doors = Vec::new();
+    for room in 0..side * side {
+        let right = (room % side + 1 < side).then_some(room + 1);
+        let upper = (room / side + 1 < side).then_some(room + side);
+        for next in right.into_iter().chain(upper) {
+            let passable = draw(5) > 0;
+            let one_way = draw(20) == 0;
+            let hardness = Some(draw(1000) as f64 / 7.0);
+            doors.push(RouteDoor { passable, one_way, ..door(doors.len() as u32 + 1, room, next, hardness) });
+        }
+    }
+    prepared((0..side * side).map(square).collect(), doors)
+}
+
+#[test]
+fn on_a_large_floor_every_way_costs_least_after_small_and_large_edits() {
+    let (side, mut state) = (60, 1_u64);
+    let mut draw = |below: u64| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) % below
+    };
+    let mut graph = floor(side, &mut draw);
+    let (rooms, doors) = (graph.rooms().len(), graph.doors().len());
+    for changed in [0, 1, 1, 3, 30, 1, doors, 2] {
+        let weighed: Vec<_> = (0..changed)
+            .map(|_| (draw(doors as u64) as usize, Some(draw(1000) as f64 / 3.0), draw(5) > 0))
+            .collect();
+        graph.reweigh([], weighed);
+        let anew = prepared(graph.rooms().to_vec(), graph.doors().to_vec());
+        for _ in 0..5 {
+            let from = draw(rooms as u64) as usize;
+            let tree = graph.tree(&Start { rooms: vec![from], at: Point::default() });
+            for to in (0..rooms).step_by(37) {
+                let found = way(&graph, from, to);
+                assert_eq!(found, way(&anew, from, to));
+                let least = tree.rooms[to].map(|arrival| arrival.cost);
+                match (&found, least) {
+                    (Some(way), Some(least)) => {
+                        assert!(is_same(way.cost, least) && is_driven(&graph, way, to), "{from} to {to}");
+                    }
+                    (found, least) => assert!(found.is_none() && least.is_none(), "{from} to {to}"),
+                }
+            }
+        }
     }
 }
 

@@ -20,7 +20,8 @@ pub fn adit() -> &'static Path {
         let exe = std::env::current_exe().expect("a test knows its own path");
         let profile = exe.ancestors().nth(2).expect("tests run in target/PROFILE/deps").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        build.args(["build", "--quiet", "--locked", "--package", "adit", "--bin", "adit"]);
+        // of the whole workspace, as the tests are built: of one package alone, crates with fewer features would be built anew
+        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit"]);
         if profile.ends_with("release") {
             build.arg("--release");
         }

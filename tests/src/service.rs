@@ -1,8 +1,9 @@
 //! The running service, as a program of somebody's that speaks HTTP sees it.
 
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{BufRead, BufReader, Lines, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 use serde_json::Value;
 
@@ -23,10 +24,15 @@ impl Service {
 
     /// Serves the site on this address.
     pub fn start_on(site: &TestSite, address: &str) -> Self {
+        Self::start_with(site, &["--listen", address])
+    }
+
+    /// Serves the site with these arguments.
+    pub fn start_with(site: &TestSite, arguments: &[&str]) -> Self {
         let mut child = Command::new(adit())
             .arg("serve")
             .arg(site.path())
-            .args(["--listen", address])
+            .args(arguments)
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -48,6 +54,34 @@ impl Service {
         format!("http://{}/{hash}", self.address)
     }
 
+    /// Tells the program to end, and waits until it has.
+    pub fn end(mut self) {
+        let told = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status();
+        assert!(told.expect("kill is there").success());
+        assert!(self.child.wait().expect("it ends").success());
+    }
+
+    /// Kills the program, as a power cut would.
+    pub fn kill(mut self) {
+        self.child.kill().expect("it runs");
+        self.child.wait().expect("it ends");
+    }
+
+    /// Asks with headers (`Name: value`), and gives the status and the answer's JSON.
+    pub fn ask_as(&self, headers: &[&str], method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
+        let answer =
+            exchange_with(&self.address, headers, (method, path), body).expect("somebody answers there");
+        parsed(&answer)
+    }
+
+    /// Live events, from now on.
+    pub fn events(&self) -> Events {
+        let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
+        write!(stream, "GET /api/events HTTP/1.1\r\nHost: {}\r\n\r\n", self.address).expect("asked");
+        stream.set_read_timeout(Some(Duration::from_secs(15))).expect("a time");
+        Events { lines: BufReader::new(stream).lines() }
+    }
+
     /// Asks, and gives the status and the answer's JSON.
     pub fn ask(&self, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
         request(&self.address, method, path, body)
@@ -61,20 +95,78 @@ impl Drop for Service {
     }
 }
 
+/// A stream of live events.
+pub struct Events {
+    lines: Lines<BufReader<TcpStream>>,
+}
+
+impl Events {
+    /// The data of the next event of this name.
+    ///
+    /// # Panics
+    /// Where none comes for 15 seconds.
+    #[track_caller]
+    pub fn next(&mut self, name: &str) -> Value {
+        let head = format!("event: {name}");
+        let mut is_it = false;
+        for line in self.lines.by_ref() {
+            let line = line.unwrap_or_else(|error| panic!("no event `{name}` comes: {error}"));
+            match line.strip_prefix("data: ").filter(|_| is_it) {
+                Some(data) => return serde_json::from_str(data).expect("data is JSON"),
+                None => is_it |= line == head,
+            }
+        }
+        panic!("the stream ends without an event `{name}`");
+    }
+}
+
 /// One request over a connection of its own; the status and the answer's JSON, or its text.
-fn request(address: &str, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
-    let mut stream = TcpStream::connect(address).expect("somebody listens there");
-    let body = body.map(Value::to_string).unwrap_or_default();
-    write!(
-        stream,
-        "{method} {path} HTTP/1.1\r\nHost: {address}\r\nContent-Type: application/json\r\n\
-         Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
-        body.len()
-    )
-    .expect("sent");
-    let mut answer = String::new();
-    stream.read_to_string(&mut answer).expect("an answer in UTF-8");
+pub fn request(address: &str, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
+    parsed(&exchange(address, method, path, body).expect("somebody answers there"))
+}
+
+fn parsed(answer: &str) -> (u16, Value) {
     let status = answer.split(' ').nth(1).and_then(|status| status.parse().ok()).expect("a status line");
     let (_, body) = answer.split_once("\r\n\r\n").expect("headers end");
     (status, serde_json::from_str(body).unwrap_or(Value::String(body.to_owned())))
+}
+
+/// What comes back for a request: status line, headers, body.
+pub(crate) fn exchange(
+    address: &str,
+    method: &str,
+    path: &str,
+    body: Option<&Value>,
+) -> std::io::Result<String> {
+    exchange_with(address, &[], (method, path), body)
+}
+
+/// As [`exchange`], with headers; one that is given stands instead of the usual one of its name.
+fn exchange_with(
+    address: &str,
+    headers: &[&str],
+    (method, path): (&str, &str),
+    body: Option<&Value>,
+) -> std::io::Result<String> {
+    let mut stream = TcpStream::connect(address)?;
+    let body = match body {
+        Some(Value::String(raw)) => raw.clone(),
+        body => body.map(Value::to_string).unwrap_or_default(),
+    };
+    let name = |header: &str| header.split(':').next().unwrap_or_default().to_lowercase();
+    let usual = [format!("Host: {address}"), "Content-Type: application/json".to_owned()];
+    let usual = usual.iter().filter(|usual| !headers.iter().any(|given| name(given) == name(usual)));
+    let headers: String = usual
+        .map(String::as_str)
+        .chain(headers.iter().copied())
+        .map(|header| format!("{header}\r\n"))
+        .collect();
+    write!(
+        stream,
+        "{method} {path} HTTP/1.1\r\n{headers}Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+        body.len()
+    )?;
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer)?;
+    Ok(answer)
 }

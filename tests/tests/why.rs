@@ -89,3 +89,84 @@ fn why_not_works_where_rooms_are_by_state() {
         "the way through a room of the route costs what the route costs: {cost}, {best}"
     );
 }
+
+#[test]
+fn why_gives_the_values_that_the_rule_read() {
+    let site = TestSite::example("paper").built();
+    let answer = site.adit("why", &["doors.3.hardness", "--json"]).expecting(0).json();
+    let facts = answer["facts"].as_array().unwrap();
+    let squat = facts.iter().find(|one| one["key"] == "robot/SQUAT").unwrap();
+    let hardness: f64 = site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'")[0].parse().unwrap();
+    assert_eq!(
+        (&squat["class"], squat["properties"]["hardness"].as_f64()),
+        (&"ROBOTS".into(), Some(hardness))
+    );
+    let door = facts.iter().find(|one| one["class"] == "DOORS").unwrap();
+    assert!(door["properties"]["width"].as_f64().unwrap() > 0.0, "{door}");
+    let said = site.adit("why", &["doors.3.hardness"]).expecting(0).stdout;
+    assert!(said.contains("first = ROBOTS robot/SQUAT ("), "{said}");
+    assert!(said.contains(&format!("hardness {hardness}")), "{said}");
+}
+
+#[test]
+fn a_door_that_was_told_shut_is_not_said_to_be_narrow() {
+    let site = TestSite::example("paper").built();
+    site.adit("tell", &["DOORS", "door 3", "passable", "false"]).expect_status(0);
+    let why = site.adit("why", &["door 3"]).expecting(0).stdout;
+    assert!(why.contains("door 3 passable is false, as fact 1 tells"), "{why}");
+    let why_not = site.adit("why-not", &["f", "e", "--through", "door 3"]).expecting(0).stdout;
+    assert!(why_not.starts_with("door 3 is told to let nobody through"), "{why_not}");
+    for door in 1..=8 {
+        site.adit("tell", &["DOORS", &format!("door {door}"), "passable", "false"]).expect_status(0);
+    }
+    let route = site.adit("route", &["f", "e"]).expecting(1).stdout;
+    assert!(route.contains("is told to let nobody through") && !route.contains("narrower"), "{route}");
+}
+
+#[test]
+fn why_not_says_what_would_be_done_instead_and_which_number_would_turn_it() {
+    let site = TestSite::example("paper").built();
+    let args = ["f", "e", "--through", "room c", "--json"];
+    let answer = site.adit("why-not", &args).expecting(0).json();
+    let sentence = answer["sentence"].as_str().unwrap();
+    assert!(
+        sentence.starts_with("Through room c it would cost 41.699 more (133.707 instead of 92.007): "),
+        "{sentence}"
+    );
+    assert!(sentence.contains(" instead of "), "{sentence}");
+    assert!((answer["route"]["cost"].as_f64().unwrap() - answer["cost"].as_f64().unwrap()).abs() < 1e-9);
+    let rooms: Vec<&str> = answer["route"]["steps"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|step| step["place"].as_str())
+        .collect();
+    assert!(rooms.contains(&"c"), "{rooms:?}");
+    let cell = &answer["would_win"];
+    if let (Some(key), Some(at)) = (cell["key"].as_str(), cell["wins_at"].as_f64()) {
+        // a hair beyond, the route leads through room c
+        let beyond = at + (at - cell["value"].as_f64().unwrap()).signum() * 1e-6;
+        site.adit("tune", &["robots", key, cell["column"].as_str().unwrap(), &beyond.to_string()])
+            .expect_status(0);
+        let again = site.adit("why-not", &args).expecting(0).json();
+        assert!(
+            again["cost"].as_f64().unwrap() <= again["best"].as_f64().unwrap() * (1.0 + 1e-6),
+            "{again:#}"
+        );
+    } else {
+        assert!(sentence.ends_with("No single number of the tables makes it the best way."), "{sentence}");
+    }
+}
+
+#[test]
+fn why_not_names_by_how_much_each_state_fails() {
+    let site = TestSite::example("paper").built();
+    let answer = site.adit("why-not", &["f", "e", "--through", "door 1", "--json"]).expecting(0).json();
+    let deciding: Vec<&str> =
+        answer["deciding"].as_array().unwrap().iter().filter_map(|one| one.as_str()).collect();
+    assert!(
+        deciding
+            .contains(&"robots robot/LIE-FACE-DOWN fails first.height < door.height1: 5 against 4, 1 apart"),
+        "{deciding:#?}"
+    );
+}

@@ -135,3 +135,6 @@ fn put_point(out: &mut Vec<u8>, leg: &Leg) -> Result<()> {
     out.extend_from_slice(br#","heading":"#);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -92,10 +92,14 @@ impl Basis<'_> {
     }
 
     fn tell(&self, names: &[String], found: &Found, answer: &mut Answer) {
-        let Self { graph, rules, .. } = self;
-        let way = &found.way;
         answer.goal.clone_from(&names[found.goal]);
-        answer.steps = steps::steps(graph, rules, way, found.is_to_point);
+        self.along(&found.way, found.is_to_point, answer);
+    }
+
+    /// A way as an answer; where it does not lead to a point, nothing is walked in the last room.
+    pub fn along(&self, way: &Way, is_to_point: bool, answer: &mut Answer) {
+        let Self { graph, rules, .. } = self;
+        answer.steps = steps::steps(graph, rules, way, is_to_point);
         answer.waypoints = steps::waypoints(graph, way, self.gauge);
         answer.cost = Some(way.cost);
         answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());

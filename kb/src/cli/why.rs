@@ -4,13 +4,14 @@ use super::build::open;
 use super::output::{json, line};
 use super::{WhyArgs, WhyNotArgs};
 use crate::error::Result;
+use crate::live::Live;
 
 /// Rejections that are printed; all of them stand in the JSON.
 const PRINTED: usize = 20;
 
 /// Prints why an object is as it is.
 pub fn why(args: &WhyArgs) -> Result<()> {
-    let answer = open(&args.site)?.why(&args.what)?;
+    let answer = Live::open(open(&args.site)?)?.why(&args.what)?;
     if args.site.json {
         return json(&answer);
     }
@@ -26,11 +27,18 @@ pub fn why(args: &WhyArgs) -> Result<()> {
 /// Prints why no route leads through a room or door.
 pub fn why_not(args: &WhyNotArgs) -> Result<()> {
     let robot = args.robot.as_deref();
-    let answer = open(&args.site)?.why_not(&args.start, &args.goal, &args.through, robot)?;
+    let live = Live::open(open(&args.site)?)?;
+    let answer = live.why_not(&args.start, &args.goal, &args.through, robot)?;
     if args.site.json {
         return json(&answer);
     }
     line(&answer.reason);
+    if answer.sentence != answer.reason {
+        line(&answer.sentence);
+    }
+    for deciding in answer.deciding.iter().filter(|_| answer.cost.is_none()) {
+        line(&format!("  {deciding}"));
+    }
     for conclusion in &answer.conclusions {
         line(&format!("  {}", conclusion.why));
     }

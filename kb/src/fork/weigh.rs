@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use adit_db::Derived;
-use adit_db::door::DoorWeight;
-use adit_db::room::RoomWeight;
+use adit_db::door::{Door, DoorWeight};
+use adit_db::room::{Room, RoomWeight};
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 
 use crate::graph::SiteGraph;
@@ -37,11 +37,7 @@ impl Reweighed {
             rooms.entry(row).or_insert_with(|| room(row)).passable = to;
         });
         let mut doors: BTreeMap<usize, DoorWeight> = BTreeMap::new();
-        let door = |row: usize| {
-            let door = &graph.doors[row];
-            let (hardness, action) = (door.hardness.clone(), door.action.clone());
-            DoorWeight { door: door.door, hardness, action, passable: door.passable.clone() }
-        };
+        let door = |row: usize| weight(&graph.doors[row]);
         look.at("DOORS", "hardness", number, |row, to| {
             doors.entry(row).or_insert_with(|| door(row)).hardness = to;
         });
@@ -51,19 +47,39 @@ impl Reweighed {
         look.at("DOORS", "passable", truth, |row, to| {
             doors.entry(row).or_insert_with(|| door(row)).passable = to;
         });
-        rooms.retain(|row, to| {
-            let now = &graph.rooms[*row];
-            differs(&now.hardness, &to.hardness)
-                || differs(&now.action, &to.action)
-                || differs(&now.passable, &to.passable)
-        });
-        doors.retain(|row, to| {
-            let now = &graph.doors[*row];
-            differs(&now.hardness, &to.hardness)
-                || differs(&now.action, &to.action)
-                || differs(&now.passable, &to.passable)
-        });
+        rooms.retain(|row, to| is_other_room(&graph.rooms[*row], to));
+        doors.retain(|row, to| is_other_door(&graph.doors[*row], to));
         Self { rooms: rooms.into_iter().collect(), doors: doors.into_iter().collect() }
+    }
+
+    /// What differs between two graphs; `None` where other rooms or doors are in them.
+    pub(crate) fn between(before: &SiteGraph, after: &SiteGraph) -> Option<Self> {
+        let rooms = || before.rooms.iter().zip(&after.rooms);
+        let doors = || before.doors.iter().zip(&after.doors);
+        let is_same = before.rooms.len() == after.rooms.len()
+            && before.doors.len() == after.doors.len()
+            && rooms().all(|(old, new)| {
+                old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
+                    && old.layer == new.layer
+                    && old.facing == new.facing
+            })
+            && doors().all(|(old, new)| {
+                old.segment.map(f64::to_bits) == new.segment.map(f64::to_bits)
+                    && (old.side1.room, old.side2.room) == (new.side1.room, new.side2.room)
+            });
+        is_same.then(|| Self {
+            rooms: rooms()
+                .enumerate()
+                .filter(|(_, (old, new))| is_other_room(old, &new.weight()))
+                .map(|(row, (_, new))| (row, new.weight()))
+                .collect(),
+            doors: doors()
+                .enumerate()
+                .map(|(row, (old, new))| (row, old, weight(new)))
+                .filter(|(_, old, new)| is_other_door(old, new))
+                .map(|(row, _, new)| (row, new))
+                .collect(),
+        })
     }
 
     /// Whether everything weighs what it weighed.
@@ -75,6 +91,23 @@ impl Reweighed {
     pub(crate) fn lay_over(&self, graph: &mut SiteGraph) {
         graph.write(&self.rooms, &self.doors);
     }
+}
+
+fn weight(door: &Door) -> DoorWeight {
+    let (hardness, action) = (door.hardness.clone(), door.action.clone());
+    DoorWeight { door: door.door, hardness, action, passable: door.passable.clone() }
+}
+
+fn is_other_room(now: &Room, to: &RoomWeight) -> bool {
+    differs(&now.hardness, &to.hardness)
+        || differs(&now.action, &to.action)
+        || differs(&now.passable, &to.passable)
+}
+
+fn is_other_door(now: &Door, to: &DoorWeight) -> bool {
+    differs(&now.hardness, &to.hardness)
+        || differs(&now.action, &to.action)
+        || differs(&now.passable, &to.passable)
 }
 
 /// Whether the value or its rule is another one; the number of a witness says nothing here.

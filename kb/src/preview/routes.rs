@@ -1,6 +1,6 @@
 //! Routes between places, before and after.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
@@ -64,15 +64,16 @@ pub(super) fn compare(
     after: &SiteGraph,
     robots: &[String],
     is_anew: bool,
-    deadline: Instant,
+    patience: Duration,
 ) -> PlaceRoutes {
+    let began = Instant::now();
     let places = before.places.len();
     let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), places) };
     let wanted: Vec<From> =
         (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
-    let old = known.rows(before, robots, &wanted, deadline);
+    let old = known.rows(before, robots, &wanted, began + patience / 2);
     let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
-    let new = pairs::rows(after, robots, &wanted, deadline);
+    let new = pairs::rows(after, robots, &wanted, began + patience);
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
             let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);

@@ -157,7 +157,10 @@ impl Desk {
         self.looked = Some(now);
         match self.live.catch_up() {
             Ok(Some(outcome)) if !outcome.anew => {
-                self.publish(&outcome, &Cause::itself("clock", "the time of a fact or of opening hours is over"));
+                self.publish(
+                    &outcome,
+                    &Cause::itself("clock", "the time of a fact or of opening hours is over"),
+                );
             }
             outcome => self.report(outcome, &Cause::itself("another program", "tables were edited")),
         }

@@ -33,8 +33,10 @@ type Costs = BTreeMap<(String, String, String), f64>;
 /// Works until the service ends.
 pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
     let work = move || {
-        let mut costs = costs(&shared.view.load().view);
-        let mut generation = shared.view.load().view.generation();
+        // one view for both: an edit that comes while costs are found is seen as a change
+        let first = shared.view.load().view.clone();
+        let (mut costs, mut generation) = (costs(&first), first.generation());
+        drop(first);
         let mut changed = Instant::now();
         while !*shared.ending.borrow() {
             let view = shared.view.load().view.clone();
@@ -47,7 +49,8 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
                 renew(&shared, generation);
                 changed = Instant::now();
             } else {
-                let patience = if view.routes_due() { QUIET.saturating_sub(changed.elapsed()) } else { PAUSE };
+                let patience =
+                    if view.routes_due() { QUIET.saturating_sub(changed.elapsed()) } else { PAUSE };
                 shared.wait_for_change(generation, patience.max(SHORTEST));
             }
         }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::Site;
 use super::extract::Asked;
-use crate::serve::fault::{Answered, Failure};
+use crate::serve::fault::{Answered, Failure, Fault};
 use crate::why::Why;
 use crate::why_not::WhyNot;
 
@@ -18,9 +18,11 @@ pub struct What {
 /// Why a room, a door or one of its properties is as it is: the rule, the facts, the values.
 #[utoipa::path(get, path = "/api/why", tag = "reasons", security(("token" = [])),
     params(("what" = String, Query, description = "`door 7`, `room d`, `doors.7.hardness`")),
-    responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Why), (status = "4XX", body = Failure)))]
 pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json<Why>> {
-    site.read(move |tx| crate::why::of(tx, &what)).await.map(Json)
+    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let why = tokio::task::spawn_blocking(move || fork.why(&what));
+    Ok(Json(why.await.map_err(|_| Fault::internal())??))
 }
 
 /// Which way is asked about.
@@ -36,11 +38,11 @@ pub struct Through {
 #[utoipa::path(get, path = "/api/why-not", tag = "reasons", security(("token" = [])),
     params(("start" = String, Query, description = "A place, a room or `x,y`"), ("goal" = String, Query, description = "A place, a room or `x,y`"),
            ("through" = String, Query, description = "`room d`, `door 7`"), ("robot" = Option<String>, Query, description = "Whose route")),
-    responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = WhyNot), (status = "4XX", body = Failure)))]
 pub async fn why_not(site: Site, Asked(asked): Asked<Through>) -> Answered<Json<WhyNot>> {
-    let view = site.view.load().view.clone();
-    let answer = site.with_store(move |_| {
-        view.site().why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref())
+    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let answer = tokio::task::spawn_blocking(move || {
+        fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref())
     });
-    answer.await.map(Json)
+    Ok(Json(answer.await.map_err(|_| Fault::internal())??))
 }

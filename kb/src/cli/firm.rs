@@ -1,0 +1,45 @@
+//! `adit firm`.
+
+use super::FirmArgs;
+use super::build::open;
+use super::output::{json, line, table};
+use crate::error::Result;
+use crate::firm::{Beyond, FirmCell};
+use crate::live::Live;
+use crate::number::number;
+
+/// Prints how far each cell may change before another way is the best.
+pub fn run(args: &FirmArgs) -> Result<()> {
+    let live = Live::open(open(&args.site)?)?;
+    let firm = live.firm(&args.start, &args.goal, args.robot.as_deref())?;
+    if args.site.json {
+        return json(&firm);
+    }
+    let Some(cost) = firm.cost else {
+        line(&format!("no route leads from {} to {}: there is nothing to be firm", args.start, args.goal));
+        return Ok(());
+    };
+    line(&format!(
+        "the route from {} to {} costs {}; it stays the best",
+        args.start,
+        args.goal,
+        number(cost)
+    ));
+    let rows = firm.cells.iter().map(|cell| {
+        let name = format!("{}.{}.{}", cell.table, cell.key, cell.column);
+        let way =
+            |beyond: &Option<Beyond>| beyond.as_ref().map_or(String::new(), |beyond| beyond.way.clone());
+        vec![name, number(cell.value), interval(cell), way(&cell.below), way(&cell.above)]
+    });
+    table(&["cell", "is", "from .. to", "below takes over", "above takes over"], rows);
+    if firm.truncated {
+        line("the time was over before all cells were looked at");
+    }
+    Ok(())
+}
+
+fn interval(cell: &FirmCell) -> String {
+    let low = cell.low.map_or_else(|| "any".to_owned(), |low| format!("{low:.4}"));
+    let high = cell.high.map_or_else(|| "any".to_owned(), |high| format!("{high:.4}"));
+    format!("{low} .. {high}{}", if cell.exact { "" } else { " (tried)" })
+}

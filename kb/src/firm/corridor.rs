@@ -1,0 +1,156 @@
+//! What it costs to go on the same way at other weights.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start};
+
+use super::path::reweigh;
+use super::{Path, Prober, Routes, Weights};
+use crate::graph::SiteGraph;
+
+/// The present way, as it is driven best at any weights.
+pub struct SameWay {
+    /// As it is driven now.
+    pub path: Path,
+    corridor: Option<Corridor>,
+    /// So much more than the best may it cost, as a share.
+    pub tolerance: f64,
+}
+
+/// The rooms of the way and those beside them, run by run: from a run only the next one is entered.
+struct Corridor {
+    graph: RefCell<RouteGraph>,
+    start: Start,
+    goal: Goal,
+    /// The site's rooms and doors, by those of the corridor.
+    rooms: Vec<usize>,
+    doors: Vec<usize>,
+}
+
+impl SameWay {
+    /// Of the best way at present.
+    pub fn new(prober: &Prober, routes: &Routes, path: Path) -> Self {
+        if routes.is_on_doors() {
+            return Self { path, corridor: None, tolerance: 1e-9 };
+        }
+        let corridor = Corridor::new(&prober.fork.graph, routes, &path);
+        let mut same = Self { path, corridor: Some(corridor), tolerance: 1e-6 };
+        // two searches for one way may bend a hair apart
+        let (own, best) = (same.cost(&prober.present), same.path.cost(&prober.present));
+        if own.is_finite() && best > 0.0 {
+            same.tolerance += 2.0 * (own / best - 1.0).clamp(0.0, 1e-3);
+        }
+        same
+    }
+
+    /// What it costs; infinite where it is not passed.
+    pub fn cost(&self, weights: &Weights) -> f64 {
+        match &self.corridor {
+            None => self.path.cost(weights),
+            Some(corridor) => corridor.cost(weights).unwrap_or(f64::INFINITY).min(self.path.cost(weights)),
+        }
+    }
+
+    /// Whether no way that costs `best` is better.
+    pub fn is_best(&self, cost: f64, best: f64) -> bool {
+        cost.is_finite() && cost <= best + self.tolerance * best.abs().max(1e-9)
+    }
+}
+
+/// What tells runs apart: the layer, its facing and the action.
+type Kind<'g> = (Option<&'g (String, String)>, Option<f64>, Option<&'g str>);
+
+fn kind(graph: &SiteGraph, room: usize) -> Kind<'_> {
+    let room = &graph.rooms[room];
+    (room.layer.as_ref(), room.facing, room.action.value.as_deref())
+}
+
+impl Corridor {
+    fn new(graph: &SiteGraph, routes: &Routes, path: &Path) -> Self {
+        let beside = beside(graph, path);
+        let mut runs: Vec<BTreeSet<usize>> = Vec::new();
+        let mut last = None;
+        for &(room, _) in &path.metres {
+            if last.is_none_or(|last| kind(graph, last) != kind(graph, room)) {
+                runs.push(BTreeSet::new());
+            }
+            last = Some(room);
+            if let Some(run) = runs.last_mut() {
+                run.insert(room);
+                run.extend(beside.get(&room).into_iter().flatten());
+            }
+        }
+        let mut index = BTreeMap::new();
+        let mut rooms = Vec::new();
+        for (run, members) in runs.iter().enumerate() {
+            for &room in members {
+                index.insert((run, room), rooms.len());
+                rooms.push(room);
+            }
+        }
+        let (mut doors, mut copies) = (Vec::new(), Vec::new());
+        for (door, of) in graph.graph().doors().iter().enumerate() {
+            let mut join = |from: usize, to: usize, one_way: bool| {
+                copies.push(RouteDoor {
+                    door: copies.len() as u32 + 1,
+                    room1: from,
+                    room2: to,
+                    one_way,
+                    ..*of
+                });
+                doors.push(door);
+            };
+            let is_within = kind(graph, of.room1) == kind(graph, of.room2);
+            for run in 0..runs.len() {
+                let at = |run: usize, room: usize| index.get(&(run, room)).copied();
+                if is_within && !of.is_change() {
+                    if let (Some(from), Some(to)) = (at(run, of.room1), at(run, of.room2)) {
+                        join(from, to, of.one_way);
+                    }
+                    continue;
+                }
+                if let (Some(from), Some(to)) = (at(run, of.room1), at(run + 1, of.room2)) {
+                    join(from, to, true);
+                }
+                if let (false, Some(from), Some(to)) = (of.one_way, at(run, of.room2), at(run + 1, of.room1))
+                {
+                    join(from, to, true);
+                }
+            }
+        }
+        let all = graph.graph().rooms();
+        let copied = rooms.iter().map(|&room| RouteRoom { ..all[room] }).collect();
+        let of_run = |run: usize, wanted: &[usize]| -> Vec<usize> {
+            wanted.iter().filter_map(|&room| index.get(&(run, room)).copied()).collect()
+        };
+        let start = Start { rooms: of_run(0, &routes.start.rooms), at: routes.start.at };
+        let goal =
+            Goal { rooms: of_run(runs.len().saturating_sub(1), &routes.goal.rooms), at: routes.goal.at };
+        Self { graph: RefCell::new(RouteGraph::new(copied, copies)), start, goal, rooms, doors }
+    }
+
+    fn cost(&self, weights: &Weights) -> Option<f64> {
+        let mut graph = self.graph.borrow_mut();
+        let own = Weights {
+            rooms: self.rooms.iter().map(|&room| weights.rooms[room]).collect(),
+            doors: self.doors.iter().map(|&door| weights.doors[door]).collect(),
+        };
+        reweigh(&mut graph, &own);
+        graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
+    }
+}
+
+/// For each room of a way the ones of its kind behind a door of it.
+fn beside(graph: &SiteGraph, path: &Path) -> BTreeMap<usize, Vec<usize>> {
+    let own: BTreeSet<usize> = path.metres.iter().map(|(room, _)| *room).collect();
+    let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for door in graph.graph().doors().iter().filter(|door| !door.is_change()) {
+        for (room, other) in [(door.room1, door.room2), (door.room2, door.room1)] {
+            if own.contains(&room) && kind(graph, room) == kind(graph, other) {
+                beside.entry(room).or_default().push(other);
+            }
+        }
+    }
+    beside
+}

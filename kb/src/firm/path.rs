@@ -1,0 +1,124 @@
+//! Ways as sums of what they pass, and the search for the best one at given weights.
+
+use std::cell::RefCell;
+
+use adit_planners::routes::{CompactGraph, CompactTree, Goal, NONE, RouteGraph, Start, Walking, Way};
+
+use super::Weights;
+use crate::error::Result;
+use crate::fork::Fork;
+
+/// A way: what it costs is a sum over the metres in its rooms and over its doors.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Path {
+    /// Rooms, in the order driven, by index, each with the metres walked in it; none where rooms weigh nothing.
+    pub metres: Vec<(usize, f64)>,
+    /// Doors, in the order passed, by index.
+    pub doors: Vec<usize>,
+}
+
+impl Path {
+    /// A way that was measured.
+    pub fn of(way: &Way) -> Self {
+        Self {
+            metres: way.legs.iter().map(|leg| (leg.room, leg.length())).collect(),
+            doors: way.legs.iter().filter_map(|leg| leg.door).collect(),
+        }
+    }
+
+    /// What it costs; infinite where it is not passed.
+    pub fn cost(&self, weights: &Weights) -> f64 {
+        let walked = self.metres.iter().map(|&(room, metres)| match weights.rooms[room] {
+            Walking::OnDoors => 0.0,
+            // a corner that is only touched costs nothing, whatever the room weighs
+            Walking::PerMetre(hardness) => {
+                if metres > 0.0 {
+                    hardness * metres
+                } else {
+                    0.0
+                }
+            }
+            Walking::Unknown => f64::INFINITY,
+        });
+        walked.sum::<f64>() + self.doors.iter().map(|&door| weights.doors[door]).sum::<f64>()
+    }
+}
+
+/// Finds best ways between two ends as weights change.
+pub struct Routes {
+    pub start: Start,
+    pub goal: Goal,
+    searched: Searched,
+}
+
+enum Searched {
+    OnDoors(RefCell<CompactGraph>),
+    Measured(Box<RefCell<RouteGraph>>),
+}
+
+impl Routes {
+    /// Between two names of places, rooms or points.
+    pub fn new(fork: &Fork, start: &str, goal: &str, robot: &str) -> Result<Self> {
+        let (start, goal) = (fork.end(start)?, fork.end(goal)?);
+        let graph = &fork.graph;
+        Ok(Self::between(graph.graph(), graph.start(&start, Some(robot)), graph.goal(&goal, Some(robot))))
+    }
+
+    /// Between two ends in a graph.
+    pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
+        let searched = match CompactGraph::new(graph) {
+            Some(compact) => Searched::OnDoors(RefCell::new(compact)),
+            None => Searched::Measured(Box::new(RefCell::new(graph.clone()))),
+        };
+        Self { start, goal, searched }
+    }
+
+    /// Whether all hardness lies on the doors, so that a way is a list of doors.
+    pub fn is_on_doors(&self) -> bool {
+        matches!(self.searched, Searched::OnDoors(_))
+    }
+
+    /// The best way where everything weighs so; `None` where there is none.
+    pub fn best(&self, weights: &Weights) -> Option<Path> {
+        match &self.searched {
+            Searched::OnDoors(graph) => {
+                let mut graph = graph.borrow_mut();
+                weigh(&mut graph, weights);
+                best_of(&graph.tree(&self.start.rooms), &self.goal.rooms)
+            }
+            Searched::Measured(graph) => {
+                let mut graph = graph.borrow_mut();
+                reweigh(&mut graph, weights);
+                graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| Path::of(&way))
+            }
+        }
+    }
+}
+
+/// Gives the doors of a graph these weights.
+fn weigh(graph: &mut CompactGraph, weights: &Weights) {
+    for (door, &weight) in weights.doors.iter().enumerate() {
+        graph.reweigh(door, Some(weight).filter(|weight| weight.is_finite()));
+    }
+}
+
+/// The way to the goal that costs least.
+fn best_of(tree: &CompactTree, goals: &[usize]) -> Option<Path> {
+    let reached = goals.iter().copied().filter(|&room| tree.costs[room].is_finite());
+    let mut at = reached.min_by(|&one, &two| tree.costs[one].total_cmp(&tree.costs[two]))?;
+    let mut doors = Vec::new();
+    while tree.before[at] != NONE {
+        doors.push(tree.doors[at] as usize);
+        at = tree.before[at] as usize;
+    }
+    doors.reverse();
+    Some(Path { metres: Vec::new(), doors })
+}
+
+/// Gives the rooms and doors of a graph these weights.
+pub fn reweigh(graph: &mut RouteGraph, weights: &Weights) {
+    let doors = weights.doors.iter().copied().enumerate();
+    let doors =
+        doors.map(|(door, weight)| (door, Some(weight).filter(|w| w.is_finite()), weight.is_finite()));
+    graph.reweigh(weights.rooms.iter().copied().enumerate(), doors);
+}

@@ -1,0 +1,133 @@
+//! Edits and what follows from them at once.
+
+use adit_tests::TestSite;
+use adit_tests::service::Service;
+use serde_json::json;
+
+use crate::{cost, hardness, served};
+
+#[test]
+fn a_saved_cell_is_in_the_next_route_in_sql_in_the_history_and_undone_again() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let before = cost(&service, "f", "e").unwrap();
+    let (status, edited) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 2.5)));
+    assert_eq!((status, &edited["done"]["old"], &edited["done"]["new"]), (200, &json!(4.0), &json!(2.5)));
+    let after = cost(&service, "f", "e").unwrap();
+    assert!(after < before);
+    // the public view says the same to the plain shell, while the service runs
+    let stored: f64 =
+        site.sqlite3("SELECT cost FROM route WHERE start = 'f' AND goal = 'e'")[0].parse().unwrap();
+    assert!((stored - after).abs() < 1e-9);
+    let (_, history) = service.ask("GET", "/api/history", None);
+    assert_eq!(
+        (&history["edits"][0]["key"], &history["edits"][0]["who"]),
+        (&json!("robot/SQUAT"), &json!("http"))
+    );
+    let (status, _) = service.ask("POST", "/api/edits", Some(&json!({"edit": {"kind": "undo"}})));
+    assert_eq!((status, cost(&service, "f", "e")), (200, Some(before)));
+}
+
+#[test]
+fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
+    let (_site, service) = served("paper");
+    let set = |who: &str, value: f64| {
+        let edit = json!({"edit": {"kind": "set", "table": "robots", "key": "robot/SQUAT", "column": "hardness", "value": value, "old": 4}});
+        service.ask_as(&[&format!("X-Adit-Who: {who}")], "POST", "/api/edits", Some(&edit))
+    };
+    assert_eq!(set("anna", 3.0).0, 200);
+    let (status, refused) = set("ben", 5.0);
+    let error = &refused["error"];
+    assert_eq!((status, &error["code"], &error["current"]), (409, &json!("edit/conflict"), &json!(3.0)));
+    assert!(error["message"].as_str().unwrap().contains("set by anna"), "{error}");
+    let (_, history) = service.ask("GET", "/api/history", None);
+    assert_eq!(history["edits"].as_array().unwrap().len(), 1, "the refused edit left no trace");
+}
+
+#[test]
+fn what_is_refused_changes_nothing() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let before = site.sqlite3("SELECT * FROM robots; SELECT count(*) FROM history");
+    let refused = [
+        (json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": -1}), 400),
+        (
+            json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": "soft"}),
+            400,
+        ),
+        (json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": null}), 400),
+        (json!({"kind": "set", "table": "robots", "key": "SQAT", "column": "hardness", "value": 1}), 400),
+        (json!({"kind": "set", "table": "robts", "key": "SQUAT", "column": "hardness", "value": 1}), 404),
+        (json!({"kind": "set", "table": "rooms", "key": "1", "column": "hardness", "value": 1}), 400),
+        (json!({"kind": "retract", "fact": 7}), 404),
+        (json!({"kind": "undo"}), 404),
+        (json!({"kind": "unheard of"}), 422),
+    ];
+    for (edit, expected) in refused {
+        let (status, answer) = service.ask("POST", "/api/edits", Some(&json!({"edit": edit})));
+        assert_eq!(status, expected, "{edit}: {answer}");
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM robots; SELECT count(*) FROM history"), before);
+}
+
+#[test]
+fn a_preview_says_what_would_change_and_saves_nothing() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let edit = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 2.5});
+    let body = json!({"edits": [edit], "start": "f", "goal": "e"});
+    let (status, preview) = service.ask("POST", "/api/preview", Some(&body));
+    assert_eq!(status, 200, "{preview}");
+    let before = cost(&service, "f", "e").unwrap();
+    assert_eq!(preview["before"]["cost"], json!(before));
+    assert!(preview["route"]["cost"].as_f64().unwrap() < before);
+    assert_eq!(preview["doors"]["changed"], json!(2));
+    service.ask("POST", "/api/edits", Some(&json!({"edit": body["edits"][0]})));
+    assert_eq!(Some(preview["route"]["cost"].as_f64().unwrap()), cost(&service, "f", "e"), "and so it came");
+}
+
+#[test]
+fn a_fact_closes_a_door_until_its_time_is_over() {
+    let (_site, service) = served("paper");
+    let open = cost(&service, "f", "e");
+    let fact = json!({"class": "DOORS", "object": "door 7", "property": "passable", "value": false, "for_seconds": 2});
+    let (status, told) = service.ask("POST", "/api/facts", Some(&fact));
+    assert_eq!((status, &told["fact"], told["doors"].as_u64()), (200, &json!(1), Some(1)), "{told}");
+    assert_eq!(cost(&service, "f", "e"), None);
+    std::thread::sleep(std::time::Duration::from_millis(3_500));
+    assert_eq!(cost(&service, "f", "e"), open, "it is open again by itself");
+}
+
+#[test]
+fn what_was_acknowledged_outlives_a_power_cut() {
+    let site = TestSite::example("paper").built();
+    let mut acknowledged = Vec::new();
+    for round in 0..4 {
+        let service = Service::start(&site);
+        for edit in 0..6 {
+            let value = f64::from(round * 10 + edit) + 0.5;
+            let (status, _) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", value)));
+            assert_eq!(status, 200);
+            acknowledged.push(value);
+        }
+        service.kill();
+    }
+    let kept: Vec<f64> = site
+        .sqlite3("SELECT new FROM history ORDER BY id")
+        .iter()
+        .map(|value| value.parse().unwrap())
+        .collect();
+    assert_eq!(kept, acknowledged);
+    assert_eq!(site.sqlite3("PRAGMA integrity_check"), ["ok"]);
+}
+
+#[test]
+fn when_it_ends_the_database_is_one_file_again() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["wal"]);
+    service.end();
+    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["delete"]);
+    assert!(!site.path().join("site.db-wal").exists());
+}

@@ -1,0 +1,146 @@
+//! Rules over HTTP, and in any editor.
+
+use adit_tests::TestSite;
+use adit_tests::service::Service;
+use serde_json::{Value, json};
+
+use crate::{cost, within_a_second};
+
+/// A served copy of the paper's example with rules of its own.
+fn served() -> (TestSite, Service) {
+    let site = TestSite::example("paper");
+    site.copy_rules_and_tests("paper");
+    let site = site.built();
+    let service = Service::start(&site);
+    (site, service)
+}
+
+fn file(service: &Service, name: &str) -> (String, Value) {
+    let (_, rules) = service.ask("GET", "/api/rules", None);
+    let all = rules["files"].as_array().unwrap().iter().chain(rules["tests"].as_array().unwrap());
+    let found =
+        all.clone().find(|file| file["file"] == name).unwrap_or_else(|| panic!("{name} is not in {rules}"));
+    (found["text"].as_str().unwrap().to_owned(), found["version"].clone())
+}
+
+fn save(service: &Service, name: &str, text: &str, version: &Value) -> (u16, Value) {
+    service.ask("PUT", &format!("/api/rules/{name}"), Some(&json!({"text": text, "version": version})))
+}
+
+#[test]
+fn a_saved_rule_counts_at_once_and_a_broken_one_never_does() {
+    let (site, service) = served();
+    let before = cost(&service, "f", "e").unwrap();
+    let (text, version) = file(&service, "doors.rhai");
+    let broken = text.replacen("door.distance1", "door.distanc1", 1);
+    let (status, refused) = save(&service, "doors.rhai", &broken, &version);
+    let problem = &refused["error"]["problems"][0];
+    assert_eq!(
+        (status, &problem["code"], &problem["file"]),
+        (422, &json!("rule/unknown-property"), &json!("doors.rhai"))
+    );
+    let line = broken.lines().position(|line| line.contains("distanc1")).unwrap() + 1;
+    assert_eq!(problem["line"], json!(line));
+    let underlined = problem["end_column"].as_u64().unwrap() - problem["column"].as_u64().unwrap();
+    assert!(underlined >= 8, "{problem}");
+    assert_eq!((site.read("rules/doors.rhai"), cost(&service, "f", "e")), (text.clone(), Some(before)));
+
+    // a text that is right, but against a test beside the rules
+    let doubled = text.replacen("= door.distance1 *", "= 2.0 * door.distance1 *", 1);
+    let (status, refused) = save(&service, "doors.rhai", &doubled, &version);
+    assert_eq!((status, &refused["error"]["code"]), (422, &json!("rules/tests")), "{refused}");
+    assert_eq!(site.read("rules/doors.rhai"), text);
+
+    let (tests, of_tests) = file(&service, "tests/doors.toml");
+    assert!(tests.contains("[[test]]"));
+    let (status, gone) = service.ask(
+        "DELETE",
+        &format!("/api/rules/tests/doors.toml?version={}", of_tests.as_str().unwrap()),
+        None,
+    );
+    assert_eq!(status, 200, "{gone}");
+    let (status, saved) = save(&service, "doors.rhai", &doubled, &version);
+    assert_eq!(status, 200, "{saved}");
+    assert!(cost(&service, "f", "e").unwrap() > before);
+}
+
+#[test]
+fn whoever_saves_over_anothers_work_is_told() {
+    let (site, service) = served();
+    let (text, version) = file(&service, "doors.rhai");
+    site.write("rules/doors.rhai", format!("// anna was here\n{text}"));
+    let (status, refused) = save(&service, "doors.rhai", &format!("// ben was here\n{text}"), &version);
+    assert_eq!((status, &refused["error"]["code"]), (409, &json!("rules/conflict")));
+    assert!(site.read("rules/doors.rhai").starts_with("// anna"));
+    assert_eq!(save(&service, "doors.rhai", "// new", &Value::Null).0, 409, "nor as if it were new");
+}
+
+#[test]
+fn a_file_saved_in_any_editor_counts_within_a_second() {
+    let (site, service) = served();
+    let mut events = service.events();
+    events.next("hello");
+    let before = cost(&service, "f", "e");
+    site.edit("rules/doors.rhai", "= door.distance1 *", "= door.distanc1 *");
+    let said = events.next("problems");
+    assert_eq!(said["problems"][0]["code"], "rule/unknown-property", "{said}");
+    assert_eq!(cost(&service, "f", "e"), before, "the old rules stay in force");
+    std::fs::remove_file(site.path().join("rules/tests/doors.toml")).unwrap();
+    site.edit("rules/doors.rhai", "= door.distanc1 *", "= 2.0 * door.distance1 *");
+    within_a_second(|| cost(&service, "f", "e") > before);
+    assert_eq!(events.next("problems")["problems"], json!([]), "mended");
+    events.next("changed");
+}
+
+#[test]
+fn a_text_is_tried_without_being_saved() {
+    let (site, service) = served();
+    let (text, _) = file(&service, "doors.rhai");
+    let check = |text: &str| {
+        service.ask("POST", "/api/rules/check", Some(&json!({"file": "doors.rhai", "text": text}))).1
+    };
+    let fine = check(&text);
+    assert_eq!((&fine["problems"], &fine["tests"]["failed"]), (&json!([]), &json!(0)), "{fine}");
+    assert!(fine["tests"]["passed"].as_u64().unwrap() > 0);
+    assert_eq!(check("rule \"half")["problems"][0]["code"], "rule/syntax");
+    let failing = check(&text.replacen("= door.distance1 *", "= 2.0 * door.distance1 *", 1));
+    assert!(
+        failing["tests"]["failed"].as_u64().unwrap() > 0
+            && !failing["tests"]["failures"][0]["line"].is_null()
+    );
+    assert_eq!(site.read("rules/doors.rhai"), text);
+}
+
+#[test]
+fn shipped_rules_are_copied_into_the_site_before_they_are_edited() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let before = cost(&service, "f", "e");
+    let (_, version) = file(&service, "doors.rhai");
+    assert_eq!(save(&service, "doors.rhai", "", &version).1["error"]["code"], "rules/shipped");
+    let (status, adopted) = service.ask("POST", "/api/rules/adopt", None);
+    assert_eq!((status, &adopted["folder"]), (200, &json!("rules")));
+    assert_eq!(cost(&service, "f", "e"), before);
+    let (text, version) = file(&service, "doors.rhai");
+    assert_eq!(save(&service, "doors.rhai", &format!("{text}\n// mine\n"), &version).0, 200);
+    assert!(site.read("rules/doors.rhai").ends_with("// mine\n"));
+}
+
+#[test]
+fn only_files_of_the_rule_base_are_written() {
+    let (site, service) = served();
+    for name in [
+        "../site.toml",
+        "..%2fsite.toml",
+        "x.toml",
+        ".hidden.rhai",
+        "tests/../x.toml",
+        "a/b.rhai",
+        "%2e%2e/x.rhai",
+        ".rhai",
+    ] {
+        let (status, answer) = save(&service, name, "x", &Value::Null);
+        assert!([400, 404, 405].contains(&status), "{name}: {answer}");
+    }
+    assert!(site.read("site.toml").contains("name"));
+}
