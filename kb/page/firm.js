@@ -63,7 +63,7 @@ function show() {
   if (model.firm.error) return fill(byId('firm'), said(model.firm.error));
   const bounded = model.firm.cells.filter((cell) => cell.low !== null || cell.high !== null);
   const free = model.firm.cells.filter((cell) => cell.low === null && cell.high === null);
-  const items = bounded.map((cell) => el('li', {}, el('b', { text: name(cell) }), ` is ${number(cell.value)}; the way stays the best ${span(cell)}.`, bar(cell), beyond('Below', cell.low, cell.below), beyond('Above', cell.high, cell.above)));
+  const items = bounded.map((cell) => el('li', {}, el('b', { text: name(cell) }), ` is ${number(cell.value)}; the way stays the best ${cell.exact === false ? 'about ' : ''}${span(cell)}.`, bar(cell), beyond('Below', cell.low, cell.below), beyond('Above', cell.high, cell.above)));
   const rest = free.length ? el('p', { class: 'hint', text: `Whatever the value of ${free.map(name).join(', ')}, this way stays the best.` }) : null;
   fill(byId('firm'), el('ul', { class: 'plain firm' }, ...items), rest);
   return undefined;
