@@ -100,30 +100,13 @@ pub fn rows_of_csv(text: &str) -> Result<Vec<Row>> {
 fn lines(text: &str) -> Vec<Vec<String>> {
     let text = text.trim_start_matches('\u{feff}');
     let first = text.lines().next().unwrap_or_default();
-    let separator = if first.contains(';') && !first.contains(',') { ';' } else { ',' };
-    let (mut lines, mut line, mut cell) = (Vec::new(), Vec::new(), String::new());
-    let mut quoted = false;
-    let mut letters = text.chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' if quoted && letters.peek() == Some(&'"') => {
-                letters.next();
-                cell.push('"');
-            }
-            '"' if quoted || cell.trim().is_empty() => quoted = !quoted,
-            '\n' if !quoted => {
-                line.push(std::mem::take(&mut cell));
-                lines.push(std::mem::take(&mut line));
-            }
-            '\r' if !quoted => {}
-            letter if letter == separator && !quoted => line.push(std::mem::take(&mut cell)),
-            letter => cell.push(letter),
-        }
-    }
-    line.push(cell);
-    lines.push(line);
-    lines.retain(|line: &Vec<String>| line.iter().any(|cell| !cell.trim().is_empty()));
-    lines
+    let separator = if first.contains(';') && !first.contains(',') { b';' } else { b',' };
+    let mut reader = csv::ReaderBuilder::new();
+    let reader = reader.delimiter(separator).has_headers(false).flexible(true).trim(csv::Trim::All);
+    // a text is read whole and is in UTF-8, so that nothing can fail
+    let lines = reader.from_reader(text.as_bytes()).into_records().map_while(std::result::Result::ok);
+    let cells = |line: csv::StringRecord| line.iter().map(str::to_owned).collect::<Vec<_>>();
+    lines.map(cells).filter(|line| line.iter().any(|cell| !cell.is_empty())).collect()
 }
 
 /// The rows as they are kept; an error names the first that cannot be.

@@ -1,6 +1,7 @@
 //! All routes of the service, and what every request passes.
 
 mod edits;
+mod experience;
 mod extract;
 mod facts;
 mod history;
@@ -69,6 +70,9 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(history::history))
         .routes(routes!(why::why))
         .routes(routes!(why::why_not))
+        .routes(routes!(experience::firm))
+        .routes(routes!(experience::list, experience::add, experience::clear))
+        .routes(routes!(experience::fit))
         .routes(routes!(rules::list))
         .routes(routes!(rules::save, rules::remove))
         .routes(routes!(rules::check))

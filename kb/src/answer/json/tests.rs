@@ -28,7 +28,11 @@ fn floor(side: usize) -> SiteGraph {
         height: None,
         width: 4.1,
         hardness: Derived::default(),
-        action: if number.is_multiple_of(7) { Derived::default() } else { Derived::by(1, None, "walk".to_owned()) },
+        action: if number.is_multiple_of(7) {
+            Derived::default()
+        } else {
+            Derived::by(1, None, "walk".to_owned())
+        },
         passable: Derived::by(2, None, true),
     };
     let pairs = (0..side * side).flat_map(|room| {
