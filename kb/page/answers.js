@@ -5,6 +5,7 @@ import { button, byId, el, fill } from './dom.js';
 import { action, cost, list, number, value } from './format.js';
 import { model } from './model.js';
 import { complain, said } from './notice.js';
+import { keyName } from './pending.js';
 import { refresh } from './refresh.js';
 import { address } from './router.js';
 import { showSaved } from './saved.js';
@@ -85,21 +86,30 @@ export async function whyNot(through) {
 }
 
 function details(answer) {
-  const rejected = (answer.rejected ?? []).map((of) => el('li', { text: rejection(of) }));
+  const rejected = (answer.rejected ?? []).map(rejection);
   const concluded = (answer.conclusions ?? []).map((of) => conclusion(of, answer.facts));
   const deciding = (answer.deciding ?? []).map((of) => el('li', { text: typeof of === 'string' ? of : of.sentence ?? of.message ?? list(Object.entries(of).map(([name, item]) => `${name} ${value(item)}`)) }));
   if (!rejected.length && !concluded.length && !deciding.length) return null;
-  return el('details', {}, el('summary', { text: 'What decides there' }),
+  // Where no way leads there at all, this is the answer; else the sentence is.
+  const open = answer.cost === null || answer.cost === undefined;
+  return el('details', { open }, el('summary', { text: 'What decides there' }),
     deciding.length ? el('ul', {}, ...deciding) : null,
     rejected.length ? el('ul', { class: 'rejected' }, ...rejected) : null,
     concluded.length ? el('ul', { class: 'reasons' }, ...concluded) : null,
     answer.truncated ? el('p', { class: 'hint', text: 'There is more; this is the first of it.' }) : null);
 }
 
+const COMPARED = { '<': 'below', '<=': 'at most', '>': 'above', '>=': 'at least', '==': 'equal to', '!=': 'other than' };
+
+// `state.height < room.height` with 20 and 4 becomes: its height 20 is not below the room's height 4.
 function rejection(of) {
-  const who = `${of.class ?? ''} ${of.key ?? ''}`.trim();
-  const numbers = of.left !== undefined && of.left !== null ? `: ${value(of.left)} against ${value(of.right)}` : '';
-  return `${who} does not fit: ${of.test ?? of.reason}${numbers} (rule “${of.rule}”)`;
+  const who = keyName(of.key ?? of.class ?? '');
+  const parts = /^(\w+)\.(\w+) (<=?|>=?|==|!=) (\w+)\.(\w+)$/.exec(of.test ?? '');
+  const known = of.left !== undefined && of.left !== null && of.right !== undefined && of.right !== null;
+  const reason = parts && known
+    ? `its ${parts[2]} ${value(of.left)} is not ${COMPARED[parts[3]]} the ${parts[4]}’s ${parts[5]} ${value(of.right)}`
+    : `${of.test ?? of.reason}${known ? `: ${value(of.left)} against ${value(of.right)}` : ''}`;
+  return el('li', {}, el('b', { text: who }), ` does not fit: ${reason} (rule “${of.rule}”)`);
 }
 
 /** What may be told of a thing from the map: that it is shut. */
@@ -121,7 +131,7 @@ export function closeDoor(fact, label) {
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     try {
-      const answer = await post('/api/facts', { ...fact, until: until.value || null, why: reason.value || null });
+      const answer = await post('/api/facts', { ...fact, until: until.value || undefined, why: reason.value || undefined });
       made.remove();
       showSaved(`${label.replace('…', '')}: told.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
       await refresh(answer.generation);

@@ -15,8 +15,7 @@ export function headers() {
   const sent = {};
   const token = sessionStorage.getItem('adit-token');
   if (token) sent.authorization = `Bearer ${token}`;
-  const who = localStorage.getItem('adit-who');
-  if (who) sent['x-adit-who'] = encodeURIComponent(who);
+  sent['x-adit-who'] = encodeURIComponent(localStorage.getItem('adit-who') || 'page');
   return sent;
 }
 

@@ -41,7 +41,7 @@ export function fill(parent, ...children) {
   parent.replaceChildren(...children.filter((child) => child !== null && child !== undefined));
 }
 
-/** Calls `act` once it was not asked for during `wait` milliseconds; `flush` calls it at once. */
+/** Calls `act` once it was not asked for during `wait` milliseconds; `cancel` forgets that it was. */
 export function debounced(act, wait) {
   let timer = 0;
   const later = () => {

@@ -35,9 +35,12 @@ function rounded(cell) {
   return Number(cell.proposed.toFixed(digits));
 }
 
+const known = (cell) => cell.proposed !== null && cell.proposed !== undefined;
+
 function takeButton(cell) {
   const taken = model.pending.has(cellId(cell.table, cell.key, cell.column));
   const old = cellOf(cell);
+  if (!known(cell)) return '';
   if (taken || old === undefined || !model.may('tune')) return taken ? 'taken, not saved' : '';
   return button(`Take ${rounded(cell)}`, () => {
     editCell({ table: cell.table, key: cell.key, column: cell.column, old, value: rounded(cell) });
@@ -47,8 +50,8 @@ function takeButton(cell) {
 
 async function load() {
   try {
-    const fit = await get('/api/fit');
-    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: number(cell.proposed) }), `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
+    const fit = await get(path('/api/fit', { robot: model.ask.robot }));
+    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be told' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
     const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
     fill(byId('fit'), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);

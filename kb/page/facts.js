@@ -49,7 +49,7 @@ async function tell(event) {
   event.preventDefault();
   const read = (name) => byId(`fact-${name}`).value.trim();
   const usual = USUAL[read('kind')];
-  const fact = { class: usual.class ?? read('class'), object: read('object'), property: usual.property ?? read('property'), value: typed(usual.value ?? read('value')), until: read('until') || null, why: read('why') || null };
+  const fact = { class: usual.class ?? read('class'), object: read('object'), property: usual.property ?? read('property'), value: typed(usual.value ?? read('value')), until: read('until') || undefined, why: read('why') || undefined };
   try {
     const answer = await post('/api/facts', fact);
     byId('fact-object').value = '';

@@ -27,9 +27,13 @@ export const askFirm = debounced(async () => {
 
 const name = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', ' ')}`;
 
+// A hardness is never below 0, so an interval from there has no lower end.
+const free = (cell) => !cell.low && cell.high === null;
+
 function span(cell) {
-  const low = cell.low === null ? '0' : number(cell.low);
-  return cell.high === null ? (cell.low === null ? 'any value' : `${low} or more`) : `between ${low} and ${number(cell.high)}`;
+  if (free(cell)) return 'any value';
+  if (!cell.low) return `up to ${number(cell.high)}`;
+  return cell.high === null ? `${number(cell.low)} or more` : `between ${number(cell.low)} and ${number(cell.high)}`;
 }
 
 /** For the cells that are being edited: between which values the way stays the best. Null where nothing is known. */
@@ -61,10 +65,10 @@ function show() {
   if (card.hidden) return;
   if (!model.firm) return fill(byId('firm'), el('p', { class: 'hint', text: 'Trying other values…' }));
   if (model.firm.error) return fill(byId('firm'), said(model.firm.error));
-  const bounded = model.firm.cells.filter((cell) => cell.low !== null || cell.high !== null);
-  const free = model.firm.cells.filter((cell) => cell.low === null && cell.high === null);
-  const items = bounded.map((cell) => el('li', {}, el('b', { text: name(cell) }), ` is ${number(cell.value)}; the way stays the best ${span(cell)}.`, bar(cell), beyond('Below', cell.low, cell.below), beyond('Above', cell.high, cell.above)));
-  const rest = free.length ? el('p', { class: 'hint', text: `Whatever the value of ${free.map(name).join(', ')}, this way stays the best.` }) : null;
+  const bounded = model.firm.cells.filter((cell) => !free(cell));
+  const others = model.firm.cells.filter(free);
+  const items = bounded.map((cell) => el('li', {}, el('b', { text: name(cell) }), ` is ${number(cell.value)}; the way stays the best ${cell.exact === false ? 'about ' : ''}${span(cell)}.`, bar(cell), beyond('Below', cell.low, cell.below), beyond('Above', cell.high, cell.above)));
+  const rest = others.length ? el('p', { class: 'hint', text: `Whatever the value of ${others.map(name).join(', ')}, this way stays the best.` }) : null;
   fill(byId('firm'), el('ul', { class: 'plain firm' }, ...items), rest);
   return undefined;
 }

@@ -24,7 +24,7 @@ function row(entry) {
 
 async function takeBack(edit) {
   try {
-    const answer = await post('/api/edits', { edit: { kind: 'undo', edit }, why: null });
+    const answer = await post('/api/edits', { edit: { kind: 'undo', edit } });
     await refresh(answer.generation);
     await load();
   } catch (error) {

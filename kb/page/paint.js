@@ -83,6 +83,13 @@ function paintDoors(context, shown, ink, pixel, wide) {
     context.lineWidth = (group.changed ? wide + 1.5 : group.kind === -2 ? 1.5 : wide) * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : group.kind >= 0 ? shown.classes.colour(group.kind) : group.kind === -1 ? ink.shut : ink.faint;
     context.stroke(group.path);
+    if (group.changed) {
+      // Hatched as the rooms are: amber dashes on the dark amber line.
+      context.setLineDash([4 * pixel, 3 * pixel]);
+      context.strokeStyle = ink.amber;
+      context.lineWidth = Math.max(1, wide - 1.5) * pixel;
+      context.stroke(group.path);
+    }
   }
   context.setLineDash([]);
 }

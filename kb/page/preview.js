@@ -15,6 +15,7 @@ const MOST_ROUTES = 50;
 let stop = null;
 let failed = null;
 let conflicts = new Map();
+let saving = false;
 
 const ask = debounced(async () => {
   stop?.abort();
@@ -47,12 +48,16 @@ export function summary(preview) {
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
   else if (!preview.layout_changed) parts.push('No room and no door would weigh otherwise.');
-  if (routes?.total) {
+  // Where there are too many to compare while somebody types, the service says how many it did.
+  const compared = routes?.compared ?? routes?.total ?? 0;
+  if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
+  else if (routes?.total) {
+    const all = compared < routes.total ? `${compared} of ${count(routes.total, 'route')} between places that were compared in time` : `${count(routes.total, 'route')} between places`;
     const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
     const ways = routes.rerouted ? `${routes.rerouted} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
     parts.push(routes.changed || routes.rerouted
-      ? `Of ${count(routes.total, 'route')} between places ${list([...kinds, ways].filter(Boolean))}.`
-      : `None of ${count(routes.total, 'route')} between places changes.`);
+      ? `Of ${all} ${list([...kinds, ways].filter(Boolean))}.`
+      : `None of ${all} changes.`);
   }
   return parts;
 }
@@ -80,26 +85,44 @@ function routeList(routes) {
   return el('details', {}, el('summary', { text: 'Which routes' }), el('ul', { class: 'plain' }, ...items, more));
 }
 
+// Made once: a button that is replaced while somebody presses it does nothing, and a field loses what is typed.
+let card = null;
+
+function makeCard() {
+  const made = {
+    typed: el('ul', { class: 'plain typed' }),
+    told: el('div'),
+    clashes: el('div'),
+    why: el('input', { id: 'save-why', placeholder: 'if you like' }),
+    who: el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '' }),
+    save: el('button', { type: 'button', id: 'save', class: 'strong', on: { click: saveAll } }),
+    discard: button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' }),
+  };
+  made.whose = el('label', {}, 'Your name ', made.who);
+  made.who.addEventListener('input', () => localStorage.setItem('adit-who', made.who.value.trim()));
+  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.discard));
+  return made;
+}
+
+function told(cells) {
+  const { preview } = model;
+  if (failed) return [said(failed)];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
+  return cells.every(([, cell]) => cell.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
+}
+
 function show() {
   const cells = [...model.pending.entries()];
-  const card = byId('preview-card');
-  card.hidden = cells.length === 0;
-  if (!cells.length) return fill(byId('preview'));
-  const before = byId('save-why')?.value ?? '';
-  const focused = document.activeElement?.id;
-  const wrong = cells.filter(([, cell]) => cell.wrong);
-  const typed = el('ul', { class: 'plain typed' }, ...cells.map(([, cell]) => el('li', { text: cell.wrong ? `${keyName(cell.key)} ${cell.column}: ${cell.wrong}` : inOneWord(cell) })));
-  const { preview } = model;
-  const told = failed ? [said(failed)]
-    : preview ? [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))]
-      : wrong.length === cells.length ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
-  const clashes = [...conflicts].filter(([id]) => model.pending.has(id)).map(([id, error]) => conflict(id, error));
-  const why = el('input', { id: 'save-why', placeholder: 'if you like', value: before });
-  const save = button(cells.length === 1 ? 'Save' : `Save ${cells.length} cells`, saveAll, { id: 'save', class: 'strong' });
-  save.disabled = wrong.length > 0 || Boolean(failed && failed.status !== 0) || clashes.length > 0;
-  fill(byId('preview'), typed, ...told, ...clashes, el('label', {}, 'Why ', why), el('div', { class: 'buttons' }, save, button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' })));
-  if (focused && focused !== 'discard') byId(focused)?.focus();
-  return undefined;
+  byId('preview-card').hidden = cells.length === 0;
+  if (!cells.length) return;
+  card ??= makeCard();
+  fill(card.typed, ...cells.map(([, cell]) => el('li', { text: cell.wrong ? `${keyName(cell.key)} ${cell.column}: ${cell.wrong}` : inOneWord(cell) })));
+  fill(card.told, ...told(cells));
+  const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
+  fill(card.clashes, ...clashes.map(([id, error]) => conflict(id, error)));
+  card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
+  card.save.textContent = cells.length === 1 ? 'Save' : `Save ${cells.length} cells`;
+  card.save.disabled = saving || cells.some(([, cell]) => cell.wrong) || Boolean(failed && failed.status !== 0) || clashes.length > 0;
 }
 
 function conflict(id, error) {
@@ -121,7 +144,9 @@ function settle(id, current) {
 }
 
 async function saveAll() {
-  const why = byId('save-why').value.trim() || null;
+  saving = true;
+  card.save.disabled = true;
+  const why = card.why.value.trim() || undefined;
   const done = [];
   const words = [];
   let generation;
@@ -140,17 +165,24 @@ async function saveAll() {
       else failed = error;
     }
   }
-  if (done.length) showSaved(`Saved: ${list(words)}.`, done);
+  if (done.length) {
+    showSaved(`Saved: ${list(words)}.`, done);
+    byId('undo').focus({ preventScroll: true });
+  }
   const keepFailure = failed;
+  if (!model.pending.size) model.preview = null;
   // What was saved is shown as saved even before the new weights are here.
   if (done.length) {
-    byId('save-why').value = '';
+    card.why.value = '';
     await refresh(generation);
   } else if (conflicts.size) {
     await refresh();
   }
-  failed = keepFailure;
+  saving = false;
   model.set('pending', new Map(model.pending));
+  // What the service refused is said until the cell is edited again.
+  failed = keepFailure;
+  show();
 }
 
 /** Previews edits while they are typed; Escape discards them all. */
@@ -160,7 +192,7 @@ export function startPreview() {
     if (!model.pending.size) {
       ask.cancel();
       stop?.abort();
-      model.set('preview', null);
+      if (model.preview) model.set('preview', null);
     } else {
       ask();
       askFirm();

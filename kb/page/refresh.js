@@ -35,20 +35,26 @@ export async function refresh(generation) {
 }
 
 async function load() {
-  const [weights, site, tables] = await Promise.all([get('/api/weights'), get('/api/site'), get('/api/tables'), askRoute()]);
-  if (weights.layout !== model.map?.layout) {
-    const map = await get('/api/map');
-    if (map.layout !== weights.layout) return load();
-    model.set('site', site);
-    model.set('tables', tables);
+  const rest = Promise.all([get('/api/site'), get('/api/tables')]);
+  // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
+  rest.catch(() => {});
+  const way = askRoute();
+  const weights = await get('/api/weights');
+  const moved = weights.layout !== model.map?.layout;
+  // What an edit weighs is drawn at once; only a floor that was cut anew has to wait for its map.
+  if (!moved) model.set('weights', weights);
+  const map = moved ? await get('/api/map') : null;
+  if (moved && map.layout !== weights.layout) return load();
+  const [site, tables] = await rest;
+  model.set('site', site);
+  model.set('tables', tables);
+  if (moved) {
     model.weights = null;
     model.preview = null;
     model.set('map', map);
-  } else {
-    model.set('site', site);
-    model.set('tables', tables);
+    model.set('weights', weights);
   }
-  model.set('weights', weights);
   model.set('generation', weights.generation);
+  await way;
   return undefined;
 }

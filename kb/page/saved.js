@@ -20,7 +20,7 @@ export function showSaved(text, edits, other) {
 async function undoAll(edits) {
   try {
     let answer = null;
-    for (const edit of [...edits].reverse()) answer = await post('/api/edits', { edit: { kind: 'undo', edit }, why: null });
+    for (const edit of [...edits].reverse()) answer = await post('/api/edits', { edit: { kind: 'undo', edit } });
     showSaved('Taken back. The tables are as they were.', []);
     await refresh(answer?.generation);
   } catch (error) {

@@ -12,14 +12,21 @@ const TITLES = { robots: 'Robot states', changes: 'Changes of shape', loads: 'Lo
 const views = new Map();
 
 function structure(table) {
-  return JSON.stringify([table.columns, table.keys, model.may('tune')]);
+  return JSON.stringify([table.columns, table.keys, model.may('tune'), model.ask.robot]);
+}
+
+// Of a fleet, the rows of the robot whose way is asked: the others only take room.
+function rowsOf(table) {
+  const robot = table.columns.findIndex(({ name, key }) => name === 'robot' && key);
+  const all = table.keys.map((key, at) => ({ key, at }));
+  return robot < 0 || !model.ask.robot ? all : all.filter(({ at }) => table.rows[at][robot] === model.ask.robot);
 }
 
 // The order of rows is no number to tune, and columns in which nothing stands only take room.
 function columnsOf(table) {
   const names = table.columns.map((column, index) => ({ ...column, index }));
-  const used = ({ index, required }) => required || table.rows.some((row) => row[index] !== null);
-  const oneRobot = (column) => column.key && column.name === 'robot' && table.columns.filter(({ key }) => key).length > 1 && new Set(table.rows.map((row) => row[column.index])).size <= 1;
+  const used = ({ index, required }) => required || rowsOf(table).some(({ at }) => table.rows[at][index] !== null);
+  const oneRobot = (column) => column.key && column.name === 'robot' && table.columns.filter(({ key }) => key).length > 1 && new Set(rowsOf(table).map(({ at }) => table.rows[at][column.index])).size <= 1;
   return names.filter((column) => used(column) && !oneRobot(column) && !(table.table === 'robots' && column.name === 'position'));
 }
 
@@ -27,7 +34,8 @@ function build(table, open) {
   const columns = columnsOf(table);
   const cells = new Map();
   const head = el('tr', {}, ...columns.map(({ name, unit }) => el('th', { scope: 'col' }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)));
-  const rows = table.keys.slice(0, MOST_ROWS).map((key, at) => el('tr', { 'data-key': key }, ...columns.map((column) => {
+  const wanted = rowsOf(table);
+  const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
     const cell = makeCell(table, key, column, table.rows[at][column.index]);
     cells.set(cellId(table.table, key, column.name), { ...cell, at, column });
@@ -35,8 +43,8 @@ function build(table, open) {
   })));
   const title = TITLES[table.table] ?? table.table;
   const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows)));
-  const more = table.keys.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${table.keys.length} rows; SQL shows all.` }) : null;
-  const empty = table.keys.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
+  const more = wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
+  const empty = wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
   const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty);
   return { node, cells, structure: structure(table) };
 }
@@ -140,6 +148,6 @@ function marks() {
 
 /** Shows the tables and keeps them up to date. */
 export function startTables() {
-  model.on('tables', tables);
+  model.on('tables ask', () => { if (model.tables) tables(); });
   model.on('pending', marks);
 }

@@ -15,7 +15,7 @@ use crate::knowledge::KnowledgeBase;
 use crate::suggest::did_you_mean;
 use crate::{generation, states};
 
-pub(crate) use search::{Basis, Reply};
+pub(crate) use search::Basis;
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]

@@ -1,6 +1,7 @@
 //! A real browser (Chromium, without a window) for the journeys on the page.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -9,8 +10,6 @@ use fantoccini::elements::Element;
 use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
-
-use crate::service::exchange;
 
 /// How long a journey waits for what must come.
 const PATIENCE: Duration = Duration::from_secs(15);
@@ -83,14 +82,16 @@ impl Browser {
 
     /// The first element that is shown, once there is one.
     pub async fn find(&self, css: &str) -> Element {
-        self.until(&format!("[...document.querySelectorAll({css:?})].some((e) => e.checkVisibility())"), css)
-            .await;
-        for element in self.client.find_all(Locator::Css(css)).await.expect("a selector") {
-            if element.is_displayed().await.unwrap_or(false) {
-                return element;
+        let began = Instant::now();
+        loop {
+            for element in self.client.find_all(Locator::Css(css)).await.expect("a selector") {
+                if element.is_displayed().await.unwrap_or(false) {
+                    return element;
+                }
             }
+            assert!(began.elapsed() < PATIENCE, "{css} is not shown");
+            tokio::time::sleep(Duration::from_millis(20)).await;
         }
-        panic!("{css} went away");
     }
 
     /// Clicks the first such element; once more where the page has just put another in its place.
@@ -172,9 +173,15 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        // The session first: a driver that is killed leaves its browser behind.
-        let path = format!("/session/{}", self.session);
-        let _ = exchange(&self.address, "DELETE", &path, None);
+        // The session first: a driver that is killed leaves its browser behind. It keeps the line open, so one look at its
+        // answer is enough.
+        if let Ok(mut stream) = TcpStream::connect(&self.address) {
+            let _ = stream.set_read_timeout(Some(Duration::from_secs(5)));
+            let request =
+                format!("DELETE /session/{} HTTP/1.1\r\nHost: {}\r\n\r\n", self.session, self.address);
+            let _ = stream.write_all(request.as_bytes());
+            let _ = stream.read(&mut [0; 1_024]);
+        }
         let _ = self.driver.kill();
         let _ = self.driver.wait();
     }

@@ -25,14 +25,6 @@ pub(crate) struct Basis<'a> {
     pub gauge: &'a Gauge,
 }
 
-/// An answer, as JSON where that is at hand.
-pub(crate) enum Reply {
-    /// A route, as its [`Answer`] would be written.
-    Json(Vec<u8>),
-    /// Any answer.
-    Answer(Answer),
-}
-
 /// A way that was found.
 struct Found {
     /// To which goal, by index.
@@ -45,27 +37,33 @@ struct Found {
 impl Basis<'_> {
     /// The route to the one of the goals that costs least, into the answer.
     pub fn search(&self, names: &[String], mut answer: Answer) -> Result<Answer> {
-        if let Some(found) = self.find(names, &mut answer)? {
+        let Self { graph, rules, .. } = self;
+        let Some(ends) = self.ends(names, &mut answer)? else { return Ok(answer) };
+        if let Some(found) = self.find(&ends, &answer.robot) {
             self.tell(names, &found, &mut answer);
+        } else {
+            answer.status = Status::NoRoute;
+            let start = graph.start(&ends[0], Some(&answer.robot));
+            let reason = reason::no_route(self.knowledge, graph, rules, &start, &ends, &answer.robot)?;
+            answer.reason = Some(reason);
         }
         Ok(answer)
     }
 
-    /// As [`search`](Self::search), as JSON where the site's graph is [prepared](SiteGraph::prepare).
-    pub fn reply(&self, names: &[String], mut answer: Answer) -> Result<Reply> {
-        let Some(found) = self.find(names, &mut answer)? else { return Ok(Reply::Answer(answer)) };
-        if let Some(texts) = self.graph.texts() {
-            answer.goal.clone_from(&names[found.goal]);
-            let text = json::write(&answer, (self.graph, texts, self.rules), &found.way);
-            return text.map(Reply::Json).map_err(|error| Error::said("route/json", error.to_string(), None));
-        }
-        self.tell(names, &found, &mut answer);
-        Ok(Reply::Answer(answer))
+    /// What [`search`](Self::search) finds, as JSON, in microseconds; `None` where there is no route, or the site's graph is
+    /// not [prepared](SiteGraph::prepare).
+    pub fn quick(&self, names: &[String], mut answer: Answer) -> Result<Option<Vec<u8>>> {
+        let Some(texts) = self.graph.texts() else { return Ok(None) };
+        let Some(ends) = self.ends(names, &mut answer)? else { return Ok(None) };
+        let Some(found) = self.find(&ends, &answer.robot) else { return Ok(None) };
+        answer.goal.clone_from(&names[found.goal]);
+        let text = json::write(&answer, (self.graph, texts, self.rules), &found.way);
+        text.map(Some).map_err(|error| Error::said("route/json", error.to_string(), None))
     }
 
-    /// The way to the one of the goals that costs least; where there is none, the answer says why.
-    fn find(&self, names: &[String], answer: &mut Answer) -> Result<Option<Found>> {
-        let Self { graph, rules, .. } = self;
+    /// What start and goals are; where one is nothing, the answer says so.
+    fn ends(&self, names: &[String], answer: &mut Answer) -> Result<Option<Vec<End>>> {
+        let graph = self.graph;
         let mut ends = Vec::with_capacity(names.len() + 1);
         for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
             let Some(end) = graph.end(name) else {
@@ -80,15 +78,16 @@ impl Basis<'_> {
         for end in &ends {
             self.check_point(end)?;
         }
-        let start = graph.start(&ends[0], Some(&answer.robot));
-        let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(&answer.robot))).collect();
-        let Some((goal, way)) = graph.graph().way(&start, &goals) else {
-            answer.status = Status::NoRoute;
-            let reason = reason::no_route(self.knowledge, graph, rules, &start, &ends, &answer.robot)?;
-            answer.reason = Some(reason);
-            return Ok(None);
-        };
-        Ok(Some(Found { goal, way, is_to_point: goals[goal].at.is_some() }))
+        Ok(Some(ends))
+    }
+
+    /// The way from the first end to the one of the others that costs least.
+    fn find(&self, ends: &[End], robot: &str) -> Option<Found> {
+        let graph = self.graph;
+        let start = graph.start(&ends[0], Some(robot));
+        let goals: Vec<Goal> = ends[1..].iter().map(|end| graph.goal(end, Some(robot))).collect();
+        let (goal, way) = graph.graph().way(&start, &goals)?;
+        Some(Found { goal, way, is_to_point: goals[goal].at.is_some() })
     }
 
     fn tell(&self, names: &[String], found: &Found, answer: &mut Answer) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adit_planners::routes::Goal;
 
 use super::Live;
-use crate::answer::{self, Answer, Reply};
+use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::gauge::Gauge;
 use crate::graph::{End, Rules, SiteGraph};
@@ -54,11 +54,11 @@ impl View {
         self.basis().search(goals, blank)
     }
 
-    /// As [`route`](Self::route), as JSON where there is a route.
-    pub(crate) fn route_reply(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Reply> {
+    /// What [`route`](Self::route) answers, as JSON, in microseconds; `None` where there is no route, or rooms weigh metres.
+    pub(crate) fn quick_route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Option<Vec<u8>>> {
         let robot = answer::pick(&self.robots, robot)?;
         let blank = Answer::blank(&robot, start, goals, self.generation);
-        self.basis().reply(goals, blank)
+        self.basis().quick(goals, blank)
     }
 
     fn basis(&self) -> answer::Basis<'_> {

@@ -44,7 +44,7 @@ async fn a_way_is_asked_a_cell_tuned_and_taken_back_by_keys_alone() {
         "the focus is seen"
     );
     press(&browser, "+").await;
-    press(&browser, "\u{e014}").await;
+    press(&browser, "\u{e012}\u{e012}").await;
     press(&browser, ENTER).await;
     browser.says("#popover", "Start here").await;
     press(&browser, ESCAPE).await;

@@ -56,7 +56,7 @@ async fn an_edit_is_discarded_by_escape_and_a_word_is_no_number() {
     let cell = hardness_of("SQUAT");
     browser.type_into(&cell, "soft").await;
     browser.says("#preview", "needs a number").await;
-    assert!(browser.find("#save").await.attr("disabled").await.unwrap().is_some());
+    browser.until("document.getElementById('save').disabled", "what is no number cannot be saved").await;
     browser.type_into(&cell, "2,5").await;
     browser.says("#preview", "SQUAT hardness 4 → 2.5").await;
     browser.find(&cell).await.send_keys("\u{e00c}").await.unwrap();
