@@ -72,7 +72,12 @@ impl From<adit_db::Error> for Error {
             }
             _ => None,
         };
-        Self::said("database", error.to_string(), help)
+        let code = match &error {
+            adit_db::Error::Refused { .. } => "database/refused",
+            error if error.is_busy() => "database/locked",
+            _ => "database",
+        };
+        Self::said(code, error.to_string(), help)
     }
 }
 

@@ -35,7 +35,7 @@ pub fn load_with(site: &Site, instead: Option<&Path>, (file, text): (&str, Optio
     };
     let is_it = |source: &SourceFile| Path::new(source.name()).ends_with(name);
     match (files.iter().position(is_it), text) {
-        (Some(place), Some(text)) => files[place] = SourceFile::new(files[place].name().to_owned(), text),
+        (Some(place), Some(text)) => files[place] = SourceFile::new(files[place].name(), text),
         (Some(place), None) => drop(files.remove(place)),
         (None, Some(text)) => {
             let folder = folder(site, instead).unwrap_or(Path::new(""));

@@ -156,14 +156,11 @@ fn exchange_with(
     let name = |header: &str| header.split(':').next().unwrap_or_default().to_lowercase();
     let usual = [format!("Host: {address}"), "Content-Type: application/json".to_owned()];
     let usual = usual.iter().filter(|usual| !headers.iter().any(|given| name(given) == name(usual)));
-    let headers: String = usual
-        .map(String::as_str)
-        .chain(headers.iter().copied())
-        .map(|header| format!("{header}\r\n"))
-        .collect();
+    let headers: Vec<&str> = usual.map(String::as_str).chain(headers.iter().copied()).collect();
+    let headers = headers.join("\r\n");
     write!(
         stream,
-        "{method} {path} HTTP/1.1\r\n{headers}Content-Length: {}\r\nConnection: close\r\n\r\n{body}",
+        "{method} {path} HTTP/1.1\r\n{headers}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
         body.len()
     )?;
     let mut answer = String::new();

@@ -60,7 +60,7 @@ fn foretells(site: &TestSite, edits: &[Edit], (start, goal): (&str, &str)) -> Pr
     };
     let before = (weights(site, "rooms", "room"), weights(site, "doors", "door"), costs(&live));
     let wanted = Wanted { start, goal, robot: None };
-    let preview = live.fork().with_patience(Duration::from_secs(60)).preview(edits, Some(wanted)).unwrap();
+    let preview = live.fork().with_patience(Duration::from_mins(1)).preview(edits, Some(wanted)).unwrap();
     assert_eq!(before.0, weights(site, "rooms", "room"), "a preview writes nothing");
     assert_eq!(before.2, costs(&live), "a preview leaves what is answered as it is");
     assert_eq!(preview.before, Some(live.route(start, &[goal.to_owned()], None).unwrap()));

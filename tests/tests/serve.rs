@@ -1,4 +1,5 @@
 //! The service as an integrator, a robot and an attacker meet it.
+#![allow(clippy::unwrap_used)]
 
 #[path = "serve/described.rs"]
 mod described;

@@ -55,7 +55,12 @@ impl View {
     }
 
     /// What [`route`](Self::route) answers, as JSON, in microseconds; `None` where there is no route, or rooms weigh metres.
-    pub(crate) fn quick_route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Option<Vec<u8>>> {
+    pub(crate) fn quick_route(
+        &self,
+        start: &str,
+        goals: &[String],
+        robot: Option<&str>,
+    ) -> Result<Option<Vec<u8>>> {
         let robot = answer::pick(&self.robots, robot)?;
         let blank = Answer::blank(&robot, start, goals, self.generation);
         self.basis().quick(goals, blank)

@@ -32,7 +32,7 @@ pub struct Fault {
     /// What is there now, where an edit expected something else.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schema(value_type = Option<Object>)]
-    pub current: Option<serde_json::Value>,
+    pub current: Option<Box<serde_json::Value>>,
 }
 
 /// The outcome of everything that answers.
@@ -114,6 +114,8 @@ fn status(code: &str) -> StatusCode {
         }
         (_, "missing" | "nothing-to-undo") => StatusCode::NOT_FOUND,
         (_, kind) if kind.starts_with("unknown") => StatusCode::NOT_FOUND,
+        ("database", "refused") => StatusCode::BAD_REQUEST,
+        ("database", "locked") => StatusCode::SERVICE_UNAVAILABLE,
         ("file" | "database" | "live" | "planner", _) => StatusCode::INTERNAL_SERVER_ERROR,
         _ => StatusCode::BAD_REQUEST,
     }

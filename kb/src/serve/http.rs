@@ -42,7 +42,7 @@ use super::{event, gate, meter, page};
 const BODY: usize = 2 << 20;
 
 /// The longest that one answer may take; streams begin within it.
-const TIMEOUT: Duration = Duration::from_secs(60);
+const TIMEOUT: Duration = Duration::from_mins(1);
 
 /// Scripts, styles and data come from here and nowhere else.
 const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; \
@@ -89,7 +89,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
 
 /// What the description says besides its routes.
 fn describe(api: &mut OpenApi) {
-    api.info.title = "Adit".to_owned();
+    "Adit".clone_into(&mut api.info.title);
     env!("CARGO_PKG_VERSION").clone_into(&mut api.info.version);
     api.info.description = Some(
         "Routes of least hardness through a building, the tables and rules that they follow from, and why. Metres; \

@@ -1,7 +1,6 @@
 //! Every route, setting and function of rules is documented.
 
-use adit_tests::service::Service;
-use adit_tests::{Ran, TestSite, adit, repository};
+use adit_tests::{Ran, adit, repository};
 use serde_json::Value;
 
 use crate::served;

@@ -84,7 +84,7 @@ fn what_takes_too_much_is_stopped() {
         "SELECT zeroblob(1000000000)".to_owned(),
         "SELECT group_concat(hex(randomblob(100000)), '') FROM conclusions a, conclusions b, conclusions c".to_owned(),
         format!("SELECT {}", "(".repeat(5_000)),
-        format!("SELECT {}1", "-".repeat(1)).replace('-', &"1+".repeat(60_000)),
+format!("SELECT {}1", "1+".repeat(60_000)),
         format!("SELECT {}", vec!["1"; 3_000].join(",")),
     ];
     for query in hungry {

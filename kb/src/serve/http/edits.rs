@@ -258,7 +258,7 @@ pub struct EditBody {
     edit: Wish,
     /// Why.
     #[serde(default)]
-    why: String,
+    why: Option<String>,
 }
 
 /// What an edit did.
@@ -312,7 +312,7 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
         fault.status = axum::http::StatusCode::CONFLICT.as_u16();
         let [table, key, column] = cell.clone();
         let present = site.read(move |tx| Ok(tx.cell(&table, &key, &column)?)).await;
-        fault.current = present.ok().map(|present| serde_json::json!(present));
+        fault.current = present.ok().map(|present| Box::new(serde_json::json!(present)));
     }
     fault
 }
@@ -322,7 +322,7 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
     responses((status = 200, body = Edited), (status = 409, description = "the cell holds another value by now", body = Failure), (status = "4XX", body = Failure)))]
 pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Answered<Json<Edited>> {
     require(&caller, body.edit.role())?;
-    make(&site, &caller, body.edit.edit()?, body.why).await.map(Json)
+    make(&site, &caller, body.edit.edit()?, body.why.unwrap_or_default()).await.map(Json)
 }
 
 /// Edits that are tried.

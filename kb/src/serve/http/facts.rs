@@ -94,7 +94,7 @@ pub struct TellBody {
     #[serde(default)]
     for_seconds: Option<u32>,
     #[serde(default)]
-    why: String,
+    why: Option<String>,
 }
 
 /// What telling a fact did.
@@ -113,7 +113,7 @@ pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Ans
     require(&caller, Role::Tell)?;
     let TellBody { class, object, property, value, until, for_seconds, why } = body;
     let edit = Fact { class, object, property, value, until, for_seconds }.edit()?;
-    let edited = edits::make(&site, &caller, edit, why).await?;
+    let edited = edits::make(&site, &caller, edit, why.unwrap_or_default()).await?;
     let fact = edited.done.as_ref().and_then(|done| done.key.parse().ok()).unwrap_or_default();
     Ok(Json(Told { fact, edited }))
 }

@@ -19,6 +19,7 @@ use crate::serve::desk::{Cause, Desk};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::serve::token::hex;
 use crate::shipped;
 
 /// The longest rule file, bytes.
@@ -75,8 +76,7 @@ fn read(view: &View) -> Answered<RulesAnswer> {
 }
 
 fn version(text: &str) -> String {
-    let digest = Sha256::digest(text.as_bytes());
-    digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    hex(&Sha256::digest(text.as_bytes())[..8])
 }
 
 /// A text that is tried.
@@ -194,7 +194,7 @@ pub async fn save(
     check_name(&file)?;
     check_length(&body.text)?;
     let SaveBody { text, version } = body;
-    site.at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version)).await.map(Json)
+    site.at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version.as_deref())).await.map(Json)
 }
 
 /// Which version is meant.
@@ -216,7 +216,7 @@ pub async fn remove(
 ) -> Answered<Json<Saved>> {
     require(&caller, Role::Rules)?;
     check_name(&file)?;
-    site.at_desk(move |desk| replace(desk, &caller, (&file, None), version)).await.map(Json)
+    site.at_desk(move |desk| replace(desk, &caller, (&file, None), version.as_deref())).await.map(Json)
 }
 
 /// Puts another text in place of a file's, or takes the file away; if the site cannot be built so, all is as it was.
@@ -224,7 +224,7 @@ fn replace(
     desk: &mut Desk,
     caller: &Caller,
     (file, text): (&str, Option<String>),
-    read: Option<String>,
+    read: Option<&str>,
 ) -> Answered<Saved> {
     let site = desk.shared.settings.open()?;
     let Some(folder) = site.rule_folder().map(Path::to_owned) else {
@@ -233,7 +233,7 @@ fn replace(
     };
     let path = folder.join(file);
     let before = fs::read_to_string(&path).ok();
-    if before.as_deref().map(version) != read {
+    if before.as_deref().map(version).as_deref() != read {
         let message = format!("{file} is another by now: somebody saved it since it was read");
         return Err(
             Fault::conflict("rules/conflict", message).helped("read it again, then make the change again")

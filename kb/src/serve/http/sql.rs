@@ -80,7 +80,7 @@ pub struct Download {
 }
 
 /// As what.
-#[derive(Clone, Copy, Default, Deserialize, ToSchema)]
+#[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
     /// An object for each row.
@@ -92,7 +92,7 @@ pub enum Format {
 
 /// The answer to one SQL statement as a file; the address is a link that can be shared.
 #[utoipa::path(get, path = "/api/sql", tag = "sql", security(("token" = [])),
-    params(("query" = String, Query, description = "One statement that reads"), ("format" = Option<Format>, Query, description = "json or csv")),
+    params(("query" = String, Query, description = "One statement that reads"), ("format" = Option<String>, Query, description = "json or csv")),
     responses((status = 200, body = String, content_type = "text/csv"), (status = "4XX", body = Failure)))]
 pub async fn download(site: Site, caller: Caller, Asked(asked): Asked<Download>) -> Answered<Response> {
     require(&caller, Role::Query)?;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use axum::response::sse::{self, KeepAlive, Sse};
 use futures_util::Stream;
 use futures_util::stream;
-use tokio::sync::{broadcast::error::RecvError, watch};
+use tokio::sync::watch;
 
 use super::Site;
 use crate::serve::event::{Event, Hello};
@@ -37,16 +37,14 @@ type Place = (Option<Arc<Event>>, Subscription, watch::Receiver<bool>);
 async fn next(
     (first, mut subscription, mut ending): Place,
 ) -> Option<(Result<sse::Event, Infallible>, Place)> {
-    let event = match first {
-        Some(first) => first,
-        None => tokio::select! {
-            event = subscription.events.recv() => match event {
-                Ok(event) => event,
-                // who missed events begins anew, and learns where things stand
-                Err(RecvError::Lagged(_) | RecvError::Closed) => return None,
-            },
+    let event = if let Some(first) = first {
+        first
+    } else {
+        tokio::select! {
+            // who missed events begins anew, and learns where things stand
+            event = subscription.events.recv() => event.ok()?,
             _ = ending.wait_for(|ends| *ends) => return None,
-        },
+        }
     };
     let said = sse::Event::default().event(event.name).data(&event.data);
     Some((Ok(said), (None, subscription, ending)))

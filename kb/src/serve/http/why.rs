@@ -27,7 +27,7 @@ pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json
 
 /// Which way is asked about.
 #[derive(Deserialize)]
-pub struct Through {
+pub struct OtherWay {
     start: String,
     goal: String,
     through: String,
@@ -39,7 +39,7 @@ pub struct Through {
     params(("start" = String, Query, description = "A place, a room or `x,y`"), ("goal" = String, Query, description = "A place, a room or `x,y`"),
            ("through" = String, Query, description = "`room d`, `door 7`"), ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = WhyNot), (status = "4XX", body = Failure)))]
-pub async fn why_not(site: Site, Asked(asked): Asked<Through>) -> Answered<Json<WhyNot>> {
+pub async fn why_not(site: Site, Asked(asked): Asked<OtherWay>) -> Answered<Json<WhyNot>> {
     let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
     let answer = tokio::task::spawn_blocking(move || {
         fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref())
