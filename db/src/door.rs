@@ -5,6 +5,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
+use crate::cell::Cell;
 use crate::dynamic;
 use crate::error::Result;
 use crate::reason::Derived;
@@ -167,6 +168,23 @@ pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Door>> {
     dynamic::fetch(connection, sql, &[]).await?.iter().map(door).collect()
 }
 
+/// The door of this number.
+pub async fn one(connection: &mut SqliteConnection, number: i64) -> Result<Option<Door>> {
+    let sql = format!("SELECT {} FROM doors WHERE door = ?", <&Door>::COLUMNS.join(","));
+    dynamic::fetch(connection, sql, &[number.into()]).await?.first().map(door).transpose()
+}
+
+/// Doors whose segment may come within a distance of a point, by number.
+pub async fn near(connection: &mut SqliteConnection, [x, y]: [f64; 2], distance: f64) -> Result<Vec<Door>> {
+    let sql = format!(
+        "SELECT {} FROM doors WHERE min(x0, x1) <= ? AND max(x0, x1) >= ? AND min(y0, y1) <= ? AND max(y0, y1) >= ?
+         ORDER BY door",
+        <&Door>::COLUMNS.join(",")
+    );
+    let around = [x + distance, x - distance, y + distance, y - distance].map(Cell::from);
+    dynamic::fetch(connection, sql, &around).await?.iter().map(door).collect()
+}
+
 /// Replaces all doors by these; their rooms must be there.
 pub async fn replace(connection: &mut SqliteConnection, doors: &[Door]) -> Result<()> {
     in_bulk(connection, "doors", async |connection| {
@@ -231,6 +249,16 @@ impl Tx<'_> {
     /// All doors, by number.
     pub fn doors(&mut self) -> Result<Vec<Door>> {
         self.run(read)
+    }
+
+    /// The door of this number.
+    pub fn door(&mut self, number: i64) -> Result<Option<Door>> {
+        self.run(async |connection| one(connection, number).await)
+    }
+
+    /// Doors whose segment may come within a distance of a point, by number.
+    pub fn doors_near(&mut self, at: [f64; 2], distance: f64) -> Result<Vec<Door>> {
+        self.run(async |connection| near(connection, at, distance).await)
     }
 
     /// Replaces all doors by these; their rooms must be there.

@@ -49,6 +49,9 @@ pub(crate) fn restrict(handle: &mut LockedSqliteHandle<'_>) {
     unsafe { sqlite3_set_authorizer(database, Some(may), ptr::null_mut()) };
 }
 
+const ONE: &str = "one statement at a time, please";
+const READING: &str = "only statements that read are allowed here: edit by `adit tune`";
+
 /// Functions that do more than compute, or tell of more than the data.
 const FORBIDDEN: [&[u8]; 6] =
     [b"load_extension", b"fts3_tokenizer", b"readfile", b"writefile", b"edit", b"sqlite_compileoption_get"];
@@ -86,7 +89,11 @@ pub(crate) fn one_reading_statement(handle: &mut LockedSqliteHandle<'_>, sql: &s
         // SAFETY: `database` is open and locked, `rest` a C string, and both results have a place.
         let code = unsafe { sqlite3_prepare_v2(database, rest, -1, &raw mut statement, &raw mut rest) };
         if code != SQLITE_OK {
-            return Err(message(database));
+            return Err(match message(database) {
+                _ if !reading.is_empty() => ONE.to_owned(),
+                said if said == "not authorized" => READING.to_owned(),
+                said => said,
+            });
         }
         // a comment or a lone semicolon is no statement
         if !statement.is_null() {
@@ -96,13 +103,13 @@ pub(crate) fn one_reading_statement(handle: &mut LockedSqliteHandle<'_>, sql: &s
             unsafe { sqlite3_finalize(statement) };
         }
         if reading.len() > 1 {
-            return Err("one statement at a time, please".to_owned());
+            return Err(ONE.to_owned());
         }
     }
     match reading.as_slice() {
         [] => Err("the query is empty".to_owned()),
         [true] => Ok(()),
-        _ => Err("only statements that read are allowed here: edit by `adit tune`".to_owned()),
+        _ => Err(READING.to_owned()),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The table `rooms`.
 
 use serde::Serialize;
+use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
@@ -99,26 +100,32 @@ impl Record for &Room {
     }
 }
 
+fn room(row: &SqliteRow) -> Result<Room> {
+    let layer: (Option<String>, Option<String>) = (row.try_get(2)?, row.try_get(3)?);
+    Ok(Room {
+        room: row.try_get(0)?,
+        name: row.try_get(1)?,
+        layer: layer.0.zip(layer.1),
+        facing: row.try_get(19)?,
+        rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
+        height: row.try_get(8)?,
+        width: row.try_get(9)?,
+        hardness: Derived::of(row, 10, 12)?,
+        action: Derived::of(row, 11, 14)?,
+        passable: Derived::of(row, 16, 17)?,
+    })
+}
+
 /// All rooms, by number.
 pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
     let sql = format!("SELECT {} FROM rooms ORDER BY room", <&Room>::COLUMNS.join(","));
-    let mut rooms = Vec::new();
-    for row in dynamic::fetch(connection, sql, &[]).await? {
-        let layer: (Option<String>, Option<String>) = (row.try_get(2)?, row.try_get(3)?);
-        rooms.push(Room {
-            room: row.try_get(0)?,
-            name: row.try_get(1)?,
-            layer: layer.0.zip(layer.1),
-            facing: row.try_get(19)?,
-            rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
-            height: row.try_get(8)?,
-            width: row.try_get(9)?,
-            hardness: Derived::of(&row, 10, 12)?,
-            action: Derived::of(&row, 11, 14)?,
-            passable: Derived::of(&row, 16, 17)?,
-        });
-    }
-    Ok(rooms)
+    dynamic::fetch(connection, sql, &[]).await?.iter().map(room).collect()
+}
+
+/// The room of this name.
+pub async fn named(connection: &mut SqliteConnection, name: &str) -> Result<Option<Room>> {
+    let sql = format!("SELECT {} FROM rooms WHERE name = ?", <&Room>::COLUMNS.join(","));
+    dynamic::fetch(connection, sql, &[name.into()]).await?.first().map(room).transpose()
 }
 
 /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
@@ -183,6 +190,11 @@ impl Tx<'_> {
     /// All rooms, by number.
     pub fn rooms(&mut self) -> Result<Vec<Room>> {
         self.run(read)
+    }
+
+    /// The room of this name.
+    pub fn room_named(&mut self, name: &str) -> Result<Option<Room>> {
+        self.run(async |connection| named(connection, name).await)
     }
 
     /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.

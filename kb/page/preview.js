@@ -11,6 +11,7 @@ import { refresh } from './refresh.js';
 import { showSaved } from './saved.js';
 
 const WAIT = 120;
+const THOROUGH = 5000;
 const MOST_ROUTES = 50;
 let stop = null;
 let failed = null;
@@ -31,6 +32,8 @@ const ask = debounced(async () => {
     const answer = await post('/api/preview', body, { signal: stop.signal });
     failed = null;
     model.set('preview', answer);
+    // The first answer is quick; the whole comparison follows while nobody types.
+    if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
   } catch (error) {
     if (error.name === 'AbortError') return undefined;
     failed = error;

@@ -94,11 +94,14 @@ def latency(service, ends, change, undo, rounds):
 
 
 def measure_latency(name, service, ends, rounds=100):
+    query = {"query": "SELECT door FROM doors WHERE kind = 'door' LIMIT 1000"}
+    doors = [str(door) for (door,) in service.client()("POST", "/api/sql", query)["rows"]]
+
     def cell(ask, step):
         return ask("POST", "/api/edits", edit(3 + step % 7 * 0.25))["generation"]
 
     def fact(ask, step):
-        told = ask("POST", "/api/facts", {"class": "DOORS", "object": str(1000 + step), "property": "passable", "value": False})
+        told = ask("POST", "/api/facts", {"class": "DOORS", "object": doors[-1 - step * 7 % len(doors)], "property": "passable", "value": False})
         fact.id = told["fact"]
         return told["generation"]
 
@@ -167,7 +170,7 @@ def main():
     throughput(service, len(names))
     service.end()
 
-    folder, width = site("by-state", "by-state", 20)
+    folder, width = site("by-state", "by-state", 9)
     service = Service(folder)
     seen = service.client()("GET", "/api/site")
     print(f"by state: {seen['rooms']} rooms, {seen['doors']} doors", flush=True)

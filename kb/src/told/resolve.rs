@@ -2,6 +2,7 @@
 
 use adit_db::Tx;
 use adit_db::cell::Cell;
+use adit_db::door::{Door, DoorKind};
 use adit_db::history::Author;
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
@@ -222,12 +223,10 @@ fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {
 
 /// The segment of the door at a point: the nearest one, of equals the first.
 fn door_at(tx: &mut Tx<'_>, at: Point) -> Result<[f64; 4]> {
-    let mut best: Option<(f64, i64, [f64; 4])> = None;
-    for door in tx.doors()?.into_iter().filter(|door| door.kind == adit_db::door::DoorKind::Door) {
-        let distance = nearest(at, door.segment).distance(at);
-        if best.is_none_or(|(least, _, _)| distance < least) {
-            best = Some((distance, door.door, door.segment));
-        }
+    let mut best = nearest_door(tx.doors_near([at.x, at.y], REACH)?, at);
+    if best.is_none_or(|(distance, ..)| distance > REACH) {
+        // only to say how far the nearest one is
+        best = nearest_door(tx.doors()?, at);
     }
     match best {
         Some((distance, _, segment)) if distance <= REACH => Ok(segment),
@@ -251,16 +250,27 @@ fn door_at(tx: &mut Tx<'_>, at: Point) -> Result<[f64; 4]> {
     }
 }
 
+/// Of doors, not of changes of shape, the nearest to a point: its distance, number and segment.
+fn nearest_door(doors: Vec<Door>, at: Point) -> Option<(f64, i64, [f64; 4])> {
+    let doors = doors.into_iter().filter(|door| door.kind == DoorKind::Door);
+    let measured = doors.map(|door| (nearest(at, door.segment).distance(at), door.door, door.segment));
+    measured.reduce(|best, next| if next.0 < best.0 { next } else { best })
+}
+
 fn door(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
-    let doors = tx.doors()?;
-    let Some(door) = doors.iter().find(|door| door.door.to_string() == name) else {
-        let help = match doors.len() {
+    let number = name.parse().ok().filter(|number: &i64| number.to_string() == name);
+    let found = match number {
+        Some(number) => tx.door(number)?,
+        None => None,
+    };
+    let Some(door) = found else {
+        let help = match tx.doors()?.len() {
             0 => "run `adit build` first".to_owned(),
             all => format!("there are {all} doors, numbered from 1; or say a point as x,y"),
         };
         return Err(Error::said("tell/unknown-object", format!("there is no door `{name}`"), Some(help)));
     };
-    if door.kind != adit_db::door::DoorKind::Door {
+    if door.kind != DoorKind::Door {
         let message = format!("door {name} is a change of shape, not a place that can be found again");
         let help = "tell about a room, or about a state in ROBOTS".to_owned();
         return Err(Error::said("tell/change", message, Some(help)));
@@ -270,8 +280,8 @@ fn door(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
 }
 
 fn room(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
-    let rooms = tx.rooms()?;
-    let Some(room) = rooms.iter().find(|room| room.name == name) else {
+    let Some(room) = tx.room_named(name)? else {
+        let rooms = tx.rooms()?;
         let help = did_you_mean(name, rooms.iter().map(|room| room.name.as_str()));
         let help = help.or_else(|| Some("say a room's name, or a point as x,y".to_owned()));
         return Err(Error::said("tell/unknown-object", format!("there is no room `{name}`"), help));

@@ -1,6 +1,6 @@
 //! Edits, and what they would change.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use adit_db::Cell;
 use adit_db::history::Author;
@@ -17,6 +17,9 @@ use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::told::Tell;
+
+/// The longest that routes between places are compared.
+const PATIENCE_MS: u64 = 10_000;
 
 /// Edits that one preview may hold.
 const PREVIEWED: usize = 1_000;
@@ -340,6 +343,9 @@ pub struct PreviewBody {
     /// Whose.
     #[serde(default)]
     robot: Option<String>,
+    /// Milliseconds in which routes between places are compared, at most 10,000; what is not compared by then is said.
+    #[serde(default)]
+    patience_ms: Option<u64>,
 }
 
 /// What edits would change; nothing is saved.
@@ -350,7 +356,10 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
         return Err(Fault::bad("service/too-many", format!("a preview holds up to {PREVIEWED} edits")));
     }
     let edits = body.edits.iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
-    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let mut fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    if let Some(patience) = body.patience_ms {
+        fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
+    }
     let preview = tokio::task::spawn_blocking(move || {
         let route = body.start.as_deref().zip(body.goal.as_deref());
         let wanted = route.map(|(start, goal)| Wanted { start, goal, robot: body.robot.as_deref() });
