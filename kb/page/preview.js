@@ -11,6 +11,7 @@ import { refresh } from './refresh.js';
 import { showSaved } from './saved.js';
 
 const WAIT = 120;
+const QUICK = 30;
 const THOROUGH = 5000;
 const MOST_ROUTES = 50;
 let stop = null;
@@ -29,7 +30,7 @@ const ask = debounced(async () => {
   const { start, goal, robot } = model.ask;
   const body = { edits: wanted, ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) };
   try {
-    const answer = await post('/api/preview', body, { signal: stop.signal });
+    const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: stop.signal });
     failed = null;
     model.set('preview', answer);
     // The first answer is quick; the whole comparison follows while nobody types.

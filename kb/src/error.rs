@@ -73,7 +73,14 @@ impl From<adit_db::Error> for Error {
             _ => None,
         };
         let code = match &error {
-            adit_db::Error::Refused { .. } => "database/refused",
+            adit_db::Error::Refused { .. }
+            | adit_db::Error::Conflict { .. }
+            | adit_db::Error::UnknownTable(_)
+            | adit_db::Error::UnknownColumn { .. }
+            | adit_db::Error::UnknownKey { .. }
+            | adit_db::Error::AmbiguousKey { .. }
+            | adit_db::Error::NotEditable(_)
+            | adit_db::Error::NotANumber { .. } => "database/refused",
             error if error.is_busy() => "database/locked",
             _ => "database",
         };

@@ -19,6 +19,7 @@ pub(crate) mod token;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
+use std::time::{Duration, Instant};
 
 use crate::error::{Error, Result};
 use crate::live::Live;
@@ -28,6 +29,9 @@ use token::Tokens;
 
 /// Jobs that may wait to be done one after the other.
 const QUEUE: usize = 1_024;
+
+/// How long an edit may still take when the service ends.
+const FAREWELL: Duration = Duration::from_secs(10);
 
 /// Serves a site until the program is told to end.
 ///
@@ -50,6 +54,14 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     let watcher = routes::start(Arc::clone(&shared))?;
     let served = listen::serve(&shared, ready);
     shared.ending.send_replace(true);
+    let began = Instant::now();
+    while !(desk.is_finished() && watcher.is_finished()) {
+        if began.elapsed() > FAREWELL {
+            let message = "an edit was still at work and was broken off: nothing of it is kept";
+            return Err(Error::said("serve/broken-off", message, None));
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
     let (desk, watcher) = (desk.join(), watcher.join());
     served?;
     match (desk, watcher) {

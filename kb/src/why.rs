@@ -34,7 +34,7 @@ pub struct Reasoned {
     /// The property.
     pub property: String,
     /// Its value.
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     pub value: Cell,
     /// The rule; `null`: the value was told.
     pub rule: Option<String>,
@@ -45,7 +45,7 @@ pub struct Reasoned {
     /// Its line.
     pub line: Option<i64>,
     /// What the rule chose, by its variables; under `revised by` the rules that changed the value after it.
-    #[schema(value_type = Option<Object>)]
+    #[schema(value_type = Option<serde_json::Value>)]
     pub witness: Option<serde_json::Value>,
     /// All of it in one sentence.
     pub why: String,

@@ -23,10 +23,10 @@ pub struct Cell {
     /// The column; of a fact the property.
     pub column: String,
     /// The value of before; `null` where there is none.
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     pub old: Value,
     /// The value of then; `null` where there is none.
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     pub new: Value,
 }
 

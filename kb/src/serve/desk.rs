@@ -1,6 +1,7 @@
 //! Where all edits are made, one after the other, on a thread of its own: the only one that writes.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::thread;
@@ -33,6 +34,8 @@ pub struct Desk {
     /// What requests see.
     pub shared: Arc<Shared>,
     eye: Eye,
+    /// Which file the database is.
+    database: Option<u64>,
     /// Files as they were when they were looked at last, and as they were when they were last taken or refused.
     looked: Option<Files>,
     taken: Option<Files>,
@@ -55,6 +58,18 @@ impl Cause {
     }
 }
 
+/// Which file a path names, so that another one in its place is told apart.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<u64> {
+    use std::os::unix::fs::MetadataExt;
+    std::fs::metadata(path).ok().map(|file| file.ino())
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<u64> {
+    path.exists().then_some(0)
+}
+
 /// What requests see of a site.
 pub fn seen(live: &Live) -> Seen {
     Seen { view: live.view(), since: stored(Timestamp::now()), notes: live.notes() }
@@ -64,7 +79,8 @@ pub fn seen(live: &Live) -> Seen {
 pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thread::JoinHandle<Live>> {
     let work = move || {
         let eye = Eye::with(vec![token::file(&shared.settings.folder)]);
-        let mut desk = Desk { live, shared, eye, looked: None, taken: None };
+        let mut desk =
+            Desk { database: identity(live.site().database()), live, shared, eye, looked: None, taken: None };
         desk.taken = Some(desk.look());
         desk.work(&jobs);
         desk.live
@@ -105,6 +121,7 @@ impl Desk {
         author: &Author,
         what: impl FnOnce(&Outcome) -> String,
     ) -> Result<Outcome> {
+        self.check_database()?;
         let outcome = self.live.edit(edit, author)?;
         let (who, why) = (author.who.clone(), author.why.clone());
         let what = what(&outcome);
@@ -155,6 +172,9 @@ impl Desk {
             self.take_files();
         }
         self.looked = Some(now);
+        if let Err(error) = self.check_database() {
+            return self.say_problems(Problem::all(error.problems()));
+        }
         match self.live.catch_up() {
             Ok(Some(outcome)) if !outcome.anew => {
                 self.publish(
@@ -164,6 +184,15 @@ impl Desk {
             }
             outcome => self.report(outcome, &Cause::itself("another program", "tables were edited")),
         }
+    }
+
+    /// Refuses to go on where the database is not the file any more that was opened: what is written is nowhere then.
+    fn check_database(&self) -> Result<()> {
+        if identity(self.live.site().database()) == self.database {
+            return Ok(());
+        }
+        let message = "the site's database was removed or replaced while it was served: nothing can be saved";
+        Err(Error::said("database/replaced", message, Some("start the service again".to_owned())))
     }
 
     fn look(&mut self) -> Files {

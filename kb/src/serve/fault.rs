@@ -31,7 +31,7 @@ pub struct Fault {
     pub problems: Vec<Problem>,
     /// What is there now, where an edit expected something else.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schema(value_type = Option<Object>)]
+    #[schema(value_type = Option<serde_json::Value>)]
     pub current: Option<Box<serde_json::Value>>,
 }
 
@@ -116,7 +116,8 @@ fn status(code: &str) -> StatusCode {
         (_, kind) if kind.starts_with("unknown") => StatusCode::NOT_FOUND,
         ("database", "refused") => StatusCode::BAD_REQUEST,
         ("database", "locked") => StatusCode::SERVICE_UNAVAILABLE,
-        ("file" | "database" | "live" | "planner", _) => StatusCode::INTERNAL_SERVER_ERROR,
+        ("planner", _) => StatusCode::UNPROCESSABLE_ENTITY,
+        ("file" | "database" | "live", _) => StatusCode::INTERNAL_SERVER_ERROR,
         _ => StatusCode::BAD_REQUEST,
     }
 }

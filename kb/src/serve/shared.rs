@@ -40,6 +40,8 @@ pub struct Shared {
     pub ending: watch::Sender<bool>,
     /// Places of requests that are worked on.
     pub places: Semaphore,
+    /// Places of what takes long.
+    long: Arc<Semaphore>,
     jobs: SyncSender<Job>,
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
@@ -55,6 +57,9 @@ pub struct Seen {
     /// What the expert should know: facts that are lost, tunings that count for nothing.
     pub notes: Vec<String>,
 }
+
+/// Previews and the like that are worked on at once; more wait.
+const LONG: usize = 4;
 
 /// Events that a subscriber may lag behind before it is dropped.
 const BACKLOG: usize = 256;
@@ -72,6 +77,7 @@ impl Shared {
             ending: watch::channel(false).0,
             subscribers: AtomicUsize::new(0),
             places: Semaphore::new(settings.requests),
+            long: Arc::new(Semaphore::new(LONG)),
             settings,
             jobs,
         }
@@ -131,6 +137,20 @@ impl Shared {
     pub fn wait_for_change(&self, generation: u64, patience: Duration) {
         let shown = self.shown.0.lock().unwrap_or_else(PoisonError::into_inner);
         drop(self.shown.1.wait_timeout_while(shown, patience, |shown| *shown == generation));
+    }
+
+    /// Does something that takes a core for long, beside all that goes on; few such things are done at once.
+    pub async fn at_length<T: Send + 'static>(
+        self: &Arc<Self>,
+        work: impl FnOnce() -> Result<T> + Send + 'static,
+    ) -> Answered<T> {
+        let place = Arc::clone(&self.long).acquire_owned().await.map_err(|_| Fault::internal())?;
+        let done = tokio::task::spawn_blocking(move || {
+            // whoever asked may have gone: the place is free when the work is done
+            let _place = place;
+            work()
+        });
+        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
     }
 
     /// Tells subscribers; nobody may be there.

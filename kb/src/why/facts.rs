@@ -16,7 +16,7 @@ pub struct Facts {
     /// Its key.
     pub key: String,
     /// What was read, by property; `null` is unknown, or a number without an end.
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     pub properties: BTreeMap<String, serde_json::Value>,
 }
 

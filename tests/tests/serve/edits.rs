@@ -131,3 +131,25 @@ fn when_it_ends_the_database_is_one_file_again() {
     assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["delete"]);
     assert!(!site.path().join("site.db-wal").exists());
 }
+
+#[test]
+fn where_the_database_is_removed_no_edit_is_acknowledged() {
+    let (site, service) = served("paper");
+    let mut events = service.events();
+    events.next("hello");
+    std::fs::remove_file(site.path().join("site.db")).unwrap();
+    let (status, refused) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+    assert_eq!((status, &refused["error"]["code"]), (500, &json!("database/replaced")), "{refused}");
+    assert_eq!(events.next("problems")["problems"][0]["code"], "database/replaced");
+}
+
+#[test]
+fn an_undo_that_cannot_be_is_the_callers_mistake() {
+    let (_site, service) = served("paper");
+    service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+    for (edit, expected) in [(1, 200), (1, 400), (99, 400), (-1, 400)] {
+        let undo = json!({"edit": {"kind": "undo", "edit": edit}});
+        let (status, answer) = service.ask("POST", "/api/edits", Some(&undo));
+        assert_eq!(status, expected, "{edit}: {answer}");
+    }
+}

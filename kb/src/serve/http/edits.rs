@@ -25,13 +25,12 @@ const PATIENCE_MS: u64 = 10_000;
 const PREVIEWED: usize = 1_000;
 
 /// A value as JSON has it: a number, a text, a truth value, or null for none.
-#[derive(Clone, Debug, PartialEq, Deserialize, ToSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub enum Scalar {
     /// A truth value.
     Truth(bool),
     /// A number.
-    #[schema(value_type = f64)]
     Number(serde_json::Number),
     /// A text.
     Text(String),
@@ -73,9 +72,11 @@ pub enum Wish {
         /// The column.
         column: String,
         /// The value from now on.
+        #[schema(value_type = serde_json::Value)]
         value: Scalar,
         /// The value that the editor sees: if it is another one by now, the edit is refused.
         #[serde(default)]
+        #[schema(value_type = Option<serde_json::Value>)]
         old: Option<Scalar>,
     },
     /// A new row.
@@ -86,6 +87,7 @@ pub enum Wish {
         key: String,
         /// Values of the other columns.
         #[serde(default)]
+        #[schema(value_type = std::collections::BTreeMap<String, serde_json::Value>)]
         cells: std::collections::BTreeMap<String, Scalar>,
     },
     /// A row that goes.
@@ -96,7 +98,23 @@ pub enum Wish {
         key: String,
     },
     /// A fact.
-    Tell(Fact),
+    Tell {
+        /// The class, as `DOORS`.
+        class: String,
+        /// The object: its name, `door 7`, `room d` or `x,y`.
+        object: String,
+        /// The property.
+        property: String,
+        /// What it is.
+        #[schema(value_type = serde_json::Value)]
+        value: Scalar,
+        /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
+        #[serde(default)]
+        until: Option<String>,
+        /// After how many seconds it ends, instead.
+        #[serde(default)]
+        for_seconds: Option<u32>,
+    },
     /// A fact that is no longer told.
     Retract {
         /// Its number.
@@ -113,6 +131,7 @@ pub enum Wish {
         /// The column.
         column: String,
         /// The value while the tuning is on.
+        #[schema(value_type = serde_json::Value)]
         value: Scalar,
     },
     /// A cell of a named tuning that goes.
@@ -142,22 +161,19 @@ pub enum Wish {
 }
 
 /// A fact, as it is said.
-#[derive(Clone, Debug, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug)]
 pub struct Fact {
-    /// The class, as `DOORS`.
+    /// The class.
     pub class: String,
-    /// The object: its name, `door 7`, `room d` or `x,y`.
+    /// The object.
     pub object: String,
     /// The property.
     pub property: String,
     /// What it is.
     pub value: Scalar,
-    /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
-    #[serde(default)]
+    /// When it ends.
     pub until: Option<String>,
     /// After how many seconds it ends, instead.
-    #[serde(default)]
     pub for_seconds: Option<u32>,
 }
 
@@ -209,7 +225,11 @@ impl Wish {
                 Edit::Add(table.clone(), key.clone(), cells.collect())
             }
             Self::Remove { table, key } => Edit::Remove(table.clone(), key.clone()),
-            Self::Tell(fact) => fact.edit()?,
+            Self::Tell { class, object, property, value, until, for_seconds } => {
+                let [class, object, property] = [class, object, property].map(Clone::clone);
+                let (value, until) = (value.clone(), until.clone());
+                Fact { class, object, property, value, until, for_seconds: *for_seconds }.edit()?
+            }
             Self::Retract { fact } => Edit::Retract(*fact),
             Self::SetInTuning { tuning, table, key, column, value } => {
                 let cell = [table.clone(), key.clone(), column.clone(), value.cell()];
@@ -360,10 +380,10 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
     if let Some(patience) = body.patience_ms {
         fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
     }
-    let preview = tokio::task::spawn_blocking(move || {
+    let preview = site.at_length(move || {
         let route = body.start.as_deref().zip(body.goal.as_deref());
         let wanted = route.map(|(start, goal)| Wanted { start, goal, robot: body.robot.as_deref() });
         fork.preview(&edits, wanted)
     });
-    Ok(Json(preview.await.map_err(|_| Fault::internal())??))
+    preview.await.map(Json)
 }

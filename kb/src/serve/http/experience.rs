@@ -32,8 +32,7 @@ pub struct Way {
     responses((status = 200, body = Firm), (status = "4XX", body = Failure)))]
 pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
     let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
-    let firm = tokio::task::spawn_blocking(move || fork.firm(&way.start, &way.goal, way.robot.as_deref()));
-    Ok(Json(firm.await.map_err(|_| Fault::internal())??))
+    site.at_length(move || fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
 }
 
 /// Traversals that are kept.

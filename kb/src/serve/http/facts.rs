@@ -33,7 +33,7 @@ struct FactOf {
     /// The property.
     property: String,
     /// What it is.
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     value: serde_json::Value,
     /// When it ends, in UTC.
     until: Option<String>,
@@ -88,6 +88,7 @@ pub struct TellBody {
     class: String,
     object: String,
     property: String,
+    #[schema(value_type = serde_json::Value)]
     value: Scalar,
     #[serde(default)]
     until: Option<String>,

@@ -233,6 +233,15 @@ fn replace(
     };
     let path = folder.join(file);
     let before = fs::read_to_string(&path).ok();
+    if before.is_none() && text.is_none() {
+        return Err(Fault::missing("rules/unknown-file", format!("there is no rule file {file}")));
+    }
+    if before.is_some() && read.is_none() {
+        let message = format!("{file} is there already: say the version that was read");
+        return Err(
+            Fault::conflict("rules/conflict", message).helped("GET /api/rules says the version of each file")
+        );
+    }
     if before.as_deref().map(version).as_deref() != read {
         let message = format!("{file} is another by now: somebody saved it since it was read");
         return Err(

@@ -41,7 +41,7 @@ pub struct SqlAnswer {
     /// The columns' names.
     columns: Vec<String>,
     /// A value for each column.
-    #[schema(value_type = Vec<Vec<Object>>)]
+    #[schema(value_type = Vec<Vec<serde_json::Value>>)]
     rows: Vec<Vec<Cell>>,
     /// Whether there were more rows than are given.
     truncated: bool,

@@ -27,7 +27,7 @@ struct TableOf {
     /// The rows' keys, as edits name them.
     keys: Vec<String>,
     /// A value for each column.
-    #[schema(value_type = Vec<Vec<Object>>)]
+    #[schema(value_type = Vec<Vec<serde_json::Value>>)]
     rows: Vec<Vec<serde_json::Value>>,
     /// Cells that a tuning which is on sets otherwise.
     overridden: Vec<Overridden>,
@@ -50,7 +50,7 @@ struct ColumnOf {
 struct Overridden {
     key: String,
     column: String,
-    #[schema(value_type = Object)]
+    #[schema(value_type = serde_json::Value)]
     value: Cell,
     tuning: String,
 }

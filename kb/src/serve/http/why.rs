@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::Site;
 use super::extract::Asked;
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Failure};
 use crate::why::Why;
 use crate::why_not::WhyNot;
 
@@ -21,8 +21,7 @@ pub struct What {
     responses((status = 200, body = Why), (status = "4XX", body = Failure)))]
 pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json<Why>> {
     let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
-    let why = tokio::task::spawn_blocking(move || fork.why(&what));
-    Ok(Json(why.await.map_err(|_| Fault::internal())??))
+    site.at_length(move || fork.why(&what)).await.map(Json)
 }
 
 /// Which way is asked about.
@@ -41,8 +40,7 @@ pub struct OtherWay {
     responses((status = 200, body = WhyNot), (status = "4XX", body = Failure)))]
 pub async fn why_not(site: Site, Asked(asked): Asked<OtherWay>) -> Answered<Json<WhyNot>> {
     let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
-    let answer = tokio::task::spawn_blocking(move || {
-        fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref())
-    });
-    Ok(Json(answer.await.map_err(|_| Fault::internal())??))
+    let answer = site
+        .at_length(move || fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref()));
+    answer.await.map(Json)
 }
