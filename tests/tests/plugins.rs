@@ -27,7 +27,8 @@ fn site_with_a_kiosk() -> TestSite {
 fn build_with_the_example_planner(site: &TestSite) {
     let program = adit().with_file_name("adit-example-planner");
     let mut build = Command::new(env!("CARGO"));
-    build.args(["build", "--quiet", "--locked", "--package", "adit-example-planner"]);
+    // of the whole workspace, as the tests are built: of one package alone, crates with fewer features would be built anew
+    build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit-example-planner"]);
     if program.ancestors().nth(1).is_some_and(|profile| profile.ends_with("release")) {
         build.arg("--release");
     }
