@@ -37,6 +37,7 @@ mod inputs;
 mod knowledge;
 mod lint;
 mod live;
+mod look;
 mod number;
 pub mod preview;
 mod problem;

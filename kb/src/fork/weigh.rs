@@ -8,6 +8,7 @@ use adit_db::room::{Room, RoomWeight};
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 
 use crate::graph::SiteGraph;
+use crate::look::{self, number, text, truth};
 use crate::store::decides_rooms;
 
 /// Rooms and doors by index, with what rules now say of them. Which facts a rule chose is left out.
@@ -128,10 +129,7 @@ impl Look<'_> {
         value: fn(&Value) -> Option<T>,
         mut found: impl FnMut(usize, Derived<T>),
     ) {
-        let mut rows = self.changes.rows(class, property).to_vec();
-        rows.extend(self.changes.reasons(class, property));
-        rows.sort_unstable();
-        rows.dedup();
+        let rows = look::rows(self.changes, class, property);
         let grounds = self.knowledge.grounds(class, property, &rows);
         for (row, grounds) in rows.into_iter().zip(grounds) {
             let row = row as usize;
@@ -140,16 +138,4 @@ impl Look<'_> {
             found(row, Derived { value, rule, witness: None });
         }
     }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    if let Value::Number(number) = value { Some(*number) } else { None }
-}
-
-fn text(value: &Value) -> Option<String> {
-    if let Value::Text(text) = value { Some(text.to_string()) } else { None }
-}
-
-fn truth(value: &Value) -> Option<bool> {
-    if let Value::Truth(truth) = value { Some(*truth) } else { None }
 }

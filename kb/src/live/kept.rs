@@ -12,6 +12,7 @@ use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use super::routes::KeptRoutes;
 use crate::error::Result;
 use crate::grounds::{Numbering, Reason, Reasons};
+use crate::look::{self, number, text, truth};
 use crate::store::{TABLED, decides_rooms, derivations_of};
 
 /// Conclusions beside those of rooms and doors, and how many values rest on each witness.
@@ -234,10 +235,7 @@ impl Look<'_> {
         value: fn(&Value) -> Option<T>,
         mut found: impl FnMut(usize, Reasoned<T>),
     ) {
-        let mut rows = self.changes.rows(class, property).to_vec();
-        rows.extend(self.changes.reasons(class, property));
-        rows.sort_unstable();
-        rows.dedup();
+        let rows = look::rows(self.changes, class, property);
         let reasons: Vec<Reason> = self.reasons.of_rows(class, property, &rows);
         for (row, (rule, witness)) in rows.into_iter().zip(reasons) {
             let row = row as usize;
@@ -252,16 +250,4 @@ impl Look<'_> {
             || !self.changes.reasons(class, property).is_empty()
             || self.changes.classes.get(class).is_some_and(moved)
     }
-}
-
-fn number(value: &Value) -> Option<f64> {
-    if let Value::Number(number) = value { Some(*number) } else { None }
-}
-
-fn text(value: &Value) -> Option<String> {
-    if let Value::Text(text) = value { Some(text.to_string()) } else { None }
-}
-
-fn truth(value: &Value) -> Option<bool> {
-    if let Value::Truth(truth) = value { Some(*truth) } else { None }
 }
