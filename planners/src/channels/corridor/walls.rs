@@ -35,7 +35,7 @@ fn upright(rects: &[Rect]) -> Vec<(f64, f64, f64)> {
     for piece in pieces {
         match joined.last_mut() {
             Some(last) if last.0.total_cmp(&piece.0).is_eq() && piece.1 <= last.2 => {
-                last.2 = last.2.max(piece.2)
+                last.2 = last.2.max(piece.2);
             }
             _ => joined.push(piece),
         }
