@@ -1,0 +1,11 @@
+//! Robots in corridors: Lee's section 5 with Table 2, and what is promised of any network of corridors.
+
+mod bounds;
+mod junctions;
+mod networks;
+mod paths;
+mod routes;
+mod sampled;
+mod table2;
+mod turning;
+mod verified;
