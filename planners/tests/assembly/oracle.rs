@@ -19,11 +19,11 @@ impl<const D: usize> Cells<D> {
         let count: usize = lines.iter().map(|lines| lines.len() - 1).product();
         let cell = |mut index: usize| {
             let mut cell = Cuboid::new([0.0; D], [0.0; D]);
-            for axis in 0..D {
-                let place = index % (lines[axis].len() - 1);
-                index /= lines[axis].len() - 1;
-                cell.min[axis] = lines[axis][place];
-                cell.max[axis] = lines[axis][place + 1];
+            for (axis, lines) in lines.iter().enumerate() {
+                let place = index % (lines.len() - 1);
+                index /= lines.len() - 1;
+                cell.min[axis] = lines[place];
+                cell.max[axis] = lines[place + 1];
             }
             cell
         };
