@@ -1,4 +1,5 @@
-//! Paths through channels: a rectangular free space where channels meet at right angles in junctions, and rules say how to
-//! pass each junction (Lee, *Rule-Based Path Planning for Assembly Task*).
+//! Paths through channels: free space as boxes that meet at right angles in junctions, and rules say how each junction is
+//! passed (Lee, "Rule-Based Path Finding Algorithm for Part Assembly and Its Extension to Mobile Robot Path Planning").
 
+pub mod assembly;
 pub mod corridor;
