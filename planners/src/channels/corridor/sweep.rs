@@ -73,7 +73,8 @@ impl<'a> Sweep<'a> {
     ) -> Result<f64, Wall> {
         let mut least = f64::INFINITY;
         for wall in self.walls {
-            if bound(wall) >= least {
+            // a wall that is touched hides none that is hit
+            if bound(wall) >= least.max(f64::MIN_POSITIVE) {
                 continue;
             }
             least = least.min(distance(self.body, wall, least));
