@@ -19,8 +19,10 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
         None => (world.rules.as_str(), world.folder.as_path()),
     };
     let (rules, remarks) = rules::load(name, beside)?;
-    if !rules::SHIPPED.contains(&name) {
-        remarks.iter().for_each(|text| remark(text));
+    if args.explain && !rules::SHIPPED.contains(&name) {
+        for text in &remarks {
+            remark(text);
+        }
     }
     let steps =
         || Steps::new(rules.clone()).map_err(|error| Error::said("plan/rules", error.to_string(), None));

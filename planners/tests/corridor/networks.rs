@@ -6,7 +6,7 @@ use adit_planners::channels::corridor::{
 use adit_planners::geometry::{Point, Rect};
 use proptest::prelude::*;
 
-use crate::sampled::{clearance, pose, sampled, solid};
+use crate::sampled::{clearance, nearest, pose, sampled, solid};
 use crate::table2::corrected;
 
 /// Metres that rounding may take.
@@ -117,7 +117,7 @@ fn least_gap(drive: &Drive) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
     #[test]
     fn a_drive_keeps_its_gaps_and_hits_nothing(problem in problems()) {
@@ -181,6 +181,22 @@ proptest! {
         let driven_back = driven_back.unwrap();
         prop_assert!((drive.length - driven_back.length).abs() < 1e-9 * drive.length.max(1.0));
         prop_assert!((drive.min_clearance - driven_back.min_clearance).abs() < 1e-9);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, max_global_rejects: 100_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn the_clearance_of_lines_and_arcs_is_exact(problem in problems()) {
+        let Ok(corridors) = Corridors::new(&problem.channels) else { return Err(TestCaseError::reject("no corridors")) };
+        let Some(route) = problem.route(&corridors) else { return Err(TestCaseError::reject("no route")) };
+        let Ok(drive) = problem.drive(&route, None) else { return Err(TestCaseError::reject("no drive")) };
+        let solid = solid(&problem.channels);
+        // one piece of each drive, as each of them takes a while
+        let primitive = &drive.primitives[drive.primitives.len() / 2];
+        let found = nearest(problem.robot, primitive, &solid);
+        prop_assert!((primitive.clearance() - found.max(0.0)).abs() < 1e-8, "{found}: {primitive:?}");
     }
 }
 
