@@ -35,7 +35,12 @@ fn figure_5_shows_the_part_at_each_waypoint_for_each_gap() {
     let panels = [Some(0.01), Some(0.2), None].map(|gap| way_out(gap, None));
     let svg = render_channels("Disassembly path for different clearance gaps", &panels);
     keep("lee-figure-5", &svg);
-    for caption in ["a) gap_x = gap_z = 0.01", "c) safest gaps", "length 7.403 m, clearance 0.010 m"] {
+    for caption in [
+        "a) gap_x = gap_z = 0.01",
+        "c) safest gaps",
+        "length 7.403 m",
+        "clearance 0.010 m, but for leg 1 0.200 m",
+    ] {
         assert!(svg.contains(caption), "{caption}");
     }
     // The part at four waypoints in each panel, the last one dashed; two junctions dashed otherwise.
