@@ -5,6 +5,7 @@ pub mod bridges;
 pub mod clearance;
 pub mod doors;
 pub mod facts;
+pub mod floor_plan;
 pub mod geometry;
 mod known;
 pub mod layers;
