@@ -306,7 +306,7 @@ fn line([a, b]: [Point; 2]) -> String {
     format!("from {} to {}", told(a), told(b))
 }
 
-fn polygon(corners: &[Point]) -> Polygon {
+pub(super) fn polygon(corners: &[Point]) -> Polygon {
     let ring: LineString = corners.iter().map(|p| Coord { x: p.x, y: p.y }).collect();
     Polygon::new(ring, Vec::new())
 }

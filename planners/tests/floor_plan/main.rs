@@ -4,5 +4,6 @@
 
 mod dice;
 mod hertel_mehlhorn;
+mod paths;
 mod random_plan;
 mod regions;
