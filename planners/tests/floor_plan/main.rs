@@ -4,6 +4,7 @@
 
 mod dice;
 mod hertel_mehlhorn;
+mod oracle;
 mod paths;
 mod random_plan;
 mod regions;
