@@ -22,6 +22,7 @@ pub mod rect_index;
 pub mod rooms;
 pub mod routes;
 pub mod segment;
+pub mod simulator;
 mod skyline;
 pub mod strips;
 pub mod world;
