@@ -14,6 +14,7 @@ pub mod layers;
 pub mod local_model;
 pub mod minimum;
 pub mod names;
+pub mod navigation;
 pub mod overlays;
 pub mod planner;
 pub mod pose;
