@@ -66,6 +66,12 @@ pub enum Code {
     ImageTooLarge,
     /// A world of a planner that cannot be as it is given.
     Impossible,
+    /// A wall that bounds no free space, or no walls that do.
+    OpenOutline,
+    /// Two walls that cross or lie on one another.
+    CrossingWalls,
+    /// A robot that fits through no doorway.
+    RobotTooWide,
 }
 
 impl Code {
@@ -100,6 +106,9 @@ impl Code {
             Self::GridTooFine => "map/grid-too-fine",
             Self::ImageTooLarge => "map/image-too-large",
             Self::Impossible => "map/impossible",
+            Self::OpenOutline => "map/open-outline",
+            Self::CrossingWalls => "map/crossing-walls",
+            Self::RobotTooWide => "map/robot-too-wide",
         }
     }
 }

@@ -1,0 +1,49 @@
+//! Draws a floor plan with its regions and doorways: `cargo run -p adit-planners --example floor_plan_svg -- plan.json
+//! out.svg`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use adit_planners::floor_plan::{FloorPlan, Regions, read_floor_plan};
+use adit_planners::geometry::Point;
+
+const SCALE: f64 = 40.0;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [plan, out] = arguments.as_slice() else {
+        return Err("usage: floor_plan_svg PLAN.json OUT.svg".into());
+    };
+    let plan = read_floor_plan(Path::new(plan))?;
+    std::fs::write(out, draw(&plan))?;
+    Ok(())
+}
+
+fn draw(plan: &FloorPlan) -> String {
+    let regions = Regions::of(plan);
+    let ends = || plan.walls().iter().flatten();
+    let least = ends().fold(Point::new(f64::MAX, f64::MAX), |m, p| Point::new(m.x.min(p.x), m.y.min(p.y)));
+    let most = ends().fold(Point::new(f64::MIN, f64::MIN), |m, p| Point::new(m.x.max(p.x), m.y.max(p.y)));
+    let at = |p: Point| format!("{:.1},{:.1}", (p.x - least.x + 0.5) * SCALE, (most.y - p.y + 0.5) * SCALE);
+    let ring = |corners: &[Point]| corners.iter().map(|&p| at(p)).collect::<Vec<_>>().join(" ");
+    let (width, height) = ((most.x - least.x + 1.0) * SCALE, (most.y - least.y + 1.0) * SCALE);
+    let mut svg = format!("<svg xmlns='http://www.w3.org/2000/svg' width='{width:.0}' height='{height:.0}'>");
+    svg.push_str("<rect width='100%' height='100%' fill='white'/>");
+    for (number, region) in regions.regions.iter().enumerate() {
+        let hue = number * 137 % 360;
+        let corners = ring(&region.outline);
+        let _ = write!(svg, "<polygon points='{corners}' fill='hsl({hue},60%,80%)' stroke='none'/>");
+    }
+    let line = |[a, b]: [Point; 2], style: &str| format!("<polyline points='{} {}' {style}/>", at(a), at(b));
+    for doorway in &regions.doorways {
+        svg.push_str(&line([doorway.from, doorway.to], "stroke='grey' stroke-dasharray='4 3'"));
+    }
+    for solid in plan.solids() {
+        let _ = write!(svg, "<polygon points='{}' fill='#444'/>", ring(solid));
+    }
+    for &wall in plan.walls() {
+        svg.push_str(&line(wall, "stroke='black' stroke-width='3'"));
+    }
+    svg.push_str("</svg>");
+    svg
+}

@@ -1,0 +1,105 @@
+//! What happens on a mission, to be written down.
+
+use super::{Settings, State, StateDecision, StateFacts};
+use crate::geometry::Point;
+use crate::local_model::{Estimate, SegmentId};
+use crate::pose::Pose;
+
+/// Something that happened.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When, by the body's clock, seconds.
+    pub time_s: f64,
+    /// Where the robot thought that it was.
+    pub pose: Pose,
+    /// What it was.
+    pub what: Happening,
+}
+
+/// Kinds of events.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Happening {
+    /// The judge was asked, and the state changed or something was done.
+    State {
+        /// What was asked.
+        facts: StateFacts,
+        /// What was answered.
+        decision: StateDecision,
+    },
+    /// A whole scan was taken, and the estimated position set.
+    SetEstimatedPosition(Estimate),
+    /// Segments came into the local model or left it.
+    Segments {
+        /// By name.
+        entered: Vec<SegmentId>,
+        /// By name.
+        removed: Vec<SegmentId>,
+    },
+    /// The skirt touched something.
+    Contact {
+        /// Radians from the heading, counter-clockwise.
+        bearing: f64,
+    },
+    /// A path to the goal was planned; the first one or another one.
+    Planned {
+        /// From where the robot is to the goal.
+        points: Vec<Point>,
+        /// Metres.
+        length_m: f64,
+        /// Whether it was found through free space as it is known, the network having none.
+        is_off_network: bool,
+    },
+    /// A detour was taken.
+    Detour {
+        /// From where the robot is back to its path.
+        points: Vec<Point>,
+        /// Metres.
+        length_m: f64,
+        /// Metres of the other one; `None` where it is not free.
+        other_m: Option<f64>,
+    },
+    /// A way was reported closed.
+    WayClosed {
+        /// Where it is blocked.
+        at: Point,
+        /// The doorway in which that is, by index.
+        doorway: Option<usize>,
+        /// The region in which that is, by index, where it is in no doorway.
+        region: Option<usize>,
+    },
+    /// What was seen of obstacles was forgotten.
+    Retried,
+    /// A goal point on the path was reached.
+    Reached(Point),
+    /// The mission is over.
+    Ended(Ending),
+}
+
+/// How a mission ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// At the goal.
+    Arrived,
+    /// There is no way to the goal.
+    NoWay,
+    /// It took longer than [`Settings::patience_s`].
+    OutOfPatience,
+}
+
+impl Happening {
+    /// The state that follows, where this is a change of state.
+    pub fn state(&self) -> Option<State> {
+        match self {
+            Self::State { facts, decision } if facts.state != decision.state => Some(decision.state),
+            _ => None,
+        }
+    }
+}
+
+impl Ending {
+    /// Whether a mission has been under way for too long.
+    pub(super) fn of_patience(time_s: f64, settings: &Settings) -> Option<Self> {
+        (time_s > settings.patience_s).then_some(Self::OutOfPatience)
+    }
+}

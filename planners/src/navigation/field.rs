@@ -1,0 +1,93 @@
+//! Free space for a disc among barriers, and the shortest paths through it.
+
+use super::detour::Ground;
+use super::free_grid::FreeGrid;
+use super::highway::is_clear;
+use crate::floor_plan::clear::distance_between;
+use crate::geometry::{Point, Rect};
+use crate::segment::Segment;
+
+/// The grid may lack a cell at an end of a path; the nearest one up to so far is taken, metres.
+const NEAR_M: f64 = 0.4;
+
+/// Free space in a window.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    grid: FreeGrid,
+    barriers: Vec<Segment>,
+    /// Lines that no path crosses, though it may come near them.
+    cuts: Vec<Segment>,
+    reach: f64,
+    least: f64,
+    grain: f64,
+}
+
+impl Field {
+    /// Free space of a window.
+    pub fn new(window: Rect, ground: &Ground) -> Self {
+        let Ground { barriers, reach, least, grain, .. } = *ground;
+        let is_near = |barrier: &&Segment| {
+            let (a, b) = (barrier.a, barrier.b);
+            a.x.min(b.x) - reach <= window.x1
+                && a.x.max(b.x) + reach >= window.x0
+                && a.y.min(b.y) - reach <= window.y1
+                && a.y.max(b.y) + reach >= window.y0
+        };
+        let barriers: Vec<Segment> = barriers.iter().filter(is_near).copied().collect();
+        let mut grid = FreeGrid::new(window, grain);
+        for barrier in &barriers {
+            grid.block(barrier, reach);
+        }
+        Self { grid, barriers, cuts: Vec::new(), reach, least, grain }
+    }
+
+    /// The same for paths that do not cross a line.
+    pub fn cut(&self, line: &Segment) -> Self {
+        let mut field = self.clone();
+        field.grid.block(line, 0.75 * self.grain);
+        field.cuts.push(*line);
+        field
+    }
+
+    /// The shortest path, straight from point to point; its ends may be nearer to barriers than the rest.
+    pub fn path(&self, from: Point, to: Point) -> Option<Vec<Point>> {
+        if self.barriers.iter().any(|barrier| barrier.distance(to) < self.least) {
+            return None;
+        }
+        if self.is_clear(from, to) {
+            return Some(vec![from, to]);
+        }
+        let first = self.grid.nearest(from, NEAR_M, |at| self.is_clear(from, at))?;
+        let last = self.grid.nearest(to, NEAR_M, |at| self.is_clear(at, to))?;
+        let mut points = vec![from];
+        points.extend(self.grid.path(first, last)?);
+        points.push(to);
+        Some(self.straightened(&points))
+    }
+
+    fn is_clear(&self, from: Point, to: Point) -> bool {
+        let is_crossed = |cut: &Segment| distance_between([from, to], [cut.a, cut.b]) <= 0.0;
+        is_clear(from, to, self.reach, &self.barriers) && !self.cuts.iter().any(is_crossed)
+    }
+
+    /// Goes straight to the farthest point that can be reached so, again and again.
+    fn straightened(&self, points: &[Point]) -> Vec<Point> {
+        let mut kept = vec![points[0]];
+        let mut at = 0;
+        while at + 1 < points.len() {
+            let farthest = (at + 2..points.len()).rev().find(|&next| self.is_clear(points[at], points[next]));
+            at = farthest.unwrap_or(at + 1);
+            kept.push(points[at]);
+        }
+        kept
+    }
+}
+
+/// The rectangle about points, larger by a margin.
+pub(super) fn window(points: impl IntoIterator<Item = Point>, margin: f64) -> Rect {
+    let start = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    let all = points.into_iter().fold(start, |r, p| {
+        Rect::new(r.x0.min(p.x), r.y0.min(p.y), r.x1.max(p.x), r.y1.max(p.y))
+    });
+    Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin)
+}

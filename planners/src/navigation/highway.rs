@@ -1,0 +1,108 @@
+//! Free way for a disc that goes straight.
+
+use crate::floor_plan::clear::distance_between;
+use crate::geometry::Point;
+use crate::segment::Segment;
+
+/// A disc that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
+const SLIDE_M: f64 = 0.005;
+
+/// How far a disc can go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Free {
+    /// Metres; no more than to the goal point.
+    pub metres: f64,
+    /// What it meets then, by index.
+    pub by: Option<usize>,
+}
+
+/// How far the middle of a disc can go from one point towards another before it is nearer than `reach` to a barrier.
+/// Where it is nearer from the start, it may go along or away.
+pub(super) fn free_ahead(from: Point, to: Point, reach: f64, barriers: &[Segment]) -> Free {
+    let whole = from.distance(to);
+    let mut free = Free { metres: whole, by: None };
+    for (index, barrier) in barriers.iter().enumerate() {
+        if let Some(metres) = hit(from, to, reach, barrier).filter(|metres| *metres < free.metres) {
+            free = Free { metres, by: Some(index) };
+        }
+    }
+    free
+}
+
+/// Whether a disc can go straight from one point to another, nowhere nearer to a barrier than `reach`; than at its ends,
+/// where those are nearer.
+pub(super) fn is_clear(from: Point, to: Point, reach: f64, barriers: &[Segment]) -> bool {
+    barriers.iter().all(|barrier| {
+        is_far(from, to, reach, barrier) || {
+            let least = reach.min(barrier.distance(from)).min(barrier.distance(to));
+            distance_between([from, to], [barrier.a, barrier.b]) >= least - 1e-9
+        }
+    })
+}
+
+fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
+    if is_far(from, to, reach, barrier) {
+        return None;
+    }
+    let nearest = distance_between([from, to], [barrier.a, barrier.b]);
+    let now = barrier.distance(from);
+    if now < reach {
+        return (nearest < now - SLIDE_M).then_some(0.0);
+    }
+    (nearest < reach).then(|| first_within(from, to, reach, barrier))
+}
+
+/// The distance to a segment falls until it is least, and then rises: a point before that is found by halving.
+fn first_within(from: Point, to: Point, reach: f64, barrier: &Segment) -> f64 {
+    let whole = from.distance(to);
+    let at = |metres: f64| {
+        let share = metres / whole;
+        Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
+    };
+    let (mut low, mut high) = (0.0, whole);
+    while high - low > 1e-4 {
+        let middle = f64::midpoint(low, high);
+        let is_met = distance_between([from, at(middle)], [barrier.a, barrier.b]) < reach;
+        (low, high) = if is_met { (low, middle) } else { (middle, high) };
+    }
+    low
+}
+
+fn is_far(from: Point, to: Point, reach: f64, barrier: &Segment) -> bool {
+    let apart = |a: f64, b: f64, c: f64, d: f64| (c.min(d) - a.max(b)).max(a.min(b) - c.max(d));
+    apart(from.x, to.x, barrier.a.x, barrier.b.x) > reach || apart(from.y, to.y, barrier.a.y, barrier.b.y) > reach
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EAST: [Point; 2] = [Point::new(0.0, 0.0), Point::new(4.0, 0.0)];
+
+    fn ahead(barrier: [f64; 4]) -> f64 {
+        let [x0, y0, x1, y1] = barrier;
+        let barrier = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
+        free_ahead(EAST[0], EAST[1], 0.3, &[barrier]).metres
+    }
+
+    #[test]
+    fn a_wall_across_stops_the_disc_before_its_middle_is_there() {
+        assert!((ahead([2.0, -1.0, 2.0, 1.0]) - 1.7).abs() < 1e-3);
+        assert!((ahead([2.0, 0.18, 2.0, 1.0]) - 1.76).abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_is_beside_or_beyond_is_not_in_the_way() {
+        assert!((ahead([0.0, 0.31, 4.0, 0.31]) - 4.0).abs() < 1e-9);
+        assert!((ahead([4.31, -1.0, 4.31, 1.0]) - 4.0).abs() < 1e-9);
+        assert!((ahead([-1.0, -1.0, -1.0, 1.0]) - 4.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_disc_too_near_may_go_along_and_away_but_not_on() {
+        assert!((ahead([0.0, 0.28, 4.0, 0.28]) - 4.0).abs() < 1e-9);
+        assert!((ahead([-0.2, -1.0, -0.2, 1.0]) - 4.0).abs() < 1e-9);
+        assert!(ahead([0.28, -1.0, 0.28, 1.0]) < 1e-9);
+        assert!(ahead([-1.0, 0.29, 4.0, 0.0]) < 1e-9);
+    }
+}

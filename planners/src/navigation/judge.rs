@@ -1,0 +1,130 @@
+//! What is asked from outside, and what is answered: the navigator itself decides nothing.
+
+use super::Settings;
+use crate::floor_plan::Way;
+use crate::local_model::{SegmentFacts, Transition};
+
+/// Who drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// The user does: commands are passed through, and the position is kept.
+    #[default]
+    Manual,
+    /// The navigator does, to a goal in a known building.
+    Automatic,
+}
+
+/// States of straight-line movement (Crowley 1985, Figure 5).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum State {
+    /// There is no goal point.
+    #[default]
+    Hold,
+    /// What is to be done next is found out.
+    Decide,
+    /// The robot turns towards its goal point.
+    Turn,
+    /// It goes straight towards it.
+    Move,
+    /// It stands until a whole scan is taken.
+    Wait,
+    /// Something is in the way.
+    Blocked,
+}
+
+/// What is done on the way to the next state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Action {
+    /// Nothing besides.
+    #[default]
+    None,
+    /// To withdraw from what was touched.
+    BackOff,
+    /// To take the detour on the left.
+    Left,
+    /// To take the detour on the right.
+    Right,
+    /// To report the way closed, and to look for another one over the whole building.
+    Close,
+    /// To forget what was seen of obstacles, and to begin anew from here.
+    Retry,
+    /// To report that there is no way.
+    NoWay,
+}
+
+/// What the next state depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StateFacts {
+    /// Who drives.
+    pub mode: Mode,
+    /// The state now.
+    pub state: State,
+    /// Whether there is a goal point to go to.
+    pub has_goal: bool,
+    /// Metres to the goal point; 0 without one.
+    pub distance_m: f64,
+    /// Whether the distance has not grown since the robot went off.
+    pub is_falling: bool,
+    /// By how much the robot looks past its goal point, radians from 0 to PI.
+    pub heading_error: f64,
+    /// Metres beside the line to the goal point.
+    pub off_line_m: f64,
+    /// Metres that are free ahead in the local model, on the way to the goal point; no more than the distance.
+    pub free_m: f64,
+    /// Metres that are free ahead by raw readings since the last update of the model; no more than the distance.
+    pub echo_m: f64,
+    /// Whether what is in the way is moving.
+    pub is_obstacle_moving: bool,
+    /// Whether the skirt touched something since the robot last withdrew.
+    pub is_contact: bool,
+    /// Whether the wheels are still at work.
+    pub is_busy: bool,
+    /// Whether a whole scan was taken since the robot stands here.
+    pub is_scan_complete: bool,
+    /// Metres of the detour on the left of the obstacle; `None` where none is free. Known in Blocked, after a scan.
+    pub left_m: Option<f64>,
+    /// The same on the right.
+    pub right_m: Option<f64>,
+    /// How many detours were taken from this spot.
+    pub detours_here: u32,
+    /// How often it waited at this spot.
+    pub waits: u32,
+    /// Whether a way over the whole building is known.
+    pub has_way: bool,
+    /// How often everything was begun anew.
+    pub retries: u32,
+    /// The tolerances.
+    pub settings: Settings,
+}
+
+/// What is done next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StateDecision {
+    /// The next state; it may be the same.
+    pub state: State,
+    /// What is done on the way there.
+    pub action: Action,
+}
+
+/// What the weight of a way depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WayFacts<'w> {
+    /// The way, with its length and clearance.
+    pub way: &'w Way,
+    /// Whether what was seen of obstacles leaves no free path between its ends.
+    pub is_cut: bool,
+    /// How often its doorway, or its region, was reported closed.
+    pub times_blocked: u32,
+}
+
+/// Whatever is a choice. In the knowledge base these are rules.
+pub trait Judge {
+    /// What the robot does next.
+    fn next_state(&mut self, facts: &StateFacts) -> StateDecision;
+
+    /// What becomes of a segment of the local model.
+    fn segment(&mut self, facts: &SegmentFacts) -> Transition;
+
+    /// What a way weighs; `None` closes it.
+    fn weigh(&mut self, facts: &WayFacts) -> Option<f64>;
+}

@@ -1,0 +1,77 @@
+//! What the navigator knows of the building, and of obstacles in it.
+
+use super::Settings;
+use crate::floor_plan::{FloorPlan, Network};
+use crate::geometry::Point;
+use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
+use crate::segment::Segment;
+
+/// A building that is known before a mission: the global model and the network of places.
+#[derive(Clone, Debug)]
+pub struct Building {
+    /// The network of places for the robot.
+    pub network: Network,
+    /// The surfaces of the global model.
+    pub walls: Vec<Segment>,
+}
+
+impl Building {
+    /// The building of a floor plan with its network.
+    pub fn new(plan: &FloorPlan, network: Network) -> Self {
+        Self { network, walls: plan.barriers().into_iter().map(Segment::from).collect() }
+    }
+}
+
+/// Obstacles that the local model has dropped because they are far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Memory {
+    lately: Vec<(SegmentId, Segment, u8)>,
+    kept: Vec<(Segment, u8)>,
+}
+
+impl Memory {
+    /// Takes note of the model after an update.
+    pub fn note(&mut self, model: &LocalModel, walls: &[Segment], settings: &Settings) {
+        let at = model.estimate().pose.at;
+        let now: Vec<(SegmentId, Segment, u8)> =
+            obstacles(model).map(|segment| (segment.id, segment.line, segment.confidence)).collect();
+        for (id, line, confidence) in std::mem::take(&mut self.lately) {
+            let is_gone = now.binary_search_by_key(&id, |known| known.0).is_err();
+            if is_gone && line.distance(at) > settings.memory_m {
+                self.kept.push((line, confidence));
+            }
+        }
+        self.lately = now;
+        // What is near and in sight is the model's: it is seen again if it is still there.
+        self.kept.retain(|(line, _)| {
+            line.distance(at) > settings.memory_m / 2.0 || !is_in_sight(at, line.middle(), walls)
+        });
+    }
+
+    /// Surfaces of obstacles of at least a confidence.
+    pub fn obstacles(&self, model: &LocalModel, confidence: u8) -> Vec<Segment> {
+        let seen = obstacles(model).filter(|segment| segment.confidence >= confidence);
+        let kept = self.kept.iter().filter(|(_, known)| *known >= confidence);
+        seen.map(|segment| segment.line).chain(kept.map(|(line, _)| *line)).collect()
+    }
+}
+
+/// Surfaces of the model that the building does not have, and that stand.
+fn obstacles(model: &LocalModel) -> impl Iterator<Item = &ModelSegment> {
+    model.segments().iter().filter(|segment| segment.source != Source::RECALLED && !is_moving(model, segment))
+}
+
+/// Surfaces of things that move.
+pub(super) fn moving(model: &LocalModel) -> impl Iterator<Item = Segment> {
+    model.segments().iter().filter(|segment| is_moving(model, segment)).map(|segment| segment.line)
+}
+
+fn is_moving(model: &LocalModel, segment: &ModelSegment) -> bool {
+    model.objects().iter().any(|object| Some(object.id) == segment.object && object.is_moving)
+}
+
+fn is_in_sight(from: Point, to: Point, walls: &[Segment]) -> bool {
+    let far = from.distance(to);
+    let towards = Point::new((to.x - from.x) / far.max(1e-9), (to.y - from.y) / far.max(1e-9));
+    !walls.iter().any(|wall| wall.hit(from, towards).is_some_and(|(range, _)| range < far - 0.2))
+}

@@ -1,0 +1,198 @@
+//! Missions in a simulated building, and how they went.
+
+use super::judge::Judge;
+use super::known::Building;
+use super::{Ending, Event, Happening, Navigator, Settings};
+use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
+use crate::geometry::Point;
+use crate::local_model::{self, Estimate};
+use crate::pose::{Pose, wrapped};
+use crate::simulator::{self, Film, Obstacle, SimulationError, Simulator};
+
+/// A robot's start, its goal, and what nobody told it of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mission {
+    /// Where the robot stands, and thinks that it stands.
+    pub start: Pose,
+    /// Where it is to go.
+    pub goal: Point,
+    /// Obstacles that are not known to it.
+    pub obstacles: Vec<Obstacle>,
+    /// Of the errors of wheels and sonar.
+    pub seed: u64,
+}
+
+/// How a robot and its navigator are set.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outfit {
+    /// The robot.
+    pub robot: simulator::Settings,
+    /// Its local model.
+    pub model: local_model::Settings,
+    /// Its navigator.
+    pub navigation: Settings,
+}
+
+/// An event with the truth beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// What the navigator told.
+    pub event: Event,
+    /// Where the robot really was.
+    pub truth: Pose,
+}
+
+/// What came of a mission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// How it ended.
+    pub ending: Ending,
+    /// Metres that the robot really went.
+    pub path_m: f64,
+    /// Times that a way was closed and another one looked for.
+    pub replans: u32,
+    /// Detours that were taken.
+    pub detours: u32,
+    /// Seconds by the body's clock.
+    pub simulated_s: f64,
+    /// Touches of the skirt while the robot moved: it stopped there.
+    pub touches: usize,
+    /// The deepest that anything was within the robot, metres; more than nothing is a collision.
+    pub overlap_m: f64,
+    /// Metres from where the robot really was at the end to the goal.
+    pub miss_m: f64,
+    /// The largest error of the estimated position, metres.
+    pub worst_error_m: f64,
+    /// The largest error of the estimated heading, radians.
+    pub worst_heading_error: f64,
+}
+
+/// What can be, with the obstacles where they come to rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Possible {
+    /// Whether a disc of the robot's radius can get there.
+    pub is_for_radius: bool,
+    /// Whether a disc with room to spare can.
+    pub is_with_room: bool,
+    /// The length of the shortest path for the robot's radius, metres.
+    pub optimum_m: Option<f64>,
+}
+
+/// What is kept free of a robot that has room, metres.
+pub const ROOM_M: f64 = 0.10;
+
+impl Mission {
+    /// Runs the mission.
+    ///
+    /// # Arguments
+    /// `journal` gets every event; `film` gets a frame for each scan and for each event worth a caption.
+    pub fn run(
+        &self,
+        building: &Building,
+        outfit: &Outfit,
+        judge: &mut impl Judge,
+        mut journal: impl FnMut(Entry),
+        mut film: Option<&mut Option<Film>>,
+    ) -> Result<Outcome, SimulationError> {
+        let mut body =
+            Simulator::new(&building.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
+        let start = Estimate::new(self.start, 0.01, 0.5_f64.to_radians());
+        let mut navigator = Navigator::new(building, outfit.model, outfit.navigation, start);
+        if let Some(film) = &mut film {
+            **film = Some(Film::new(&body));
+        }
+        navigator.go(self.goal, judge);
+        let mut outcome = Outcome {
+            ending: Ending::OutOfPatience,
+            path_m: 0.0,
+            replans: 0,
+            detours: 0,
+            simulated_s: 0.0,
+            touches: 0,
+            overlap_m: 0.0,
+            miss_m: 0.0,
+            worst_error_m: 0.0,
+            worst_heading_error: 0.0,
+        };
+        loop {
+            let before = body.pose();
+            let ending = navigator.step(&mut body, judge);
+            let (truth, thought) = (body.pose(), navigator.estimate().pose);
+            outcome.path_m += before.at.distance(truth.at);
+            outcome.worst_error_m = outcome.worst_error_m.max(thought.at.distance(truth.at));
+            let turned = wrapped(thought.heading - truth.heading).abs();
+            outcome.worst_heading_error = outcome.worst_heading_error.max(turned);
+            outcome.overlap_m = outcome.overlap_m.max(overlap(&body));
+            for event in navigator.take_events() {
+                outcome.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
+                if let Some(Some(film)) = film.as_deref_mut() {
+                    film_event(film, &body, &navigator, &event);
+                }
+                journal(Entry { event, truth });
+            }
+            if let Some(ending) = ending {
+                let touches = body.touches().iter().filter(|touch| touch.robot_moved).count();
+                return Ok(Outcome {
+                    ending,
+                    replans: navigator.replans(),
+                    simulated_s: body.time_s(),
+                    touches,
+                    miss_m: truth.at.distance(self.goal),
+                    ..outcome
+                });
+            }
+        }
+    }
+
+    /// Whether the mission can be done, by an exact search that knows of every obstacle where it comes to rest.
+    ///
+    /// # Returns
+    /// `None` where obstacles and walls together make no floor plan.
+    pub fn possible(&self, plan: &FloorPlan, radius_m: f64) -> Option<Possible> {
+        let mut solids = plan.solids().to_vec();
+        solids.extend(self.obstacles.iter().map(at_rest));
+        let drawn = Drawn { name: String::new(), walls: plan.walls().to_vec(), solids, places: Vec::new() };
+        let plan = FloorPlan::new(drawn).ok()?;
+        let path = |radius: f64, margin: f64| {
+            let network = Network::new(&plan, Disc { radius, margin }).ok()?;
+            network.path(self.start.at, self.goal, Rule::Tight, |way| Some(way.length)).ok()
+        };
+        let optimum_m = path(radius_m, 0.0).map(|path| path.length);
+        let is_with_room = path(radius_m, ROOM_M).is_some();
+        Some(Possible { is_for_radius: optimum_m.is_some() || is_with_room, is_with_room, optimum_m })
+    }
+}
+
+/// The corners of an obstacle where it comes to rest.
+fn at_rest(obstacle: &Obstacle) -> Vec<Point> {
+    let course = obstacle.course.as_ref().filter(|course| !course.goes_round);
+    let last = course.and_then(|course| course.through.last().copied()).unwrap_or_default();
+    obstacle.corners.iter().map(|p| Point::new(p.x + last.x, p.y + last.y)).collect()
+}
+
+/// How deep something is within the robot, metres.
+fn overlap(body: &Simulator) -> f64 {
+    let at = body.pose().at;
+    let sides = body.obstacles().flatten().chain(body.walls());
+    let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
+    body.settings().radius_m - nearest
+}
+
+fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
+    let caption = match &event.what {
+        Happening::State { decision, .. } => format!("{:?} {:?}", decision.state, decision.action),
+        Happening::Detour { length_m, .. } => format!("detour of {length_m:.1} m"),
+        Happening::WayClosed { doorway, region, .. } => format!("closed: {doorway:?} {region:?}"),
+        Happening::Planned { length_m, is_off_network, .. } => {
+            format!("planned: {length_m:.1} m{}", if *is_off_network { " off the network" } else { "" })
+        }
+        Happening::Contact { .. } => "contact".to_owned(),
+        Happening::Ended(ending) => format!("{ending:?}"),
+        _ => return,
+    };
+    let mut frame = body.frame();
+    frame.estimate = Some(event.pose);
+    frame.surfaces = Some(navigator.model().segments().iter().map(|segment| segment.line).collect());
+    frame.caption = Some(caption);
+    film.push(frame);
+}

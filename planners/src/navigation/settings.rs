@@ -1,0 +1,73 @@
+//! What a user may change about navigation.
+
+/// Figures of the navigator. The tolerances among them are facts, too: the judge compares with them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// So near to a goal point counts as there, metres.
+    pub goal_tolerance_m: f64,
+    /// The robot does not turn by less, radians.
+    pub turning_resolution: f64,
+    /// So far beside the line to its goal point the robot may be, metres.
+    pub highway_half_width_m: f64,
+    /// What is kept free on either side of the robot while it goes straight, metres.
+    pub highway_clearance_m: f64,
+    /// Obstacles on the way count from so near on, metres.
+    pub look_ahead_m: f64,
+    /// The robot goes no farther without a look around, metres.
+    pub stride_m: f64,
+    /// How fast it goes, metres a second.
+    pub speed_m_s: f64,
+    /// Readings of the sonar that make a whole scan.
+    pub scan_readings: usize,
+    /// Readings after which the model is updated on the way.
+    pub part_readings: usize,
+    /// What a detour keeps free on either side of the robot, metres.
+    pub detour_clearance_m: f64,
+    /// A detour leaves the rectangle about its ends by at most so much, metres.
+    pub detour_reach_m: f64,
+    /// The grain of the search for detours, metres.
+    pub grain_m: f64,
+    /// How far the robot withdraws from what it touched, metres.
+    pub back_off_m: f64,
+    /// Surfaces of less confidence close no way for good.
+    pub least_confidence: u8,
+    /// Surfaces farther away than this are out of the local model's sight: if it drops them, they are remembered, metres.
+    pub memory_m: f64,
+    /// Blocked within so far of where it was blocked before counts as the same spot, metres.
+    pub same_spot_m: f64,
+    /// Waits for a moving obstacle at one spot.
+    pub most_waits: u32,
+    /// Detours from one spot before the way counts as closed.
+    pub most_detours: u32,
+    /// Times that everything is looked at anew before there is no way.
+    pub most_retries: u32,
+    /// After so long a mission is given up, seconds.
+    pub patience_s: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            goal_tolerance_m: 0.08,
+            turning_resolution: 2.0_f64.to_radians(),
+            highway_half_width_m: 0.10,
+            highway_clearance_m: 0.02,
+            look_ahead_m: 2.5,
+            stride_m: 4.0,
+            speed_m_s: 0.5,
+            scan_readings: 120,
+            part_readings: 40,
+            detour_clearance_m: 0.05,
+            detour_reach_m: 4.0,
+            grain_m: 0.04,
+            back_off_m: 0.08,
+            least_confidence: 2,
+            memory_m: 6.0,
+            same_spot_m: 0.5,
+            most_waits: 4,
+            most_detours: 4,
+            most_retries: 2,
+            patience_s: 3600.0,
+        }
+    }
+}

@@ -1,0 +1,10 @@
+//! Floor plans: regions, doorways, adits and ways.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+#![allow(clippy::float_cmp)] // a direction is removed that was put in, to the bit
+
+mod dice;
+mod hertel_mehlhorn;
+mod oracle;
+mod paths;
+mod random_plan;
+mod regions;

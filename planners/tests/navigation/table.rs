@@ -1,0 +1,133 @@
+//! A judge as a plain table, for tests. What ships is written as rules: a row here is a row there.
+//!
+//! The first row that holds decides. `reach` is the smaller one of `distance_m` and `look_ahead_m`.
+//!
+//! | state   | if                                                     | next    | action   |
+//! |---------|--------------------------------------------------------|---------|----------|
+//! | Hold    | mode is not Automatic                                  | Hold    |          |
+//! | Hold    | has_way is false                                       | Blocked |          |
+//! | Hold    | has_goal                                               | Decide  |          |
+//! | Hold    | otherwise                                              | Hold    |          |
+//! | Decide  | has_goal is false                                      | Hold    |          |
+//! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
+//! | Decide  | is_contact                                             | Blocked |          |
+//! | Decide  | free_m < reach                                         | Blocked |          |
+//! | Decide  | heading_error > turning_resolution                     | Turn    |          |
+//! | Decide  | otherwise                                              | Move    |          |
+//! | Turn    | is_contact                                             | Blocked |          |
+//! | Turn    | is_busy                                                | Turn    |          |
+//! | Turn    | heading_error > turning_resolution                     | Turn    |          |
+//! | Turn    | otherwise                                              | Wait    |          |
+//! | Move    | is_contact                                             | Blocked |          |
+//! | Move    | distance_m <= goal_tolerance_m                         | Hold    |          |
+//! | Move    | is_falling is false                                    | Wait    |          |
+//! | Move    | off_line_m > highway_half_width_m                      | Wait    |          |
+//! | Move    | free_m < reach                                         | Blocked |          |
+//! | Move    | echo_m < reach and echo_m < 1                          | Wait    |          |
+//! | Move    | is_busy                                                | Move    |          |
+//! | Move    | otherwise                                              | Wait    |          |
+//! | Wait    | is_scan_complete                                       | Decide  |          |
+//! | Wait    | otherwise                                              | Wait    |          |
+//! | Blocked | is_busy                                                | Blocked |          |
+//! | Blocked | is_contact                                             | Blocked | BackOff  |
+//! | Blocked | is_scan_complete is false                              | Wait    |          |
+//! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
+//! | Blocked | has_way is false                                       | Hold    | NoWay    |
+//! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
+//! | Blocked | detours_here >= most_detours                           | Decide  | Close    |
+//! | Blocked | left_m is the smaller one, or the only one             | Decide  | Left     |
+//! | Blocked | right_m is known                                       | Decide  | Right    |
+//! | Blocked | otherwise                                              | Decide  | Close    |
+
+use adit_planners::local_model::{SegmentFacts, Source, Transition};
+use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
+
+/// The table.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Table;
+
+impl Judge for Table {
+    fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
+        let (state, action) = row(facts);
+        StateDecision { state, action }
+    }
+
+    fn segment(&mut self, facts: &SegmentFacts) -> Transition {
+        segment(facts)
+    }
+
+    fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
+        (!facts.is_cut).then(|| facts.way.length * (1.0 + f64::from(facts.times_blocked)))
+    }
+}
+
+fn row(facts: &StateFacts) -> (State, Action) {
+    let settings = &facts.settings;
+    let reach = facts.distance_m.min(settings.look_ahead_m) - 1e-6;
+    let is_there = facts.distance_m <= settings.goal_tolerance_m;
+    let is_turned = facts.heading_error <= settings.turning_resolution;
+    let state = match facts.state {
+        State::Hold if facts.mode != Mode::Automatic => State::Hold,
+        State::Hold if !facts.has_way => State::Blocked,
+        State::Hold if facts.has_goal => State::Decide,
+        State::Hold => State::Hold,
+        State::Decide if !facts.has_goal || is_there => State::Hold,
+        State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
+        State::Decide if !is_turned => State::Turn,
+        State::Decide => State::Move,
+        State::Turn if facts.is_contact => State::Blocked,
+        State::Turn if facts.is_busy || !is_turned => State::Turn,
+        State::Turn => State::Wait,
+        State::Move if facts.is_contact => State::Blocked,
+        State::Move if is_there => State::Hold,
+        State::Move if !facts.is_falling || facts.off_line_m > settings.highway_half_width_m => State::Wait,
+        State::Move if facts.free_m < reach => State::Blocked,
+        State::Move if facts.echo_m < reach.min(1.0) => State::Wait,
+        State::Move if facts.is_busy => State::Move,
+        State::Move => State::Wait,
+        State::Wait if facts.is_scan_complete => State::Decide,
+        State::Wait => State::Wait,
+        State::Blocked => return blocked(facts),
+    };
+    (state, Action::None)
+}
+
+fn blocked(facts: &StateFacts) -> (State, Action) {
+    let settings = &facts.settings;
+    let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
+    match () {
+        () if facts.is_busy => (State::Blocked, Action::None),
+        () if facts.is_contact => (State::Blocked, Action::BackOff),
+        () if !facts.is_scan_complete => (State::Wait, Action::None),
+        () if !facts.has_way && facts.retries < settings.most_retries => (State::Decide, Action::Retry),
+        () if !facts.has_way => (State::Hold, Action::NoWay),
+        () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
+        () if facts.detours_here >= settings.most_detours => (State::Decide, Action::Close),
+        () if is_left => (State::Decide, Action::Left),
+        () if facts.right_m.is_some() => (State::Decide, Action::Right),
+        () => (State::Decide, Action::Close),
+    }
+}
+
+/// The state table of segments.
+fn segment(facts: &SegmentFacts) -> Transition {
+    let is_recalled = facts.source == Source::RECALLED;
+    let confidence = match facts {
+        SegmentFacts { confidence: 0, .. } if is_recalled => 5,
+        SegmentFacts { confidence: 0, .. } => 1,
+        SegmentFacts { is_moving: true, is_matched: false, .. } => 0,
+        SegmentFacts { is_moving: true, .. } => 1,
+        SegmentFacts { is_seen_free: true, is_matched: false, .. } => facts.confidence.saturating_sub(2),
+        SegmentFacts { is_matched: true, .. } => (facts.confidence + 1).min(5),
+        SegmentFacts { is_visible: true, beams_on: 0, .. } => facts.confidence - 1,
+        _ => facts.confidence,
+    };
+    Transition {
+        confidence,
+        source: facts.source,
+        is_kept: confidence > 0 && (is_recalled || facts.distance_m <= 15.0),
+        counts_for_pose: !facts.is_moving && confidence >= 2,
+        is_anchored: is_recalled,
+        is_cut: !is_recalled && facts.free_m > 0.2,
+    }
+}
