@@ -126,7 +126,7 @@ fn clearance<const D: usize>(path: &PartPath<D>) -> String {
     let rest = rest.unwrap_or_default().iter().map(|leg| leg.min_clearance).fold(f64::INFINITY, f64::min);
     let least = format!("clearance {:.3} m", path.min_clearance);
     if rest.is_finite() && rest > path.min_clearance {
-        format!("{least}, but for leg {inner} {rest:.3} m")
+        format!("{least}; without leg {inner}: {rest:.3} m")
     } else {
         least
     }

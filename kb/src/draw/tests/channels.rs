@@ -39,7 +39,7 @@ fn figure_5_shows_the_part_at_each_waypoint_for_each_gap() {
         "a) gap_x = gap_z = 0.01",
         "c) safest gaps",
         "length 7.403 m",
-        "clearance 0.010 m, but for leg 1 0.200 m",
+        "clearance 0.010 m; without leg 1: 0.200 m",
     ] {
         assert!(svg.contains(caption), "{caption}");
     }
