@@ -14,7 +14,7 @@ const ROUNDS: usize = 20_001;
 fn main() -> Result<(), Box<dyn Error>> {
     for path in std::env::args().skip(1) {
         let world = World::read(Path::new(&path))?;
-        let (rules, _) = rules::load(&world.rules, &world.folder)?;
+        let (rules, _) = rules::load(world.task.kind(), &world.rules, &world.folder)?;
         let (mut steps, mut turns) = (Steps::new(rules.clone())?, Turns::new(rules)?);
         assert!(steps.is_direct() && turns.is_direct(), "the rules look at one step alone");
         let mut once = || -> Result<f64, String> {
@@ -23,6 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 Task::SolidAssembly(world) => {
                     world.plan(&mut steps).map_err(|no_path| no_path.reason)?.length
                 }
+                Task::FloorPlan(_) => return Err("a floor plan is timed by missions".to_owned()),
                 Task::Corridor(world) => {
                     world.plan(&mut turns).map_err(|no_path| no_path.reason)?.drive.length
                 }

@@ -11,6 +11,7 @@ mod picture;
 mod plan;
 mod route;
 mod serve;
+mod simulate;
 mod sql;
 mod tell;
 mod test;
@@ -70,6 +71,8 @@ pub enum Verb {
     Draw(DrawArgs),
     /// The way of a part out of another, or of a robot through corridors, in a world of its own
     Plan(PlanArgs),
+    /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
+    Simulate(SimulateArgs),
     /// Who changed what, when and why
     History(HistoryArgs),
     /// Take back the last edit, or edit N of the history
@@ -419,6 +422,43 @@ pub struct PlanArgs {
     pub json: bool,
 }
 
+/// `adit simulate`.
+#[derive(Args, Debug)]
+pub struct SimulateArgs {
+    /// The world: a TOML file with [floor_plan]
+    pub world: PathBuf,
+    /// Where to start, a place or `x,y`; without START and GOAL missions with obstacles are drawn by chance
+    #[arg(allow_hyphen_values = true, requires = "goal")]
+    pub start: Option<String>,
+    /// Where to go, likewise
+    #[arg(allow_hyphen_values = true)]
+    pub goal: Option<String>,
+    /// Where the robot looks at first, in degrees
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    pub heading: f64,
+    /// How many missions
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub missions: u32,
+    /// Of chance; the same seed gives the same missions
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// The rule base instead of the world's: `navigation` or a folder
+    #[arg(long, value_name = "RULES")]
+    pub rules: Option<String>,
+    /// Make a film of a mission: an animated SVG
+    #[arg(long, value_name = "FILE")]
+    pub film: Option<PathBuf>,
+    /// Which mission is filmed
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    pub mission: usize,
+    /// How many times as fast as time the film plays
+    #[arg(long, value_name = "TIMES", default_value_t = 8.0)]
+    pub speed: f64,
+    /// Print a row a mission as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `adit history`.
 #[derive(Args, Debug)]
 pub struct HistoryArgs {
@@ -543,6 +583,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::Plan(args) => plan::run(args).map(|found| u8::from(!found)),
+        Verb::Simulate(args) => simulate::run(args).map(|right| u8::from(!right)),
         Verb::History(args) => tune::history(args).map(|()| 0),
         Verb::Undo(args) => tune::undo(args).map(|()| 0),
         Verb::Serve(args) => serve::run(args).map(|()| 0),
@@ -587,6 +628,7 @@ impl Verb {
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
             Self::Plan(args) => args.json,
+            Self::Simulate(args) => args.json,
             Self::History(args) => args.site.json,
             Self::Undo(args) => args.site.json,
             Self::Serve(args) => args.site.json,

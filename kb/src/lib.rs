@@ -38,6 +38,7 @@ mod knowledge;
 mod lint;
 mod live;
 mod look;
+pub mod navigation;
 mod number;
 pub mod plan;
 pub mod preview;

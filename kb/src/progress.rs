@@ -49,3 +49,29 @@ impl Drop for Spinner {
         self.0.finish_and_clear();
     }
 }
+
+/// A bar on standard error for work of known size; nothing where that is no terminal.
+pub struct Bar(ProgressBar);
+
+impl Bar {
+    /// A bar for so many pieces of work.
+    pub fn new(what: &str, pieces: u64) -> Self {
+        let bar = ProgressBar::new(pieces);
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos} of {len} {msg}, {eta} left") {
+            bar.set_style(style);
+        }
+        bar.set_message(what.to_owned());
+        Self(bar)
+    }
+
+    /// A piece is done.
+    pub fn step(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -1,7 +1,10 @@
 //! `adit plan`: the planners of worlds of their own.
 
+use std::sync::Arc;
+
 use adit_db::Store;
 use adit_db::plan::Plan;
+use adit_engine::RuleBase;
 use adit_planners::geometry::Point;
 
 use super::PlanArgs;
@@ -9,6 +12,8 @@ use super::output::{json, line, remark};
 use super::picture;
 use crate::draw::{ChannelPanel, render_channels};
 use crate::error::{Error, Result};
+use crate::navigation::floor::Floor;
+use crate::navigation::judge::RuleJudge;
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World, rules};
@@ -23,8 +28,8 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
         Some(rules) => (rules.as_str(), std::path::Path::new("")),
         None => (world.rules.as_str(), world.folder.as_path()),
     };
-    let (rules, remarks) = rules::load(name, beside)?;
-    if args.explain && !rules::SHIPPED.contains(&name) {
+    let (rules, remarks) = rules::load(world.task.kind(), name, beside)?;
+    if args.explain && !world.task.kind().shipped().contains(&name) {
         for text in &remarks {
             remark(text);
         }
@@ -39,7 +44,24 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
             let mut turns = turns.map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
             drive(args, &world, name, &between(args, corridor)?, &mut turns)
         }
+        Task::FloorPlan(floor) => walk(args, floor, &rules),
     }
+}
+
+fn walk(args: &PlanArgs, floor: &Floor, rules: &Arc<RuleBase>) -> Result<bool> {
+    let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
+        let help = format!("places: {}", floor.names().join(", "));
+        return Err(Error::said("plan/ends", "a floor plan needs START and GOAL", Some(help)));
+    };
+    let mut judge =
+        RuleJudge::new(rules).map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+    let walked = floor.plan(floor.point(start)?, floor.point(goal)?, &mut judge)?;
+    if args.json {
+        json(&walked.json())?;
+    } else {
+        walked.lines().iter().for_each(|text| line(text));
+    }
+    Ok(walked.is_path())
 }
 
 /// The corridor with the ends of the command line.

@@ -1,4 +1,4 @@
-//! The rule bases of channels and corridors, and what their rules may speak of.
+//! The rule bases of worlds, and what their rules may speak of.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -6,10 +6,47 @@ use std::sync::Arc;
 use adit_engine::{RuleBase, Schema, Severity, Type};
 
 use crate::error::{Error, Result};
+use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
 use crate::rules::{self, Rules};
 
-/// The shipped rule bases: the paper's tables as they are meant, and as they are printed.
-pub const SHIPPED: [&str; 2] = ["corrected", "printed"];
+/// What a rule base is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Parts and corridors: the paper's tables as they are meant, and as they are printed.
+    Channels,
+    /// Robots on floor plans.
+    Navigation,
+}
+
+impl Kind {
+    /// The shipped rule bases, the one that counts by default first.
+    pub const fn shipped(self) -> &'static [&'static str] {
+        match self {
+            Self::Channels => &["corrected", "printed"],
+            Self::Navigation => &["navigation"],
+        }
+    }
+
+    fn folder(self, name: &str) -> String {
+        match self {
+            Self::Channels => format!("channels/{name}"),
+            Self::Navigation => name.to_owned(),
+        }
+    }
+
+    /// The classes and properties that rules may name.
+    pub fn schema(self) -> Schema {
+        match self {
+            Self::Channels => {
+                Schema::default().class("STEPS", STEPS).class("TURNS", TURNS).class("PASSAGES", PASSAGES)
+            }
+            Self::Navigation => Schema::default()
+                .class("SITUATIONS", SITUATIONS)
+                .class("SEGMENTS", SEGMENTS)
+                .class("WAYS", WAYS),
+        }
+    }
+}
 
 /// What rules are told of a step of a part: it is about to enter a junction.
 pub const STEPS: &[(&str, Type)] = &[
@@ -81,7 +118,7 @@ pub const PASSAGES: &[(&str, Type)] = &[
 ];
 
 /// Where a property stands in one of these lists; asked when compiled.
-pub(super) const fn place(list: &[(&str, Type)], name: &str) -> usize {
+pub(crate) const fn place(list: &[(&str, Type)], name: &str) -> usize {
     let mut at = 0;
     while !same(list[at].0.as_bytes(), name.as_bytes()) {
         at += 1;
@@ -103,35 +140,32 @@ pub(super) const fn same(one: &[u8], other: &[u8]) -> bool {
     true
 }
 
-/// The classes and properties that rules may name.
-pub fn schema() -> Schema {
-    Schema::default().class("STEPS", STEPS).class("TURNS", TURNS).class("PASSAGES", PASSAGES)
-}
-
 /// Reads a rule base: a shipped one by its name, else a folder. One that cannot be right, or fails a test beside it, is
 /// refused.
 ///
 /// # Returns
 /// The rules, and what is not wrong but worth a look, as text.
-pub fn load(name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
-    let Rules { base, tests } = if SHIPPED.contains(&name) {
-        rules::shipped(&format!("channels/{name}"))?
+pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
+    let Rules { base, tests } = if kind.shipped().contains(&name) {
+        rules::shipped(&kind.folder(name))?
     } else {
         let folder = beside.join(name);
         if !folder.is_dir() {
             let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
-            let help =
-                format!("the shipped ones are `{}`; anything else is a folder", SHIPPED.join("` and `"));
+            let help = format!(
+                "the shipped ones are `{}`; anything else is a folder",
+                kind.shipped().join("` and `")
+            );
             return Err(Error::said("plan/no-rules", message, Some(help)));
         }
         rules::from_folder(&folder)?
     };
     let (errors, remarks): (Vec<_>, Vec<_>) =
-        base.check(&schema()).into_iter().partition(|found| found.severity == Severity::Error);
+        base.check(&kind.schema()).into_iter().partition(|found| found.severity == Severity::Error);
     if !errors.is_empty() {
         return Err(Error::all(errors));
     }
-    let outcomes = tests.run(&base, &schema()).map_err(|wrong| Error::all(wrong.0))?;
+    let outcomes = tests.run(&base, &kind.schema()).map_err(|wrong| Error::all(wrong.0))?;
     let failures: Vec<_> =
         outcomes.into_iter().flat_map(|outcome| outcome.failures).map(|failure| failure.diagnostic).collect();
     if !failures.is_empty() {

@@ -7,7 +7,9 @@ use adit_planners::read::{Document, Fields, Problem};
 
 use super::assembly::Assembly;
 use super::corridor::Corridor;
+use super::rules::Kind;
 use crate::error::{Error, Result};
+use crate::navigation::floor::Floor;
 
 /// What is to be planned, and by which rules.
 #[derive(Debug)]
@@ -31,6 +33,18 @@ pub enum Task {
     SolidAssembly(Assembly<3>),
     /// A robot is to drive through corridors.
     Corridor(Corridor),
+    /// A robot is to find its way on a floor plan.
+    FloorPlan(Box<Floor>),
+}
+
+impl Task {
+    /// What kind of rules decide.
+    pub const fn kind(&self) -> Kind {
+        match self {
+            Self::FloorPlan(_) => Kind::Navigation,
+            _ => Kind::Channels,
+        }
+    }
 }
 
 impl World {
@@ -39,22 +53,23 @@ impl World {
         let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let (rules, task) = parse(&path.display().to_string(), &text)?;
+        let (rules, task) = parse(&path.display().to_string(), &text, &folder)?;
+        let rules = rules.unwrap_or_else(|| task.kind().shipped()[0].to_owned());
         Ok(Self { name, folder, rules, task })
     }
 }
 
-const KINDS: [&str; 2] = ["assembly", "corridor"];
+const KINDS: [&str; 3] = ["assembly", "corridor", "floor_plan"];
 
-/// Reads a text; `name` is how messages call the file.
-fn parse(name: &str, text: &str) -> Result<(String, Task)> {
+/// Reads a text; `name` is how messages call the file, `folder` where it lies.
+fn parse(name: &str, text: &str, folder: &Path) -> Result<(Option<String>, Task)> {
     let document = Document::parse(name, text).map_err(|error| Error::all(error.problems))?;
     let fields = document.fields("the world");
     let mut problems: Vec<Problem> = Vec::new();
-    fields.refuse_unknown(&["rules", "assembly", "corridor"], &mut problems);
+    fields.refuse_unknown(&["rules", "assembly", "corridor", "floor_plan"], &mut problems);
     let rules = match fields.get("rules") {
-        None => super::rules::SHIPPED[0].to_owned(),
-        Some(_) => fields.string("rules", &mut problems).map(|rules| rules.value).unwrap_or_default(),
+        None => None,
+        Some(_) => fields.string("rules", &mut problems).map(|rules| rules.value),
     };
     let kinds: Vec<&str> = KINDS.into_iter().filter(|kind| fields.get(kind).is_some()).collect();
     let task = match kinds.as_slice() {
@@ -65,6 +80,11 @@ fn parse(name: &str, text: &str) -> Result<(String, Task)> {
             .table("corridor", "[corridor]", &mut problems)
             .and_then(|fields| super::corridor::read(&fields, &mut problems))
             .map(Task::Corridor),
+        ["floor_plan"] => match fields.table("floor_plan", "[floor_plan]", &mut problems) {
+            Some(fields) => crate::navigation::floor::read(&fields, folder, &mut problems)?
+                .map(|floor| Task::FloorPlan(Box::new(floor))),
+            None => None,
+        },
         [] => {
             let message = format!("{name} is no world of a planner");
             let help = format!("it needs a table [{}]", KINDS.join("] or ["));

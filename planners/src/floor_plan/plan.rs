@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
-use geo::{BooleanOps, Contains, Coord, Intersects, LineString, MultiLineString, MultiPolygon, Polygon, Validation};
+use geo::{
+    BooleanOps, Contains, Coord, Intersects, LineString, MultiLineString, MultiPolygon, Polygon, Validation,
+};
 
 use super::noding::{Clash, Noded, SNAP_M, node};
 use super::planar::Planar;
@@ -102,13 +104,22 @@ impl FloorPlan {
 
     /// Whatever stops a robot or an echo: walls, and outlines of solid things.
     pub fn barriers(&self) -> Vec<[Point; 2]> {
-        self.space.plan.edges.iter().map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize])).collect()
+        self.space
+            .plan
+            .edges
+            .iter()
+            .map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize]))
+            .collect()
     }
 
     /// The area of the free space, square metres.
     pub fn free_area(&self) -> f64 {
         let plan = &self.space.plan;
-        plan.cycles.iter().filter(|cycle| self.space.free_half[cycle.first as usize]).map(|cycle| cycle.area).sum()
+        plan.cycles
+            .iter()
+            .filter(|cycle| self.space.free_half[cycle.first as usize])
+            .map(|cycle| cycle.area)
+            .sum()
     }
 
     /// Whether a point lies in free space; on a wall it may or may not.
@@ -122,7 +133,11 @@ impl FloorPlan {
 
     /// A problem with a place, told where it stands in the file.
     pub(super) fn problem_of_place(&self, place: usize, code: Code, message: String) -> Problem {
-        Check { source: &self.source, problems: Vec::new() }.problem(self.source.places.get(place), code, message)
+        Check { source: &self.source, problems: Vec::new() }.problem(
+            self.source.places.get(place),
+            code,
+            message,
+        )
     }
 }
 
@@ -237,7 +252,10 @@ impl Check<'_> {
         }
         lines.retain(|[a, b]| a.distance(*b) > SNAP_M);
         let noded = node(&lines).map_err(|_| {
-            Problem::of_file(Code::CrossingWalls, "walls and solids meet in a way that is too fine to tell apart")
+            Problem::of_file(
+                Code::CrossingWalls,
+                "walls and solids meet in a way that is too fine to tell apart",
+            )
         })?;
         Ok((noded, ring_from))
     }
@@ -250,7 +268,8 @@ impl Check<'_> {
             Clash::Overlap { .. } => format!("the wall {second} lies on the wall {first}"),
         };
         let help = "walls may end on one another; let one of them end where they meet, or draw it as two";
-        let mut problem = self.problem(self.source.walls.get(j), Code::CrossingWalls, message).with_help(help);
+        let mut problem =
+            self.problem(self.source.walls.get(j), Code::CrossingWalls, message).with_help(help);
         if let Some(span) = self.source.walls.get(i) {
             problem = problem.and_at(span, "the other wall");
         }
@@ -261,17 +280,24 @@ impl Check<'_> {
         let source = self.source;
         if !space.free_half.contains(&true) {
             let message = format!("none of the {} walls bound free space: no outline is closed", walls.len());
-            self.tell(None, Code::OpenOutline, message, "draw the outer walls so that each ends on another one");
+            self.tell(
+                None,
+                Code::OpenOutline,
+                message,
+                "draw the outer walls so that each ends on another one",
+            );
             return;
         }
         let mut told_of = BTreeSet::new();
         for (edge, &wall) in noded.wall_of.iter().enumerate().filter(|&(_, &wall)| wall < ring_from) {
             let is_lost = !space.free_half[2 * edge] && !space.free_half[2 * edge + 1];
             let [a, b] = noded.edges[edge].ends.map(|n| noded.points[n as usize]);
-            let is_on = |p: Point, wall: [Point; 2]| p.distance(p.nearest_on(wall[0], wall[1])) <= 2.0 * SNAP_M;
+            let is_on =
+                |p: Point, wall: [Point; 2]| p.distance(p.nearest_on(wall[0], wall[1])) <= 2.0 * SNAP_M;
             let drawn = walls.iter().position(|&wall| is_on(a, wall) && is_on(b, wall)).unwrap_or(wall);
             if is_lost && told_of.len() < MOST_TOLD && told_of.insert(drawn) {
-                let message = format!("no free space lies beside the wall {}: its outline is open", line([a, b]));
+                let message =
+                    format!("no free space lies beside the wall {}: its outline is open", line([a, b]));
                 let help = "close the gap in the outline that this wall belongs to, or leave the wall out";
                 self.tell(source.walls.get(drawn), Code::OpenOutline, message, help);
             }
@@ -291,7 +317,8 @@ impl Check<'_> {
                 let message = format!("the place `{name}` at {} lies in something solid", told(at));
                 self.tell(span, Code::PlaceInWall, message, "put it where a robot can stand");
             } else if !space.is_free(at) {
-                let message = format!("the place `{name}` at {} lies outside of every closed outline", told(at));
+                let message =
+                    format!("the place `{name}` at {} lies outside of every closed outline", told(at));
                 self.tell(span, Code::PlaceOutside, message, "move it, or close the outline around it");
             }
         }

@@ -19,7 +19,9 @@ use crate::table2::corrected;
 
 fn shipped() -> Arc<RuleBase> {
     static RULES: OnceLock<Arc<RuleBase>> = OnceLock::new();
-    Arc::clone(RULES.get_or_init(|| rules::load("corrected", Path::new("")).expect("a shipped rule base").0))
+    Arc::clone(RULES.get_or_init(|| {
+        rules::load(rules::Kind::Channels, "corrected", Path::new("")).expect("a shipped rule base").0
+    }))
 }
 
 /// The chain as a world, with a gap of its own for each junction.

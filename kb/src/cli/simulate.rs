@@ -1,0 +1,116 @@
+//! `adit simulate`: missions of a simulated robot on a floor plan.
+
+use std::path::Path;
+
+use adit_planners::navigation::{Building, Mission};
+use adit_planners::pose::Pose;
+
+use super::SimulateArgs;
+use super::output::{json, line, remark, table};
+use crate::error::{Error, Result};
+use crate::navigation::floor::Floor;
+use crate::navigation::missions::{Row, drawn, run as run_all, watched};
+use crate::number::number;
+use crate::plan::{Task, World, rules};
+use crate::progress::Bar;
+
+/// Runs missions and prints a row each; `false` where one ended otherwise than it should.
+pub fn run(args: &SimulateArgs) -> Result<bool> {
+    let world = World::read(&args.world)?;
+    let Task::FloorPlan(floor) = &world.task else {
+        let message = format!("{} has no [floor_plan]: there is nothing to simulate", args.world.display());
+        return Err(Error::said("simulate/no-floor-plan", message, None));
+    };
+    let (name, beside) = match &args.rules {
+        Some(rules) => (rules.as_str(), Path::new("")),
+        None => (world.rules.as_str(), world.folder.as_path()),
+    };
+    let (rules, _) = rules::load(world.task.kind(), name, beside)?;
+    let missions = missions(args, floor)?;
+    let bar = Bar::new("missions", missions.len() as u64);
+    let rows = run_all(floor, &rules, &missions, || bar.step())?;
+    drop(bar);
+    if let Some(film) = &args.film {
+        let building = Building::new(&floor.plan, floor.network.clone());
+        let mission = missions.get(args.mission - 1).ok_or_else(|| {
+            Error::said("simulate/no-mission", format!("there is no mission {}", args.mission), None)
+        })?;
+        let mut made = None;
+        watched(floor, &building, &rules, args.mission, mission, |_| {}, Some(&mut made))?;
+        if let Some(made) = made {
+            std::fs::write(film, made.svg(args.speed)).map_err(|error| Error::io("write", film, &error))?;
+            remark(&format!("{}: mission {}", film.display(), args.mission));
+        }
+    }
+    if args.json {
+        json(&rows)?;
+    } else {
+        show(&rows);
+    }
+    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided && row.trouble.is_none()))
+}
+
+/// The missions that are drawn, or the one from START to GOAL.
+fn missions(args: &SimulateArgs, floor: &Floor) -> Result<Vec<Mission>> {
+    let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
+        return drawn(floor, args.missions as usize, args.seed);
+    };
+    let (start, goal) = (floor.point(start)?, floor.point(goal)?);
+    let heading = args.heading.to_radians();
+    let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
+    Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
+}
+
+fn show(rows: &[Row]) {
+    let cells = rows.iter().map(|row| {
+        let over = row.optimum.map_or_else(String::new, |optimum| format!("{:.3}", row.length / optimum));
+        let judged = match row.right {
+            Some(true) => "",
+            Some(false) => "WRONG",
+            None => "not judged",
+        };
+        vec![
+            row.mission.to_string(),
+            row.ending.to_owned(),
+            row.obstacles.to_string(),
+            number(row.length),
+            over,
+            row.detours.to_string(),
+            row.replans.to_string(),
+            format!("{:.0}", row.seconds),
+            if row.collided { "COLLIDED".to_owned() } else { judged.to_owned() },
+        ]
+    });
+    table(
+        &["mission", "ending", "obstacles", "metres", "over optimum", "detours", "replans", "seconds", ""],
+        cells,
+    );
+    for trouble in rows.iter().filter_map(|row| row.trouble.as_ref()).take(1) {
+        remark(trouble);
+    }
+    summary(rows);
+}
+
+fn summary(rows: &[Row]) {
+    let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
+    let mut over: Vec<f64> = rows
+        .iter()
+        .filter(|row| row.ending == "arrived")
+        .filter_map(|row| Some(row.length / row.optimum?))
+        .collect();
+    over.sort_by(f64::total_cmp);
+    let at = |share: f64| over.get(((over.len() as f64 - 1.0) * share).round() as usize).copied();
+    let figure = |share| at(share).map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+    line(&format!(
+        "{} missions: {} arrived, {} found no way, {} gave up; {} wrong, {} collided; length over optimum median {}, 95 % {}, worst {}",
+        rows.len(),
+        count("arrived"),
+        count("no_way"),
+        count("gave_up"),
+        rows.iter().filter(|row| row.right == Some(false)).count(),
+        rows.iter().filter(|row| row.collided).count(),
+        figure(0.5),
+        figure(0.95),
+        figure(1.0)
+    ));
+}

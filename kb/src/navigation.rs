@@ -1,0 +1,6 @@
+//! Navigation on floor plans (Crowley): paths over regions and adits, and missions of a simulated robot that meets what
+//! its plan does not know. Rules decide; `adit_planners::navigation` drives.
+
+pub mod floor;
+pub mod judge;
+pub mod missions;
