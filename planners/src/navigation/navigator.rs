@@ -449,7 +449,10 @@ impl<'b> Navigator<'b> {
             self.tell(Happening::WayClosed { at, doorway, region });
         }
         self.replans += 1;
-        let is_stuck = self.spot.closed > 1;
+        // What is in the way of another path has to be seen again before that one counts as closed, too.
+        self.readings_standing = 0;
+        self.part.clear();
+        let is_stuck = self.spot.closed > 2;
         self.plan(judge, is_stuck);
     }
 
