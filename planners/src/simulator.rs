@@ -200,7 +200,10 @@ impl Simulator {
     fn advance(&mut self) {
         let step = self.step();
         let (now, period) = (self.time_s(), self.settings.reading_period_s);
-        let ways: Vec<Point> = self.movers.iter().map(|mover| mover.way(now, period)).collect();
+        let way = |(i, mover): (usize, &Mover)| {
+            if self.is_touching(Some(i)) { Point::default() } else { mover.way(now, period) }
+        };
+        let ways: Vec<Point> = self.movers.iter().enumerate().map(way).collect();
         let first = self.first_touch(&step, &ways);
         let robot_moved = step.way != Point::default();
         let mut share = 1.0;
