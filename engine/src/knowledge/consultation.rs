@@ -135,6 +135,11 @@ impl Consultation {
         self.direct.is_some()
     }
 
+    /// The rules.
+    pub fn rules(&self) -> Arc<RuleBase> {
+        Arc::clone(&self.rules)
+    }
+
     /// Judges an object: a value for each input, in their order; what is left out, or of another type, is unknown.
     pub fn consult(&mut self, object: &[Datum]) {
         let mut untold = self.untold.take().unwrap_or_default();

@@ -22,6 +22,8 @@
 
 mod chain;
 mod cuboid;
+mod female;
+mod outline;
 mod path;
 mod step;
 mod sweep;
@@ -29,5 +31,7 @@ mod walls;
 
 pub use chain::{Assembly, AssemblyError};
 pub use cuboid::Cuboid;
+pub use female::{FemaleError, channels_of};
+pub use outline::{Edge, OutlineError, bounding_box};
 pub use path::{Leg, PartPath, PathError};
 pub use step::{Decision, Margin, StepFacts};

@@ -64,6 +64,8 @@ pub enum Code {
     GridTooFine,
     /// An image with more pixels than a map may have.
     ImageTooLarge,
+    /// A world of a planner that cannot be as it is given.
+    Impossible,
 }
 
 impl Code {
@@ -97,6 +99,7 @@ impl Code {
             Self::ImageTruncated => "map/image-truncated",
             Self::GridTooFine => "map/grid-too-fine",
             Self::ImageTooLarge => "map/image-too-large",
+            Self::Impossible => "map/impossible",
         }
     }
 }

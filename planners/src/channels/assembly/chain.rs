@@ -2,11 +2,13 @@
 
 mod axes;
 
+pub(super) use axes::is_bend;
+
 use super::walls::walls;
 use super::{Cuboid, sweep};
 
 /// Coordinates that differ by less than this share of the world's extent are meant to be equal.
-const MEANT_EQUAL: f64 = 1e-9;
+pub(super) const MEANT_EQUAL: f64 = 1e-9;
 
 /// A chain of channels with a part in the last of them. The first channel leads out along the last axis, z.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,7 +12,8 @@ const NOISE: f64 = 1e-9;
 /// Where two channels meet at right angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Junction {
-    /// What the two have in common.
+    /// What the two have in common; where one ends inside the other, all that it would share if it went on to the other's
+    /// far side, which is just as free.
     pub rect: Rect,
     /// Number of the channel along x.
     pub lying: usize,
@@ -97,6 +98,8 @@ impl std::fmt::Display for Overlap {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corridors {
     channels: Vec<Rect>,
+    /// The channels with all of their junctions.
+    whole: Vec<Rect>,
     axes: Vec<Axis>,
     junctions: Vec<Junction>,
     /// Of each channel, by index, the indices of its junctions.
@@ -128,21 +131,22 @@ impl Corridors {
                     continue;
                 };
                 let (first, second) = (first + 1, second + 1);
-                let junction = match upright(one, other) {
-                    Ok(true) => Junction { rect, upright: first, lying: second },
-                    Ok(false) => Junction { rect, upright: second, lying: first },
+                junctions.push(match upright(one, other) {
+                    Ok(true) => Junction { rect: crossing(one, other), upright: first, lying: second },
+                    Ok(false) => Junction { rect: crossing(other, one), upright: second, lying: first },
                     Err(how) => return Err(CorridorError::NotOrthogonal { first, second, how, rect }),
-                };
-                junctions.push(junction);
+                });
             }
         }
         let axes = axes(channels, &junctions)?;
-        let mut on = vec![Vec::new(); channels.len()];
+        let (mut on, mut whole) = (vec![Vec::new(); channels.len()], channels.to_vec());
         for (index, junction) in junctions.iter().enumerate() {
-            on[junction.lying - 1].push(index);
-            on[junction.upright - 1].push(index);
+            for channel in [junction.lying - 1, junction.upright - 1] {
+                on[channel].push(index);
+                whole[channel] = hull(&whole[channel], &junction.rect);
+            }
         }
-        Ok(Self { channels: channels.to_vec(), axes, junctions, on, walls: outline(channels) })
+        Ok(Self { channels: channels.to_vec(), whole, axes, junctions, on, walls: outline(channels) })
     }
 
     /// The channels as they were given; the first one has number 1.
@@ -166,13 +170,14 @@ impl Corridors {
         self.axes.get(channel.checked_sub(1)?).copied()
     }
 
-    /// The numbers of the channels that hold a point, on their edge or inside.
+    /// The numbers of the channels that hold a point, on their edge or inside. A junction is in both of its channels.
     pub fn at(&self, point: Point) -> impl Iterator<Item = usize> {
-        (1..).zip(&self.channels).filter(move |(_, rect)| rect.contains(point)).map(|(number, _)| number)
+        (1..).zip(&self.whole).filter(move |(_, rect)| rect.contains(point)).map(|(number, _)| number)
     }
 
+    /// With all of its junctions.
     pub(super) fn channel(&self, number: usize) -> &Rect {
-        &self.channels[number - 1]
+        &self.whole[number - 1]
     }
 
     pub(super) fn axis_of(&self, number: usize) -> Axis {
@@ -213,6 +218,15 @@ fn is_upright(one: &Rect, other: &Rect) -> bool {
     let crosses =
         within((one.x0, one.x1), (other.x0, other.x1)) && within((other.y0, other.y1), (one.y0, one.y1));
     sticks_out && is_stuck_out_of && (stands || lies || crosses)
+}
+
+/// All that an upright and a lying channel can share.
+fn crossing(upright: &Rect, lying: &Rect) -> Rect {
+    Rect::new(upright.x0, lying.y0, upright.x1, lying.y1)
+}
+
+fn hull(one: &Rect, other: &Rect) -> Rect {
+    Rect::new(one.x0.min(other.x0), one.y0.min(other.y0), one.x1.max(other.x1), one.y1.max(other.y1))
 }
 
 /// Whether the range of one lies in that of the other on some axis.
