@@ -76,6 +76,8 @@ pub struct Corner {
 pub struct PathStep {
     /// `start`, `line` or `arc`.
     pub kind: &'static str,
+    /// `assembled` or `disassembled` where a part is one of the two at its end.
+    pub state: Option<&'static str>,
     /// The junction that it belongs to.
     pub junction: Option<i64>,
     /// The number of the rule by which it was chosen.
@@ -146,13 +148,14 @@ pub async fn keep(connection: &mut SqliteConnection, plan: &Plan) -> Result<()> 
         let [x, y, z] = step.at;
         let (centre, radius) = step.circle.unzip();
         sqlx::query(
-            "INSERT INTO path_steps (plan, step, kind, junction, rule, x, y, z, centre_x, centre_y, radius, turn, heading,
+            "INSERT INTO path_steps (plan, step, kind, state, junction, rule, x, y, z, centre_x, centre_y, radius, turn, heading,
                                      length, clearance)
-             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+             VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         )
         .bind(&plan.plan)
         .bind(number)
         .bind(step.kind)
+        .bind(step.state)
         .bind(step.junction)
         .bind(step.rule)
         .bind(x)

@@ -24,5 +24,5 @@ pub use gap::Asked;
 pub use refusal::{NoPath, Spoke};
 pub use said::Said;
 pub use steps::Steps;
-pub use turns::Turns;
+pub use turns::{Turns, Wishes as TurnWishes};
 pub use world::{Task, World};

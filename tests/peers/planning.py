@@ -10,8 +10,8 @@ shortest = 6.899
 
 ours, peers = {}, {}
 for line in open(sys.argv[1]):
-    if found := re.match(r"(\w+) length (\S+) median_us (\S+)", line):
-        ours.setdefault(found[1], []).append((float(found[3]), float(found[2])))
+    if found := re.match(r"(?:corridor-)?(\w+) length (\S+) median_us (\S+)", line):
+        ours.setdefault("assembly" if found[1] == "part" else found[1], []).append((float(found[3]), float(found[2])))
     elif found := re.search(r"corr_(\w+)\.txt (\w+)\s.*t_first_ms (\S+).*simplified (\S+) \(", line):
         peers.setdefault((found[1], found[2]), []).append((float(found[3]) * 1e3, float(found[4])))
 

@@ -28,12 +28,12 @@ python3 "$shared/peers/planning/corridor_txt.py" "$shared/golden" "$work"
 cargo build --quiet --release --locked -p adit --example plan_time
 
 world() { # NAME GAP: one of the examples with a gap
-    sed "s/^gap = .*/gap = $2/" "tests/worlds/$1.toml" > "$work/$1.toml"
+    sed "s/^gap = .*/gap = $2/" "kb/worlds/$1.toml" > "$work/$1.toml"
 }
-world assembly 0.01
-for name in L U S; do world "$name" 0.2; done
+world part 0.01
+for name in L U S; do world "corridor-$name" 0.2; done
 for _ in $(seq "${TURNS:-3}"); do
-    "$target/release/examples/plan_time" "$work"/{L,U,S,assembly}.toml
+    "$target/release/examples/plan_time" "$work"/{corridor-L,corridor-U,corridor-S,part}.toml
     for name in L U S assembly; do "$work/ompl_corridor" "$work/corr_$name.txt" "${RUNS:-50}"; done
 done | tee "$work/planning.log"
 python3 tests/peers/planning.py "$work/planning.log"

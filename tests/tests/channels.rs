@@ -3,6 +3,8 @@
 
 #[path = "channels/corridors.rs"]
 mod corridors;
+#[path = "channels/documented.rs"]
+mod documented;
 #[path = "channels/kept.rs"]
 mod kept;
 #[path = "channels/parts.rs"]
@@ -11,5 +13,17 @@ mod parts;
 mod refused;
 #[path = "channels/rules_steer.rs"]
 mod rules_steer;
+#[path = "channels/same_as_tables.rs"]
+mod same_as_tables;
 #[path = "channels/support.rs"]
 mod support;
+
+// What the planners' property tests steer by.
+#[path = "../../planners/tests/assembly/chains.rs"]
+#[allow(dead_code, clippy::unwrap_used)] // the planners' tests use more of it, and stop at a surprise
+mod chains;
+#[path = "../../planners/tests/assembly/table1.rs"]
+mod table1;
+#[path = "../../planners/tests/corridor/table2.rs"]
+#[allow(dead_code)] // the planners' tests use more of it
+mod table2;

@@ -41,12 +41,13 @@ CREATE TABLE corners (
 ) STRICT;
 
 -- The steps of a path, from 1: `start`, then lines and arcs. Lengths in metres, headings in degrees from the x axis,
--- counter-clockwise. x, y, z are where a step ends: of a part the corner with the smallest coordinates, of a robot the
+-- counter-clockwise. x, y, z are where a step ends, and `state` what a part is in there (Lee, definitions 3.1, 3.2): of a part the corner with the smallest coordinates, of a robot the
 -- middle.
 CREATE TABLE path_steps (
   plan      TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   step      INTEGER NOT NULL,
   kind      TEXT NOT NULL CHECK (kind IN ('start', 'line', 'arc')),
+  state     TEXT CHECK (state IN ('assembled', 'disassembled')),
   junction  INTEGER,
   rule      REAL,
   x REAL NOT NULL, y REAL, z REAL,

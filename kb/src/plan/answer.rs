@@ -64,6 +64,7 @@ impl<const D: usize> Answer<PartPath<D>> {
             "legs": legs,
             "min_clearance": path.min_clearance,
             "clearances": path.clearances,
+            "states": (0..path.waypoints.len()).map(|at| world.state(path, at)).collect::<Vec<_>>(),
             "assembly": points(&path.reversed().waypoints),
         });
         if let Some(female) = world.female_waypoints(path) {
@@ -136,7 +137,7 @@ impl<const D: usize> Answer<PartPath<D>> {
             Ok(path) => {
                 record.length = Some(path.length);
                 record.min_clearance = Some(path.min_clearance);
-                record.steps = steps(path);
+                record.steps = steps(world, path);
             }
             Err(no_path) => record.reason = Some(no_path.reason.clone()),
         }
@@ -147,9 +148,10 @@ impl<const D: usize> Answer<PartPath<D>> {
     }
 }
 
-fn steps<const D: usize>(path: &PartPath<D>) -> Vec<PathStep> {
+fn steps<const D: usize>(world: &Assembly<D>, path: &PartPath<D>) -> Vec<PathStep> {
     let step = |kind, junction, rule, at: &[f64; D], length, clearance| PathStep {
         kind,
+        state: None,
         junction,
         rule,
         at: three(at),
@@ -166,7 +168,11 @@ fn steps<const D: usize>(path: &PartPath<D>) -> Vec<PathStep> {
         let junction = (leg.junction > 0).then_some(leg.junction as i64);
         step("line", junction, leg.rule, at, length, leg.min_clearance)
     });
-    start.chain(legs).collect()
+    let mut steps: Vec<PathStep> = start.chain(legs).collect();
+    for (at, step) in steps.iter_mut().enumerate() {
+        step.state = world.state(path, at);
+    }
+    steps
 }
 
 /// x, y and z of a point; what its world has not is unknown.

@@ -65,6 +65,17 @@ impl<const D: usize> Assembly<D> {
         Self { gap, gaps: BTreeMap::new(), ..self.clone() }
     }
 
+    /// What the part is in at a waypoint: assembled where it starts (definition 3.1), disassembled where it is above
+    /// the free space (3.2).
+    pub fn state(&self, path: &PartPath<D>, waypoint: usize) -> Option<&'static str> {
+        let height = path.waypoints.get(waypoint)?[D - 1];
+        if waypoint == 0 {
+            Some("assembled")
+        } else {
+            (height >= self.geometry.top()).then_some("disassembled")
+        }
+    }
+
     /// Where the origin of the other part is in the base frame, at each waypoint, where that part moves: it goes the
     /// opposite way.
     pub fn female_waypoints(&self, path: &PartPath<D>) -> Option<Vec<[f64; D]>> {

@@ -187,6 +187,7 @@ fn steps(driven: &Driven) -> Vec<PathStep> {
         let clearance = primitive.clearance();
         let step = PathStep {
             kind,
+            state: None,
             junction: junction.map(|junction| junction as i64),
             rule: rule.and_then(|turn| turn.steer.rule).map(f64::from),
             at: [Some(b.x), Some(b.y), None],

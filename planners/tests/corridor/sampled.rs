@@ -102,3 +102,25 @@ pub fn sampled(robot: Robot, primitive: &Primitive, solid: &[Rect], moments: u32
         .map(|moment| clearance(robot, pose(primitive, f64::from(moment) / f64::from(moments)), solid))
         .fold(f64::INFINITY, f64::min)
 }
+
+/// The least clearance of a piece of a drive: around each moment that is nearer than those beside it, looked at ever more
+/// closely.
+pub fn nearest(robot: Robot, primitive: &Primitive, solid: &[Rect]) -> f64 {
+    let at = |share: f64| clearance(robot, pose(primitive, share.clamp(0.0, 1.0)), solid);
+    let coarse: Vec<f64> = (0..=100).map(|moment| at(f64::from(moment) / 100.0)).collect();
+    let mut least = f64::INFINITY;
+    for moment in 0..=100_usize {
+        let beside = [moment.saturating_sub(1), (moment + 1).min(100)];
+        if beside.iter().any(|beside| coarse[*beside] < coarse[moment]) {
+            continue;
+        }
+        let (mut middle, mut step) = (moment as f64 / 100.0, 0.01);
+        while step > 1e-10 {
+            let shares = (-8..=8).map(|part| middle + step * f64::from(part) / 8.0);
+            let found = shares.map(|share| (at(share), share)).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            least = least.min(found.0);
+            (middle, step) = (found.1, step / 7.0);
+        }
+    }
+    least
+}

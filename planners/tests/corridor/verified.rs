@@ -1,4 +1,5 @@
 //! Verified numbers for Lee's Table 2, corrected: its eight cases, and corridors shaped like L, U and S.
+#![allow(clippy::unreadable_literal)] // as they are written elsewhere, to be compared by eye
 
 /// One rule in one place.
 pub struct Case {

@@ -31,9 +31,9 @@ pub enum DriveError<E> {
     Steer(E),
     /// A gap that cannot be kept.
     #[error(
-        "junction {junction}{}: the gap is {gap} m, expected a finite number that is not negative; in a channel {} m wide \
+        "junction {junction}{}: the gap is {} m, expected a finite number that is not negative; in a channel {} m wide \
          the robot can keep {} m",
-        by(*rule), Rounded(*width), Rounded(*safest)
+        by(*rule), Rounded(*gap), Rounded(*width), Rounded(*safest)
     )]
     BadGap {
         /// Number of the junction.
@@ -138,7 +138,7 @@ pub enum DriveError<E> {
     },
     /// The robot hits a wall while it drives straight.
     #[error(
-        "the robot hits the wall from {} to {} on its way from {} ({}) to {} ({})",
+        "the robot hits the wall from {} to {} on its way from {} {} to {} {}",
         Coords(wall.a), Coords(wall.b), from, Coords(*a), to, Coords(*b)
     )]
     HitsOnLine {

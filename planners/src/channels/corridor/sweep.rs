@@ -1,11 +1,9 @@
 //! What is left between the robot and the walls while it drives.
 
-use std::f64::consts::TAU;
-
-use super::body::{Body, Robot};
+use super::body::{Body, Robot, length};
 use super::circle::{Circle, Tangent};
 use super::turning::Turning;
-use super::walls::Wall;
+use super::walls::{Wall, apart};
 use crate::geometry::{Point, Rect};
 
 /// Metres by which the robot may reach into a wall and only touch it: what rounding makes of a gap of 0.
@@ -30,46 +28,45 @@ impl<'a> Sweep<'a> {
 
     /// What is left along a line, from one heading to another; the wall that is hit, if one is.
     pub fn line(&self, line: &Tangent, from_heading: f64, to_heading: f64) -> Result<f64, Wall> {
-        if (to_heading - from_heading).abs() <= STRAIGHT && line.length > 0.0 {
-            let swept = |body: Body| Body { half_length: body.half_length + line.length / 2.0, ..body };
-            let middle =
-                Point::new(f64::midpoint(line.from.x, line.to.x), f64::midpoint(line.from.y, line.to.y));
-            let area = swept(self.body).bounds(middle, line.along);
-            return self.least(
-                TOUCH,
-                |wall| apart(&area, wall),
-                |body, wall, _| swept(body).distance_from(middle, line.along, wall),
-            );
+        let by = to_heading - from_heading;
+        if by.abs() > STRAIGHT {
+            let turning = Turning { from: line.from, to: line.to, heading: from_heading, by };
+            let least = turning.nearest(&self.body, self.walls).map_or(f64::INFINITY, |nearest| nearest.0);
+            if least <= 0.0 {
+                let within = turning.nearest(&self.body.grown(-TOUCH_TURNING), self.walls);
+                if let Some((_, wall)) = within.filter(|within| within.0 <= 0.0) {
+                    return Err(wall);
+                }
+            }
+            return Ok(least.max(0.0));
         }
-        let turning =
-            Turning { from: line.from, to: line.to, heading: from_heading, by: to_heading - from_heading };
-        let area = turning.bounds(self.body.reach());
-        self.least(
-            TOUCH_TURNING,
-            |wall| apart(&area, wall),
-            |body, wall, known| turning.distance(&body, wall, known),
-        )
+        let along = if line.length > 0.0 {
+            line.along
+        } else {
+            let (sin, cos) = to_heading.sin_cos();
+            Point::new(cos, sin)
+        };
+        let middle = Point::new(f64::midpoint(line.from.x, line.to.x), f64::midpoint(line.from.y, line.to.y));
+        let swept = |body: Body| Body { half_length: body.half_length + line.length / 2.0, ..body };
+        let area = swept(self.body).bounds(middle, along);
+        let distance = |body, wall: &Wall| swept(body).distance_from(middle, along, wall);
+        self.least(|wall| apart(&area, wall), distance)
     }
 
     /// What is left along an arc that is entered from a line; the wall that is hit, if one is.
     pub fn arc(&self, circle: &Circle, arriving: &Tangent, angle: f64) -> Result<f64, Wall> {
-        let Circle { centre, radius, .. } = *circle;
-        let reach = |body: &Body| (radius + body.half_width).hypot(body.half_length);
-        let outermost = reach(&self.body);
-        self.least(
-            TOUCH,
-            |wall| centre.distance(centre.nearest_on(wall.a, wall.b)) - outermost,
-            |body, wall, _| Orbit { body, circle, along: arriving.along, angle }.distance(wall),
-        )
+        let orbit = Orbit::new(circle, arriving.along, angle);
+        let outermost = length(circle.radius + self.body.half_width, self.body.half_length);
+        let Point { x, y } = circle.centre;
+        let bound = |wall: &Wall| apart(&Rect::new(x, y, x, y), wall) - outermost;
+        self.least(bound, |body, wall| orbit.distance(&body, wall))
     }
 
-    /// The least distance to any wall; the wall that is hit, if the robot reaches more than `touch` into one. `bound` is a
-    /// distance that is not larger, `distance` is told the least one known and need not be exact above it.
+    /// The least distance to any wall; the wall that is hit, if one is. `bound` is a distance that is not larger.
     fn least(
         &self,
-        touch: f64,
         bound: impl Fn(&Wall) -> f64,
-        distance: impl Fn(Body, &Wall, f64) -> f64,
+        distance: impl Fn(Body, &Wall) -> f64,
     ) -> Result<f64, Wall> {
         let mut least = f64::INFINITY;
         for wall in self.walls {
@@ -77,82 +74,98 @@ impl<'a> Sweep<'a> {
             if bound(wall) >= least.max(f64::MIN_POSITIVE) {
                 continue;
             }
-            least = least.min(distance(self.body, wall, least));
-            if least <= 0.0 {
-                if distance(self.body.grown(-touch), wall, f64::INFINITY) <= 0.0 {
-                    return Err(*wall);
-                }
-                least = 0.0;
+            least = least.min(distance(self.body, wall));
+            if least <= 0.0 && distance(self.body.grown(-TOUCH), wall) <= 0.0 {
+                return Err(*wall);
             }
         }
         Ok(least)
     }
 }
 
-/// A body that turns rigidly about a centre abreast of it.
+/// A rigid turn by less than half a circle about a centre abreast of what turns.
 struct Orbit<'a> {
-    body: Body,
     circle: &'a Circle,
     /// Direction of travel at the start, of length 1.
     along: Point,
-    angle: f64,
+    /// How far it turns.
+    angle: Angle,
 }
 
-impl Orbit<'_> {
-    /// Metres to a wall where it is nearest.
+/// An angle by its sine and cosine.
+#[derive(Clone, Copy)]
+struct Angle {
+    sin: f64,
+    cos: f64,
+}
+
+impl Angle {
+    /// That of a vector, from the y axis on.
+    fn of(x: f64, y: f64) -> Self {
+        let length = length(x, y);
+        Self { sin: x / length, cos: y / length }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        let Self { sin, cos } = other;
+        Self { sin: self.sin * cos - self.cos * sin, cos: self.cos * cos + self.sin * sin }
+    }
+}
+
+impl<'a> Orbit<'a> {
+    fn new(circle: &'a Circle, along: Point, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        Self { circle, along, angle: Angle { sin, cos } }
+    }
+
+    /// Metres from a body to a wall where they are nearest.
     ///
     /// Seen from the body, the wall turns about the centre. The distance to a fixed piece of it then has one minimum in a
     /// full turn: an end is nearest where it is abreast of the body, or passes its outer corners; the inside of the wall
     /// where its foot passes them. So it is enough to look at these angles and at both ends of the arc.
-    fn distance(&self, wall: &Wall) -> f64 {
-        let centre = self.circle.centre;
-        let outer = self.circle.radius + self.body.half_width;
-        let corner = self.body.half_length.atan2(outer);
-        let reach = outer.hypot(self.body.half_length);
-        let mut least = self.at(0.0, wall).min(self.at(self.angle, wall));
-        let mut look = |point: Point, offset: f64| {
-            let seen = self.seen(point, 0.0);
-            let angle = (seen.x.atan2(seen.y + self.circle.radius) - offset).rem_euclid(TAU);
-            if angle < self.angle {
-                least = least.min(self.at(angle, wall));
+    fn distance(&self, body: &Body, wall: &Wall) -> f64 {
+        let outer = self.circle.radius + body.half_width;
+        let seen = [self.seen(wall.a), self.seen(wall.b)];
+        let at = |angle: Angle| {
+            let [a, b] = seen.map(|point| self.turned(point, angle));
+            body.distance(a, b)
+        };
+        let mut least = at(Angle { sin: 0.0, cos: 1.0 }).min(at(self.angle));
+        let mut look = |point: Point, offset: Angle| {
+            let angle = Angle::of(point.x, point.y).minus(offset);
+            if angle.sin > 0.0 && self.angle.minus(angle).sin > 0.0 {
+                least = least.min(at(angle));
             }
         };
-        for end in [wall.a, wall.b] {
-            let distance = centre.distance(end);
-            if distance <= outer {
-                look(end, 0.0);
+        let corner = Angle::of(body.half_length, outer);
+        for end in seen {
+            let beyond = end.x * end.x + end.y * end.y - outer * outer;
+            if beyond <= 0.0 {
+                look(end, Angle { sin: 0.0, cos: 1.0 });
             } else {
-                let offset = if distance < reach { (outer / distance).acos() } else { corner };
+                let ahead = beyond.sqrt();
+                let offset = if ahead < body.half_length { Angle::of(ahead, outer) } else { corner };
                 look(end, offset);
-                look(end, -offset);
+                look(end, Angle { sin: -offset.sin, ..offset });
             }
         }
-        let foot = centre.nearest_on(wall.a, wall.b);
-        if foot != wall.a && foot != wall.b && foot != centre {
+        let foot = Point::default().nearest_on(seen[0], seen[1]);
+        if foot != seen[0] && foot != seen[1] {
             look(foot, corner);
-            look(foot, -corner);
+            look(foot, Angle { sin: -corner.sin, ..corner });
         }
         least
     }
 
-    /// Metres to a wall after some angle.
-    fn at(&self, angle: f64, wall: &Wall) -> f64 {
-        self.body.distance(self.seen(wall.a, angle), self.seen(wall.b, angle))
-    }
-
-    /// A point as the body sees it after some angle: x ahead, y away from the centre of the circle.
-    fn seen(&self, point: Point, angle: f64) -> Point {
-        let sign = self.circle.turn.sign();
-        let (sin, cos) = (sign * angle).sin_cos();
-        let (x, y) = (cos * self.along.x - sin * self.along.y, sin * self.along.x + cos * self.along.y);
+    /// A point as it is seen at the start, from the centre: x in the direction of travel, y towards the body.
+    fn seen(&self, point: Point) -> Point {
         let (dx, dy) = (point.x - self.circle.centre.x, point.y - self.circle.centre.y);
-        Point::new(dx * x + dy * y, sign * (dx * y - dy * x) - self.circle.radius)
+        let (x, y) = (self.along.x, self.along.y);
+        Point::new(dx * x + dy * y, self.circle.turn.sign() * (dx * y - dy * x))
     }
-}
 
-/// Metres between a rectangle and a wall.
-fn apart(area: &Rect, wall: &Wall) -> f64 {
-    let dx = (wall.a.x - area.x1).max(area.x0 - wall.b.x).max(0.0);
-    let dy = (wall.a.y - area.y1).max(area.y0 - wall.b.y).max(0.0);
-    (dx * dx + dy * dy).sqrt()
+    /// How the body sees such a point after some angle, from its own middle.
+    fn turned(&self, seen: Point, Angle { sin, cos }: Angle) -> Point {
+        Point::new(cos * seen.x - sin * seen.y, sin * seen.x + cos * seen.y - self.circle.radius)
+    }
 }
