@@ -18,6 +18,7 @@ mod read;
 pub mod regions;
 mod search;
 mod trees;
+pub mod visibility;
 
 pub use disc::Disc;
 pub use network::{Adit, Network, Spot, Way};
@@ -25,3 +26,4 @@ pub use path::{NoPath, Path, Rule};
 pub use plan::{Drawn, FloorPlan};
 pub use read::{parse_floor_plan, read_floor_plan};
 pub use regions::{Doorway, Region, Regions};
+pub use visibility::{Echo, Visibility};

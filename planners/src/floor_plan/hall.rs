@@ -112,9 +112,7 @@ impl Hall {
             && self.sides.iter().all(|side| {
                 let [a, b] = side.ends.map(|n| self.points[n as usize]);
                 let touches = side.ends.contains(&from) || side.ends.contains(&to);
-                touches
-                    || cross(p, q, a) * cross(p, q, b) >= 0.0
-                    || cross(a, b, p) * cross(a, b, q) >= 0.0
+                touches || cross(p, q, a) * cross(p, q, b) >= 0.0 || cross(a, b, p) * cross(a, b, q) >= 0.0
             })
     }
 
@@ -136,8 +134,8 @@ impl Hall {
                         let other = &self.corners[other as usize];
                         other.place(back).is_some_and(|angle| other.is_mended_by(angle))
                     };
-                    let mends =
-                        corner_at[node as usize].filter(|&other| corner.is_mended_by(angle) && is_mended(other));
+                    let mends = corner_at[node as usize]
+                        .filter(|&other| corner.is_mended_by(angle) && is_mended(other));
                     sights.push(Sight { direction, node: Some(node), mends });
                 }
             }
@@ -169,7 +167,8 @@ impl Hall {
                 let there = Point::new(at.x - centre.x, at.y - centre.y);
                 let back = Point::new(-there.x, -there.y);
                 let is_clear = |to: Point, ends_on: [Point; 2]| {
-                    let is_met = |&wall: &[Point; 2]| wall != ends_on && crossing(wall, [centre, to]).is_some();
+                    let is_met =
+                        |&wall: &[Point; 2]| wall != ends_on && crossing(wall, [centre, to]).is_some();
                     !walls.iter().any(is_met)
                 };
                 let lies_free = corner.place(there).is_some() && corner.place(back).is_some();

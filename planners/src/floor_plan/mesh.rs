@@ -37,7 +37,10 @@ pub(super) struct Passage {
 
 impl Passage {
     pub fn middle(&self) -> Point {
-        Point::new(f64::midpoint(self.ends[0].x, self.ends[1].x), f64::midpoint(self.ends[0].y, self.ends[1].y))
+        Point::new(
+            f64::midpoint(self.ends[0].x, self.ends[1].x),
+            f64::midpoint(self.ends[0].y, self.ends[1].y),
+        )
     }
 }
 
@@ -58,7 +61,8 @@ impl Mesh {
         let grown = disc.grown(plan);
         let cdt = triangulate(&grown, regions);
         let region_of = regions_of_faces(&cdt, &grown, plan, regions);
-        let mut order: Vec<u32> = (0..cdt.num_all_faces() as u32).filter(|&f| region_of[f as usize] != NONE).collect();
+        let mut order: Vec<u32> =
+            (0..cdt.num_all_faces() as u32).filter(|&f| region_of[f as usize] != NONE).collect();
         order.sort_by_key(|&face| region_of[face as usize]);
         let mut number = vec![NONE; cdt.num_all_faces()];
         let mut begins = vec![0; regions.regions.len() + 1];

@@ -139,7 +139,8 @@ impl Network {
             Point::new(middle.x + metres * inward.x, middle.y + metres * inward.y)
         });
         let can_stand = |at: &Point| {
-            self.mesh.locate(region, *at).is_some() && clearance(&[middle, *at], &self.barriers) >= reach - 1e-9
+            self.mesh.locate(region, *at).is_some()
+                && clearance(&[middle, *at], &self.barriers) >= reach - 1e-9
         };
         spots.into_iter().find(can_stand).unwrap_or(middle)
     }

@@ -181,7 +181,9 @@ impl<W: FnMut(&Way) -> Option<f64>> Query<'_, W> {
         let mut before = None;
         for &adit in &route.adits {
             let leg = match before {
-                None => self.first.iter().find(|way| way.to == Spot::Adit(adit)).map(|way| way.points.clone()),
+                None => {
+                    self.first.iter().find(|way| way.to == Spot::Adit(adit)).map(|way| way.points.clone())
+                }
                 Some(before) => self.trees.points(before, adit),
             };
             points.extend(leg.unwrap_or_default());

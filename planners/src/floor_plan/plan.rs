@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 
-use geo::{BooleanOps, Contains, Coord, Intersects, LineString, MultiLineString, MultiPolygon, Polygon, Validation};
+use geo::{Contains, Coord, Intersects, LineString, MultiPolygon, Polygon, Validation};
 
-use super::noding::{Clash, Noded, SNAP_M, node};
+use super::noding::{Clash, Noded, SNAP_M, crossing, node};
 use super::planar::Planar;
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 use crate::read::{Code, MapErrors, Problem, Text};
-use crate::world::Place;
+use crate::world::{Occupancy, Place, Shape, World};
 
 /// Coordinates are at most so large, metres: beyond it a micrometre is lost.
 const LARGEST_M: f64 = 1e6;
@@ -70,6 +70,19 @@ impl FloorPlan {
         Self::from_source(drawn, Source::default())
     }
 
+    /// The floor plan of a map: its edge and all that is solid on it, polygons as they are drawn. Bridges are left
+    /// out, and so is the map's clearance: a disc has a margin of its own.
+    pub fn of_world(world: &World) -> Result<Self, MapErrors> {
+        let corners = |shape: &Shape| match shape {
+            Shape::Rect(r) => rectangle(r),
+            Shape::Polygon(corners) => corners.clone(),
+        };
+        let mut solids: Vec<Vec<Point>> = world.obstacles.iter().map(|item| corners(&item.shape)).collect();
+        solids.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(|rect| rectangle(&rect)));
+        solids.extend(frame(&world.bounds));
+        Self::new(Drawn { solids, places: world.places.clone(), ..Drawn::default() })
+    }
+
     pub(super) fn from_source(drawn: Drawn, source: Source) -> Result<Self, MapErrors> {
         let Drawn { name, walls, solids, places } = drawn;
         let mut check = Check { source: &source, problems: Vec::new() };
@@ -102,13 +115,22 @@ impl FloorPlan {
 
     /// Whatever stops a robot or an echo: walls, and outlines of solid things.
     pub fn barriers(&self) -> Vec<[Point; 2]> {
-        self.space.plan.edges.iter().map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize])).collect()
+        self.space
+            .plan
+            .edges
+            .iter()
+            .map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize]))
+            .collect()
     }
 
     /// The area of the free space, square metres.
     pub fn free_area(&self) -> f64 {
         let plan = &self.space.plan;
-        plan.cycles.iter().filter(|cycle| self.space.free_half[cycle.first as usize]).map(|cycle| cycle.area).sum()
+        plan.cycles
+            .iter()
+            .filter(|cycle| self.space.free_half[cycle.first as usize])
+            .map(|cycle| cycle.area)
+            .sum()
     }
 
     /// Whether a point lies in free space; on a wall it may or may not.
@@ -122,7 +144,11 @@ impl FloorPlan {
 
     /// A problem with a place, told where it stands in the file.
     pub(super) fn problem_of_place(&self, place: usize, code: Code, message: String) -> Problem {
-        Check { source: &self.source, problems: Vec::new() }.problem(self.source.places.get(place), code, message)
+        Check { source: &self.source, problems: Vec::new() }.problem(
+            self.source.places.get(place),
+            code,
+            message,
+        )
     }
 }
 
@@ -197,7 +223,7 @@ impl Check<'_> {
     }
 
     fn numbers(&mut self, what: &str, points: &[Point], span: Option<&Range<usize>>) -> bool {
-        let wrong = points.iter().flat_map(|p| [p.x, p.y]).find(|v| !(v.abs() <= LARGEST_M));
+        let wrong = points.iter().flat_map(|p| [p.x, p.y]).find(|v| v.is_nan() || v.abs() > LARGEST_M);
         if let Some(value) = wrong {
             let message =
                 format!("a {what} has the coordinate {value}; finite numbers up to {LARGEST_M:e} are read");
@@ -232,12 +258,13 @@ impl Check<'_> {
         let solids = union(solids);
         let mut lines: Vec<[Point; 2]> = walls.iter().flat_map(|wall| outside(*wall, &solids)).collect();
         let ring_from = lines.len();
-        for ring in solids.iter().flat_map(|p| std::iter::once(p.exterior()).chain(p.interiors())) {
-            lines.extend(ring.lines().map(|line| [line.start, line.end].map(|c| Point::new(c.x, c.y))));
-        }
+        lines.extend(rims(&solids));
         lines.retain(|[a, b]| a.distance(*b) > SNAP_M);
         let noded = node(&lines).map_err(|_| {
-            Problem::of_file(Code::CrossingWalls, "walls and solids meet in a way that is too fine to tell apart")
+            Problem::of_file(
+                Code::CrossingWalls,
+                "walls and solids meet in a way that is too fine to tell apart",
+            )
         })?;
         Ok((noded, ring_from))
     }
@@ -250,7 +277,8 @@ impl Check<'_> {
             Clash::Overlap { .. } => format!("the wall {second} lies on the wall {first}"),
         };
         let help = "walls may end on one another; let one of them end where they meet, or draw it as two";
-        let mut problem = self.problem(self.source.walls.get(j), Code::CrossingWalls, message).with_help(help);
+        let mut problem =
+            self.problem(self.source.walls.get(j), Code::CrossingWalls, message).with_help(help);
         if let Some(span) = self.source.walls.get(i) {
             problem = problem.and_at(span, "the other wall");
         }
@@ -261,17 +289,24 @@ impl Check<'_> {
         let source = self.source;
         if !space.free_half.contains(&true) {
             let message = format!("none of the {} walls bound free space: no outline is closed", walls.len());
-            self.tell(None, Code::OpenOutline, message, "draw the outer walls so that each ends on another one");
+            self.tell(
+                None,
+                Code::OpenOutline,
+                message,
+                "draw the outer walls so that each ends on another one",
+            );
             return;
         }
         let mut told_of = BTreeSet::new();
         for (edge, &wall) in noded.wall_of.iter().enumerate().filter(|&(_, &wall)| wall < ring_from) {
             let is_lost = !space.free_half[2 * edge] && !space.free_half[2 * edge + 1];
             let [a, b] = noded.edges[edge].ends.map(|n| noded.points[n as usize]);
-            let is_on = |p: Point, wall: [Point; 2]| p.distance(p.nearest_on(wall[0], wall[1])) <= 2.0 * SNAP_M;
+            let is_on =
+                |p: Point, wall: [Point; 2]| p.distance(p.nearest_on(wall[0], wall[1])) <= 2.0 * SNAP_M;
             let drawn = walls.iter().position(|&wall| is_on(a, wall) && is_on(b, wall)).unwrap_or(wall);
             if is_lost && told_of.len() < MOST_TOLD && told_of.insert(drawn) {
-                let message = format!("no free space lies beside the wall {}: its outline is open", line([a, b]));
+                let message =
+                    format!("no free space lies beside the wall {}: its outline is open", line([a, b]));
                 let help = "close the gap in the outline that this wall belongs to, or leave the wall out";
                 self.tell(source.walls.get(drawn), Code::OpenOutline, message, help);
             }
@@ -291,11 +326,29 @@ impl Check<'_> {
                 let message = format!("the place `{name}` at {} lies in something solid", told(at));
                 self.tell(span, Code::PlaceInWall, message, "put it where a robot can stand");
             } else if !space.is_free(at) {
-                let message = format!("the place `{name}` at {} lies outside of every closed outline", told(at));
+                let message =
+                    format!("the place `{name}` at {} lies outside of every closed outline", told(at));
                 self.tell(span, Code::PlaceOutside, message, "move it, or close the outline around it");
             }
         }
     }
+}
+
+fn rectangle(r: &Rect) -> Vec<Point> {
+    [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(|(x, y)| Point::new(x, y)).to_vec()
+}
+
+/// Something solid all around, as thick as the rectangle's smaller side.
+fn frame(r: &Rect) -> Vec<Vec<Point>> {
+    let thick = r.smaller_side();
+    let (x0, y0, x1, y1) = (r.x0 - thick, r.y0 - thick, r.x1 + thick, r.y1 + thick);
+    let bars = [
+        Rect::new(x0, y0, x1, r.y0),
+        Rect::new(x0, r.y1, x1, y1),
+        Rect::new(x0, r.y0, r.x0, r.y1),
+        Rect::new(r.x1, r.y0, x1, r.y1),
+    ];
+    bars.iter().map(rectangle).collect()
 }
 
 fn told(p: Point) -> String {
@@ -325,17 +378,30 @@ fn union(solids: &[Vec<Point>]) -> MultiPolygon {
     all.orient(Direction::Default)
 }
 
-/// What of a wall lies outside of solids.
+/// What of a wall lies outside of solids, and not on an outline of them.
 fn outside([a, b]: [Point; 2], solids: &MultiPolygon) -> Vec<[Point; 2]> {
     let line = geo::Line::new(Coord { x: a.x, y: a.y }, Coord { x: b.x, y: b.y });
     if !solids.intersects(&line) {
         return vec![[a, b]];
     }
-    if solids.iter().any(|solid| solid.contains(&line)) {
-        return Vec::new();
+    let rim: Vec<[Point; 2]> = rims(solids).collect();
+    let mut stops = vec![a, b];
+    for &[c, d] in &rim {
+        stops.extend([c, d].into_iter().filter(|&p| p.distance(p.nearest_on(a, b)) <= SNAP_M));
+        stops.extend(crossing([a, b], [c, d]));
     }
-    let lines = MultiLineString::new(vec![LineString::from(line)]);
-    let left = solids.clip(&lines, true);
-    let parts = left.iter().flat_map(|part| part.lines());
-    parts.map(|part| [part.start, part.end].map(|c| Point::new(c.x, c.y))).collect()
+    stops.sort_by(|p, q| a.distance(*p).total_cmp(&a.distance(*q)));
+    let is_outside = |[p, q]: [Point; 2]| {
+        let middle = Point::new(f64::midpoint(p.x, q.x), f64::midpoint(p.y, q.y));
+        let is_on_rim = rim.iter().any(|&[c, d]| middle.distance(middle.nearest_on(c, d)) <= SNAP_M);
+        p.distance(q) > SNAP_M && !is_on_rim && !solids.contains(&Coord { x: middle.x, y: middle.y })
+    };
+    stops.windows(2).map(|part| [part[0], part[1]]).filter(|&part| is_outside(part)).collect()
+}
+
+/// The outlines, with what is solid to the left.
+fn rims(solids: &MultiPolygon) -> impl Iterator<Item = [Point; 2]> + '_ {
+    let rings = solids.iter().flat_map(|solid| std::iter::once(solid.exterior()).chain(solid.interiors()));
+    let lines = rings.flat_map(LineString::lines);
+    lines.map(|line| [line.start, line.end].map(|c| Point::new(c.x, c.y)))
 }

@@ -174,9 +174,7 @@ impl Cutting {
         };
         let regions = cycles.iter().map(region).collect();
         let is_open = |edge: usize| line_of[edge] >= walls;
-        let between = |half: u32| {
-            [half, half ^ 1].map(|half| number[plan.cycle_of[half as usize] as usize])
-        };
+        let between = |half: u32| [half, half ^ 1].map(|half| number[plan.cycle_of[half as usize] as usize]);
         let mut doorways: Vec<Doorway> = Vec::new();
         let mut last: Option<(usize, usize)> = None;
         for edge in (0..plan.edges.len()).filter(|&edge| is_open(edge)) {

@@ -42,7 +42,10 @@ fn length(way: &Way) -> Option<f64> {
 fn median_and_worst(mut ratios: Vec<f64>) -> (f64, f64) {
     ratios.sort_by(f64::total_cmp);
     let middle = ratios.len() / 2;
-    (f64::midpoint(ratios[middle - usize::from(ratios.len() % 2 == 0)], ratios[middle]), ratios[ratios.len() - 1])
+    (
+        f64::midpoint(ratios[middle - usize::from(ratios.len() % 2 == 0)], ratios[middle]),
+        ratios[ratios.len() - 1],
+    )
 }
 
 #[test]
@@ -69,7 +72,11 @@ fn paths_over_adits_are_as_long_as_those_of_the_reference() {
             let [from, to] = pair.ends;
             for (rule, expected) in [(Rule::Nearest, pair.nearest), (Rule::AllAdits, pair.all_adits)] {
                 let found = network.path(from, to, rule, length).unwrap();
-                assert!((found.length - expected).abs() < 1e-3, "{name} {rule:?}: {} {expected}", found.length);
+                assert!(
+                    (found.length - expected).abs() < 1e-3,
+                    "{name} {rule:?}: {} {expected}",
+                    found.length
+                );
                 assert!((found.weight - found.length).abs() < 1e-9);
             }
         }
@@ -156,9 +163,8 @@ fn a_door_that_squeaks_is_avoided_as_long_as_that_costs_less() {
             move |way: &Way| Some(way.length + if way.doorway == Some(squeaks) { metres } else { 0.0 });
         network.path(from, to, Rule::Tight, weigh).unwrap()
     };
-    let detour = network.path(from, to, Rule::Tight, |way| {
-        length(way).filter(|_| way.doorway != Some(squeaks))
-    });
+    let detour =
+        network.path(from, to, Rule::Tight, |way| length(way).filter(|_| way.doorway != Some(squeaks)));
     let spared = detour.unwrap().length - free.length;
     assert_eq!(with(spared - 0.1).doorways, [squeaks]);
     assert!((with(spared - 0.1).weight - free.length - spared + 0.1).abs() < 1e-9);

@@ -136,8 +136,10 @@ fn furnish(room: &Rect, walls: &mut Vec<[Point; 2]>, solids: &mut Vec<Vec<Point>
         if room.dx() < 2.0 * keep || room.dy() < 2.0 * keep {
             continue;
         }
-        let centre =
-            Point::new(dice.between(room.x0 + keep, room.x1 - keep), dice.between(room.y0 + keep, room.y1 - keep));
+        let centre = Point::new(
+            dice.between(room.x0 + keep, room.x1 - keep),
+            dice.between(room.y0 + keep, room.y1 - keep),
+        );
         if taken.iter().any(|(other, size)| centre.distance(*other) < size + keep) {
             continue;
         }
