@@ -21,6 +21,7 @@ pub mod kept;
 pub mod load;
 mod migrate;
 pub mod place;
+pub mod plan;
 pub mod query;
 mod reason;
 pub mod relation;

@@ -4,6 +4,7 @@ mod affected;
 pub(crate) mod ask;
 mod body;
 mod conclude;
+pub(crate) mod consultation;
 mod derived;
 mod difference;
 mod dirty;

@@ -214,6 +214,7 @@ pub use declared::{Declarations, Source};
 pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::ask::{Answer, Question};
+pub use knowledge::consultation::{Considered, Consultation, Datum, Miss};
 pub use knowledge::dominated::Dominated;
 pub use knowledge::facts::FactError;
 pub use reactions::{Activation, Firing, Reactions, Told};

@@ -9,6 +9,7 @@ pub(crate) mod interpret;
 pub(crate) mod lane;
 pub(crate) mod matching;
 pub(crate) mod output;
+pub(crate) mod scalar;
 pub(crate) mod search;
 mod tally;
 

@@ -23,6 +23,13 @@ pub(crate) enum Hit {
     Collect(Fold),
 }
 
+impl Hit {
+    /// Whether at most one row counts, though several may match.
+    pub(crate) const fn takes_one(&self) -> bool {
+        matches!(self, Self::First | Self::Priority(_))
+    }
+}
+
 /// How the outputs of all rows that match are brought together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fold {
@@ -88,6 +95,11 @@ impl Test {
         }
     }
 
+    /// Whether anything passes, the unknown too.
+    pub(crate) const fn asks_nothing(&self) -> bool {
+        matches!(self, Self::Any)
+    }
+
     /// Whether a known value passes.
     pub(crate) fn passes(&self, value: &Literal) -> bool {
         let number = |holds: &dyn Fn(f64) -> bool| matches!(value, Literal::Number(number) if holds(*number));
@@ -100,6 +112,24 @@ impl Test {
             Self::Above(limit) => number(&|number| number > *limit),
             Self::AtLeast(limit) => number(&|number| number >= *limit),
             Self::Between(from, to) => number(&|number| *from <= number && number < *to),
+        }
+    }
+}
+
+impl std::fmt::Display for Test {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Any => out.write_str("any"),
+            Self::OneOf(literals) => {
+                let literals: Vec<String> = literals.iter().map(ToString::to_string).collect();
+                out.write_str(&literals.join(" or "))
+            }
+            Self::Not(test) => write!(out, "other than {test}"),
+            Self::Below(limit) => write!(out, "below {limit}"),
+            Self::AtMost(limit) => write!(out, "at most {limit}"),
+            Self::Above(limit) => write!(out, "above {limit}"),
+            Self::AtLeast(limit) => write!(out, "at least {limit}"),
+            Self::Between(from, to) => write!(out, "from {from} to below {to}"),
         }
     }
 }

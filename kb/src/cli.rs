@@ -8,6 +8,7 @@ mod fit;
 mod new;
 mod output;
 mod picture;
+mod plan;
 mod route;
 mod serve;
 mod sql;
@@ -67,6 +68,8 @@ pub enum Verb {
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(DrawArgs),
+    /// The way of a part out of another, or of a robot through corridors, in a world of its own
+    Plan(PlanArgs),
     /// Who changed what, when and why
     History(HistoryArgs),
     /// Take back the last edit, or edit N of the history
@@ -385,6 +388,37 @@ pub struct DrawArgs {
     pub width: u32,
 }
 
+/// `adit plan`.
+#[derive(Args, Debug)]
+pub struct PlanArgs {
+    /// The world: a TOML file with [assembly] or [corridor]
+    pub world: PathBuf,
+    /// Where to start instead of where the world says, `x,y` in metres (corridors)
+    #[arg(allow_hyphen_values = true, requires = "goal")]
+    pub start: Option<String>,
+    /// Where to go, likewise
+    #[arg(allow_hyphen_values = true)]
+    pub goal: Option<String>,
+    /// The rule base instead of the world's: `corrected`, `printed` or a folder
+    #[arg(long, value_name = "RULES")]
+    pub rules: Option<String>,
+    /// The gap instead of the world's: metres, `x/z` for one an axis, `safest` or `rules`; several give a plan each
+    #[arg(long, value_name = "GAPS", value_delimiter = ',')]
+    pub gap: Vec<String>,
+    /// Say at each junction which rule spoke, and why the others did not
+    #[arg(long)]
+    pub explain: bool,
+    /// Keep facts, path and what rules said in this database
+    #[arg(long, value_name = "FILE")]
+    pub db: Option<PathBuf>,
+    /// Draw it: .svg or .png; several gaps stand side by side
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `adit history`.
 #[derive(Args, Debug)]
 pub struct HistoryArgs {
@@ -508,6 +542,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Fit(args) => fit::run(args).map(|()| 0),
         Verb::Sql(args) => sql::run(args).map(|well| if well { 0 } else { 2 }),
         Verb::Draw(args) => picture::run(args).map(|()| 0),
+        Verb::Plan(args) => plan::run(args).map(|found| u8::from(!found)),
         Verb::History(args) => tune::history(args).map(|()| 0),
         Verb::Undo(args) => tune::undo(args).map(|()| 0),
         Verb::Serve(args) => serve::run(args).map(|()| 0),
@@ -551,6 +586,7 @@ impl Verb {
             Self::Fit(args) => args.site.json,
             Self::Sql(args) => args.site.json,
             Self::Draw(args) => args.site.json,
+            Self::Plan(args) => args.json,
             Self::History(args) => args.site.json,
             Self::Undo(args) => args.site.json,
             Self::Serve(args) => args.site.json,

@@ -3,6 +3,7 @@
 //!
 //! What is seen is told by width, dash, number or name as well as by colour, so a print in black and white reads.
 
+mod channels;
 mod doors;
 mod frame;
 mod graph;
@@ -29,6 +30,7 @@ mod tests;
 mod text;
 mod view;
 
+pub use channels::{ChannelPanel, render_channels};
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};
 pub use scene::{Door, DoorKind, PrimeArea, Room, Route, Scene, Step, StepKind};
@@ -65,7 +67,8 @@ pub fn render_svg(scene: &Scene, layers: &Layers, style: &Style) -> String {
         below = below.max(panel.y + MARGIN);
         side = panel.svg;
     }
-    page(scene, (right, below), |svg| {
+    page(&scene.title, (right, below), |svg| {
+        ground::definitions(svg);
         if title > 0.0 {
             let size = (19.0 * sheet.unit).clamp(15.0, 24.0);
             let words = text::fit(&scene.title, size, right - 2.0 * MARGIN);
@@ -137,7 +140,7 @@ fn map(sheet: &mut Sheet) -> Svg {
 }
 
 /// The document around what `draw` writes.
-fn page(scene: &Scene, (width, height): At, draw: impl FnOnce(&mut Svg)) -> String {
+fn page(title: &str, (width, height): At, draw: impl FnOnce(&mut Svg)) -> String {
     let mut svg = Svg::default();
     svg.element("svg")
         .attr("xmlns", "http://www.w3.org/2000/svg")
@@ -146,8 +149,7 @@ fn page(scene: &Scene, (width, height): At, draw: impl FnOnce(&mut Svg)) -> Stri
         .attr("role", "img")
         .attr("font-family", "Ubuntu, 'Ubuntu Light', 'Segoe UI', 'Helvetica Neue', Arial, sans-serif")
         .children(|svg| {
-            svg.element("title").text(&scene.title);
-            ground::definitions(svg);
+            svg.element("title").text(title);
             svg.element("rect").nums([("width", width), ("height", height)]).attr("fill", "#ffffff").end();
             draw(svg);
         });

@@ -39,6 +39,7 @@ mod lint;
 mod live;
 mod look;
 mod number;
+pub mod plan;
 pub mod preview;
 mod problem;
 mod progress;

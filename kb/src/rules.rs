@@ -47,6 +47,23 @@ pub fn load_with(site: &Site, instead: Option<&Path>, (file, text): (&str, Optio
     compile(&rules, &tests)
 }
 
+/// A shipped rule base, by its folder in `rules/`.
+pub fn shipped(folder: &str) -> Result<Rules> {
+    compile(&shipped_files(folder, ".rhai"), &shipped_files(&format!("{folder}/{TESTS}"), ".toml"))
+}
+
+/// A rule base of the user's.
+pub fn from_folder(folder: &Path) -> Result<Rules> {
+    let Sources { rules, tests } = folder_sources(folder)?;
+    compile(&rules, &tests)
+}
+
+fn folder_sources(folder: &Path) -> Result<Sources> {
+    let tests = folder.join(TESTS);
+    let tests = if tests.is_dir() { folder_files(&tests, "toml")? } else { Vec::new() };
+    Ok(Sources { rules: folder_files(folder, "rhai")?, tests })
+}
+
 fn compile(rules: &[SourceFile], tests: &[SourceFile]) -> Result<Rules> {
     match (RuleBase::compile(rules), RuleTests::read(tests)) {
         (Ok(base), Ok(tests)) => Ok(Rules { base, tests }),
@@ -68,9 +85,7 @@ pub struct Sources {
 /// The files of the rule base that is in force, read.
 pub fn sources(site: &Site, instead: Option<&Path>) -> Result<Sources> {
     if let Some(folder) = folder(site, instead) {
-        let tests = folder.join(TESTS);
-        let tests = if tests.is_dir() { folder_files(&tests, "toml")? } else { Vec::new() };
-        return Ok(Sources { rules: folder_files(folder, "rhai")?, tests });
+        return folder_sources(folder);
     }
     let base = site.rooms.rule_base();
     let tests = shipped_files(&format!("{base}/{TESTS}"), ".toml");

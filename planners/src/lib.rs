@@ -2,6 +2,7 @@
 //! weighted records to routes. No SQL, no rules.
 
 pub mod bridges;
+pub mod channels;
 pub mod clearance;
 pub mod doors;
 pub mod facts;

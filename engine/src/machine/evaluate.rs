@@ -1,13 +1,14 @@
 //! Evaluates nodes over a batch.
 
 use std::borrow::Cow;
+use std::cell::RefCell;
 use std::cmp::Ordering;
 
 use super::Machine;
 use super::lane::{Frame, Lane, Rows, Values};
 use crate::column::Column;
 use crate::plan::node::{Arithmetic, Comparison, Function, Node};
-use crate::symbols::Symbol;
+use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth, Type};
 
 /// Which bindings of a batch count; `None` is all. Only interpreted parts look at it.
@@ -41,7 +42,7 @@ impl Machine<'_> {
                 Values::Numbers(arithmetic(*operator, &a, &b))
             }
             Node::Function(function, a) => {
-                Values::Numbers(apply(*function, &self.evaluate(a, batch).numbers()))
+                Values::Numbers(self.evaluate(a, batch).numbers().map(|a| apply(*function, a)))
             }
             Node::Compare(comparison, a, b) => {
                 Values::Truths(self.compare(*comparison, self.evaluate(a, batch), self.evaluate(b, batch)))
@@ -52,7 +53,7 @@ impl Machine<'_> {
             Node::Known(a) => Values::Truths(self.evaluate(a, batch).known()),
             Node::Concat(a, b) => {
                 let (a, b) = (self.evaluate(a, batch).cells(), self.evaluate(b, batch).cells());
-                Values::Texts(a.zip(&b, |a, b| self.concat(a, b)))
+                Values::Texts(a.zip(&b, |a, b| concat(a, b, self.symbols).unwrap_or(Symbol::UNKNOWN)))
             }
             Node::Choose(condition, yes, no) => self.choose(condition, yes, no, batch),
             Node::Coalesce(a, b) => self.coalesce(a, b, batch),
@@ -115,7 +116,7 @@ impl Machine<'_> {
                 (Some(a), Some(b)) => holds(comparison, a.cmp(&b)).into(),
                 _ => Truth::Unknown,
             }),
-            (None, _) => a.cells().zip(&b.cells(), |a, b| self.compare_cells(comparison, a, b)),
+            (None, _) => a.cells().zip(&b.cells(), |a, b| compare_cells(comparison, a, b, self.symbols)),
         }
     }
 
@@ -131,36 +132,39 @@ impl Machine<'_> {
             }
         }
     }
+}
 
-    fn compare_cells(&self, comparison: Comparison, a: Cell, b: Cell) -> Truth {
-        match (a, b) {
-            (Cell::Number(a), Cell::Number(b)) => {
-                a.partial_cmp(&b).map_or(Truth::Unknown, |order| holds(comparison, order).into())
-            }
-            (Cell::Text(a), Cell::Text(b)) => {
-                let symbols = self.symbols.borrow();
+/// Compares two values; those of different types, and the unknown, compare to nothing.
+pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Truth {
+    match (a, b) {
+        (Cell::Number(a), Cell::Number(b)) => {
+            a.partial_cmp(&b).map_or(Truth::Unknown, |order| holds(comparison, order).into())
+        }
+        (Cell::Text(a), Cell::Text(b)) => match comparison {
+            Comparison::Equal => (a == b).into(),
+            Comparison::Unequal => (a != b).into(),
+            _ => {
+                let symbols = symbols.borrow();
                 holds(comparison, symbols.text(a).cmp(&symbols.text(b))).into()
             }
-            (Cell::Truth(a), Cell::Truth(b)) => holds(comparison, a.cmp(&b)).into(),
-            _ => Truth::Unknown,
-        }
+        },
+        (Cell::Truth(a), Cell::Truth(b)) => holds(comparison, a.cmp(&b)).into(),
+        _ => Truth::Unknown,
     }
+}
 
-    fn concat(&self, a: Cell, b: Cell) -> Symbol {
-        let mut symbols = self.symbols.borrow_mut();
-        let mut whole = String::new();
-        for cell in [a, b] {
-            match cell {
-                Cell::Text(symbol) => whole.push_str(symbols.text(symbol).map_or("", |text| text)),
-                Cell::Number(number) => whole.push_str(&number.to_string()),
-                Cell::Truth(_) | Cell::Unknown => return Symbol::UNKNOWN,
-            }
+/// Texts and numbers one after the other; `None` where one is unknown, or the whole is too long.
+pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Symbol> {
+    let mut symbols = symbols.borrow_mut();
+    let mut whole = String::new();
+    for cell in [a, b] {
+        match cell {
+            Cell::Text(symbol) => whole.push_str(symbols.text(symbol).map_or("", |text| text)),
+            Cell::Number(number) => whole.push_str(&number.to_string()),
+            Cell::Truth(_) | Cell::Unknown => return None,
         }
-        if whole.len() > crate::script::interpreter::MAX_TEXT {
-            return Symbol::UNKNOWN;
-        }
-        symbols.intern(&whole)
     }
+    (whole.len() <= crate::script::interpreter::MAX_TEXT).then(|| symbols.intern(&whole))
 }
 
 fn gather<'b>(column: &'b Column, rows: &Rows, len: usize) -> Values<'b> {
@@ -183,28 +187,45 @@ fn gather_lane<'b, T: Copy>(values: &'b [T], rows: &Rows, len: usize, unknown: T
 }
 
 fn arithmetic(operator: Arithmetic, a: &Lane<f64>, b: &Lane<f64>) -> Lane<'static, f64> {
+    /// One loop for each operator: it is a constant in each.
+    macro_rules! loops {
+        ($($operator:ident)*) => {
+            match operator {
+                $(Arithmetic::$operator => a.zip(b, |a, b| compute(Arithmetic::$operator, a, b)),)*
+            }
+        };
+    }
+    loops!(Add Subtract Multiply Divide Remainder Power Min Max Hypot)
+}
+
+/// Two numbers to one; what is unknown stays unknown.
+#[inline]
+pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
+    let known = |value: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { value };
     match operator {
-        Arithmetic::Add => a.zip(b, |a, b| a + b),
-        Arithmetic::Subtract => a.zip(b, |a, b| a - b),
-        Arithmetic::Multiply => a.zip(b, |a, b| a * b),
-        Arithmetic::Divide => a.zip(b, |a, b| a / b),
-        Arithmetic::Remainder => a.zip(b, |a, b| a % b),
+        Arithmetic::Add => a + b,
+        Arithmetic::Subtract => a - b,
+        Arithmetic::Multiply => a * b,
+        Arithmetic::Divide => a / b,
+        Arithmetic::Remainder => a % b,
         // An unknown exponent stays unknown, though 1 to the power of anything is 1.
-        Arithmetic::Power => a.zip(b, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.powf(b) }),
-        Arithmetic::Min => a.zip(b, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.min(b) }),
-        Arithmetic::Max => a.zip(b, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }),
-        Arithmetic::Hypot => a.zip(b, |a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.hypot(b) }),
+        Arithmetic::Power => known(a.powf(b)),
+        Arithmetic::Min => known(a.min(b)),
+        Arithmetic::Max => known(a.max(b)),
+        Arithmetic::Hypot => known(a.hypot(b)),
     }
 }
 
-fn apply(function: Function, a: &Lane<f64>) -> Lane<'static, f64> {
+/// One number to one.
+#[inline]
+pub(crate) fn apply(function: Function, a: f64) -> f64 {
     match function {
-        Function::Negate => a.map(|a| -a),
-        Function::Abs => a.map(f64::abs),
-        Function::Sqrt => a.map(f64::sqrt),
-        Function::Floor => a.map(f64::floor),
-        Function::Ceil => a.map(f64::ceil),
-        Function::Round => a.map(f64::round),
+        Function::Negate => -a,
+        Function::Abs => a.abs(),
+        Function::Sqrt => a.sqrt(),
+        Function::Floor => a.floor(),
+        Function::Ceil => a.ceil(),
+        Function::Round => a.round(),
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod asking;
 mod conflicts;
+mod consultation;
 mod declarations;
 mod dominated;
 mod doors;

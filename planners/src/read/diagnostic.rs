@@ -70,6 +70,8 @@ pub enum Code {
     CrossingWalls,
     /// A robot that fits through no doorway.
     RobotTooWide,
+    /// A world of a planner that cannot be as it is given.
+    Impossible,
 }
 
 impl Code {
@@ -106,6 +108,7 @@ impl Code {
             Self::OpenOutline => "map/open-outline",
             Self::CrossingWalls => "map/crossing-walls",
             Self::RobotTooWide => "map/robot-too-wide",
+            Self::Impossible => "map/impossible",
         }
     }
 }

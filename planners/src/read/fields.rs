@@ -152,6 +152,54 @@ impl Fields<'_, '_> {
         (points.len() == entries.len()).then(|| Located { value: points, span: value.span() })
     }
 
+    /// Lists of finite numbers `[[a, b, ...], ...]` under a key that must be there, of any lengths.
+    pub fn lists(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<Located<Vec<f64>>>>> {
+        let value = self.require(key, problems)?;
+        let DeValue::Array(entries) = value.get_ref() else {
+            problems.push(self.wrong_type(key, "a list of lists of numbers", value.get_ref(), value.span()));
+            return None;
+        };
+        let mut list = |entry: &Spanned<DeValue<'_>>| {
+            let numbers = self.list(key, entry, problems)?;
+            Some(Located { value: numbers, span: entry.span() })
+        };
+        let lists: Vec<_> = entries.iter().filter_map(&mut list).collect();
+        (lists.len() == entries.len()).then(|| Located { value: lists, span: value.span() })
+    }
+
+    /// Finite numbers in a list.
+    pub fn list(
+        &self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Vec<f64>> {
+        let DeValue::Array(entries) = value.get_ref() else {
+            problems.push(self.wrong_type(key, "a list of numbers", value.get_ref(), value.span()));
+            return None;
+        };
+        let numbers: Vec<f64> =
+            entries.iter().filter_map(|entry| self.finite(key, entry, problems)).collect();
+        (numbers.len() == entries.len()).then_some(numbers)
+    }
+
+    /// The table of `[key]`; `None` where the key is missing.
+    pub fn table<'b>(
+        &'b self,
+        key: &str,
+        what: &'b str,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Fields<'b, 'b>> {
+        let value = self.get(key)?;
+        match value.get_ref() {
+            DeValue::Table(table) => Some(Fields { what, table, span: value.span(), text: self.text }),
+            other => {
+                problems.push(self.wrong_type(key, what, other, value.span()));
+                None
+            }
+        }
+    }
+
     /// The tables of `[[key]]`, in the order of the file; none where the key is missing.
     pub fn tables<'b>(
         &'b self,
@@ -207,7 +255,13 @@ impl Fields<'_, '_> {
         numbers.try_into().ok()
     }
 
-    fn finite(&self, key: &str, value: &Spanned<DeValue<'_>>, problems: &mut Vec<Problem>) -> Option<f64> {
+    /// A finite number; of anything else it is said what it is.
+    pub fn finite(
+        &self,
+        key: &str,
+        value: &Spanned<DeValue<'_>>,
+        problems: &mut Vec<Problem>,
+    ) -> Option<f64> {
         let number = match value.get_ref() {
             DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
                 .map_or(f64::INFINITY, |integer| integer as f64),
@@ -229,7 +283,8 @@ impl Fields<'_, '_> {
         None
     }
 
-    fn wrong_type(&self, key: &str, wanted: &str, found: &DeValue<'_>, span: Range<usize>) -> Problem {
+    /// Says that a value should be something else.
+    pub fn wrong_type(&self, key: &str, wanted: &str, found: &DeValue<'_>, span: Range<usize>) -> Problem {
         let message = format!("`{key}` of {} must be {wanted}, not a {}", self.what, found.type_str());
         self.text.problem(Code::WrongType, &span, message)
     }

@@ -1,0 +1,271 @@
+//! The rules of one class, run for one object without the bookkeeping of an inference.
+
+use std::cell::RefCell;
+
+use super::Consultation;
+use crate::knowledge::KnowledgeBase;
+use crate::machine::scalar::{Binding, Scalar, Written};
+use crate::order::Step;
+use crate::plan::clause::ClausePlan;
+use crate::plan::fragment::Fragment;
+use crate::plan::{Effect, Plan};
+use crate::rule::{Action, Operator, PropertyName};
+use crate::rule_base::RuleBase;
+use crate::script::syntax::Quantifier;
+use crate::symbols::Symbols;
+use crate::value::{Cell, Truth, Type};
+
+/// What has to be done for an object, in the order of the rules' dependencies.
+#[derive(Debug)]
+pub(super) struct Direct {
+    steps: Vec<Do>,
+    /// The rules that run, by the number that steps give them.
+    rules: Vec<Running>,
+    /// Where each input stands among the properties, and its type.
+    inputs: Vec<(usize, Type)>,
+    /// Where each output stands; `None` is never known.
+    outputs: Vec<Option<usize>>,
+    /// The properties of the object, as far as they are known yet.
+    cells: Vec<Cell>,
+    slots: Written,
+}
+
+#[derive(Debug)]
+enum Do {
+    Run(usize),
+    Merge(Merge),
+    Level { property: usize, by: Vec<(usize, Operator)> },
+}
+
+/// Brings together what rules conclude of a property: each with its priority and which of its claims it is.
+#[derive(Debug)]
+struct Merge {
+    property: usize,
+    kind: Type,
+    rules_first: bool,
+    writers: Vec<(i64, usize, usize)>,
+}
+
+/// A rule as it runs.
+#[derive(Debug)]
+struct Running {
+    /// Its number in the rule base.
+    rule: usize,
+    /// For each column of its plan the property.
+    columns: Vec<usize>,
+    /// For each property that it sets, where its action holds the value.
+    sets: Vec<usize>,
+    /// What it claims of each, for the present object; `None`: it says nothing.
+    claims: Vec<Option<Cell>>,
+}
+
+struct Object<'a> {
+    columns: &'a [usize],
+    cells: &'a [Cell],
+    symbols: &'a RefCell<Symbols>,
+}
+
+impl Binding for Object<'_> {
+    fn property(&self, _variable: usize, column: usize) -> Cell {
+        self.cells[self.columns[column]]
+    }
+
+    fn aggregate(&self, _clause: usize) -> f64 {
+        f64::NAN
+    }
+
+    fn interpret(&self, _fragment: &Fragment) -> Cell {
+        Cell::Unknown
+    }
+
+    fn symbols(&self) -> &RefCell<Symbols> {
+        self.symbols
+    }
+}
+
+impl Consultation {
+    /// The direct way, if every rule that sets a property of the class looks at one object alone.
+    pub(super) fn plan_direct(&self) -> Option<Direct> {
+        let mut properties: Vec<String> = self.inputs.clone();
+        let mut at = |name: &PropertyName| {
+            properties.iter().position(|known| *known == name.property).unwrap_or_else(|| {
+                properties.push(name.property.clone());
+                properties.len() - 1
+            })
+        };
+        let (mut rules, mut steps) = (Vec::<Running>::new(), vec![]);
+        let running = |rules: &[Running], rule: usize| rules.iter().position(|running| running.rule == rule);
+        for step in &self.rules.order {
+            match step {
+                Step::Rule(number) => {
+                    let rule = &self.rules.rules[*number];
+                    if !rule.sets.keys().any(|name| name.class == self.class) {
+                        continue;
+                    }
+                    let planned = self.base.network.nodes[*number].planned.as_ref()?;
+                    if !looks_at_one(&planned.plan) || planned.interprets || rule.hypothesis.is_some() {
+                        return None;
+                    }
+                    let columns = planned.plan.columns.iter().map(&mut at).collect();
+                    let sets = match &planned.plan.effect {
+                        Effect::Conclude { then, .. } => then.targets.iter().map(|set| set.slot).collect(),
+                        Effect::Revise { .. } | Effect::Default { .. } => vec![0],
+                    };
+                    let claims = vec![None; sets.len()];
+                    steps.push(Do::Run(rules.len()));
+                    rules.push(Running { rule: *number, columns, sets, claims });
+                }
+                Step::Merge(name) if name.class == self.class => {
+                    let Some(derived) = self.base.derived.get(name) else { continue };
+                    if derived.hypothesis {
+                        return None;
+                    }
+                    let mut writers = vec![];
+                    for writer in &derived.writers {
+                        let of = running(&rules, writer.rule)?;
+                        writers.push((writer.priority, of, self.claim(writer.rule, name)?));
+                    }
+                    let (kind, rules_first) = (derived.stages.first()?.kind(), derived.rules_first);
+                    steps.push(Do::Merge(Merge { property: at(name), kind, rules_first, writers }));
+                }
+                Step::Level(name, level) if name.class == self.class => {
+                    let derived = self.base.derived.get(name)?;
+                    let (_, revising) = derived.levels.iter().find(|(known, _)| known == level)?;
+                    let mut by = vec![];
+                    for &rule in revising {
+                        let Action::Revise { operator, .. } = self.rules.rules[rule].action else {
+                            return None;
+                        };
+                        by.push((running(&rules, rule)?, operator));
+                    }
+                    steps.push(Do::Level { property: at(name), by });
+                }
+                Step::Merge(_) | Step::Level(..) => {}
+            }
+        }
+        let mut inputs = vec![];
+        for (place, name) in self.inputs.iter().enumerate() {
+            inputs.push((place, self.base.held.get(&self.class)?.table.column(name)?.kind()));
+        }
+        let outputs =
+            self.outputs.iter().map(|name| properties.iter().position(|known| *known == name.property));
+        Some(Direct {
+            outputs: outputs.collect(),
+            steps,
+            rules,
+            inputs,
+            cells: vec![Cell::Unknown; properties.len()],
+            slots: Written::default(),
+        })
+    }
+
+    /// Which of a rule's claims is about this property.
+    fn claim(&self, rule: usize, name: &PropertyName) -> Option<usize> {
+        match &self.base.network.nodes[rule].planned.as_ref()?.plan.effect {
+            Effect::Conclude { then, .. } => then.targets.iter().position(|target| target.name == *name),
+            Effect::Revise { .. } | Effect::Default { .. } => Some(0),
+        }
+    }
+}
+
+/// Whether a rule has one clause, with a condition on its object alone, and no `else`.
+fn looks_at_one(plan: &Plan) -> bool {
+    let [ClausePlan { quantifier: Quantifier::Each, joins, test: None, .. }] = plan.clauses.as_slice() else {
+        return false;
+    };
+    joins.is_empty() && !matches!(&plan.effect, Effect::Conclude { otherwise: Some(_), .. })
+}
+
+impl Direct {
+    /// Runs the rules for an object with these inputs, and puts down what is asked for.
+    pub(super) fn run(
+        &mut self,
+        base: &RuleBase,
+        knowledge: &KnowledgeBase,
+        inputs: &[Cell],
+        answers: &mut [Cell],
+    ) {
+        self.cells.fill(Cell::Unknown);
+        for (&(place, kind), &cell) in self.inputs.iter().zip(inputs) {
+            if cell.kind() == Some(kind) {
+                self.cells[place] = cell;
+            }
+        }
+        for step in &self.steps {
+            match step {
+                Do::Run(number) => {
+                    let running = &mut self.rules[*number];
+                    debug_assert!(running.rule < base.rules.len(), "planned for this rule base");
+                    let planned = knowledge.network.nodes[running.rule].planned.as_ref();
+                    let object =
+                        Object { columns: &running.columns, cells: &self.cells, symbols: &knowledge.symbols };
+                    running.claims.fill(None);
+                    if let Some(planned) = planned {
+                        claims(&planned.plan, &object, &running.sets, &mut self.slots, &mut running.claims);
+                    }
+                }
+                Do::Merge(merge) => {
+                    let told = self.cells[merge.property];
+                    self.cells[merge.property] = merge.bring(told, &self.rules);
+                }
+                Do::Level { property, by } => {
+                    let mut value = number(self.cells[*property]);
+                    for &(rule, operator) in by {
+                        if let Some(amount) = self.rules[rule].claims[0] {
+                            value = operator.apply(value, number(amount));
+                        }
+                    }
+                    self.cells[*property] = Cell::number(value);
+                }
+            }
+        }
+        for (answer, place) in answers.iter_mut().zip(&self.outputs) {
+            *answer = place.map_or(Cell::Unknown, |place| self.cells[place]);
+        }
+    }
+}
+
+fn claims(plan: &Plan, object: &Object, sets: &[usize], slots: &mut Written, claims: &mut [Option<Cell>]) {
+    let scalar = Scalar { binding: object, slots: &[] };
+    if plan.clauses[0].own.as_ref().is_some_and(|own| scalar.truth(own) != Truth::True) {
+        return;
+    }
+    match &plan.effect {
+        Effect::Conclude { then, .. } => {
+            slots.clear(then.slots);
+            slots.act(&then.steps, object);
+            for (claim, &slot) in claims.iter_mut().zip(sets) {
+                *claim = slots.written[slot].then_some(slots.cells[slot]);
+            }
+        }
+        Effect::Revise { amount: node, .. } | Effect::Default { value: node, .. } => {
+            claims[0] = Some(scalar.cell(node));
+        }
+    }
+}
+
+impl Merge {
+    /// A told value stands before a concluded one, unless declared otherwise; the greatest priority with a known value
+    /// is heard, and where its rules disagree nothing is known.
+    fn bring(&self, told: Cell, rules: &[Running]) -> Cell {
+        if told != Cell::Unknown && !self.rules_first {
+            return told;
+        }
+        let mut chosen: Option<(i64, Cell)> = None;
+        for &(priority, rule, claim) in &self.writers {
+            if chosen.is_some_and(|(of, _)| priority < of) {
+                break;
+            }
+            match rules[rule].claims[claim].filter(|cell| cell.kind() == Some(self.kind)) {
+                Some(cell) if chosen.is_some_and(|(_, said)| said != cell) => return Cell::Unknown,
+                Some(cell) => chosen = Some((priority, cell)),
+                None => {}
+            }
+        }
+        chosen.map_or(told, |(_, cell)| cell)
+    }
+}
+
+fn number(cell: Cell) -> f64 {
+    if let Cell::Number(number) = cell { number } else { f64::NAN }
+}

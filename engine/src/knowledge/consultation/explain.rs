@@ -1,0 +1,174 @@
+//! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it.
+
+use std::cell::RefCell;
+use std::fmt;
+
+use super::Consultation;
+use crate::knowledge::KnowledgeBase;
+use crate::machine::scalar::{Binding, Scalar, Written};
+use crate::plan::fragment::Fragment;
+use crate::plan::{Effect, Plan};
+use crate::rule::{Action, PropertyName, Rule};
+use crate::symbols::Symbols;
+use crate::table::{Literal, Table};
+use crate::value::{Cell, Truth, Value};
+
+/// A rule, or one row of a decision table, and whether it spoke of an object.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Considered {
+    /// The rule or table.
+    pub rule: String,
+    /// Its file.
+    pub file: String,
+    /// The line of the rule, or of the table's row, from 1.
+    pub line: usize,
+    /// The row of the table, from 1.
+    pub row: Option<usize>,
+    /// What kept it from speaking; `None`: it spoke.
+    pub miss: Option<Miss>,
+}
+
+/// The first thing that an object does not meet.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct Miss {
+    /// What is looked at, as the rule writes it; empty for a rule's whole condition.
+    pub given: String,
+    /// What it is; `None` is unknown.
+    pub found: Option<Value>,
+    /// What is asked of it; empty for a rule's whole condition.
+    pub wanted: String,
+}
+
+impl fmt::Display for Miss {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.given.is_empty() {
+            return out.write_str("its condition is not met");
+        }
+        match &self.found {
+            Some(found) => write!(out, "{} is {found}, not {}", self.given, self.wanted),
+            None => write!(out, "{} is unknown, and should be {}", self.given, self.wanted),
+        }
+    }
+}
+
+struct Object<'a> {
+    cells: Vec<Cell>,
+    symbols: &'a RefCell<Symbols>,
+}
+
+impl<'a> Object<'a> {
+    fn new(base: &'a KnowledgeBase, columns: &[PropertyName]) -> Self {
+        let cell = |name| base.view(name, None).map_or(Cell::Unknown, |column| column.cell(0));
+        Self { cells: columns.iter().map(cell).collect(), symbols: &base.symbols }
+    }
+}
+
+impl Binding for Object<'_> {
+    fn property(&self, _variable: usize, column: usize) -> Cell {
+        self.cells[column]
+    }
+
+    fn aggregate(&self, _clause: usize) -> f64 {
+        f64::NAN
+    }
+
+    fn interpret(&self, _fragment: &Fragment) -> Cell {
+        Cell::Unknown
+    }
+
+    fn symbols(&self) -> &RefCell<Symbols> {
+        self.symbols
+    }
+}
+
+impl Consultation {
+    /// The rules that set this property, tables row by row: which of them spoke of the last object, and why the others
+    /// did not. Rules that look at other objects as well, and parts left to the interpreter, are not looked into:
+    /// [`KnowledgeBase::why_not`] does that.
+    pub fn considered(&mut self, property: &str) -> Vec<Considered> {
+        self.infer();
+        let name = PropertyName::new(&self.class, property);
+        let mut out = vec![];
+        for (rule, node) in self.rules.rules.iter().zip(&self.base.network.nodes) {
+            let Some(planned) = &node.planned else { continue };
+            if !rule.sets.contains_key(&name) || rule.clauses.len() != 1 || planned.interprets {
+                continue;
+            }
+            let object = Object::new(&self.base, &planned.plan.columns);
+            out.extend(of_rule(rule, &planned.plan, &object));
+        }
+        out
+    }
+}
+
+fn of_rule(rule: &Rule, plan: &Plan, object: &Object) -> Vec<Considered> {
+    let whole = |miss| Considered {
+        rule: rule.name().to_owned(),
+        file: rule.file().to_owned(),
+        line: rule.line,
+        row: None,
+        miss,
+    };
+    let scalar = Scalar { binding: object, slots: &[] };
+    if plan.clauses[0].own.as_ref().is_some_and(|own| scalar.truth(own) != Truth::True) {
+        let miss = Miss { given: String::new(), found: None, wanted: String::new() };
+        return vec![whole(Some(miss))];
+    }
+    let (Action::Table(table), Effect::Conclude { then, .. }) = (&rule.action, &plan.effect) else {
+        return vec![whole(None)];
+    };
+    // The first steps of a table look at its inputs, one each.
+    let mut slots = Written::default();
+    slots.clear(then.slots);
+    slots.act(&then.steps[..table.given.len()], object);
+    let misses = rows(table, &slots.cells[..table.given.len()], object.symbols);
+    let rows = table.rows.iter().zip(misses).enumerate();
+    rows.map(|(number, (row, miss))| Considered {
+        line: row.position.line().unwrap_or(rule.line),
+        row: Some(number + 1),
+        ..whole(miss)
+    })
+    .collect()
+}
+
+/// For each row the first cell that its input does not pass.
+fn rows(table: &Table, inputs: &[Cell], symbols: &RefCell<Symbols>) -> Vec<Option<Miss>> {
+    let known: Vec<Option<Literal>> = inputs.iter().map(|&cell| literal(cell, &symbols.borrow())).collect();
+    let miss = |row: &crate::table::Row| {
+        let mut cells = row.tests.iter().zip(&table.given).zip(&known);
+        cells.find_map(|(((test, _), (_, given)), found)| {
+            if found.as_ref().map_or(test.asks_nothing(), |found| test.passes(found)) {
+                return None;
+            }
+            let found = found.as_ref().map(|found| match found {
+                Literal::Number(number) => Value::Number(*number),
+                Literal::Text(text) => Value::from(text.as_str()),
+                Literal::Truth(truth) => Value::Truth(*truth),
+            });
+            Some(Miss { given: given.clone(), found, wanted: test.to_string() })
+        })
+    };
+    let mut misses: Vec<Option<Miss>> = table.rows.iter().map(miss).collect();
+    // Where the first row that matches counts, those after it were not asked.
+    if table.hit.takes_one() {
+        let heard = table.heard();
+        let spoke = heard.iter().position(|&row| misses[row].is_none());
+        for &row in heard.iter().skip(spoke.map_or(heard.len(), |spoke| spoke + 1)) {
+            misses[row].get_or_insert_with(|| Miss {
+                given: "the first row that matches".into(),
+                found: spoke.map(|spoke| Value::Number((heard[spoke] + 1) as f64)),
+                wanted: format!("{}", row + 1),
+            });
+        }
+    }
+    misses
+}
+
+fn literal(cell: Cell, symbols: &Symbols) -> Option<Literal> {
+    match cell {
+        Cell::Unknown => None,
+        Cell::Number(number) => Some(Literal::Number(number)),
+        Cell::Text(symbol) => symbols.text(symbol).map(|text| Literal::Text(text.to_string())),
+        Cell::Truth(truth) => Some(Literal::Truth(truth)),
+    }
+}

@@ -1,0 +1,54 @@
+//! How long a plan takes, rules and sweep check included, parsing and database aside: `plan_time WORLD.toml ...` prints
+//! for each world the median, the fastest and the slowest of many plans in microseconds.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Instant;
+
+use adit::plan::{Steps, Task, Turns, World, rules};
+
+const WARM: usize = 2_000;
+const ROUNDS: usize = 20_001;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for path in std::env::args().skip(1) {
+        let world = World::read(Path::new(&path))?;
+        let (rules, _) = rules::load(&world.rules, &world.folder)?;
+        let (mut steps, mut turns) = (Steps::new(rules.clone())?, Turns::new(rules)?);
+        assert!(steps.is_direct() && turns.is_direct(), "the rules look at one step alone");
+        let mut once = || -> Result<f64, String> {
+            Ok(match &world.task {
+                Task::Assembly(world) => world.plan(&mut steps).map_err(|no_path| no_path.reason)?.length,
+                Task::SolidAssembly(world) => {
+                    world.plan(&mut steps).map_err(|no_path| no_path.reason)?.length
+                }
+                Task::Corridor(world) => {
+                    world.plan(&mut turns).map_err(|no_path| no_path.reason)?.drive.length
+                }
+            })
+        };
+        let length = once()?;
+        for _ in 0..WARM {
+            black_box(once()?);
+        }
+        let mut times: Vec<f64> = Vec::with_capacity(ROUNDS);
+        for _ in 0..ROUNDS {
+            let before = Instant::now();
+            black_box(once()?);
+            times.push(before.elapsed().as_secs_f64() * 1e6);
+        }
+        times.sort_by(f64::total_cmp);
+        #[allow(clippy::print_stdout)] // its output is what it is for
+        {
+            println!(
+                "{} length {length:.6} median_us {:.3} fastest_us {:.3} slowest_us {:.1}",
+                world.name,
+                times[ROUNDS / 2],
+                times[0],
+                times[ROUNDS - 1]
+            );
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,129 @@
+//! `adit plan`: the planners of worlds of their own.
+
+use adit_db::Store;
+use adit_db::plan::Plan;
+use adit_planners::geometry::Point;
+
+use super::PlanArgs;
+use super::output::{json, line, remark};
+use crate::error::{Error, Result};
+use crate::plan::assembly::Assembly;
+use crate::plan::corridor::Corridor;
+use crate::plan::{Asked, Steps, Task, Turns, World, rules};
+
+/// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
+pub fn run(args: &PlanArgs) -> Result<bool> {
+    let world = World::read(&args.world)?;
+    let (name, beside) = match &args.rules {
+        Some(rules) => (rules.as_str(), std::path::Path::new("")),
+        None => (world.rules.as_str(), world.folder.as_path()),
+    };
+    let (rules, remarks) = rules::load(name, beside)?;
+    if args.explain && !rules::SHIPPED.contains(&name) {
+        for text in &remarks {
+            remark(text);
+        }
+    }
+    let steps =
+        || Steps::new(rules.clone()).map_err(|error| Error::said("plan/rules", error.to_string(), None));
+    match &world.task {
+        Task::Assembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
+        Task::SolidAssembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
+        Task::Corridor(corridor) => {
+            let turns = Turns::new(rules.clone());
+            let mut turns = turns.map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+            drive(args, &world, name, &between(args, corridor)?, &mut turns)
+        }
+    }
+}
+
+/// The corridor with the ends of the command line.
+fn between(args: &PlanArgs, corridor: &Corridor) -> Result<Corridor> {
+    let point = |text: &String| {
+        let wrong =
+            || Error::said("plan/point", format!("`{text}` is no point; expected `x,y` in metres"), None);
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        match numbers.as_deref() {
+            Some([x, y]) if x.is_finite() && y.is_finite() => Ok(Point::new(*x, *y)),
+            _ => Err(wrong()),
+        }
+    };
+    match (&args.start, &args.goal) {
+        (Some(start), Some(goal)) => {
+            Ok(Corridor { start: point(start)?, goal: point(goal)?, ..corridor.clone() })
+        }
+        _ => Ok(corridor.clone()),
+    }
+}
+
+fn drive(
+    args: &PlanArgs,
+    world: &World,
+    rules: &str,
+    corridor: &Corridor,
+    turns: &mut Turns,
+) -> Result<bool> {
+    let mut well = true;
+    let mut answers = Vec::new();
+    let mut record = None;
+    for corridor in gaps(args, corridor, Corridor::with_gap)? {
+        let answer = corridor.explained(turns);
+        well &= answer.path.is_ok();
+        record = Some(answer.record(&world.name, rules, &corridor));
+        if args.json {
+            answers.push(answer.json(args.explain));
+        } else {
+            answer.lines(args.explain).iter().for_each(|text| line(text));
+        }
+    }
+    finish(args, answers, record)?;
+    Ok(well)
+}
+
+fn assemble<const D: usize>(
+    args: &PlanArgs,
+    world: &World,
+    rules: &str,
+    assembly: &Assembly<D>,
+    steps: &mut Steps,
+) -> Result<bool> {
+    let mut well = true;
+    let mut answers = Vec::new();
+    let mut record = None;
+    for assembly in gaps(args, assembly, Assembly::with_gap)? {
+        let answer = assembly.explained(steps);
+        well &= answer.path.is_ok();
+        record = Some(answer.record(&world.name, rules, &assembly));
+        if args.json {
+            answers.push(answer.json(&assembly, args.explain));
+        } else {
+            answer.lines(&assembly, args.explain).iter().for_each(|text| line(text));
+        }
+    }
+    finish(args, answers, record)?;
+    Ok(well)
+}
+
+/// The world as it is, or once for each gap that the command line asks for.
+fn gaps<W: Clone, const N: usize>(
+    args: &PlanArgs,
+    world: &W,
+    with: impl Fn(&W, Asked<N>) -> W,
+) -> Result<Vec<W>> {
+    let gap = |text: &String| {
+        let gap = Asked::parse(text).map_err(|message| Error::said("plan/gap", message, None))?;
+        Ok(with(world, gap))
+    };
+    if args.gap.is_empty() { Ok(vec![world.clone()]) } else { args.gap.iter().map(gap).collect() }
+}
+
+fn finish(args: &PlanArgs, mut answers: Vec<serde_json::Value>, record: Option<Plan>) -> Result<()> {
+    if let (Some(path), Some(record)) = (&args.db, record) {
+        Store::open_or_create(path)?.transaction(|tx| tx.keep_plan(&record))?;
+    }
+    match answers.len() {
+        0 => Ok(()),
+        1 => json(&answers.remove(0)),
+        _ => json(&answers),
+    }
+}

@@ -1,0 +1,128 @@
+//! What a panel shows, in metres.
+
+use adit_planners::channels::assembly::{Assembly, Cuboid, PartPath};
+use adit_planners::channels::corridor::{Corridors, Drive, Robot, Wall};
+use adit_planners::geometry::{Point, Rect};
+
+use crate::draw::text;
+
+/// One way through channels, with what is written below it.
+#[derive(Clone, Debug)]
+pub struct ChannelPanel {
+    pub(super) name: String,
+    pub(super) figures: String,
+    pub(super) bounds: Rect,
+    pub(super) picture: Picture,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Picture {
+    Assembly(AssemblyPicture),
+    Drive(DrivePicture),
+}
+
+/// An assembly as it is seen along an axis.
+#[derive(Clone, Debug)]
+pub(super) struct AssemblyPicture {
+    pub channels: Vec<Rect>,
+    pub junctions: Vec<Rect>,
+    /// The part at each waypoint, assembled or disassembled first.
+    pub parts: Vec<Rect>,
+    /// Above this height all is open; `None` where height is not seen.
+    pub top: Option<f64>,
+}
+
+/// A robot's drive.
+#[derive(Clone, Debug)]
+pub(super) struct DrivePicture {
+    pub channels: Vec<Rect>,
+    pub junctions: Vec<Rect>,
+    pub walls: Vec<Wall>,
+    pub robot: Robot,
+    pub drive: Drive,
+}
+
+impl ChannelPanel {
+    /// A way out of an assembly, or into it, seen so that the first of `axes` leads to the right and the second up:
+    /// `[0, 1]` in two dimensions; in three `[0, 2]` from the front, `[0, 1]` from above.
+    pub fn assembly<const D: usize>(
+        name: &str,
+        assembly: &Assembly<D>,
+        path: &PartPath<D>,
+        axes: [usize; 2],
+    ) -> Self {
+        let [right, up] = axes.map(|axis| axis.min(D - 1));
+        let seen = |cuboid: &Cuboid<D>| {
+            Rect::new(cuboid.min[right], cuboid.min[up], cuboid.max[right], cuboid.max[up])
+        };
+        let part = assembly.part();
+        let at = |corner: &[f64; D]| {
+            seen(&Cuboid::new(*corner, std::array::from_fn(|axis| corner[axis] + part.size(axis))))
+        };
+        let parts: Vec<Rect> = path.waypoints.iter().map(at).collect();
+        let channels: Vec<Rect> = assembly.channels().iter().map(seen).collect();
+        let hull = channels.iter().copied().reduce(joined).unwrap_or_else(|| at(&part.min));
+        let ring = 0.06 * hull.dx().max(hull.dy());
+        let walls = grown(hull, ring);
+        let top = (up == D - 1).then(|| assembly.top());
+        let mut bounds = parts.iter().map(|part| grown(*part, ring / 2.0)).fold(walls, joined);
+        if let Some(top) = top.filter(|top| bounds.y1 < top + ring) {
+            bounds.y1 = top + ring;
+        }
+        Self {
+            name: name.to_owned(),
+            figures: figures(path.length, path.min_clearance),
+            bounds,
+            picture: Picture::Assembly(AssemblyPicture {
+                channels,
+                junctions: assembly.junctions().iter().map(seen).collect(),
+                parts,
+                top,
+            }),
+        }
+    }
+
+    /// A robot's drive through corridors.
+    pub fn drive(name: &str, corridors: &Corridors, robot: Robot, drive: &Drive) -> Self {
+        let hull = corridors.channels().iter().copied().reduce(joined);
+        let hull = hull.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
+        Self {
+            name: name.to_owned(),
+            figures: figures(drive.length, drive.min_clearance),
+            bounds: grown(hull, 0.05 * hull.dx().max(hull.dy())),
+            picture: Picture::Drive(DrivePicture {
+                channels: corridors.channels().to_vec(),
+                junctions: corridors.junctions().iter().map(|junction| junction.rect).collect(),
+                walls: corridors.walls().to_vec(),
+                robot,
+                drive: drive.clone(),
+            }),
+        }
+    }
+
+    /// The name of the panel with the letter of its place.
+    pub(super) fn heading(&self, place: usize) -> String {
+        format!("{}) {}", text::letters(place), self.name)
+    }
+
+    pub(super) fn caption_width(&self) -> f64 {
+        text::width(&self.figures, 13.0).max(text::width(&self.heading(0), 14.0))
+    }
+}
+
+fn figures(length: f64, clearance: f64) -> String {
+    format!("length {length:.3} m, clearance {clearance:.3} m")
+}
+
+fn joined(a: Rect, b: Rect) -> Rect {
+    Rect::new(a.x0.min(b.x0), a.y0.min(b.y0), a.x1.max(b.x1), a.y1.max(b.y1))
+}
+
+fn grown(rect: Rect, by: f64) -> Rect {
+    Rect::new(rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by)
+}
+
+/// The middle of a part.
+pub(super) fn middles(parts: &[Rect]) -> Vec<Point> {
+    parts.iter().map(Rect::centre).collect()
+}

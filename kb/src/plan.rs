@@ -1,0 +1,28 @@
+//! The planners of Lee's paper on worlds of their own: a part that is taken out of another through channels (Table 1),
+//! and a robot that drives through corridors (Table 2).
+//!
+//! A world ([`World`], a TOML file) is read once. At each junction the rules are asked where to go ([`Steps`],
+//! [`Turns`]): the tables are rules, and so are the gap, what is refused, and what a corridor weighs. Geometry makes a
+//! path of what they say, and measures it.
+
+mod answer;
+pub mod assembly;
+pub mod corridor;
+mod corridor_answer;
+mod gap;
+mod keep;
+mod refusal;
+pub mod rules;
+mod said;
+mod steps;
+mod turns;
+mod world;
+
+pub use answer::Answer;
+pub use corridor_answer::DriveAnswer;
+pub use gap::Asked;
+pub use refusal::{NoPath, Spoke};
+pub use said::Said;
+pub use steps::Steps;
+pub use turns::{Turns, Wishes as TurnWishes};
+pub use world::{Task, World};

@@ -1,0 +1,94 @@
+//! Why there is no path, and which rules were looked at.
+
+use std::fmt;
+
+use adit_engine::{Considered, Consultation, Severity};
+use serde::Serialize;
+
+/// There is no path: a result, not an error.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NoPath {
+    /// The junction at which it ended; `None` where it is not about one.
+    pub junction: Option<usize>,
+    /// In a sentence, with the numbers.
+    pub reason: String,
+    /// Which rules were looked at there, and why they did not speak.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub considered: Vec<Spoke>,
+}
+
+/// A rule, or a row of a table, at a junction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Spoke {
+    /// The rule or table.
+    pub rule: String,
+    /// Its row, from 1, of a table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub row: Option<usize>,
+    /// Its file.
+    pub file: String,
+    /// Its line there.
+    pub line: usize,
+    /// Whether it spoke.
+    pub spoke: bool,
+    /// Why it did not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub because: Option<String>,
+}
+
+impl From<Considered> for Spoke {
+    fn from(found: Considered) -> Self {
+        let because = found.miss.map(|miss| miss.to_string());
+        let Considered { rule, file, line, row, .. } = found;
+        Self { rule, row, file, line, spoke: because.is_none(), because }
+    }
+}
+
+impl Spoke {
+    /// As people read it: `Lee, Table 1, row 2: step.next_side is left, not "right"`.
+    pub fn text(&self) -> String {
+        let row = self.row.map_or(String::new(), |row| format!(", row {row}"));
+        match &self.because {
+            None => format!("{}{row} (line {} of {})", self.rule, self.line, self.file),
+            Some(because) => format!("{}{row}: {because}", self.rule),
+        }
+    }
+}
+
+impl fmt::Display for NoPath {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str(&self.reason)
+    }
+}
+
+impl NoPath {
+    /// For people.
+    pub(super) fn add_to(&self, lines: &mut Vec<String>) {
+        lines.push(format!("no path: {}", self.reason));
+        lines.extend(self.considered.iter().map(|rule| format!("  {}", rule.text())));
+    }
+}
+
+/// No rule gave a property, or several gave different ones.
+pub(super) fn silent(
+    consultation: &mut Consultation,
+    class: &str,
+    junction: usize,
+    property: &str,
+) -> NoPath {
+    let report = consultation.report();
+    let is_it = |name: &adit_engine::PropertyName| name.class == class && name.property == property;
+    let conflict = report.conflicts.iter().find(|conflict| is_it(&conflict.property));
+    let failed = report.diagnostics.iter().find(|found| found.severity == Severity::Error);
+    let reason = match (conflict, failed) {
+        (Some(conflict), _) => {
+            let said: Vec<String> =
+                conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
+            format!("at junction {junction} rules disagree on {property}: {}", said.join(", "))
+        }
+        (None, Some(failed)) => format!("at junction {junction} a rule failed: {failed}"),
+        (None, None) => format!("at junction {junction} no rule gives {property}"),
+    };
+    let considered = consultation.considered(property).into_iter().map(Spoke::from).collect();
+    NoPath { junction: Some(junction), reason, considered }
+}

@@ -1,0 +1,141 @@
+//! The rule bases of channels and corridors, and what their rules may speak of.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use adit_engine::{RuleBase, Schema, Severity, Type};
+
+use crate::error::{Error, Result};
+use crate::rules::{self, Rules};
+
+/// The shipped rule bases: the paper's tables as they are meant, and as they are printed.
+pub const SHIPPED: [&str; 2] = ["corrected", "printed"];
+
+/// What rules are told of a step of a part: it is about to enter a junction.
+pub const STEPS: &[(&str, Type)] = &[
+    ("dimensions", Type::Number),
+    ("junction", Type::Number),
+    ("next", Type::Number),
+    ("entering", Type::Text),
+    ("leaving", Type::Text),
+    ("junction_min_x", Type::Number),
+    ("junction_min_y", Type::Number),
+    ("junction_min_z", Type::Number),
+    ("junction_max_x", Type::Number),
+    ("junction_max_y", Type::Number),
+    ("junction_max_z", Type::Number),
+    ("part_min_x", Type::Number),
+    ("part_min_y", Type::Number),
+    ("part_min_z", Type::Number),
+    ("part_max_x", Type::Number),
+    ("part_max_y", Type::Number),
+    ("part_max_z", Type::Number),
+    ("next_min_x", Type::Number),
+    ("next_min_y", Type::Number),
+    ("next_min_z", Type::Number),
+    ("next_max_x", Type::Number),
+    ("next_max_y", Type::Number),
+    ("next_max_z", Type::Number),
+    ("bound_x", Type::Number),
+    ("bound_y", Type::Number),
+    ("bound_z", Type::Number),
+    ("room", Type::Number),
+    ("asked", Type::Text),
+    ("asked_x", Type::Number),
+    ("asked_y", Type::Number),
+    ("asked_z", Type::Number),
+    ("fragile", Type::Truth),
+    ("hurry", Type::Truth),
+];
+
+/// What rules are told of a turn of a robot: it is about to enter a junction.
+pub const TURNS: &[(&str, Type)] = &[
+    ("junction", Type::Number),
+    ("entering", Type::Text),
+    ("junction_x", Type::Number),
+    ("junction_y", Type::Number),
+    ("robot_x", Type::Number),
+    ("robot_y", Type::Number),
+    ("next_x", Type::Number),
+    ("next_y", Type::Number),
+    ("corridor", Type::Number),
+    ("bound", Type::Number),
+    ("width", Type::Number),
+    ("length", Type::Number),
+    ("asked", Type::Text),
+    ("asked_gap", Type::Number),
+    ("fragile", Type::Truth),
+    ("hurry", Type::Truth),
+];
+
+/// What rules are told of a passage: a stretch of one corridor, between two junctions, the start or the goal.
+pub const PASSAGES: &[(&str, Type)] = &[
+    ("channel", Type::Number),
+    ("length", Type::Number),
+    ("corridor", Type::Number),
+    ("room", Type::Number),
+    ("width", Type::Number),
+    ("asked_gap", Type::Number),
+    ("fragile", Type::Truth),
+    ("hurry", Type::Truth),
+];
+
+/// Where a property stands in one of these lists; asked when compiled.
+pub(super) const fn place(list: &[(&str, Type)], name: &str) -> usize {
+    let mut at = 0;
+    while !same(list[at].0.as_bytes(), name.as_bytes()) {
+        at += 1;
+    }
+    at
+}
+
+pub(super) const fn same(one: &[u8], other: &[u8]) -> bool {
+    if one.len() != other.len() {
+        return false;
+    }
+    let mut at = 0;
+    while at < one.len() {
+        if one[at] != other[at] {
+            return false;
+        }
+        at += 1;
+    }
+    true
+}
+
+/// The classes and properties that rules may name.
+pub fn schema() -> Schema {
+    Schema::default().class("STEPS", STEPS).class("TURNS", TURNS).class("PASSAGES", PASSAGES)
+}
+
+/// Reads a rule base: a shipped one by its name, else a folder. One that cannot be right, or fails a test beside it, is
+/// refused.
+///
+/// # Returns
+/// The rules, and what is not wrong but worth a look, as text.
+pub fn load(name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
+    let Rules { base, tests } = if SHIPPED.contains(&name) {
+        rules::shipped(&format!("channels/{name}"))?
+    } else {
+        let folder = beside.join(name);
+        if !folder.is_dir() {
+            let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
+            let help =
+                format!("the shipped ones are `{}`; anything else is a folder", SHIPPED.join("` and `"));
+            return Err(Error::said("plan/no-rules", message, Some(help)));
+        }
+        rules::from_folder(&folder)?
+    };
+    let (errors, remarks): (Vec<_>, Vec<_>) =
+        base.check(&schema()).into_iter().partition(|found| found.severity == Severity::Error);
+    if !errors.is_empty() {
+        return Err(Error::all(errors));
+    }
+    let outcomes = tests.run(&base, &schema()).map_err(|wrong| Error::all(wrong.0))?;
+    let failures: Vec<_> =
+        outcomes.into_iter().flat_map(|outcome| outcome.failures).map(|failure| failure.diagnostic).collect();
+    if !failures.is_empty() {
+        return Err(Error::all(failures));
+    }
+    Ok((Arc::new(base), remarks.iter().map(ToString::to_string).collect()))
+}

@@ -1,0 +1,230 @@
+//! The free space: channels in a chain, checked.
+
+mod axes;
+
+pub(super) use axes::is_bend;
+
+use super::walls::walls;
+use super::{Cuboid, sweep};
+
+/// Coordinates that differ by less than this share of the world's extent are meant to be equal.
+pub(super) const MEANT_EQUAL: f64 = 1e-9;
+
+/// A chain of channels with a part in the last of them. The first channel leads out along the last axis, z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly<const D: usize> {
+    channels: Vec<Cuboid<D>>,
+    junctions: Vec<Cuboid<D>>,
+    axes: Vec<usize>,
+    walls: Vec<Cuboid<D>>,
+    part: Cuboid<D>,
+    tolerance: f64,
+}
+
+impl<const D: usize> Assembly<D> {
+    /// Checks that the channels make a chain: neighbours share an interior and are orthogonal, none is higher than
+    /// the first, and the part lies in the last one (it may touch the wall). Whether the part fits through the
+    /// junctions is not looked at: [`StepFacts`](super::StepFacts) has what that is told by.
+    ///
+    /// Complexity: O(n w) for n channels and w boxes of wall, of which a chain that does not cross itself has a few for
+    /// each channel.
+    pub fn new(channels: Vec<Cuboid<D>>, part: Cuboid<D>) -> Result<Self, AssemblyError<D>> {
+        const { assert!(D >= 2, "a channel has a direction and a width") };
+        check_boxes(&channels, &part)?;
+        let extent = channels.iter().fold(part, |hull, channel| hull.joined(channel));
+        let tolerance = MEANT_EQUAL * (0..D).map(|axis| extent.size(axis)).fold(0.0, f64::max);
+        check_top(&channels)?;
+        let junctions = junctions(&channels)?;
+        let axes = axes::axes(&channels, &junctions, tolerance)?;
+        check_part(&channels, &part, tolerance)?;
+        let walls = walls(&channels);
+        Ok(Self { channels, junctions, axes, walls, part, tolerance })
+    }
+
+    /// The channels, the one that leads out first.
+    pub fn channels(&self) -> &[Cuboid<D>] {
+        &self.channels
+    }
+
+    /// Junction I is the I-th, that of channels I and I + 1.
+    pub fn junctions(&self) -> &[Cuboid<D>] {
+        &self.junctions
+    }
+
+    /// The axis along which each channel leads. Neighbours have different ones.
+    pub fn axes(&self) -> &[usize] {
+        &self.axes
+    }
+
+    /// The part in its assembled state.
+    pub fn part(&self) -> Cuboid<D> {
+        self.part
+    }
+
+    /// The height of the free space, which the part is above in its disassembled state (definition 3.2).
+    pub fn top(&self) -> f64 {
+        self.channels[0].max[D - 1]
+    }
+
+    /// What is not channel, as disjoint boxes: a ring of some metres to the sides and below, open above.
+    pub fn walls(&self, ring: f64) -> Vec<Cuboid<D>> {
+        let mut frame = self.channels.iter().fold(self.channels[0], |hull, channel| hull.joined(channel));
+        for axis in 0..D {
+            frame.min[axis] -= ring;
+            frame.max[axis] += ring;
+        }
+        self.walls.iter().filter_map(|wall| wall.intersection(&frame)).collect()
+    }
+
+    /// The distance of a box from the nearest wall; 0 where it touches one or is in it.
+    pub fn clearance(&self, of: &Cuboid<D>) -> f64 {
+        let squared = self.walls.iter().map(|wall| sweep::squared_distance(of, wall));
+        squared.fold(f64::INFINITY, f64::min).sqrt()
+    }
+
+    pub(super) fn unbounded_walls(&self) -> &[Cuboid<D>] {
+        &self.walls
+    }
+
+    pub(super) fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+}
+
+fn check_boxes<const D: usize>(channels: &[Cuboid<D>], part: &Cuboid<D>) -> Result<(), AssemblyError<D>> {
+    if channels.is_empty() {
+        return Err(AssemblyError::NoChannel);
+    }
+    let is_box = |cuboid: &Cuboid<D>| cuboid.is_finite() && cuboid.is_solid();
+    if let Some(index) = channels.iter().position(|channel| !is_box(channel)) {
+        return Err(AssemblyError::NotABox { channel: index + 1, found: channels[index] });
+    }
+    if !is_box(part) {
+        return Err(AssemblyError::PartIsNoBox { found: *part });
+    }
+    Ok(())
+}
+
+fn check_top<const D: usize>(channels: &[Cuboid<D>]) -> Result<(), AssemblyError<D>> {
+    let top = channels[0].max[D - 1];
+    match channels.iter().position(|channel| channel.max[D - 1] > top) {
+        None => Ok(()),
+        Some(index) => Err(AssemblyError::HigherThanTheFirst {
+            channel: index + 1,
+            height: channels[index].max[D - 1],
+            top,
+        }),
+    }
+}
+
+fn junctions<const D: usize>(channels: &[Cuboid<D>]) -> Result<Vec<Cuboid<D>>, AssemblyError<D>> {
+    let junction = |(index, pair): (usize, &[Cuboid<D>])| {
+        pair[0].intersection(&pair[1]).ok_or(AssemblyError::Disconnected {
+            channel: index + 1,
+            outer: pair[0],
+            next: index + 2,
+            inner: pair[1],
+        })
+    };
+    channels.windows(2).enumerate().map(junction).collect()
+}
+
+fn check_part<const D: usize>(
+    channels: &[Cuboid<D>],
+    part: &Cuboid<D>,
+    tolerance: f64,
+) -> Result<(), AssemblyError<D>> {
+    let last = channels.len();
+    let by = channels[last - 1].excess(part);
+    if by <= tolerance {
+        return Ok(());
+    }
+    let holder = channels.iter().rposition(|channel| channel.excess(part) <= tolerance);
+    let holder = holder.map(|index| index + 1);
+    Err(AssemblyError::PartOutside { part: *part, last, channel: channels[last - 1], by, holder })
+}
+
+/// What is wrong with channels or part. Channels are numbered from 1, the one that leads out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssemblyError<const D: usize> {
+    /// Nothing leads out.
+    #[error("no channel is given; the first one leads out along +z")]
+    NoChannel,
+    /// A channel without an interior.
+    #[error("channel {channel} is {found}; expected finite numbers, each minimum below its maximum")]
+    NotABox {
+        /// Its number.
+        channel: usize,
+        /// What was given.
+        found: Cuboid<D>,
+    },
+    /// A part without an interior.
+    #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
+    PartIsNoBox {
+        /// What was given.
+        found: Cuboid<D>,
+    },
+    /// The first channel would not lead out of this one.
+    #[error(
+        "channel {channel} reaches up to z = {height}, above channel 1, which leads out and ends at {top}"
+    )]
+    HigherThanTheFirst {
+        /// Its number.
+        channel: usize,
+        /// Where it ends.
+        height: f64,
+        /// Where the first channel ends.
+        top: f64,
+    },
+    /// Two neighbours share no interior.
+    #[error("channel {channel} {outer} and channel {next} {inner} do not overlap, so there is no junction")]
+    Disconnected {
+        /// The number of the outer one.
+        channel: usize,
+        /// It.
+        outer: Cuboid<D>,
+        /// The number of the inner one.
+        next: usize,
+        /// It.
+        inner: Cuboid<D>,
+    },
+    /// Two neighbours in line, one within the other, or sharing a corner only.
+    #[error(
+        "channel {channel} {outer} and channel {next} {inner} share {junction}, which is neither an L nor a T: \
+         each must go on from there along an axis of its own, and one must span the other"
+    )]
+    NotOrthogonal {
+        /// The number of the outer one.
+        channel: usize,
+        /// It.
+        outer: Cuboid<D>,
+        /// The number of the inner one.
+        next: usize,
+        /// It.
+        inner: Cuboid<D>,
+        /// What they share.
+        junction: Cuboid<D>,
+    },
+    /// The part is not where the chain ends.
+    #[error(
+        "the part {part} sticks out of channel {last} {channel}, the last one, by {by}; {}",
+        lies_in(*holder)
+    )]
+    PartOutside {
+        /// The part.
+        part: Cuboid<D>,
+        /// The number of the last channel.
+        last: usize,
+        /// It.
+        channel: Cuboid<D>,
+        /// By how much, in metres.
+        by: f64,
+        /// The number of the channel that it does lie in.
+        holder: Option<usize>,
+    },
+}
+
+fn lies_in(holder: Option<usize>) -> String {
+    holder.map_or_else(|| "it lies in none".to_owned(), |number| format!("it lies in channel {number}"))
+}

@@ -1,0 +1,151 @@
+//! Lines and arcs put together, and measured against the walls.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::axis::Axis;
+use super::body::Robot;
+use super::circle::{Circle, Tangent};
+use super::drive::{Drive, Primitive, TurnMade};
+use super::drive_error::DriveError;
+use super::passage::End;
+use super::route::Route;
+use super::sweep::Sweep;
+use super::taut::{Taut, Touched};
+use super::walls::Wall;
+
+/// The drive along a way, with what is left beside each of its pieces.
+pub(super) fn assembled<E>(
+    route: &Route<'_>,
+    robot: Robot,
+    heading: Option<f64>,
+    mut turns: Vec<TurnMade>,
+    taut: &Taut,
+) -> Result<Drive, DriveError<E>> {
+    pass_by(&mut turns, taut);
+    let sweep = Sweep::new(robot, route.corridors.walls());
+    let mut primitives = Vec::with_capacity(taut.lines.len() + taut.touched.len());
+    let mut to_heading = first_heading(route, &taut.lines[0], heading);
+    let mut from_heading = heading.unwrap_or(to_heading);
+    for (index, line) in taut.lines.iter().enumerate() {
+        let clearance = sweep.line(line, from_heading, to_heading);
+        let clearance = clearance.map_err(|wall| hits_on_line(&turns, taut, index, wall))?;
+        let (a, b) = (line.from, line.to);
+        primitives.push(Primitive::Line { a, b, from_heading, to_heading, clearance });
+        let Some(touched) = taut.touched.get(index) else { break };
+        let turn = &mut turns[touched.turn()];
+        (turn.arriving, turn.leaving, turn.angle) = (b, taut.lines[index + 1].from, touched.angle);
+        let clearance = sweep.arc(&touched.circle, line, touched.angle);
+        let clearance = clearance.map_err(|wall| hits_in_turn(turn, wall))?;
+        from_heading = to_heading;
+        to_heading += turn.steer.turn.sign() * touched.angle;
+        primitives.push(Primitive::Arc {
+            junction: turn.facts.junction,
+            centre: turn.corner,
+            radius: turn.radius,
+            turn: turn.steer.turn,
+            a: turn.arriving,
+            b: turn.leaving,
+            from_heading,
+            to_heading,
+            clearance,
+        });
+        from_heading = to_heading;
+    }
+    let length = primitives.iter().map(Primitive::length).sum();
+    let min_clearance = primitives.iter().map(Primitive::clearance).fold(f64::INFINITY, f64::min);
+    Ok(Drive { primitives, turns, length, min_clearance })
+}
+
+/// The heading of the first line, as near to the robot's as whole turns allow.
+fn first_heading(route: &Route<'_>, line: &Tangent, given: Option<f64>) -> f64 {
+    let along = line.along.y.atan2(line.along.x);
+    match given {
+        // whoever is at the goal already does not turn
+        Some(given) if line.length <= 0.0 => given,
+        Some(given) => given + half_turn_at_most(along - given),
+        None if line.length > 0.0 => along,
+        None => match route.corridors.axis_of(route.channels[0]) {
+            Axis::X => 0.0,
+            Axis::Y => FRAC_PI_2,
+        },
+    }
+}
+
+fn hits_on_line<E>(turns: &[TurnMade], taut: &Taut, line: usize, wall: Wall) -> DriveError<E> {
+    let junction = |touched: &Touched| End::Junction(turns[touched.turn()].facts.junction);
+    let before = line.checked_sub(1).and_then(|before| taut.touched.get(before));
+    DriveError::HitsOnLine {
+        wall,
+        from: before.map_or(End::Start, junction),
+        a: taut.lines[line].from,
+        to: taut.touched.get(line).map_or(End::Goal, junction),
+        b: taut.lines[line].to,
+    }
+}
+
+fn hits_in_turn<E>(turn: &TurnMade, wall: Wall) -> DriveError<E> {
+    let TurnMade { facts, steer, corner, radius, .. } = *turn;
+    DriveError::HitsInTurn {
+        junction: facts.junction,
+        rule: steer.rule,
+        gap: steer.gap,
+        corner,
+        reach: facts.robot.reach_about(radius),
+        wall,
+        distance: corner.distance(corner.nearest_on(wall.a, wall.b)),
+        safest: facts.safest,
+    }
+}
+
+/// Tells the turns at circles that the way passes by where it is nearest to them.
+fn pass_by(turns: &mut [TurnMade], taut: &Taut) {
+    if taut.touched.len() == turns.len() {
+        return;
+    }
+    for (index, turn) in turns.iter_mut().enumerate() {
+        let before = taut.touched.iter().take_while(|touched| touched.turn() < index).count();
+        if taut.touched.get(before).is_some_and(|touched| touched.turn() == index) {
+            continue;
+        }
+        let line = &taut.lines[before];
+        turn.arriving = turn.corner.nearest_on(line.from, line.to);
+        turn.leaving = turn.arriving;
+    }
+}
+
+/// Of two circles, by index among start, junctions and goal, that no line touches both of.
+pub(super) fn too_near<E>(turns: &[TurnMade], circles: &[Circle], one: usize, other: usize) -> DriveError<E> {
+    let (first, second) = (&circles[one], &circles[other]);
+    let distance = first.centre.distance(second.centre);
+    let inside = |what, point, turn: &TurnMade| DriveError::InsideCircle {
+        junction: turn.facts.junction,
+        rule: turn.steer.rule,
+        what,
+        point,
+        corner: turn.corner,
+        distance,
+        radius: turn.radius,
+    };
+    if one == 0 {
+        return inside(End::Start, first.centre, &turns[other - 1]);
+    }
+    if other > turns.len() {
+        return inside(End::Goal, second.centre, &turns[one - 1]);
+    }
+    DriveError::TooNearEachOther {
+        first: turns[one - 1].facts.junction,
+        second: turns[other - 1].facts.junction,
+        distance,
+        needed: first.least_distance(second),
+        first_turn: first.turn,
+        second_turn: second.turn,
+        first_radius: first.radius,
+        second_radius: second.radius,
+    }
+}
+
+/// An angle, less whole turns: more than -π, at most π.
+fn half_turn_at_most(angle: f64) -> f64 {
+    let turned = angle.rem_euclid(TAU);
+    if turned > PI { turned - TAU } else { turned }
+}

@@ -1,0 +1,38 @@
+//! What rules see, what SQL keeps and what the command takes is written down.
+
+use adit::plan::rules::{PASSAGES, STEPS, TURNS};
+
+fn documented() -> String {
+    std::fs::read_to_string(adit_tests::repository().join("kb/PLAN.md")).expect("kb/PLAN.md")
+}
+
+#[test]
+fn every_property_that_rules_are_told() {
+    let page = documented();
+    for (name, _) in [STEPS, TURNS, PASSAGES].concat() {
+        // Of three axes the first, or first and last, stand for all.
+        let first =
+            |axis: &str| name.strip_suffix(axis).map_or_else(|| name.to_owned(), |stem| format!("{stem}_x"));
+        let named = [
+            name.to_owned(),
+            first("_y"),
+            first("_z"),
+            first("_x").replace("_max_", "_min_"),
+            first("_z").replace("_max_", "_min_"),
+            first("_y").replace("_max_", "_min_"),
+        ];
+        assert!(named.iter().any(|name| page.contains(&format!("`{name}`"))), "{name} is not in kb/PLAN.md");
+    }
+}
+
+#[test]
+fn every_table_that_keeps_plans() {
+    let schema =
+        std::fs::read_to_string(adit_tests::repository().join("db/sql/v4/10-plans.sql")).expect("the schema");
+    let page = documented();
+    for line in schema.lines() {
+        if let Some(table) = line.strip_prefix("CREATE TABLE ").and_then(|rest| rest.split(' ').next()) {
+            assert!(page.contains(&format!("| `{table}` |")), "{table} is not in kb/PLAN.md");
+        }
+    }
+}
