@@ -43,7 +43,7 @@ fn median_and_worst(mut ratios: Vec<f64>) -> (f64, f64) {
     ratios.sort_by(f64::total_cmp);
     let middle = ratios.len() / 2;
     (
-        f64::midpoint(ratios[middle - usize::from(ratios.len() % 2 == 0)], ratios[middle]),
+        f64::midpoint(ratios[middle - usize::from(ratios.len().is_multiple_of(2))], ratios[middle]),
         ratios[ratios.len() - 1],
     )
 }
