@@ -1,6 +1,7 @@
 //! Floor plans: walls as segments, free space cut into convex regions, doorways with two adits each, the network of
 //! places, and ways through it for a disc (Crowley 1985, sections 4.2 and 4.4).
 
+mod check;
 pub mod clear;
 mod dice;
 pub mod disc;
@@ -17,6 +18,7 @@ mod pull;
 mod read;
 pub mod regions;
 mod search;
+mod solids;
 mod trees;
 pub mod visibility;
 

@@ -11,7 +11,7 @@ use crate::geometry::Point;
 const SLACK: f64 = 0.2;
 
 /// So many paths are pulled tight.
-const MOST_PULLED: usize = 8;
+const MOST_PULLED: usize = 12;
 
 /// How a path is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
