@@ -40,6 +40,14 @@ fn channels_that_make_no_chain_are_refused() {
 }
 
 #[test]
+fn numbers_beyond_all_measure_are_refused_without_a_panic() {
+    let most = f64::MAX;
+    assert!(chain(&[[-most, -most, most, most], [1.0, 2.0, 9.0, 6.0]], PART).is_err());
+    assert!(chain(&[SHAFT, [-most, 2.0, most, 6.0]], [7.0, 3.0, 8.0, 4.0]).is_err());
+    assert!(chain(&[SHAFT], [f64::NEG_INFINITY, 3.0, 3.0, 4.0]).is_err());
+}
+
+#[test]
 fn neighbours_are_orthogonal() {
     let in_line = [1.0, 0.0, 5.0, 3.0];
     let text = chain(&[SHAFT, in_line], PART).unwrap_err();

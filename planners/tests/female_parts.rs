@@ -160,4 +160,28 @@ proptest! {
             prop_assert!((0..2).all(|axis| junction.size(axis) > chain.part.size(axis)));
         }
     }
+
+    /// Corners on a coarse grid, so that edges cross, touch, double back and slope; now and then one far away.
+    #[test]
+    fn whatever_the_outline_an_answer_is_a_chain_and_a_refusal_says_why(
+        corners in prop::collection::vec((0_i8..8, 0_i8..8), 0..9),
+        huge in prop::option::weighted(0.1, 0_usize..9),
+        straight in any::<bool>(),
+        (x, z, dx, dz) in (0_i8..16, 0_i8..16, 0_i8..4, 0_i8..4),
+    ) {
+        let mut outline: Vec<[f64; 2]> = corners.iter().map(|&(x, z)| [x.into(), z.into()]).collect();
+        if let Some(corner) = huge.and_then(|index| outline.get_mut(index)) {
+            corner[0] = f64::MAX;
+        }
+        if straight {
+            // Each slope becomes a step.
+            outline = outline.iter().zip(outline.iter().cycle().skip(1)).flat_map(|(a, b)| [*a, [b[0], a[1]]]).collect();
+        }
+        let (x, z) = (f64::from(x) / 2.0, f64::from(z) / 2.0);
+        let part = Cuboid::new([x, z], [x + f64::from(dx) / 4.0, z + f64::from(dz) / 4.0]);
+        match channels_of(&outline, &part) {
+            Ok(channels) => prop_assert!(Assembly::new(channels, part).is_ok()),
+            Err(error) => prop_assert!(error.to_string().len() > 20),
+        }
+    }
 }

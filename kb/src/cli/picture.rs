@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 
 use super::DrawArgs;
 use super::build::open;
@@ -13,11 +14,7 @@ use crate::suggest::did_you_mean;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
-    let extension = args.output.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
-    if !["svg", "png"].contains(&extension.as_str()) {
-        let message = format!("{} is neither .svg nor .png", args.output.display());
-        return Err(Error::said("draw/format", message, None));
-    }
+    check(&args.output)?;
     let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
@@ -39,17 +36,36 @@ pub fn run(args: &DrawArgs) -> Result<()> {
         Some(_) => {}
     }
     let svg = render_svg(&scene, &layers, &Style::default());
-    let bytes = if extension == "png" {
-        render_png(&svg, args.width).map_err(|error| Error::said("draw/png", error.to_string(), None))?
-    } else {
-        svg.into_bytes()
-    };
-    fs::write(&args.output, &bytes).map_err(|error| Error::io("write", &args.output, &error))?;
+    let bytes = save(svg, &args.output, args.width)?;
     if args.site.json {
-        return json(&serde_json::json!({"file": args.output, "bytes": bytes.len()}));
+        return json(&serde_json::json!({"file": args.output, "bytes": bytes}));
     }
     line(&format!("{}: {} rooms, {} doors", args.output.display(), scene.rooms.len(), scene.doors.len()));
     Ok(())
+}
+
+fn extension(output: &Path) -> String {
+    output.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase()
+}
+
+/// Refuses a file that is no picture.
+pub fn check(output: &Path) -> Result<()> {
+    if ["svg", "png"].contains(&extension(output).as_str()) {
+        return Ok(());
+    }
+    let message = format!("{} is neither .svg nor .png", output.display());
+    Err(Error::said("draw/format", message, None))
+}
+
+/// Writes a picture in the format that its file name asks for; how many bytes.
+pub fn save(svg: String, output: &Path, width: u32) -> Result<usize> {
+    let bytes = if extension(output) == "png" {
+        render_png(&svg, width).map_err(|error| Error::said("draw/png", error.to_string(), None))?
+    } else {
+        svg.into_bytes()
+    };
+    fs::write(output, &bytes).map_err(|error| Error::io("write", output, &error))?;
+    Ok(bytes.len())
 }
 
 fn layers(args: &DrawArgs) -> Result<Layers> {

@@ -6,6 +6,8 @@ use adit_planners::geometry::Point;
 
 use super::PlanArgs;
 use super::output::{json, line, remark};
+use super::picture;
+use crate::draw::{ChannelPanel, render_channels};
 use crate::error::{Error, Result};
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
@@ -13,6 +15,9 @@ use crate::plan::{Asked, Steps, Task, Turns, World, rules};
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {
+    if let Some(output) = &args.output {
+        picture::check(output)?;
+    }
     let world = World::read(&args.world)?;
     let (name, beside) = match &args.rules {
         Some(rules) => (rules.as_str(), std::path::Path::new("")),
@@ -66,9 +71,14 @@ fn drive(
     let mut well = true;
     let mut answers = Vec::new();
     let mut record = None;
+    let mut panels = Vec::new();
     for corridor in gaps(args, corridor, Corridor::with_gap)? {
         let answer = corridor.explained(turns);
         well &= answer.path.is_ok();
+        if let Ok(driven) = &answer.path {
+            let gap = corridor.gap.to_string();
+            panels.push(ChannelPanel::drive(&gap, &corridor.corridors, corridor.robot, &driven.drive));
+        }
         record = Some(answer.record(&world.name, rules, &corridor));
         if args.json {
             answers.push(answer.json(args.explain));
@@ -76,7 +86,7 @@ fn drive(
             answer.lines(args.explain).iter().for_each(|text| line(text));
         }
     }
-    finish(args, answers, record)?;
+    finish(args, &world.name, answers, record, &panels)?;
     Ok(well)
 }
 
@@ -90,9 +100,22 @@ fn assemble<const D: usize>(
     let mut well = true;
     let mut answers = Vec::new();
     let mut record = None;
+    let mut panels = Vec::new();
     for assembly in gaps(args, assembly, Assembly::with_gap)? {
         let answer = assembly.explained(steps);
         well &= answer.path.is_ok();
+        if let Ok(path) = &answer.path {
+            let gap = assembly.gap.to_string();
+            // In three dimensions from the front and from above.
+            let views: &[(&str, [usize; 2])] = if D == 2 {
+                &[("", [0, 1])]
+            } else {
+                &[(", from the front", [0, 2]), (", from above", [0, 1])]
+            };
+            panels.extend(views.iter().map(|(view, axes)| {
+                ChannelPanel::assembly(&format!("{gap}{view}"), &assembly.geometry, path, *axes)
+            }));
+        }
         record = Some(answer.record(&world.name, rules, &assembly));
         if args.json {
             answers.push(answer.json(&assembly, args.explain));
@@ -100,7 +123,7 @@ fn assemble<const D: usize>(
             answer.lines(&assembly, args.explain).iter().for_each(|text| line(text));
         }
     }
-    finish(args, answers, record)?;
+    finish(args, &world.name, answers, record, &panels)?;
     Ok(well)
 }
 
@@ -117,9 +140,23 @@ fn gaps<W: Clone, const N: usize>(
     if args.gap.is_empty() { Ok(vec![world.clone()]) } else { args.gap.iter().map(gap).collect() }
 }
 
-fn finish(args: &PlanArgs, mut answers: Vec<serde_json::Value>, record: Option<Plan>) -> Result<()> {
+/// Keeps the last plan, draws all of them, and prints them where JSON is wanted.
+fn finish(
+    args: &PlanArgs,
+    name: &str,
+    mut answers: Vec<serde_json::Value>,
+    record: Option<Plan>,
+    panels: &[ChannelPanel],
+) -> Result<()> {
     if let (Some(path), Some(record)) = (&args.db, record) {
         Store::open_or_create(path)?.transaction(|tx| tx.keep_plan(&record))?;
+    }
+    match (&args.output, panels) {
+        (None, _) => {}
+        (Some(output), []) => remark(&format!("{} is not drawn: there is no path", output.display())),
+        (Some(output), panels) => {
+            picture::save(render_channels(name, panels), output, PNG_WIDTH)?;
+        }
     }
     match answers.len() {
         0 => Ok(()),
@@ -127,3 +164,6 @@ fn finish(args: &PlanArgs, mut answers: Vec<serde_json::Value>, record: Option<P
         _ => json(&answers),
     }
 }
+
+/// Width of a PNG in pixels.
+const PNG_WIDTH: u32 = 1600;

@@ -19,7 +19,7 @@ const LONGEST: f64 = 420.0;
 /// Panels in a row.
 const IN_A_ROW: usize = 3;
 /// Below each panel, for what is written there.
-const CAPTION: f64 = 58.0;
+const CAPTION: f64 = 74.0;
 /// Above all panels.
 const TITLE: f64 = 34.0;
 
@@ -28,6 +28,8 @@ const TITLE: f64 = 34.0;
 pub fn render_channels(title: &str, panels: &[ChannelPanel]) -> String {
     let longest = |panel: &ChannelPanel| panel.bounds.dx().max(panel.bounds.dy());
     let scale = LONGEST / panels.iter().map(longest).fold(1e-9, f64::max);
+    let widths: Vec<f64> =
+        panels.iter().map(|panel| panel.caption_width().max(panel.bounds.dx() * scale)).collect();
     let mut svg = Svg::default();
     let (mut top, mut right) = (MARGIN + if title.is_empty() { 0.0 } else { TITLE }, MARGIN);
     for (row, panels) in panels.chunks(IN_A_ROW).enumerate() {
@@ -39,7 +41,8 @@ pub fn render_channels(title: &str, panels: &[ChannelPanel]) -> String {
             let above = height - panel.bounds.dy() * scale;
             let frame = Frame::new(panel.bounds, side, left, top + above);
             draw(&mut svg, panel, &frame, row * IN_A_ROW + place);
-            left += frame.map.w.max(panel.caption_width()) + MARGIN;
+            // Columns are as wide as the widest panel in them.
+            left += widths.iter().skip(place).step_by(IN_A_ROW).copied().fold(0.0, f64::max) + MARGIN;
         }
         right = right.max(left);
         top += height + CAPTION;
@@ -62,7 +65,9 @@ fn draw(svg: &mut Svg, panel: &ChannelPanel, frame: &Frame, place: usize) {
         });
         let below = frame.map.y + frame.map.h;
         write(svg, (frame.map.x, below + 20.0), 14.0, INK, &panel.heading(place));
-        write(svg, (frame.map.x, below + 38.0), 13.0, GREY, &panel.figures);
+        for (line, figures) in panel.figures.iter().enumerate() {
+            write(svg, (frame.map.x, below + 38.0 + 17.0 * line as f64), 13.0, GREY, figures);
+        }
     });
 }
 

@@ -1,5 +1,7 @@
 //! What a world asks for as the gap at its junctions.
 
+use std::fmt;
+
 use adit_planners::read::{Fields, Problem};
 use toml::Spanned;
 use toml::de::DeValue;
@@ -13,6 +15,23 @@ pub enum Asked<const N: usize> {
     Safest,
     /// What rules conclude from facts about part, junction and time.
     Rules,
+}
+
+/// As people write it: `gap 0.2`, `gap 0.1/0.2`, `safest gap`, `gap by rules`.
+impl<const N: usize> fmt::Display for Asked<N> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Gap(gap) if gap.iter().all(|one| one.to_bits() == gap[0].to_bits()) => {
+                write!(out, "gap {}", gap[0])
+            }
+            Self::Gap(gap) => {
+                let gaps: Vec<String> = gap.iter().map(ToString::to_string).collect();
+                write!(out, "gap {}", gaps.join("/"))
+            }
+            Self::Safest => out.write_str("safest gap"),
+            Self::Rules => out.write_str("gap by rules"),
+        }
+    }
 }
 
 impl<const N: usize> Asked<N> {

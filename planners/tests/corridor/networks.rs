@@ -55,33 +55,28 @@ fn spans(count: usize, others: usize) -> impl Strategy<Value = Vec<(usize, usize
     prop::collection::vec((0..others, 0..others, -0.7_f64..2.0, -0.7_f64..2.0), count)
 }
 
-/// A band that reaches from one band of the other axis to another: flush with their far edges, beyond them, or, where
-/// `may_end_inside`, ending between their edges.
-fn reach(others: &[(f64, f64)], span: (usize, usize, f64, f64), may_end_inside: bool) -> (f64, f64) {
-    let (from, mut to) = (span.0.min(span.1), span.0.max(span.1));
-    to = to.max((from + 1).min(others.len() - 1));
-    let far = |end: f64, width: f64| {
-        if end > 1.0 || !may_end_inside && end < 0.0 {
-            0.0
-        } else if end < 0.0 {
-            end * width
-        } else {
-            3.0 * end
-        }
+/// A band that reaches from one band of the other axis to another: flush with their far edges, beyond them, or ending
+/// between their edges.
+fn reach(others: &[(f64, f64)], span: (usize, usize, f64, f64)) -> (f64, f64) {
+    let (from, to) =
+        (span.0.min(span.1), span.0.max(span.1).max((span.0.min(span.1) + 1).min(others.len() - 1)));
+    let beyond = |end: f64, (low, high): (f64, f64)| match end {
+        end if end < 0.0 => end * (high - low),
+        end if end < 1.0 => 3.0 * end,
+        _ => 0.0,
     };
-    let width = |band: (f64, f64)| band.1 - band.0;
-    (others[from].0 - far(span.2, width(others[from])), others[to].1 + far(span.3, width(others[to])))
+    (others[from].0 - beyond(span.2, others[from]), others[to].1 + beyond(span.3, others[to]))
 }
 
 fn networks() -> impl Strategy<Value = Vec<Rect>> {
     (bands(2..5), bands(1..4)).prop_flat_map(|(xs, ys)| {
         (spans(xs.len(), ys.len()), spans(ys.len(), xs.len())).prop_map(move |(uprights, lying)| {
             let uprights = xs.iter().zip(uprights).map(|(x, span)| {
-                let y = reach(&ys, span, true);
+                let y = reach(&ys, span);
                 Rect::new(x.0, y.0, x.1, y.1)
             });
             let lying = ys.iter().zip(lying).map(|(y, span)| {
-                let x = reach(&xs, span, false);
+                let x = reach(&xs, span);
                 Rect::new(x.0, y.0, x.1, y.1)
             });
             uprights.chain(lying).collect()
@@ -164,6 +159,20 @@ proptest! {
                 continue;
             }
             prop_assert!(primitive.clearance() >= promised - ROUNDING, "piece {index}: promised {promised}, {primitive:?}");
+        }
+    }
+
+    #[test]
+    fn whatever_the_gap_no_drive_hits_a_wall(problem in problems(), times in 1.0_f64..4.0) {
+        let Ok(corridors) = Corridors::new(&problem.channels) else { return Err(TestCaseError::reject("no corridors")) };
+        let Some(route) = problem.route(&corridors) else { return Err(TestCaseError::reject("no route")) };
+        let wide = Problem { shares: problem.shares.iter().map(|share| share * times).collect(), ..problem };
+        let Ok(drive) = wide.drive(&route, wide.heading) else { return Err(TestCaseError::reject("no drive")) };
+        let solid = solid(&wide.channels);
+        for primitive in &drive.primitives {
+            let found = sampled(wide.robot, primitive, &solid, 40);
+            prop_assert!(found > -ROUNDING, "collides by {found}: {primitive:?}");
+            prop_assert!(primitive.clearance() <= found.max(0.0) + ROUNDING, "{found}: {primitive:?}");
         }
     }
 

@@ -71,3 +71,21 @@ fn a_plan_replaces_the_earlier_one_of_its_world_and_no_path_is_kept_with_its_rea
     plan(&not_ours, "s4.toml", &["--db", "plans.db"]).expect_status(2);
     assert_eq!(not_ours.read("plans.db"), "no database");
 }
+
+#[test]
+fn figures_5_and_8_are_drawn_with_the_gaps_side_by_side() {
+    let folder = worlds().with("s4.toml", &format!("{SECTION_4}gap = 0.2\n")).with("s.toml", S);
+    for (world, gaps) in [("s4.toml", "0.01,0.2,safest"), ("s.toml", "0.2,0.6,1.0")] {
+        plan(&folder, world, &["--gap", gaps, "-o", "figure.svg"]).expect_status(0);
+        let svg = folder.read("figure.svg");
+        for panel in ["panel-a", "panel-b", "panel-c"] {
+            assert!(svg.contains(panel), "{world} has no {panel}");
+        }
+        assert!(!svg.contains("panel-d"), "{world} has as many panels as gaps");
+    }
+    plan(&folder, "s.toml", &["-o", "figure.gif"]).expect_status(2).complains(&["neither .svg nor .png"]);
+    plan(&folder, "s4.toml", &["--gap", "0.3", "-o", "none.svg"])
+        .expect_status(1)
+        .complains(&["is not drawn"]);
+    assert!(!folder.path().join("none.svg").exists());
+}

@@ -51,11 +51,7 @@ fn a_part_larger_than_a_junction() {
 
 #[test]
 fn a_move_towards_minus_z() {
-    // From junction 2, which reaches up to 6, over the pass to junction 1, which ends at 5.
-    let down = "[assembly]\ngap = 0.1\nmale = [[8, 1], [9, 1], [9, 2], [8, 2]]\n\
-                channels = [[0, 2, 3, 9], [0, 2, 10, 5], [7, 0, 10, 6]]\n";
-    let down = down.replace("[7, 0, 10, 6]", "[7, 0, 10, 5]").replace("[0, 2, 10, 5]", "[0, 2, 10, 5]");
-    assert!(plan_text(&down, &[]).expect_status(0).stdout.contains("length"));
+    // Up the shaft, over into the next one, down again.
     let pass = "[assembly]\ngap = 0.1\nmale = [[15, 6], [16, 6], [16, 7], [15, 7]]\n\
                 channels = [[0, 0, 3, 9], [0, 0, 10, 3], [7, 0, 10, 8], [7, 5, 17, 8]]\n";
     no_path(

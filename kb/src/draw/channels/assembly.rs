@@ -11,7 +11,7 @@ use crate::draw::svg::Svg;
 
 pub(super) fn draw(svg: &mut Svg, picture: &AssemblyPicture, frame: &Frame) {
     ground::walls(svg, frame, &picture.channels, picture.top);
-    ground::channels(svg, frame, &picture.channels, &picture.junctions);
+    ground::channels(svg, frame, &picture.channels, &picture.junctions, &[]);
     let last = picture.parts.len().saturating_sub(1);
     for (place, rect) in picture.parts.iter().enumerate() {
         let dash = if place == last && last > 0 { "7 3" } else { "" };

@@ -6,7 +6,7 @@ use adit_planners::geometry::Point;
 use super::panel::DrivePicture;
 use super::{ground, marks};
 use crate::draw::frame::Frame;
-use crate::draw::palette::{BRIDGE, ROUTE};
+use crate::draw::palette::{BRIDGE, INK, ROUTE};
 use crate::draw::sheet::line;
 use crate::draw::svg::{self, Svg};
 
@@ -19,13 +19,14 @@ struct Pose {
 pub(super) fn draw(svg: &mut Svg, picture: &DrivePicture, frame: &Frame) {
     ground::walls(svg, frame, &picture.channels, None);
     for wall in &picture.walls {
-        line(svg, frame.at(wall.a), frame.at(wall.b), "#2b303b", 1.8, "");
+        line(svg, frame.at(wall.a), frame.at(wall.b), INK, 1.8, "");
     }
-    ground::channels(svg, frame, &[], &picture.junctions);
+    let corners: Vec<Point> = picture.drive.turns.iter().map(|turn| turn.corner).collect();
+    ground::channels(svg, frame, &[], &picture.junctions, &corners);
     for turn in &picture.drive.turns {
         circle(svg, frame, turn.corner, turn.radius);
     }
-    for pose in poses(&picture.drive.primitives, 0.8 * picture.robot.length) {
+    for pose in poses(&picture.drive.primitives, 1.2 * picture.robot.length) {
         body(svg, frame, picture.robot, &pose);
     }
     svg.element("path")
@@ -55,7 +56,7 @@ fn circle(svg: &mut Svg, frame: &Frame, corner: Point, radius: f64) {
         .end();
 }
 
-/// The robot's outline, with a stroke from its middle to its front.
+/// The robot's outline, with an arrow head at its front.
 fn body(svg: &mut Svg, frame: &Frame, robot: Robot, pose: &Pose) {
     let (sin, cos) = pose.heading.sin_cos();
     let at = |forward: f64, left: f64| {
@@ -75,7 +76,7 @@ fn body(svg: &mut Svg, frame: &Frame, robot: Robot, pose: &Pose) {
         .attr("stroke", ROUTE)
         .nums([("stroke-width", 1.0), ("stroke-opacity", 0.75)])
         .end();
-    let nose = [at(ahead, 0.25 * aside), at(ahead + 0.12 * robot.length, 0.0), at(ahead, -0.25 * aside)];
+    let nose = [at(0.6 * ahead, 0.5 * aside), at(0.95 * ahead, 0.0), at(0.6 * ahead, -0.5 * aside)];
     let mut path = String::new();
     for (letter, (x, y)) in ['M', 'L', 'L'].into_iter().zip(nose) {
         svg::command(&mut path, letter, &[x, y]);

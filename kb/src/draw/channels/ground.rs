@@ -1,8 +1,8 @@
 //! Walls and free space.
 
-use adit_planners::geometry::Rect;
+use adit_planners::geometry::{Point, Rect};
 
-use crate::draw::frame::{Block, Frame};
+use crate::draw::frame::{At, Block, Frame};
 use crate::draw::palette::{GREY, INK};
 use crate::draw::sheet::{line, outline};
 use crate::draw::svg::Svg;
@@ -57,19 +57,33 @@ pub(super) fn walls(svg: &mut Svg, frame: &Frame, channels: &[Rect], top: Option
     }
 }
 
-/// Channels as thin outlines, junctions dashed, with their numbers.
-pub(super) fn channels(svg: &mut Svg, frame: &Frame, channels: &[Rect], junctions: &[Rect]) {
+/// Channels as thin outlines, junctions dashed, with their numbers in the corner that is farthest from all of `marks`.
+pub(super) fn channels(svg: &mut Svg, frame: &Frame, channels: &[Rect], junctions: &[Rect], marks: &[Point]) {
     for channel in channels {
         outlined(svg, &frame.block(channel).inset(0.5), "#c3c8d0", 0.8, "");
     }
     for (number, junction) in (1..).zip(junctions) {
         let block = frame.block(junction).inset(2.0);
         outlined(svg, &block, GREY, 1.0, "5 4");
+        let (x, y) = name_place(&block, frame, marks);
         svg.element("text")
-            .nums([("x", block.x + 5.0), ("y", block.y + 14.0), ("font-size", 11.5)])
+            .nums([("x", x), ("y", y), ("font-size", 11.5)])
             .attr("fill", GREY)
+            .attr("text-anchor", "middle")
             .text(&format!("J{number}"));
     }
+}
+
+/// Where the name of a junction stands: in the upper left corner unless a mark is nearer to it than to another.
+fn name_place(block: &Block, frame: &Frame, marks: &[Point]) -> At {
+    let (left, right) = (block.x + 12.0, block.x + block.w - 12.0);
+    let (upper, lower) = (block.y + 14.0, block.y + block.h - 6.0);
+    let room = |(x, y): At| {
+        let away = |mark: &Point| (frame.x(mark.x) - x).hypot(frame.y(mark.y) - y);
+        marks.iter().map(away).fold(f64::INFINITY, f64::min)
+    };
+    let places = [(left, upper), (right, upper), (right, lower), (left, lower)];
+    places.into_iter().fold(places[0], |best, place| if room(place) > room(best) { place } else { best })
 }
 
 fn outlined(svg: &mut Svg, block: &Block, stroke: &str, width: f64, dash: &str) {

@@ -10,7 +10,7 @@ use crate::draw::text;
 #[derive(Clone, Debug)]
 pub struct ChannelPanel {
     pub(super) name: String,
-    pub(super) figures: String,
+    pub(super) figures: Vec<String>,
     pub(super) bounds: Rect,
     pub(super) picture: Picture,
 }
@@ -71,7 +71,7 @@ impl ChannelPanel {
         }
         Self {
             name: name.to_owned(),
-            figures: figures(path.length, path.min_clearance),
+            figures: vec![length(path.length), clearance(path)],
             bounds,
             picture: Picture::Assembly(AssemblyPicture {
                 channels,
@@ -88,7 +88,7 @@ impl ChannelPanel {
         let hull = hull.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
         Self {
             name: name.to_owned(),
-            figures: figures(drive.length, drive.min_clearance),
+            figures: vec![length(drive.length), format!("clearance {:.3} m", drive.min_clearance)],
             bounds: grown(hull, 0.05 * hull.dx().max(hull.dy())),
             picture: Picture::Drive(DrivePicture {
                 channels: corridors.channels().to_vec(),
@@ -106,12 +106,30 @@ impl ChannelPanel {
     }
 
     pub(super) fn caption_width(&self) -> f64 {
-        text::width(&self.figures, 13.0).max(text::width(&self.heading(0), 14.0))
+        let figures = self.figures.iter().map(|line| text::width(line, 13.0));
+        figures.fold(text::width(&self.heading(0), 14.0), f64::max)
     }
 }
 
-fn figures(length: f64, clearance: f64) -> String {
-    format!("length {length:.3} m, clearance {clearance:.3} m")
+fn length(metres: f64) -> String {
+    format!("length {metres:.3} m")
+}
+
+/// The least clearance; where the assembled state alone leaves less than all the rest, that of the rest, too.
+fn clearance<const D: usize>(path: &PartPath<D>) -> String {
+    let is_way_in = path.legs.first().is_some_and(|leg| leg.junction == 0);
+    let (inner, rest) = if is_way_in {
+        (path.legs.len(), path.legs.split_last().map(|(_, rest)| rest))
+    } else {
+        (1, path.legs.split_first().map(|(_, rest)| rest))
+    };
+    let rest = rest.unwrap_or_default().iter().map(|leg| leg.min_clearance).fold(f64::INFINITY, f64::min);
+    let least = format!("clearance {:.3} m", path.min_clearance);
+    if rest.is_finite() && rest > path.min_clearance {
+        format!("{least}; without leg {inner}: {rest:.3} m")
+    } else {
+        least
+    }
 }
 
 fn joined(a: Rect, b: Rect) -> Rect {

@@ -191,8 +191,8 @@ impl<'a, const D: usize> Way<'a, D> {
     /// Moves the part along a line, unless it would hit a wall.
     ///
     /// Two boxes within one channel hold all between them within it, since it is convex: a part that goes from
-    /// junction to junction with gaps of 0 and more, up to the bound, never hits. What is looked for here is the part that was sent
-    /// out of a junction, by a gap beyond the bound or below 0.
+    /// junction to junction with gaps of 0 and more, up to the bound, never hits. What is looked for here is the
+    /// part that was sent out of a junction, by a gap beyond the bound or below 0.
     fn go<E>(&mut self, junction: usize, rule: Option<f64>, target: [f64; D]) -> Result<(), PathError<D, E>> {
         let displacement: [f64; D] = std::array::from_fn(|axis| target[axis] - self.part.min[axis]);
         let walls = self.assembly.unbounded_walls();

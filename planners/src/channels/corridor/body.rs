@@ -60,15 +60,27 @@ impl Body {
         if self.meets(a, b) {
             return 0.0;
         }
-        let to_corner = self.corners().map(|corner| squared(corner, corner.nearest_on(a, b)));
-        let ends = [a, b].map(|end| {
-            let beyond = Point::new(
-                (end.x.abs() - self.half_length).max(0.0),
-                (end.y.abs() - self.half_width).max(0.0),
-            );
-            squared(beyond, Point::default())
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        // of a point, any share is the nearest one
+        let per_share = 1.0 / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
+        let to_corner = self.corners().map(|corner| {
+            let (x, y) = (corner.x - a.x, corner.y - a.y);
+            let share = ((x * dx + y * dy) * per_share).clamp(0.0, 1.0);
+            squared(x - share * dx, y - share * dy)
         });
-        to_corner.into_iter().chain(ends).fold(f64::INFINITY, f64::min).sqrt()
+        let to_corner = to_corner.into_iter().fold(f64::INFINITY, f64::min).sqrt();
+        to_corner.min(self.distance_to(a)).min(self.distance_to(b))
+    }
+
+    /// Metres to a point; 0 inside.
+    pub fn distance_to(&self, point: Point) -> f64 {
+        length((point.x.abs() - self.half_length).max(0.0), (point.y.abs() - self.half_width).max(0.0))
+    }
+
+    /// Metres that the segment from `a` to `b` is away at least: those of the rectangle about it.
+    pub fn least_distance(&self, a: Point, b: Point) -> f64 {
+        let beyond = |a: f64, b: f64, half: f64| (a.min(b) - half).max(-half - a.max(b)).max(0.0);
+        length(beyond(a.x, b.x, self.half_length), beyond(a.y, b.y, self.half_width))
     }
 
     /// Metres to a wall, for the body about `middle` with its length along the direction `along`.
@@ -97,7 +109,11 @@ impl Body {
     }
 }
 
-fn squared(one: Point, other: Point) -> f64 {
-    let (dx, dy) = (one.x - other.x, one.y - other.y);
-    dx * dx + dy * dy
+fn squared(x: f64, y: f64) -> f64 {
+    x * x + y * y
+}
+
+/// Of a vector of some metres: faster than `hypot`, which minds numbers near the ends of their range.
+pub(super) fn length(x: f64, y: f64) -> f64 {
+    squared(x, y).sqrt()
 }

@@ -1,5 +1,6 @@
 //! Guiding circles, and the lines that touch two of them.
 
+use super::body::length;
 use super::steer::Turn;
 use crate::geometry::Point;
 
@@ -41,7 +42,7 @@ impl Circle {
     /// [`Circle::least_distance`], or the same for other than points. From a point to itself, a line without length along x.
     pub fn tangent_to(&self, next: &Self) -> Option<Tangent> {
         let (dx, dy) = (next.centre.x - self.centre.x, next.centre.y - self.centre.y);
-        let distance = dx.hypot(dy);
+        let distance = length(dx, dy);
         let k = next.bend() - self.bend();
         if distance < k.abs() {
             return None;

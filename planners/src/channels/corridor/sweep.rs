@@ -1,11 +1,9 @@
 //! What is left between the robot and the walls while it drives.
 
-use std::f64::consts::TAU;
-
-use super::body::{Body, Robot};
+use super::body::{Body, Robot, length};
 use super::circle::{Circle, Tangent};
 use super::turning::Turning;
-use super::walls::Wall;
+use super::walls::{Wall, apart};
 use crate::geometry::{Point, Rect};
 
 /// Metres by which the robot may reach into a wall and only touch it: what rounding makes of a gap of 0.
@@ -33,9 +31,14 @@ impl<'a> Sweep<'a> {
         let by = to_heading - from_heading;
         if by.abs() > STRAIGHT {
             let turning = Turning { from: line.from, to: line.to, heading: from_heading, by };
-            let area = turning.bounds(self.body.reach());
-            let distance = |body: Body, wall: &Wall, known| turning.distance(&body, wall, known);
-            return self.least(TOUCH_TURNING, |wall| apart(&area, wall), distance);
+            let least = turning.nearest(&self.body, self.walls).map_or(f64::INFINITY, |nearest| nearest.0);
+            if least <= 0.0 {
+                let within = turning.nearest(&self.body.grown(-TOUCH_TURNING), self.walls);
+                if let Some((_, wall)) = within.filter(|within| within.0 <= 0.0) {
+                    return Err(wall);
+                }
+            }
+            return Ok(least.max(0.0));
         }
         let along = if line.length > 0.0 {
             line.along
@@ -46,28 +49,24 @@ impl<'a> Sweep<'a> {
         let middle = Point::new(f64::midpoint(line.from.x, line.to.x), f64::midpoint(line.from.y, line.to.y));
         let swept = |body: Body| Body { half_length: body.half_length + line.length / 2.0, ..body };
         let area = swept(self.body).bounds(middle, along);
-        let distance = |body, wall: &Wall, _| swept(body).distance_from(middle, along, wall);
-        self.least(TOUCH, |wall| apart(&area, wall), distance)
+        let distance = |body, wall: &Wall| swept(body).distance_from(middle, along, wall);
+        self.least(|wall| apart(&area, wall), distance)
     }
 
     /// What is left along an arc that is entered from a line; the wall that is hit, if one is.
     pub fn arc(&self, circle: &Circle, arriving: &Tangent, angle: f64) -> Result<f64, Wall> {
         let orbit = Orbit::new(circle, arriving.along, angle);
-        let outermost = (circle.radius + self.body.half_width).hypot(self.body.half_length);
-        let bound = |wall: &Wall| {
-            let foot = circle.centre.nearest_on(wall.a, wall.b);
-            length(foot.x - circle.centre.x, foot.y - circle.centre.y) - outermost
-        };
-        self.least(TOUCH, bound, |body, wall, _| orbit.distance(&body, wall))
+        let outermost = length(circle.radius + self.body.half_width, self.body.half_length);
+        let Point { x, y } = circle.centre;
+        let bound = |wall: &Wall| apart(&Rect::new(x, y, x, y), wall) - outermost;
+        self.least(bound, |body, wall| orbit.distance(&body, wall))
     }
 
-    /// The least distance to any wall; the wall that is hit, if the robot reaches more than `touch` into one. `bound` is a
-    /// distance that is not larger, `distance` is told the least one known and need not be exact above it.
+    /// The least distance to any wall; the wall that is hit, if one is. `bound` is a distance that is not larger.
     fn least(
         &self,
-        touch: f64,
         bound: impl Fn(&Wall) -> f64,
-        distance: impl Fn(Body, &Wall, f64) -> f64,
+        distance: impl Fn(Body, &Wall) -> f64,
     ) -> Result<f64, Wall> {
         let mut least = f64::INFINITY;
         for wall in self.walls {
@@ -75,31 +74,48 @@ impl<'a> Sweep<'a> {
             if bound(wall) >= least.max(f64::MIN_POSITIVE) {
                 continue;
             }
-            least = least.min(distance(self.body, wall, least));
-            if least <= 0.0 {
-                if distance(self.body.grown(-touch), wall, f64::INFINITY) <= 0.0 {
-                    return Err(*wall);
-                }
-                least = 0.0;
+            least = least.min(distance(self.body, wall));
+            if least <= 0.0 && distance(self.body.grown(-TOUCH), wall) <= 0.0 {
+                return Err(*wall);
             }
         }
         Ok(least)
     }
 }
 
-/// A rigid turn about a centre abreast of what turns.
+/// A rigid turn by less than half a circle about a centre abreast of what turns.
 struct Orbit<'a> {
     circle: &'a Circle,
     /// Direction of travel at the start, of length 1.
     along: Point,
-    angle: f64,
-    /// Of `angle`.
-    sin_cos: (f64, f64),
+    /// How far it turns.
+    angle: Angle,
+}
+
+/// An angle by its sine and cosine.
+#[derive(Clone, Copy)]
+struct Angle {
+    sin: f64,
+    cos: f64,
+}
+
+impl Angle {
+    /// That of a vector, from the y axis on.
+    fn of(x: f64, y: f64) -> Self {
+        let length = length(x, y);
+        Self { sin: x / length, cos: y / length }
+    }
+
+    fn minus(self, other: Self) -> Self {
+        let Self { sin, cos } = other;
+        Self { sin: self.sin * cos - self.cos * sin, cos: self.cos * cos + self.sin * sin }
+    }
 }
 
 impl<'a> Orbit<'a> {
     fn new(circle: &'a Circle, along: Point, angle: f64) -> Self {
-        Self { circle, along, angle, sin_cos: angle.sin_cos() }
+        let (sin, cos) = angle.sin_cos();
+        Self { circle, along, angle: Angle { sin, cos } }
     }
 
     /// Metres from a body to a wall where they are nearest.
@@ -110,34 +126,33 @@ impl<'a> Orbit<'a> {
     fn distance(&self, body: &Body, wall: &Wall) -> f64 {
         let outer = self.circle.radius + body.half_width;
         let seen = [self.seen(wall.a), self.seen(wall.b)];
-        let at = |sin_cos| {
-            let [a, b] = seen.map(|point| self.turned(point, sin_cos));
+        let at = |angle: Angle| {
+            let [a, b] = seen.map(|point| self.turned(point, angle));
             body.distance(a, b)
         };
-        let mut least = at((0.0, 1.0)).min(at(self.sin_cos));
-        let mut look = |point: Point, offset: f64| {
-            let angle = point.x.atan2(point.y) - offset;
-            let angle = if angle < 0.0 { angle + TAU } else { angle };
-            if angle < self.angle {
-                least = least.min(at(angle.sin_cos()));
+        let mut least = at(Angle { sin: 0.0, cos: 1.0 }).min(at(self.angle));
+        let mut look = |point: Point, offset: Angle| {
+            let angle = Angle::of(point.x, point.y).minus(offset);
+            if angle.sin > 0.0 && self.angle.minus(angle).sin > 0.0 {
+                least = least.min(at(angle));
             }
         };
-        let corner = || body.half_length.atan2(outer);
+        let corner = Angle::of(body.half_length, outer);
         for end in seen {
-            let distance = length(end.x, end.y);
-            if distance <= outer {
-                look(end, 0.0);
-                continue;
+            let beyond = end.x * end.x + end.y * end.y - outer * outer;
+            if beyond <= 0.0 {
+                look(end, Angle { sin: 0.0, cos: 1.0 });
+            } else {
+                let ahead = beyond.sqrt();
+                let offset = if ahead < body.half_length { Angle::of(ahead, outer) } else { corner };
+                look(end, offset);
+                look(end, Angle { sin: -offset.sin, ..offset });
             }
-            let passes_beside = distance >= length(outer, body.half_length);
-            let offset = if passes_beside { corner() } else { (outer / distance).acos() };
-            look(end, offset);
-            look(end, -offset);
         }
         let foot = Point::default().nearest_on(seen[0], seen[1]);
-        if foot != seen[0] && foot != seen[1] && foot != Point::default() {
-            look(foot, corner());
-            look(foot, -corner());
+        if foot != seen[0] && foot != seen[1] {
+            look(foot, corner);
+            look(foot, Angle { sin: -corner.sin, ..corner });
         }
         least
     }
@@ -150,19 +165,7 @@ impl<'a> Orbit<'a> {
     }
 
     /// How the body sees such a point after some angle, from its own middle.
-    fn turned(&self, seen: Point, (sin, cos): (f64, f64)) -> Point {
+    fn turned(&self, seen: Point, Angle { sin, cos }: Angle) -> Point {
         Point::new(cos * seen.x - sin * seen.y, sin * seen.x + cos * seen.y - self.circle.radius)
     }
-}
-
-/// Of a vector of some metres: faster than `hypot`, which spares it numbers near the ends of their range.
-fn length(x: f64, y: f64) -> f64 {
-    (x * x + y * y).sqrt()
-}
-
-/// Metres between a rectangle and a wall.
-fn apart(area: &Rect, wall: &Wall) -> f64 {
-    let dx = (wall.a.x - area.x1).max(area.x0 - wall.b.x).max(0.0);
-    let dy = (wall.a.y - area.y1).max(area.y0 - wall.b.y).max(0.0);
-    length(dx, dy)
 }

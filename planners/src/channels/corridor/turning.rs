@@ -1,7 +1,7 @@
 //! A robot that drives straight and turns while it does.
 
-use super::body::Body;
-use super::walls::Wall;
+use super::body::{Body, length};
+use super::walls::{Wall, apart};
 use crate::geometry::{Point, Rect};
 
 /// Metres by which a distance may be too small.
@@ -25,7 +25,7 @@ struct Moment {
 
 impl Turning {
     /// All that a body can reach whose farthest point is `reach` from its middle.
-    pub fn bounds(&self, reach: f64) -> Rect {
+    fn bounds(&self, reach: f64) -> Rect {
         let Self { from, to, .. } = self;
         Rect::new(
             from.x.min(to.x) - reach,
@@ -35,16 +35,34 @@ impl Turning {
         )
     }
 
-    /// Metres between a body and a wall where they are nearest, at most [`SLACK`] too small and never too large; `known`
-    /// or more where it is not less than that.
+    /// Metres between a body and the walls where they are nearest, at most [`SLACK`] too small and never too large; and
+    /// the wall that is nearest. `None` without walls.
+    pub fn nearest(&self, body: &Body, walls: &[Wall]) -> Option<(f64, Wall)> {
+        let at_ends = |wall: &Wall| self.at(body, wall, 0.0).min(self.at(body, wall, 1.0));
+        let (mut least, mut nearest) =
+            walls.iter().map(|wall| (at_ends(wall), *wall)).min_by(|one, other| one.0.total_cmp(&other.0))?;
+        let area = self.bounds(body.reach());
+        for wall in walls {
+            if apart(&area, wall) >= least {
+                continue;
+            }
+            let found = self.distance(body, wall, least);
+            if found < least {
+                (least, nearest) = (found, *wall);
+            }
+        }
+        Some((least - SLACK, nearest))
+    }
+
+    /// The smaller of `known` and what is between a body and a wall, at most [`SLACK`] too large.
     ///
     /// Two convex shapes come nearest with a corner of one of them: a corner of the body on its way past the wall, or an
     /// end of the wall on its way past the body, as the body sees it.
-    pub fn distance(&self, body: &Body, wall: &Wall, known: f64) -> f64 {
+    fn distance(&self, body: &Body, wall: &Wall, known: f64) -> f64 {
         let middle = Point::new(f64::midpoint(wall.a.x, wall.b.x), f64::midpoint(wall.a.y, wall.b.y));
         let as_body = Body { half_length: wall.b.x - middle.x, half_width: wall.b.y - middle.y };
-        let mut least = (known + SLACK).min(self.at(body, wall, 0.0)).min(self.at(body, wall, 1.0));
-        let (turned, travelled) = (self.by.abs(), self.from.distance(self.to));
+        let mut least = known;
+        let (turned, travelled) = (self.by.abs(), length(self.to.x - self.from.x, self.to.y - self.from.y));
         for corner in body.corners() {
             let way = |share| {
                 let (at, (sin, cos)) = self.pose(share);
@@ -52,17 +70,16 @@ impl Turning {
                 Point::new(x - middle.x, y - middle.y)
             };
             let bend = turned * turned * body.reach();
-            least = nearest(&way, &|_, _| bend, &as_body, least);
+            least = least_of(&way, &|_, _| bend, &as_body, least);
         }
         for end in [wall.a, wall.b] {
             let way = |share| self.seen(end, share);
-            let origin = Point::default();
             let bend = |a: Point, b: Point| {
-                turned * turned * a.distance(origin).max(b.distance(origin)) + 2.0 * turned * travelled
+                turned * turned * length(a.x, a.y).max(length(b.x, b.y)) + 2.0 * turned * travelled
             };
-            least = nearest(&way, &bend, body, least);
+            least = least_of(&way, &bend, body, least);
         }
-        least - SLACK
+        least
     }
 
     fn at(&self, body: &Body, wall: &Wall, share: f64) -> f64 {
@@ -89,22 +106,37 @@ impl Turning {
 /// Between two moments the point is as near to the chord between its places as an eighth of the square of the time times
 /// `bend`, a bound on how its velocity changes; where even that is not nearer than what is known, nothing need be looked
 /// at between them.
-fn nearest(way: &impl Fn(f64) -> Point, bend: &impl Fn(Point, Point) -> f64, body: &Body, known: f64) -> f64 {
+fn least_of(
+    way: &impl Fn(f64) -> Point,
+    bend: &impl Fn(Point, Point) -> f64,
+    body: &Body,
+    known: f64,
+) -> f64 {
     let moment = |share| Moment { share, at: way(share) };
     let mut least = known;
-    let mut open = vec![(moment(0.0), moment(1.0))];
-    while let Some((from, to)) = open.pop() {
-        let time = to.share - from.share;
-        let off_chord = bend(from.at, to.at) * time * time / 8.0;
-        if body.distance(from.at, to.at) - off_chord >= least - SLACK {
-            continue;
-        }
-        let middle = moment(f64::midpoint(from.share, to.share));
-        least = least.min(body.distance(middle.at, middle.at));
-        // moments that are this near are the same place
-        if time > 1e-9 && least > 0.0 {
-            open.extend([(from, middle), (middle, to)]);
-        }
-    }
+    between(way, bend, body, (moment(0.0), moment(1.0)), &mut least);
     least
+}
+
+fn between(
+    way: &impl Fn(f64) -> Point,
+    bend: &impl Fn(Point, Point) -> f64,
+    body: &Body,
+    (from, to): (Moment, Moment),
+    least: &mut f64,
+) {
+    let time = to.share - from.share;
+    let off_chord = bend(from.at, to.at) * time * time / 8.0;
+    let enough = *least - SLACK + off_chord;
+    if body.least_distance(from.at, to.at) >= enough || body.distance(from.at, to.at) >= enough {
+        return;
+    }
+    let share = f64::midpoint(from.share, to.share);
+    let middle = Moment { share, at: way(share) };
+    *least = least.min(body.distance_to(middle.at));
+    // moments that are this near are the same place
+    if time > 1e-9 && *least > 0.0 {
+        between(way, bend, body, (from, middle), least);
+        between(way, bend, body, (middle, to), least);
+    }
 }
