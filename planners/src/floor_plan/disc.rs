@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use geo::{Coord, LineString, MultiPolygon, Polygon};
 
-use super::plan::{FloorPlan, polygon};
+use super::plan::FloorPlan;
+use super::solids::polygon;
 use crate::geometry::Point;
 use crate::read::{Code, MapErrors, Problem};
 
@@ -33,11 +34,13 @@ impl Disc {
         let Self { radius, margin } = *self;
         let mut problems = Vec::new();
         if !(radius > 0.0 && radius.is_finite()) {
-            let message = format!("the robot's radius is {radius} and must be a finite number above 0, in metres");
+            let message =
+                format!("the robot's radius is {radius} and must be a finite number above 0, in metres");
             problems.push(Problem::of_file(Code::NotPositive, message));
         }
         if !(margin >= 0.0 && margin.is_finite()) {
-            let message = format!("the robot's margin is {margin} and must be a finite number from 0 on, in metres");
+            let message =
+                format!("the robot's margin is {margin} and must be a finite number from 0 on, in metres");
             problems.push(Problem::of_file(Code::NotPositive, message));
         }
         if problems.is_empty() { Ok(()) } else { Err(MapErrors { problems }) }
@@ -46,9 +49,9 @@ impl Disc {
     /// Walls and solids grown by the reach: nowhere by less, about ends of walls by up to a half percent more.
     pub(super) fn grown(&self, plan: &FloorPlan) -> MultiPolygon {
         let solids = plan.solids();
-        let rims = solids.iter().flat_map(|solid| {
-            solid.iter().zip(solid.iter().cycle().skip(1)).map(|(a, b)| [*a, *b])
-        });
+        let rims = solids
+            .iter()
+            .flat_map(|solid| solid.iter().zip(solid.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]));
         let walls = plan.walls().iter().copied().chain(rims);
         let mut shapes: Vec<Polygon> = walls.map(|wall| around(wall, self.reach() + ROUNDING_M)).collect();
         shapes.extend(solids.iter().map(|solid| polygon(solid)));

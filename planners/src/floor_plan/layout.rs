@@ -160,9 +160,10 @@ impl<'h> Layout<'h> {
         let (mut edges, mut free) = (Vec::new(), Vec::new());
         let mut next = 0;
         let lines = self.hall.sides.iter().map(|side| (side.ends, side.direction, side.free));
-        let cuts = self.cuts.iter().map(|&[a, b]| {
-            (([a, b]), Edge::between(&self.points, a, b).direction, [true; 2])
-        });
+        let cuts = self
+            .cuts
+            .iter()
+            .map(|&[a, b]| (([a, b]), Edge::between(&self.points, a, b).direction, [true; 2]));
         for (line, (ends, direction, sides)) in (0..).zip(lines.chain(cuts)) {
             let mut last = ends[0];
             while next < stops.len() && stops[next].0 == line {

@@ -62,7 +62,8 @@ pub(super) fn merged(hall: &Hall) -> Option<Merged> {
     let kept = tries.min_by_key(Vec::len)?;
     // Each diagonal that goes makes one region of two.
     let regions = triangles + kept.len() - diagonals.len();
-    let node = |vertex: usize| handles.iter().position(|handle| handle.index() == vertex).map(|node| node as u32);
+    let node =
+        |vertex: usize| handles.iter().position(|handle| handle.index() == vertex).map(|node| node as u32);
     let ends = |&diagonal: &usize| Some([node(diagonals[diagonal][0])?, node(diagonals[diagonal][1])?]);
     Some(Merged { regions, diagonals: kept.iter().map(ends).collect::<Option<_>>()? })
 }

@@ -41,8 +41,9 @@ pub(super) fn node(walls: &[[Point; 2]]) -> Result<Noded, Vec<Clash>> {
     }
     let (mut edges, mut wall_of) = (Vec::new(), Vec::new());
     for (wall, &[a, b]) in ends.iter().enumerate() {
-        let on_it = (0..points.len() as u32)
-            .filter(|&n| n == a || n == b || is_on(points[n as usize], [points[a as usize], points[b as usize]]));
+        let on_it = (0..points.len() as u32).filter(|&n| {
+            n == a || n == b || is_on(points[n as usize], [points[a as usize], points[b as usize]])
+        });
         let mut stops: Vec<u32> = on_it.collect();
         let start = points[a as usize];
         stops.sort_by(|&m, &n| {
@@ -88,7 +89,7 @@ fn do_boxes_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
 }
 
 /// Where two segments cross, if at no end of either.
-fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
+pub(super) fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let ends_apart = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])].iter().all(|&(p, s)| !is_on(p, s));
     let side = |p: Point, q: Point, r: Point| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     let (c_side, d_side) = (side(a, b, c), side(a, b, d));
@@ -99,7 +100,10 @@ fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
 
 /// Whether two segments have a part of some length in common: two points that are ends, apart, and on both.
 fn do_overlap(first: [Point; 2], second: [Point; 2]) -> bool {
-    let common: Vec<Point> =
-        first.into_iter().filter(|&p| is_on(p, second)).chain(second.into_iter().filter(|&p| is_on(p, first))).collect();
+    let common: Vec<Point> = first
+        .into_iter()
+        .filter(|&p| is_on(p, second))
+        .chain(second.into_iter().filter(|&p| is_on(p, first)))
+        .collect();
     common.iter().any(|p| common.iter().any(|q| p.distance(*q) > 2.0 * SNAP_M))
 }

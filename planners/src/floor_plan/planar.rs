@@ -42,7 +42,8 @@ pub(super) struct Cycle {
 impl Planar {
     pub fn new(points: Vec<Point>, edges: Vec<Edge>) -> Self {
         let next = successors(points.len(), &edges);
-        let mut planar = Self { points, edges, cycle_of: vec![u32::MAX; next.len()], next, cycles: Vec::new() };
+        let mut planar =
+            Self { points, edges, cycle_of: vec![u32::MAX; next.len()], next, cycles: Vec::new() };
         for first in 0..planar.next.len() as u32 {
             if planar.cycle_of[first as usize] == u32::MAX {
                 let number = planar.cycles.len() as u32;
@@ -114,7 +115,8 @@ impl Planar {
         let area = |cycle: u32| self.cycles[cycle as usize].area;
         let inner = |cycle: u32| {
             let p = self.from(self.cycles[cycle as usize].first);
-            let others = (0..self.cycles.len() as u32).filter(|&c| area(c) > 0.0 && part_of(c) != part_of(cycle));
+            let others =
+                (0..self.cycles.len() as u32).filter(|&c| area(c) > 0.0 && part_of(c) != part_of(cycle));
             others.filter(|&c| self.is_inside(c, p)).min_by(|&a, &b| area(a).total_cmp(&area(b)))
         };
         let face =

@@ -62,7 +62,8 @@ pub fn parse_floor_plan(name: &str, text: &str) -> Result<FloorPlan, MapErrors> 
         return Err(MapErrors { problems });
     }
     let point = |[x, y]: [f64; 2]| Point::new(x, y);
-    let place = |place: &Spanned<WrittenPlace>| Place { name: place.value.name.clone(), at: point(place.value.at) };
+    let place =
+        |place: &Spanned<WrittenPlace>| Place { name: place.value.name.clone(), at: point(place.value.at) };
     let drawn = Drawn {
         name: written.name,
         walls: written.walls.iter().map(|wall| wall.value.map(point)).collect(),
@@ -80,7 +81,7 @@ pub fn parse_floor_plan(name: &str, text: &str) -> Result<FloorPlan, MapErrors> 
 
 /// Keys that mean nothing here, but nearly what another one means.
 fn misspelt(source: &Text, text: &str) -> Vec<Problem> {
-    let all: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(text).unwrap_or_default();
+    let all: BTreeMap<String, Option<IgnoredAny>> = serde_saphyr::from_str(text).unwrap_or_default();
     let unknown = all.keys().filter(|key| !KEYS.contains(&key.as_str()));
     let problem = |key: &String| {
         let meant = nearest(key, &KEYS)?;
@@ -99,9 +100,9 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
         serde_saphyr::Error::SerdeMissingField { field, .. } => {
             source.problem(Code::MissingKey, &span, format!("a floor plan needs `{field}` here"))
         }
-        other => source
-            .problem(Code::Syntax, &span, format!("not a floor plan: {other}"))
-            .with_help("a wall is [[x0, y0], [x1, y1]], a place {\"name\": \"…\", \"at\": [x, y]}, in metres"),
+        other => source.problem(Code::Syntax, &span, format!("not a floor plan: {other}")).with_help(
+            "a wall is [[x0, y0], [x1, y1]], a place {\"name\": \"…\", \"at\": [x, y]}, in metres",
+        ),
     }
 }
 

@@ -9,8 +9,8 @@ use super::merged::merged;
 
 /// Layouts are tried in rounds; so many at least, and so many more for each corner.
 const TRIALS: usize = 24;
-const TRIALS_PER_CORNER: usize = 16;
-const MOST_TRIALS: usize = 400;
+const TRIALS_PER_CORNER: usize = 8;
+const MOST_TRIALS: usize = 300;
 
 /// Areas that differ by a smaller share count as equal.
 const SAME: f64 = 1e-9;
@@ -67,8 +67,7 @@ fn first_order(hall: &Hall) -> Vec<Cut> {
     let mut left: Vec<usize> = (0..pairs.len()).collect();
     let (mut order, mut is_taken) = (Vec::new(), vec![false; hall.corners.len()]);
     while !left.is_empty() {
-        let rivals =
-            |&i: &usize| left.iter().filter(|&&j| hall.do_hinder(pairs[i].0, pairs[j].0)).count();
+        let rivals = |&i: &usize| left.iter().filter(|&&j| hall.do_hinder(pairs[i].0, pairs[j].0)).count();
         let Some(chosen) = left.iter().copied().min_by_key(rivals) else { break };
         let ([corner, other], sight) = pairs[chosen];
         order.push(Cut::Towards { corner, sight });

@@ -15,7 +15,8 @@ pub struct Oracle {
 
 impl Oracle {
     pub fn new(plan: &FloorPlan, radius: f64) -> Self {
-        let mut shapes: Vec<Polygon> = plan.barriers().into_iter().flat_map(|wall| grown(wall, radius)).collect();
+        let mut shapes: Vec<Polygon> =
+            plan.barriers().into_iter().flat_map(|wall| grown(wall, radius)).collect();
         let solid = |corners: &Vec<Point>| Polygon::new(corners.iter().map(coord).collect(), Vec::new());
         shapes.extend(plan.solids().iter().map(solid));
         let blocked: MultiPolygon = geo::unary_union(&shapes);

@@ -111,7 +111,10 @@ fn regions_of_the_golden_plans_are_the_rooms_and_their_doorways_the_doors() {
                 from.distance(ends[0]) + to.distance(ends[1]) < 1e-9
                     || from.distance(ends[1]) + to.distance(ends[0]) < 1e-9
             };
-            assert!(found.doorways.iter().any(|doorway| is_door(doorway.from, doorway.to)), "{name}: {ends:?}");
+            assert!(
+                found.doorways.iter().any(|doorway| is_door(doorway.from, doorway.to)),
+                "{name}: {ends:?}"
+            );
         }
     }
 }
