@@ -4,7 +4,7 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::mission::{Mission, ROOM_M};
-use crate::floor_plan::clear::clearance;
+use crate::floor_plan::clear::wall_distance;
 use crate::floor_plan::{FloorPlan, Network, Rule};
 use crate::geometry::{Point, Rect};
 use crate::pose::Pose;
@@ -50,7 +50,7 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
     let room = radius_m + ROOM_M + 0.05;
     let spot = |dice: &mut Dice| {
         let found = (0..TRIES).map(|_| any(bounds, dice));
-        let mut free = found.filter(|p| plan.is_free(*p) && clearance(&[*p, *p], &barriers) >= room);
+        let mut free = found.filter(|p| plan.is_free(*p) && wall_distance(&[*p, *p], &barriers) >= room);
         free.next()
     };
     let (start, goal, path) = (0..TRIES).find_map(|_| {
@@ -106,7 +106,7 @@ fn obstacle(
     let (mut through, mut at) = (Vec::new(), middle);
     for _ in 0..=dice.below(3) {
         let next = Point::new(at.x + dice.between(-3.0, 3.0), at.y + dice.between(-3.0, 3.0));
-        if clearance(&[at, next], barriers) > half {
+        if wall_distance(&[at, next], barriers) > half {
             through.push(Point::new(next.x - middle.x, next.y - middle.y));
             at = next;
         }

@@ -210,15 +210,15 @@ impl<'b> Navigator<'b> {
         let sensed = body.sense();
         self.radius_m = body.radius_m();
         self.model.reckon(&sensed.odometry);
-        let was_busy = self.sensed.is_some_and(|last| last.is_busy);
-        let stops = |contact: &Contact| was_busy && self.driving * contact.bearing.cos() > SIDEWAYS;
+        let is_driven = self.driving != 0.0 || self.state == State::Turn;
+        let stops = |contact: &Contact| self.driving * contact.bearing.cos() > SIDEWAYS;
         let touch = sensed.contact.filter(|contact| before.is_none() || (!sensed.is_busy && stops(contact)));
         self.sensed = Some(sensed);
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
         if let Some(contact) = touch {
             // What runs into a robot that stands is no reason to stop; it is in the model then.
-            self.contact = self.contact.or(Some(contact).filter(|_| was_busy));
+            self.contact = self.contact.or(Some(contact).filter(|_| is_driven));
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
             self.tell(Happening::Contact { bearing: contact.bearing });
@@ -372,23 +372,28 @@ impl<'b> Navigator<'b> {
         self.state = decision.state;
         match self.state {
             State::Hold if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 return self.reached(facts);
             }
             State::Turn if is_entered || !facts.is_busy => self.turn(body),
             State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
             State::Wait if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 (self.readings_standing, self.spot.waits) = (0, self.spot.waits + 1);
                 self.part.clear();
             }
             State::Blocked if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 self.come_to_spot();
             }
             _ => {}
         }
         None
+    }
+
+    fn stop(&mut self, body: &mut impl Body) {
+        self.driving = 0.0;
+        body.command(Command::Stop);
     }
 
     fn turn(&mut self, body: &mut impl Body) {
