@@ -70,8 +70,9 @@ pub struct TouchEvent {
     pub at: Point,
     /// The obstacle that was touched, by its number from 0; `None` for a wall.
     pub obstacle: Option<usize>,
-    /// Whether the robot moved. An obstacle that runs into a standing robot is not the robot's collision.
-    pub robot_moved: bool,
+    /// Whether the robot went towards it. An obstacle that runs into a robot which stands, or goes elsewhere, is not the
+    /// robot's collision.
+    pub by_robot: bool,
 }
 
 /// What is left to do of a command.
@@ -200,18 +201,17 @@ impl Simulator {
     fn advance(&mut self) {
         let step = self.step();
         let (now, period) = (self.time_s(), self.settings.reading_period_s);
-        let ways: Vec<Point> = self.movers.iter().map(|mover| mover.way(now, period)).collect();
+        let ways: Vec<Point> = (0..self.movers.len()).map(|i| self.way(i, now, period)).collect();
         let first = self.first_touch(&step, &ways);
         let robot_moved = step.way != Point::default();
         let mut share = 1.0;
         if let Some((touch, obstacle)) = first {
-            let is_new = !self.is_touching(obstacle);
             // A robot that stands is not moved by what touches it; one that moves stops there.
             share = if robot_moved { touch.share } else { 1.0 };
-            if is_new || robot_moved {
-                let time_s = now + touch.share * period;
-                self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, robot_moved });
-            }
+            let time_s = now + touch.share * period;
+            let ahead =
+                (touch.at.x - self.pose.at.x) * step.way.x + (touch.at.y - self.pose.at.y) * step.way.y;
+            self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, by_robot: ahead > 0.0 });
         }
         self.pose.at = Point::new(self.pose.at.x + share * step.way.x, self.pose.at.y + share * step.way.y);
         self.pose.heading = wrapped(self.pose.heading + share * step.turn);
@@ -264,9 +264,13 @@ impl Simulator {
         robot_share + (1.0 - robot_share) * least(from, rest).min(1.0)
     }
 
-    fn is_touching(&self, obstacle: Option<usize>) -> bool {
-        let near = |side: &Segment| side.distance(self.pose.at) <= self.settings.radius_m + 3.0 * HAIR_M;
-        obstacle.is_some_and(|i| self.movers[i].sides.iter().any(near))
+    /// The way that an obstacle tries to go. One that touches the robot waits until the way is free.
+    fn way(&self, mover: usize, now_s: f64, step_s: f64) -> Point {
+        let way = self.movers[mover].way(now_s, step_s);
+        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let back = Point::new(-way.x, -way.y);
+        let mut touches = self.movers[mover].sides.iter().filter_map(|side| touch(at, radius, back, side));
+        if touches.any(|touch| touch.share <= 0.0) { Point::default() } else { way }
     }
 
     /// Lets the wheels count a step of which a share was done.

@@ -13,7 +13,7 @@ pub fn distance_between([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
 }
 
 /// The least distance of a way from any barrier, metres.
-pub fn clearance(way: &[Point], barriers: &[[Point; 2]]) -> f64 {
+pub fn wall_distance(way: &[Point], barriers: &[[Point; 2]]) -> f64 {
     let legs = || way.windows(2).map(|leg| [leg[0], leg[1]]);
     let mut least = f64::INFINITY;
     for &barrier in barriers {

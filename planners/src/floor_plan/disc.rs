@@ -4,7 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use geo::{Coord, LineString, MultiPolygon, Polygon};
 
-use super::plan::{FloorPlan, polygon};
+use super::plan::FloorPlan;
+use super::solids::polygon;
 use crate::geometry::Point;
 use crate::read::{Code, MapErrors, Problem};
 

@@ -62,6 +62,15 @@ impl Corner {
         (ANGLE < turned && turned < self.bounds[1].0 - ANGLE).then_some(turned)
     }
 
+    /// Tells most directions quickly that do not mend: of what it lets pass, some do not either.
+    fn may_be_mended_along(&self, d: Point) -> bool {
+        let [(_, from), (_, to)] = self.bounds;
+        let slack = -1e-5 * d.x.hypot(d.y);
+        let left =
+            |a: Point, b: Point, length: Point| a.x * b.y - a.y * b.x >= slack * length.x.hypot(length.y);
+        left(from, d, from) && left(d, to, to)
+    }
+
     /// Whether a cut in this direction alone leaves no more than half a turn on either side.
     fn is_mended_by(&self, turned: f64) -> bool {
         turned <= PI + ANGLE && self.bounds[1].0 - turned <= PI + ANGLE
@@ -90,9 +99,28 @@ impl Hall {
         };
         let sides = edges.iter().map(side).collect();
         let points = nodes.iter().map(|&node| plan.points[node as usize]).collect();
-        let mut hall = Self { points, nodes, sides, corners };
-        hall.look_around();
-        hall
+        Self { points, nodes, sides, corners }
+    }
+
+    /// Pairs of corners that see and mend one another.
+    pub fn chords(&self) -> Vec<[u32; 2]> {
+        let mut chords = Vec::new();
+        for (first, a) in (0_u32..).zip(&self.corners) {
+            for (second, b) in (0_u32..).zip(&self.corners).skip(first as usize + 1) {
+                let (p, q) = (self.points[a.node as usize], self.points[b.node as usize]);
+                let there = Point::new(q.x - p.x, q.y - p.y);
+                let back = Point::new(-there.x, -there.y);
+                if a.may_be_mended_along(there)
+                    && b.may_be_mended_along(back)
+                    && a.place(there).is_some_and(|angle| a.is_mended_by(angle))
+                    && b.place(back).is_some_and(|angle| b.is_mended_by(angle))
+                    && self.is_seen(a.node, b.node)
+                {
+                    chords.push([first, second]);
+                }
+            }
+        }
+        chords
     }
 
     /// Whether the straight way between two points meets no wall but at its ends.
@@ -116,7 +144,8 @@ impl Hall {
             })
     }
 
-    fn look_around(&mut self) {
+    /// Finds the sights of all corners.
+    pub fn look_around(&mut self) {
         let mut corner_at = vec![None; self.points.len()];
         for (number, corner) in (0_u32..).zip(&self.corners) {
             corner_at[corner.node as usize] = Some(number);

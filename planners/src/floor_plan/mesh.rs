@@ -27,7 +27,7 @@ struct Triangle {
 
 /// A part of a doorway that the centre can pass.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Passage {
+pub(super) struct Opening {
     pub doorway: usize,
     /// The ends, so that the doorway's first region lies to the left.
     pub ends: [Point; 2],
@@ -35,7 +35,7 @@ pub(super) struct Passage {
     pub triangles: [u32; 2],
 }
 
-impl Passage {
+impl Opening {
     pub fn middle(&self) -> Point {
         Point::new(
             f64::midpoint(self.ends[0].x, self.ends[1].x),
@@ -50,7 +50,7 @@ pub(super) struct Mesh {
     triangles: Vec<Triangle>,
     /// For each region its first triangle, and one more.
     begins: Vec<u32>,
-    pub passages: Vec<Passage>,
+    pub openings: Vec<Opening>,
 }
 
 /// An edge that a way crosses: what lies left of the way, what right.
@@ -73,7 +73,7 @@ impl Mesh {
         for region in 1..begins.len() {
             begins[region] = begins[region].max(begins[region - 1]);
         }
-        let mut mesh = Self { triangles: Vec::with_capacity(order.len()), begins, passages: Vec::new() };
+        let mut mesh = Self { triangles: Vec::with_capacity(order.len()), begins, openings: Vec::new() };
         let by_number = cdt.inner_faces().filter(|face| number[face.fix().index()] != NONE);
         let mut faces: Vec<_> = by_number.collect();
         faces.sort_by_key(|face| number[face.fix().index()]);
@@ -87,12 +87,12 @@ impl Mesh {
                 } else if region_of[other] != NONE {
                     let ends = edge.positions().map(at);
                     let sides = [own, other].map(|face| (region_of[face] as usize, number[face]));
-                    mesh.passages.extend(passage(regions, ends, sides));
+                    mesh.openings.extend(opening(regions, ends, sides));
                 }
             }
             mesh.triangles.push(triangle);
         }
-        mesh.passages.sort_by_key(|passage| passage.doorway);
+        mesh.openings.sort_by_key(|opening| opening.doorway);
         mesh
     }
 
@@ -213,8 +213,8 @@ fn is_inside(ring: &LineString, p: Point) -> bool {
     ring.lines().filter(|&line| is_crossed(line)).count() % 2 == 1
 }
 
-/// The passage on an edge of the mesh, seen from its left side, if that is the doorway's first region.
-fn passage(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Option<Passage> {
+/// The opening on an edge of the mesh, seen from its left side, if that is the doorway's first region.
+fn opening(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Option<Opening> {
     let middle = Point::new(f64::midpoint(ends[0].x, ends[1].x), f64::midpoint(ends[0].y, ends[1].y));
     let is_own = |doorway: &&(usize, &super::regions::Doorway)| {
         let (_, doorway) = doorway;
@@ -223,5 +223,5 @@ fn passage(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Opt
     };
     let all: Vec<_> = regions.doorways.iter().enumerate().collect();
     let &(doorway, _) = all.iter().find(is_own)?;
-    Some(Passage { doorway, ends, triangles: sides.map(|side| side.1) })
+    Some(Opening { doorway, ends, triangles: sides.map(|side| side.1) })
 }

@@ -1,8 +1,8 @@
 //! The network of places: two adits a doorway, and the ways between them (Crowley, section 4.2).
 
-use super::clear::clearance;
+use super::clear::wall_distance;
 use super::disc::Disc;
-use super::mesh::{Mesh, Passage};
+use super::mesh::{Mesh, Opening};
 use super::plan::FloorPlan;
 use super::pull::{length, pull};
 use super::regions::Regions;
@@ -44,7 +44,7 @@ pub struct Way {
     pub to: Spot,
     /// Metres.
     pub length: f64,
-    /// The least distance of the disc's centre from a wall, metres.
+    /// What stays free between the disc and the nearest wall, metres.
     pub clearance: f64,
     /// The doorway that it passes, by index; `None` where it stays in a region.
     pub doorway: Option<usize>,
@@ -88,7 +88,7 @@ impl Network {
         disc.check()?;
         let regions = Regions::of(plan);
         let mesh = Mesh::new(plan, &regions, &disc);
-        if mesh.passages.is_empty() && !regions.doorways.is_empty() {
+        if mesh.openings.is_empty() && !regions.doorways.is_empty() {
             let widest = regions.doorways.iter().map(super::Doorway::width).fold(0.0, f64::max);
             let message = format!(
                 "the robot is too wide for each of the {} doorways: it needs {} m ({} m and a margin of {} m on \
@@ -114,25 +114,25 @@ impl Network {
     }
 
     fn lay_adits(&mut self) {
-        for passage in self.mesh.passages.clone() {
-            let doorway = &self.regions.doorways[passage.doorway];
-            let sides = [0, 1].map(|side| (doorway.regions[side], self.beside(&passage, side)));
+        for opening in self.mesh.openings.clone() {
+            let doorway = &self.regions.doorways[opening.doorway];
+            let sides = [0, 1].map(|side| (doorway.regions[side], self.beside(&opening, side)));
             let first = self.adits.len();
             for (side, (region, at)) in sides.into_iter().enumerate() {
                 let twin = first + 1 - side;
-                self.adits.push(Adit { doorway: passage.doorway, region, at, twin });
+                self.adits.push(Adit { doorway: opening.doorway, region, at, twin });
             }
         }
     }
 
-    /// The adit on one side of a passage: as far inside the region as the disc keeps from walls, or nearer where that
+    /// The adit on one side of a opening: as far inside the region as the disc keeps from walls, or nearer where that
     /// is too far.
-    fn beside(&self, passage: &Passage, side: usize) -> Point {
-        let ([a, b], middle) = (passage.ends, passage.middle());
+    fn beside(&self, opening: &Opening, side: usize) -> Point {
+        let ([a, b], middle) = (opening.ends, opening.middle());
         let width = a.distance(b).max(f64::MIN_POSITIVE);
         let sign = if side == 0 { 1.0 } else { -1.0 };
         let inward = Point::new(-(b.y - a.y) / width * sign, (b.x - a.x) / width * sign);
-        let region = self.regions.doorways[passage.doorway].regions[side];
+        let region = self.regions.doorways[opening.doorway].regions[side];
         let reach = self.disc.reach();
         let spots = [1.0, 0.75, 0.5, 0.25].map(|share| {
             let metres = share * reach;
@@ -140,15 +140,15 @@ impl Network {
         });
         let can_stand = |at: &Point| {
             self.mesh.locate(region, *at).is_some()
-                && clearance(&[middle, *at], &self.barriers) >= reach - 1e-9
+                && wall_distance(&[middle, *at], &self.barriers) >= reach - 1e-9
         };
         spots.into_iter().find(can_stand).unwrap_or(middle)
     }
 
     pub(super) fn standing(&self, adit: usize) -> Standing {
         let Adit { region, at, .. } = self.adits[adit];
-        let passage = &self.mesh.passages[adit / 2];
-        let triangle = self.mesh.locate(region, at).unwrap_or(passage.triangles[adit % 2]);
+        let opening = &self.mesh.openings[adit / 2];
+        let triangle = self.mesh.locate(region, at).unwrap_or(opening.triangles[adit % 2]);
         Standing { region, at, triangle }
     }
 
@@ -174,7 +174,7 @@ impl Network {
     fn join_places(&mut self, plan: &FloorPlan) {
         for (number, place) in plan.places().iter().enumerate() {
             let Some(standing) = self.stand(place.at) else {
-                let distance = clearance(&[place.at, place.at], &self.barriers);
+                let distance = wall_distance(&[place.at, place.at], &self.barriers);
                 let message = format!(
                     "the place `{}` is {distance:.3} m from a wall, and the robot needs {} m: it cannot go there",
                     place.name,
@@ -211,7 +211,7 @@ impl Network {
 
     fn way(&self, ends: [Spot; 2], points: Vec<Point>, doorway: Option<usize>, region: Option<usize>) -> Way {
         let [from, to] = ends;
-        let clearance = clearance(&points, &self.barriers);
+        let clearance = wall_distance(&points, &self.barriers) - self.disc.radius;
         Way { from, to, length: length(&points), clearance, doorway, region, points }
     }
 }

@@ -89,7 +89,7 @@ fn do_boxes_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
 }
 
 /// Where two segments cross, if at no end of either.
-fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
+pub(super) fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let ends_apart = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])].iter().all(|&(p, s)| !is_on(p, s));
     let side = |p: Point, q: Point, r: Point| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     let (c_side, d_side) = (side(a, b, c), side(a, b, d));

@@ -11,7 +11,7 @@ use crate::geometry::Point;
 const SLACK: f64 = 0.2;
 
 /// So many paths are pulled tight.
-const MOST_PULLED: usize = 16;
+const MOST_PULLED: usize = 12;
 
 /// How a path is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,13 +203,13 @@ impl<W: FnMut(&Way) -> Option<f64>> Query<'_, W> {
             if adits.peek() != Some(&network.adits[adit].twin) {
                 continue;
             }
-            let passage = &network.mesh.passages[adit / 2];
+            let opening = &network.mesh.openings[adit / 2];
             let [near, far] = [adit % 2, 1 - adit % 2];
-            let [a, b] = passage.ends;
-            gates.extend(network.mesh.gates(at.region, at.triangle, passage.triangles[near])?);
+            let [a, b] = opening.ends;
+            gates.extend(network.mesh.gates(at.region, at.triangle, opening.triangles[near])?);
             gates.push(if near == 0 { [b, a] } else { [a, b] });
-            let region = network.regions.doorways[passage.doorway].regions[far];
-            at = Standing { region, triangle: passage.triangles[far], at: passage.middle() };
+            let region = network.regions.doorways[opening.doorway].regions[far];
+            at = Standing { region, triangle: opening.triangles[far], at: opening.middle() };
         }
         gates.extend(network.mesh.gates(at.region, at.triangle, self.ends[1].triangle)?);
         let points = pull(self.ends[0].at, &gates, self.ends[1].at);

@@ -81,7 +81,7 @@ pub fn parse_floor_plan(name: &str, text: &str) -> Result<FloorPlan, MapErrors> 
 
 /// Keys that mean nothing here, but nearly what another one means.
 fn misspelt(source: &Text, text: &str) -> Vec<Problem> {
-    let all: BTreeMap<String, IgnoredAny> = serde_saphyr::from_str(text).unwrap_or_default();
+    let all: BTreeMap<String, Option<IgnoredAny>> = serde_saphyr::from_str(text).unwrap_or_default();
     let unknown = all.keys().filter(|key| !KEYS.contains(&key.as_str()));
     let problem = |key: &String| {
         let meant = nearest(key, &KEYS)?;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::FloorPlan;
-use super::hall::{Corner, Hall};
+use super::hall::Hall;
 use super::layout::{Cut, Layout};
 use super::noding::SNAP_M;
 use super::planar::{Edge, Planar};
@@ -80,7 +80,8 @@ impl Regions {
         }
         free_half.resize(2 * cutting.lines.len(), true);
         let plan = Planar::new(cutting.points.clone(), cutting.lines.clone());
-        let halls = halls(&plan, &free_half);
+        let mut halls = halls(&plan, &free_half);
+        halls.par_iter_mut().for_each(Hall::look_around);
         let orders: Vec<Vec<Cut>> = halls.par_iter().map(best_order).collect();
         for (hall, order) in halls.iter().zip(&orders) {
             cutting.cut_hall(hall, &Layout::new(hall, order));
@@ -106,13 +107,7 @@ impl Cutting {
     /// Cuts between two corners that mend each other and nothing else: the doors between rooms. What is left are
     /// smaller halls, which can be cut one by one.
     fn cut_doors(&mut self, hall: &Hall) {
-        let partners =
-            |corner: &Corner| -> Vec<u32> { corner.sights.iter().filter_map(|sight| sight.mends).collect() };
-        let all: Vec<Vec<u32>> = hall.corners.iter().map(partners).collect();
-        let mut chords = Vec::new();
-        for (number, own) in (0_u32..).zip(&all) {
-            chords.extend(own.iter().filter(|&&other| number < other).map(|&other| [number, other]));
-        }
+        let chords = hall.chords();
         for (place, &chord) in chords.iter().enumerate() {
             let rivals = chords.iter().enumerate().filter(|(other, _)| *other != place);
             if rivals.into_iter().all(|(_, &other)| !hall.do_hinder(chord, other)) {

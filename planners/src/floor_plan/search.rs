@@ -9,8 +9,8 @@ use super::merged::merged;
 
 /// Layouts are tried in rounds; so many at least, and so many more for each corner.
 const TRIALS: usize = 24;
-const TRIALS_PER_CORNER: usize = 16;
-const MOST_TRIALS: usize = 400;
+const TRIALS_PER_CORNER: usize = 8;
+const MOST_TRIALS: usize = 300;
 
 /// Areas that differ by a smaller share count as equal.
 const SAME: f64 = 1e-9;

@@ -42,6 +42,13 @@ impl Beam {
         self.range_m.map(|range| self.at(range))
     }
 
+    /// How far ahead along the beam a place lies, and how far aside of it.
+    pub fn seen_from(&self, place: Point) -> (f64, f64) {
+        let (dx, dy) = (place.x - self.from.x, place.y - self.from.y);
+        let aside = dx * self.towards.y - dy * self.towards.x;
+        (dx * self.towards.x + dy * self.towards.y, aside.abs())
+    }
+
     /// The same reading, once the pose that it was placed by is found to be another.
     pub fn moved(&self, before: &Pose, after: &Pose) -> Self {
         let from = after.then(&before.to(&Pose { at: self.from, heading: 0.0 })).at;

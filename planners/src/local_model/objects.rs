@@ -104,7 +104,7 @@ impl Objects {
             if is_standing(object.id) {
                 (object.is_moving, object.velocity, object.unseen) = (false, Point::default(), 0);
                 object.seen_s = time_s;
-            } else {
+            } else if is_looked_at(object.at, beams, settings) {
                 object.unseen += 1;
             }
         }
@@ -142,15 +142,21 @@ impl Object {
     }
 }
 
+/// Whether a beam went towards a place.
+fn is_looked_at(place: Point, beams: &[Beam], settings: &Settings) -> bool {
+    beams
+        .iter()
+        .map(|beam| beam.seen_from(place))
+        .any(|(ahead, aside)| ahead > 0.0 && aside <= settings.object_step_m)
+}
+
 /// Whether a beam passed a place closely and went on.
 fn is_free(place: Point, beams: &[Beam], settings: &Settings) -> bool {
     beams.iter().any(|beam| {
-        let (dx, dy) = (place.x - beam.from.x, place.y - beam.from.y);
-        let (ahead, aside) =
-            (dx * beam.towards.x + dy * beam.towards.y, dx * beam.towards.y - dy * beam.towards.x);
+        let (ahead, aside) = beam.seen_from(place);
         let beyond = ahead + settings.match_sigmas * beam.sigma_m + settings.object_step_m;
         ahead > 0.0
-            && aside.abs() <= settings.object_step_m / 2.0
+            && aside <= settings.object_step_m / 2.0
             && beam.range_m.is_some_and(|range| range > beyond)
     })
 }

@@ -18,8 +18,6 @@ pub(super) struct Seen {
     pub echoes: Vec<Echo>,
     /// Metres that the robot has driven since its echoes were heard, on average.
     pub since_m: f64,
-    /// Whether its end `b` is a corner that it shares with the next one.
-    pub is_joined: bool,
 }
 
 impl Seen {
@@ -28,7 +26,7 @@ impl Seen {
         let line = fit.segment(echoes);
         let is_enough = echoes.len() >= settings.fewest_echoes && line.length() >= settings.shortest_m;
         let since_m = echoes.iter().map(|echo| beams[echo.beam].since_m).sum::<f64>() / echoes.len() as f64;
-        is_enough.then(|| Self { line, fit, echoes: echoes.to_vec(), since_m, is_joined: false })
+        is_enough.then(|| Self { line, fit, echoes: echoes.to_vec(), since_m })
     }
 
     /// The same, once the pose that it was placed by is found to be another.
@@ -42,10 +40,13 @@ impl Seen {
         Self { line, fit: Fit { centre, along, ..self.fit }, echoes, ..*self }
     }
 
-    /// Part of it, if that is enough to be one of its own.
-    pub fn part(&self, of: impl Fn(Point) -> bool, beams: &[Beam], settings: &Settings) -> Option<Self> {
-        let echoes: Vec<Echo> = self.echoes.iter().copied().filter(|echo| of(echo.at)).collect();
-        Self::new(&echoes, beams, settings)
+    /// The piece of it between two places along its line, with the echoes there.
+    pub fn piece(&self, from: f64, to: f64, echoes: Vec<Echo>) -> Self {
+        let middle = f64::midpoint(from, to);
+        let sigma_m = self.fit.sigma_m.hypot(middle * self.fit.sigma_angle);
+        let fit = Fit { centre: self.fit.at(middle), sigma_m, ..self.fit };
+        let line = Segment::new(self.fit.at(from), self.fit.at(to));
+        Self { line, fit, echoes, ..*self }
     }
 }
 
@@ -63,12 +64,18 @@ pub(super) fn groups(beams: &[Beam], settings: &Settings) -> Vec<Vec<Echo>> {
     for i in false_ones.into_iter().rev() {
         echoes.remove(i);
     }
-    // A whole turn has no beginning: it is made to begin at a gap.
+    // A whole turn has no beginning: it is made to begin at a gap, or at the farthest echo, which comes from a corner.
     let gap = (1..echoes.len()).find(|&i| !is_near(&echoes[i - 1], &echoes[i]));
-    if let (Some(gap), Some(first), Some(last)) = (gap, echoes.first(), echoes.last())
+    let far = |echo: &Echo| beams[echo.beam].range_m.unwrap_or(0.0);
+    let farthest = (0..echoes.len()).max_by(|&i, &j| far(&echoes[i]).total_cmp(&far(&echoes[j])));
+    if let (Some(begin), Some(first), Some(last)) = (gap.or(farthest), echoes.first(), echoes.last())
         && is_near(first, last)
     {
-        echoes.rotate_left(gap);
+        echoes.rotate_left(begin);
+        if gap.is_none() {
+            // the corner ends the last wall as it begins the first
+            echoes.push(echoes[0]);
+        }
     }
     echoes.chunk_by(|a, b| is_near(a, b)).map(<[Echo]>::to_vec).collect()
 }
@@ -133,7 +140,7 @@ fn join(parts: &mut [Option<Seen>], settings: &Settings) {
         let (Some(Some(a)), Some(Some(b))) = (before.last_mut(), after.first_mut()) else { continue };
         let Some(corner) = meeting(&a.fit, &b.fit) else { continue };
         if corner.distance(a.line.b) <= settings.join_m && corner.distance(b.line.a) <= settings.join_m {
-            (a.line.b, b.line.a, a.is_joined) = (corner, corner, true);
+            (a.line.b, b.line.a) = (corner, corner);
         }
     }
 }

@@ -87,7 +87,7 @@ impl Default for Settings {
             match_angle: 12.0_f64.to_radians(),
             match_offset_m: 0.3,
             match_overlap: 0.5,
-            match_sigmas: 3.0,
+            match_sigmas: 4.0,
             visible_beams: 2,
             free_beams: 2,
             grazing_angle: 15.0_f64.to_radians(),

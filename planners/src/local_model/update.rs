@@ -79,8 +79,7 @@ impl LocalModel {
             seen: seen.len(),
             ..Update::default()
         };
-        let (new, changed) =
-            self.integrate(&seen, &near, &placed, &mut looks, &mut is_explained, &mut update);
+        let (new, changed) = self.integrate(&seen, &near, &mut looks, &mut is_explained, &mut update);
         let groups: Vec<Vec<Echo>> = groups.iter().map(|group| moved_echoes(group, &placed)).collect();
         let objects = self.follow(&groups, &placed, &is_explained, &looks, time_s);
         let changed: Vec<SegmentId> = changed.into_iter().map(|place| self.segments[place].id).collect();
@@ -198,7 +197,6 @@ impl LocalModel {
         &mut self,
         seen: &[Seen],
         near: &[Near],
-        beams: &[Beam],
         looks: &mut [Look],
         is_explained: &mut [bool],
         update: &mut Update,
@@ -215,7 +213,7 @@ impl LocalModel {
                 looks[on.model].is_matched = true;
             }
             if found.iter().any(|on| self.segments[on.model].is_anchored) {
-                new.extend(self.beside(one, &found, beams));
+                new.extend(self.beside(one, &found));
             } else {
                 let segment = &mut self.segments[found[0].model];
                 reinforce(segment, &one.fit, &one.line, &self.estimate);
@@ -230,25 +228,31 @@ impl LocalModel {
         (new, changed)
     }
 
-    /// What of a scan's segment lies beside none of the segments on which it lies: a closed door in a wall is one.
-    fn beside(&self, one: &Seen, on: &[Match], beams: &[Beam]) -> Option<Seen> {
+    /// The pieces of a scan's segment that lie beside none of the segments on which it lies. One between two walls, with
+    /// echoes in it, fills the gap: a closed door. One at an end has to be enough for a segment of its own.
+    fn beside(&self, one: &Seen, on: &[Match]) -> Vec<Seen> {
+        let place = |p| one.fit.place(p);
+        let ordered = |a: f64, b: f64| (a.min(b), a.max(b));
         let lines = on.iter().map(|on| self.segments[on.model].line);
-        let ranges: Vec<(f64, f64)> = lines
-            .map(|line| (one.fit.place(line.a), one.fit.place(line.b)))
-            .map(|(a, b)| (a.min(b), a.max(b)))
-            .collect();
-        let rest = one.part(
-            |p| {
-                let place = one.fit.place(p);
-                // an end is not known better than two segments that are joined there
-                let margin = self.settings.join_m / 2.0;
-                ranges.iter().all(|(from, to)| place < from - margin || place > to + margin)
-            },
-            beams,
-            &self.settings,
-        )?;
-        let is_one_piece = rest.line.length() <= self.settings.largest_gap_m * (rest.echoes.len() - 1) as f64;
-        is_one_piece.then_some(rest)
+        let mut covered: Vec<(f64, f64)> = lines.map(|line| ordered(place(line.a), place(line.b))).collect();
+        covered.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (begin, end) = ordered(place(one.line.a), place(one.line.b));
+        let (mut gaps, mut from) = (Vec::new(), begin);
+        for (cover, until) in covered {
+            gaps.push((from, cover.min(end), from > begin && cover < end));
+            from = from.max(until);
+        }
+        gaps.push((from, end, false));
+        // an end is not known better than two segments that are joined there
+        let margin = self.settings.join_m / 2.0;
+        let piece = |(from, to, is_between): (f64, f64, bool)| {
+            let is_in = |echo: &&Echo| (from + margin..=to - margin).contains(&place(echo.at));
+            let echoes: Vec<Echo> = one.echoes.iter().filter(is_in).copied().collect();
+            let enough = if is_between { 2 } else { self.settings.fewest_echoes };
+            let is_enough = echoes.len() >= enough && to - from >= self.settings.shortest_m + 2.0 * margin;
+            is_enough.then(|| one.piece(from, to, echoes))
+        };
+        gaps.into_iter().filter(|(from, to, _)| from + 2.0 * margin < *to).filter_map(piece).collect()
     }
 
     fn follow(

@@ -2,7 +2,7 @@
 
 use super::detour::Ground;
 use super::free_grid::FreeGrid;
-use super::highway::is_clear;
+use super::highway::{is_clear, straightened};
 use crate::floor_plan::clear::distance_between;
 use crate::geometry::{Point, Rect};
 use crate::segment::Segment;
@@ -62,24 +62,12 @@ impl Field {
         let mut points = vec![from];
         points.extend(self.grid.path(first, last)?);
         points.push(to);
-        Some(self.straightened(&points))
+        Some(straightened(&points, |from, to| self.is_clear(from, to)))
     }
 
     fn is_clear(&self, from: Point, to: Point) -> bool {
         let is_crossed = |cut: &Segment| distance_between([from, to], [cut.a, cut.b]) <= 0.0;
         is_clear(from, to, self.reach, &self.barriers) && !self.cuts.iter().any(is_crossed)
-    }
-
-    /// Goes straight to the farthest point that can be reached so, again and again.
-    fn straightened(&self, points: &[Point]) -> Vec<Point> {
-        let mut kept = vec![points[0]];
-        let mut at = 0;
-        while at + 1 < points.len() {
-            let farthest = (at + 2..points.len()).rev().find(|&next| self.is_clear(points[at], points[next]));
-            at = farthest.unwrap_or(at + 1);
-            kept.push(points[at]);
-        }
-        kept
     }
 }
 

@@ -40,6 +40,18 @@ pub(super) fn is_clear(from: Point, to: Point, reach: f64, barriers: &[Segment])
     })
 }
 
+/// The points of a way that are left where it goes straight to the farthest that can be reached so, again and again.
+pub(super) fn straightened(points: &[Point], is_clear: impl Fn(Point, Point) -> bool) -> Vec<Point> {
+    let mut kept: Vec<Point> = points.first().copied().into_iter().collect();
+    let mut at = 0;
+    while at + 1 < points.len() {
+        let farthest = (at + 2..points.len()).rev().find(|&next| is_clear(points[at], points[next]));
+        at = farthest.unwrap_or(at + 1);
+        kept.push(points[at]);
+    }
+    kept
+}
+
 fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
     if is_far(from, to, reach, barrier) {
         return None;

@@ -55,7 +55,7 @@ pub struct Outcome {
     pub detours: u32,
     /// Seconds by the body's clock.
     pub simulated_s: f64,
-    /// Touches of the skirt while the robot moved: it stopped there.
+    /// Touches of the skirt by the robot: it went there, and stopped.
     pub touches: usize,
     /// The deepest that anything was within the robot, metres; more than nothing is a collision.
     pub overlap_m: f64,
@@ -131,7 +131,7 @@ impl Mission {
                 journal(Entry { event, truth });
             }
             if let Some(ending) = ending {
-                let touches = body.touches().iter().filter(|touch| touch.robot_moved).count();
+                let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
                 return Ok(Outcome {
                     ending,
                     replans: navigator.replans(),

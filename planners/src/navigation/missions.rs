@@ -4,7 +4,7 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 
 use super::mission::{Mission, ROOM_M};
-use crate::floor_plan::clear::clearance;
+use crate::floor_plan::clear::wall_distance;
 use crate::floor_plan::{FloorPlan, Network, Rule};
 use crate::geometry::{Point, Rect};
 use crate::pose::Pose;
@@ -18,6 +18,9 @@ const APART_M: f64 = 4.0;
 
 /// Up to so many obstacles.
 const MOST_OBSTACLES: usize = 5;
+
+/// Share of the missions in which no obstacle stands on the goal.
+const GOAL_KEPT: f64 = 0.9;
 
 struct Dice(Pcg64);
 
@@ -47,7 +50,7 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
     let room = radius_m + ROOM_M + 0.05;
     let spot = |dice: &mut Dice| {
         let found = (0..TRIES).map(|_| any(bounds, dice));
-        let mut free = found.filter(|p| plan.is_free(*p) && clearance(&[*p, *p], &barriers) >= room);
+        let mut free = found.filter(|p| plan.is_free(*p) && wall_distance(&[*p, *p], &barriers) >= room);
         free.next()
     };
     let (start, goal, path) = (0..TRIES).find_map(|_| {
@@ -56,6 +59,7 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
         (path.length >= APART_M).then_some((start, goal, path.points))
     })?;
     let heading = dice.between(-3.0, 3.0);
+    let is_goal_kept = dice.share() < GOAL_KEPT;
     let count = dice.below(MOST_OBSTACLES + 1);
     let mut obstacles = Vec::new();
     for _ in 0..count {
@@ -65,7 +69,7 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
             let is_off = |step: Point| {
                 let at: Vec<Point> =
                     obstacle.corners.iter().map(|p| Point::new(p.x + step.x, p.y + step.y)).collect();
-                distance_to(&at, start) >= room
+                distance_to(&at, start) >= room && (!is_goal_kept || distance_to(&at, goal) >= room)
             };
             is_off(Point::default()) && rest.is_none_or(is_off)
         };
@@ -83,7 +87,7 @@ fn obstacle(
 ) -> Obstacle {
     let kind = dice.share();
     let mut middle = any(bounds, dice);
-    if kind < 0.25 {
+    if kind < 0.2 {
         let doors = &network.regions.doorways;
         let door = &doors[dice.below(doors.len())];
         middle = along([door.from, door.to], dice.share());
@@ -92,8 +96,8 @@ fn obstacle(
         let on = along([path[leg], path[leg + 1]], dice.share());
         middle = Point::new(on.x + dice.between(-0.6, 0.6), on.y + dice.between(-0.6, 0.6));
     }
-    let long = if dice.share() < 0.2 { 2.5 } else { 1.2 };
-    let (dx, dy) = (dice.between(0.3, long), dice.between(0.3, 1.0));
+    let long = if dice.share() < 0.2 { 2.0 } else { 0.9 };
+    let (dx, dy) = (dice.between(0.25, long), dice.between(0.25, 0.8));
     let standing = Obstacle::boxed(middle, dx, dy, dice.between(-1.6, 1.6));
     if dice.share() >= 0.3 {
         return standing;
@@ -102,7 +106,7 @@ fn obstacle(
     let (mut through, mut at) = (Vec::new(), middle);
     for _ in 0..=dice.below(3) {
         let next = Point::new(at.x + dice.between(-3.0, 3.0), at.y + dice.between(-3.0, 3.0));
-        if clearance(&[at, next], barriers) > half {
+        if wall_distance(&[at, next], barriers) > half {
             through.push(Point::new(next.x - middle.x, next.y - middle.y));
             at = next;
         }

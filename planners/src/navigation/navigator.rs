@@ -19,6 +19,9 @@ use crate::segment::Segment;
 /// So much farther than it was counts as farther away, metres.
 const FALLING_M: f64 = 0.05;
 
+/// A touch is in the way of a move if the cosine of its bearing is larger.
+const SIDEWAYS: f64 = 0.05;
+
 /// So many raw echoes in the way count, one may be false.
 const ECHOES: usize = 2;
 
@@ -48,6 +51,8 @@ pub struct Navigator<'b> {
     radius_m: f64,
     sensed: Option<Sensed>,
     contact: Option<Contact>,
+    /// Which way the wheels go: 1 ahead, -1 back, 0 where they turn or stand.
+    driving: f64,
     part: Vec<Reading>,
     readings_standing: usize,
     detours: Option<Detours>,
@@ -100,6 +105,7 @@ impl<'b> Navigator<'b> {
             radius_m: building.network.disc.radius,
             sensed: None,
             contact: None,
+            driving: 0.0,
             part: Vec::new(),
             readings_standing: 0,
             detours: None,
@@ -204,12 +210,15 @@ impl<'b> Navigator<'b> {
         let sensed = body.sense();
         self.radius_m = body.radius_m();
         self.model.reckon(&sensed.odometry);
-        let is_stopped = self.sensed.is_some_and(|last| last.is_busy) && !sensed.is_busy;
+        let is_driven = self.driving != 0.0 || self.state == State::Turn;
+        let stops = |contact: &Contact| self.driving * contact.bearing.cos() > SIDEWAYS;
+        let touch = sensed.contact.filter(|contact| before.is_none() || (!sensed.is_busy && stops(contact)));
         self.sensed = Some(sensed);
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
-        if let Some(contact) = sensed.contact.filter(|_| before.is_none() || is_stopped) {
-            self.contact = Some(contact);
+        if let Some(contact) = touch {
+            // What runs into a robot that stands is no reason to stop; it is in the model then.
+            self.contact = self.contact.or(Some(contact).filter(|_| is_driven));
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
             self.tell(Happening::Contact { bearing: contact.bearing });
@@ -363,18 +372,18 @@ impl<'b> Navigator<'b> {
         self.state = decision.state;
         match self.state {
             State::Hold if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 return self.reached(facts);
             }
             State::Turn if is_entered || !facts.is_busy => self.turn(body),
             State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
             State::Wait if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 (self.readings_standing, self.spot.waits) = (0, self.spot.waits + 1);
                 self.part.clear();
             }
             State::Blocked if is_entered => {
-                body.command(Command::Stop);
+                self.stop(body);
                 self.come_to_spot();
             }
             _ => {}
@@ -382,10 +391,15 @@ impl<'b> Navigator<'b> {
         None
     }
 
+    fn stop(&mut self, body: &mut impl Body) {
+        self.driving = 0.0;
+        body.command(Command::Stop);
+    }
+
     fn turn(&mut self, body: &mut impl Body) {
         if let Some(&target) = self.legs.front() {
             body.command(Command::Turn { by: self.pose().bearing(target) });
-            self.readings_standing = 0;
+            (self.driving, self.readings_standing) = (0.0, 0);
         }
     }
 
@@ -399,14 +413,14 @@ impl<'b> Navigator<'b> {
         let (distance_m, speed_m_s) =
             (at.distance(target).min(self.settings.stride_m), self.settings.speed_m_s);
         body.command(Command::Move { distance_m, speed_m_s });
-        self.readings_standing = 0;
+        (self.driving, self.readings_standing) = (1.0, 0);
     }
 
     fn back_off(&mut self, body: &mut impl Body) {
         let is_ahead = self.contact.take().is_none_or(|contact| contact.bearing.cos() >= 0.0);
         let distance_m = if is_ahead { -self.settings.back_off_m } else { self.settings.back_off_m };
         body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
-        self.readings_standing = 0;
+        (self.driving, self.readings_standing) = (distance_m.signum(), 0);
     }
 
     fn come_to_spot(&mut self) {
@@ -449,7 +463,10 @@ impl<'b> Navigator<'b> {
             self.tell(Happening::WayClosed { at, doorway, region });
         }
         self.replans += 1;
-        let is_stuck = self.spot.closed > 1;
+        // What is in the way of another path has to be seen again before that one counts as closed, too.
+        self.readings_standing = 0;
+        self.part.clear();
+        let is_stuck = self.spot.closed > 2;
         self.plan(judge, is_stuck);
     }
 

@@ -3,7 +3,7 @@
 use super::cuts::{Blocked, Cuts};
 use super::detour::{Ground, length};
 use super::field::{Field, window};
-use super::highway::is_clear;
+use super::highway::{is_clear, straightened};
 use super::judge::Judge;
 use super::known::Building;
 use crate::floor_plan::{NoPath, Rule};
@@ -37,6 +37,7 @@ pub(super) fn over_network(
             Ok(path) => {
                 let lead = (start != from).then_some(from);
                 let points: Vec<Point> = lead.into_iter().chain(path.points).collect();
+                let points = straightened(&points, |from, to| is_clear(from, to, ground.reach, ground.barriers));
                 return Some(Route { length_m: length(&points), points, is_off_network: false });
             }
             Err(NoPath::Start) => {}

@@ -53,7 +53,7 @@ impl Default for Settings {
             highway_half_width_m: 0.10,
             highway_clearance_m: 0.02,
             look_ahead_m: 2.5,
-            stride_m: 4.0,
+            stride_m: 3.0,
             speed_m_s: 0.5,
             scan_readings: 120,
             part_readings: 40,

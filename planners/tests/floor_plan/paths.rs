@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use adit_planners::floor_plan::clear::clearance;
-use adit_planners::floor_plan::{Disc, Network, NoPath, Rule, Way};
+use adit_planners::floor_plan::clear::wall_distance;
+use adit_planners::floor_plan::{Disc, Network, NoPath, Rule, Spot, Way};
 use adit_planners::geometry::Point;
 use serde_json::Value;
 
@@ -43,7 +43,7 @@ fn median_and_worst(mut ratios: Vec<f64>) -> (f64, f64) {
     ratios.sort_by(f64::total_cmp);
     let middle = ratios.len() / 2;
     (
-        f64::midpoint(ratios[middle - usize::from(ratios.len() % 2 == 0)], ratios[middle]),
+        f64::midpoint(ratios[middle - usize::from(ratios.len().is_multiple_of(2))], ratios[middle]),
         ratios[ratios.len() - 1],
     )
 }
@@ -92,7 +92,7 @@ fn no_leg_of_a_path_comes_nearer_to_a_wall_than_the_disc() {
             for pair in pairs(name) {
                 for rule in [Rule::Nearest, Rule::AllAdits, Rule::Tight] {
                     let Ok(path) = network.path(pair.ends[0], pair.ends[1], rule, length) else { continue };
-                    let clear = clearance(&path.points, &plan.barriers());
+                    let clear = wall_distance(&path.points, &plan.barriers());
                     assert!(clear >= DISC.radius + margin - 1e-9, "{name} {rule:?}: {clear}");
                 }
             }
@@ -113,7 +113,7 @@ fn on_random_plans_a_path_is_found_where_the_oracle_finds_one_and_is_hardly_long
             let found = network.path(pair[0].at, pair[1].at, Rule::Tight, length);
             match (found, oracle.shortest(pair[0].at, pair[1].at)) {
                 (Ok(path), Some(optimum)) => {
-                    let clear = clearance(&path.points, &plan.barriers());
+                    let clear = wall_distance(&path.points, &plan.barriers());
                     assert!(clear >= radius, "seed {seed}: {clear}");
                     ratios.push(path.length / optimum);
                 }
@@ -131,6 +131,35 @@ fn on_random_plans_a_path_is_found_where_the_oracle_finds_one_and_is_hardly_long
     let (median, worst) = median_and_worst(ratios);
     println!("{count} paths, {unreachable} impossible: median {median:.4}, worst {worst:.4} of the optimum");
     assert!(median <= 1.01 && worst <= 1.03);
+}
+
+#[test]
+fn ways_tell_their_length_what_stays_free_and_the_doorway_that_they_pass() {
+    let plan = golden("house-7.json");
+    let network = Network::new(&plan, Disc { margin: 0.05, ..DISC }).unwrap();
+    assert_eq!(network.adits.len(), 16, "two for each of the 8 doors");
+    for (index, adit) in network.adits.iter().enumerate() {
+        assert_eq!(network.adits[adit.twin].twin, index);
+        assert!(network.regions.regions[adit.region].contains(adit.at));
+        assert!(network.regions.doorways[adit.doorway].regions.contains(&adit.region));
+    }
+    for way in &network.ways {
+        assert!(way.clearance >= 0.05 - 1e-9, "{way:?}");
+        let legs = way.points.windows(2).map(|leg| leg[0].distance(leg[1]));
+        assert!((legs.sum::<f64>() - way.length).abs() < 1e-12);
+        assert_eq!(way.doorway.is_none(), way.region.is_some());
+    }
+    let through = |doorway: usize| network.ways.iter().find(|way| way.doorway == Some(doorway)).unwrap();
+    for (index, doorway) in network.regions.doorways.iter().enumerate() {
+        assert!((through(index).length - 0.6).abs() < 1e-9, "0.3 m on each side");
+        assert!(
+            (through(index).clearance - (doorway.width() / 2.0 - 0.25)).abs() < 1e-5,
+            "through the middle"
+        );
+    }
+    for place in 0..plan.places().len() {
+        assert!(network.ways.iter().any(|way| way.from == Spot::Place(place)));
+    }
 }
 
 #[test]

@@ -30,7 +30,8 @@ pub fn random_drawing(seed: u64, rooms: usize) -> Drawn {
     let outer = Rect::new(0.0, 0.0, side * stretch, side / stretch);
     let (mut rects, mut splits) = (vec![outer], Vec::new());
     while rects.len() < rooms {
-        let largest = (0..rects.len()).max_by(|&a, &b| rects[a].area().total_cmp(&rects[b].area())).unwrap();
+        let largest = (0..rects.len()).max_by(|&a, &b| rects[a].area().total_cmp(&rects[b].area()));
+        let largest = largest.expect("there is always a room");
         let rect = rects.swap_remove(largest);
         let share = dice.between(0.35, 0.65);
         let is_upright = rect.dx() > rect.dy();
@@ -130,7 +131,7 @@ fn with_doors(rects: &[Rect], splits: &[Split], dice: &mut Dice) -> Vec<[Point; 
 /// Pillars and free-standing walls, apart from the walls of the room and from each other.
 fn furnish(room: &Rect, walls: &mut Vec<[Point; 2]>, solids: &mut Vec<Vec<Point>>, dice: &mut Dice) {
     let mut taken: Vec<(Point, f64)> = Vec::new();
-    for _ in 0..1 + dice.below(3) {
+    for _ in 0..=dice.below(3) {
         let radius = dice.between(0.15, 0.6);
         let keep = radius + APART_M;
         if room.dx() < 2.0 * keep || room.dy() < 2.0 * keep {

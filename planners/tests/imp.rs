@@ -1,0 +1,12 @@
+//! A simulated robot and what it makes of what it senses: the composite local model and the corrected pose.
+
+#[path = "imp/model.rs"]
+mod model;
+#[path = "imp/plans.rs"]
+mod plans;
+#[path = "imp/simulated.rs"]
+mod simulated;
+#[path = "imp/table.rs"]
+mod table;
+#[path = "imp/tour.rs"]
+mod tour;
