@@ -132,6 +132,7 @@ impl<'a> Orbit<'a> {
         };
         let mut least = at(Angle { sin: 0.0, cos: 1.0 }).min(at(self.angle));
         let mut look = |point: Point, offset: Angle| {
+            // of the centre itself, which never comes nearer, this is no number, and neither comparison holds
             let angle = Angle::of(point.x, point.y).minus(offset);
             if angle.sin > 0.0 && self.angle.minus(angle).sin > 0.0 {
                 least = least.min(at(angle));
