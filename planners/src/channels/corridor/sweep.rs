@@ -30,7 +30,7 @@ impl<'a> Sweep<'a> {
     pub fn line(&self, line: &Tangent, from_heading: f64, to_heading: f64) -> Result<f64, Wall> {
         let by = to_heading - from_heading;
         if by.abs() > STRAIGHT {
-            let turning = Turning { from: line.from, to: line.to, heading: from_heading, by };
+            let turning = Turning::new(line.from, line.to, from_heading, by);
             let least = turning.nearest(&self.body, self.walls).map_or(f64::INFINITY, |nearest| nearest.0);
             if least <= 0.0 {
                 let within = turning.nearest(&self.body.grown(-TOUCH_TURNING), self.walls);
