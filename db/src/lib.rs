@@ -20,6 +20,7 @@ pub mod hours;
 pub mod kept;
 pub mod load;
 mod migrate;
+pub mod mission;
 pub mod place;
 pub mod plan;
 pub mod query;

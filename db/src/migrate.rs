@@ -40,6 +40,7 @@ pub(crate) const STEPS: &[&[&str]] = &[
     ],
     &[include_str!("../sql/v3/10-traversals.sql"), include_str!("../sql/v3/20-saved-queries.sql")],
     &[include_str!("../sql/v4/10-plans.sql")],
+    &[include_str!("../sql/v5/10-missions.sql")],
 ];
 
 /// The newest schema version.

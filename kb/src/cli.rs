@@ -445,6 +445,9 @@ pub struct SimulateArgs {
     /// The rule base instead of the world's: `navigation` or a folder
     #[arg(long, value_name = "RULES")]
     pub rules: Option<String>,
+    /// Keep each mission with its journal in this database
+    #[arg(long, value_name = "FILE")]
+    pub db: Option<PathBuf>,
     /// Make a film of a mission: an animated SVG
     #[arg(long, value_name = "FILE")]
     pub film: Option<PathBuf>,

@@ -2,5 +2,6 @@
 //! its plan does not know. Rules decide; `adit_planners::navigation` drives.
 
 pub mod floor;
+pub mod journal;
 pub mod judge;
 pub mod missions;

@@ -1,7 +1,10 @@
 //! `adit simulate`: missions of a simulated robot on a floor plan.
 
 use std::path::Path;
+use std::sync::Arc;
 
+use adit_db::Store;
+use adit_engine::RuleBase;
 use adit_planners::navigation::{Building, Mission};
 use adit_planners::pose::Pose;
 
@@ -9,7 +12,8 @@ use super::SimulateArgs;
 use super::output::{json, line, remark, table};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
-use crate::navigation::missions::{Row, drawn, run as run_all, watched};
+use crate::navigation::journal::record;
+use crate::navigation::missions::{Row, drawn, journalled, run as run_all};
 use crate::number::number;
 use crate::plan::{Task, World, rules};
 use crate::progress::Bar;
@@ -27,16 +31,20 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     };
     let (rules, _) = rules::load(world.task.kind(), name, beside)?;
     let missions = missions(args, floor)?;
-    let bar = Bar::new("missions", missions.len() as u64);
-    let rows = run_all(floor, &rules, &missions, || bar.step())?;
-    drop(bar);
+    let rows = match &args.db {
+        Some(db) => kept(&world.name, name, floor, &rules, &missions, db)?,
+        None => {
+            let bar = Bar::new("missions", missions.len() as u64);
+            run_all(floor, &rules, &missions, || bar.step())?
+        }
+    };
     if let Some(film) = &args.film {
         let building = Building::new(&floor.plan, floor.network.clone());
         let mission = missions.get(args.mission - 1).ok_or_else(|| {
             Error::said("simulate/no-mission", format!("there is no mission {}", args.mission), None)
         })?;
         let mut made = None;
-        watched(floor, &building, &rules, args.mission, mission, |_| {}, Some(&mut made))?;
+        journalled(floor, &building, &rules, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
             std::fs::write(film, made.svg(args.speed)).map_err(|error| Error::io("write", film, &error))?;
             remark(&format!("{}: mission {}", film.display(), args.mission));
@@ -48,6 +56,29 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         show(&rows);
     }
     Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided && row.trouble.is_none()))
+}
+
+/// Runs missions one after the other, each kept with its journal.
+fn kept(
+    world: &str,
+    rules_name: &str,
+    floor: &Floor,
+    rules: &Arc<RuleBase>,
+    missions: &[Mission],
+    db: &Path,
+) -> Result<Vec<Row>> {
+    let building = Building::new(&floor.plan, floor.network.clone());
+    let mut store = Store::open_or_create(db)?;
+    let bar = Bar::new("missions", missions.len() as u64);
+    let mut rows = Vec::with_capacity(missions.len());
+    for (index, mission) in missions.iter().enumerate() {
+        let (row, entries, noting) = journalled(floor, &building, rules, (index + 1, mission), None)?;
+        let record = record(world, rules_name, &row, &entries, noting);
+        store.transaction(|tx| tx.keep_mission(&record))?;
+        rows.push(row);
+        bar.step();
+    }
+    Ok(rows)
 }
 
 /// The missions that are drawn, or the one from START to GOAL.

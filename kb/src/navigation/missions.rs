@@ -4,12 +4,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use adit_engine::RuleBase;
-use adit_planners::navigation::{Building, Ending, Entry, Mission, Outcome, Outfit, Possible, draw};
+use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outfit, Possible, draw};
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
+use super::journal::Noting;
 use super::judge::RuleJudge;
 use crate::error::{Error, Result};
 
@@ -83,36 +84,65 @@ pub fn run(
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>> {
     let building = Building::new(&floor.plan, floor.network.clone());
-    let one = |(index, mission): (usize, &Mission)| {
-        let row = watched(floor, &building, rules, index + 1, mission, |_| {}, None).map(|(row, _)| row);
+    let run = |(index, mission): (usize, &Mission)| {
+        let row = one(floor, &building, rules, index + 1, mission);
         done();
         row
     };
-    missions.par_iter().enumerate().map(one).collect()
+    missions.par_iter().enumerate().map(run).collect()
 }
 
-/// Runs a mission; every event goes to `journal`, and where a film is wanted it is made.
-pub fn watched(
+/// Runs a mission without a journal.
+fn one(
     floor: &Floor,
     building: &Building,
     rules: &Arc<RuleBase>,
     number: usize,
     mission: &Mission,
+) -> Result<Row> {
+    let mut judge = judge(rules)?;
+    let row = judged(floor, building, &mut judge, number, mission, |_| {}, None)?;
+    Ok(Row { trouble: judge.trouble().map(str::to_owned), ..row })
+}
+
+/// Runs a mission and keeps all that happened; `film` is made where it is wanted.
+pub fn journalled(
+    floor: &Floor,
+    building: &Building,
+    rules: &Arc<RuleBase>,
+    (number, mission): (usize, &Mission),
+    film: Option<&mut Option<Film>>,
+) -> Result<(Row, Vec<Entry>, Noting)> {
+    let mut noting = Noting::new(judge(rules)?);
+    let mut entries = Vec::new();
+    let row = judged(floor, building, &mut noting, number, mission, |entry| entries.push(entry), film)?;
+    let row = Row { trouble: noting.trouble().map(str::to_owned), ..row };
+    Ok((row, entries, noting))
+}
+
+fn judge(rules: &Arc<RuleBase>) -> Result<RuleJudge> {
+    RuleJudge::new(rules).map_err(|error| Error::said("simulate/rules", error.to_string(), None))
+}
+
+fn judged(
+    floor: &Floor,
+    building: &Building,
+    judge: &mut impl Judge,
+    number: usize,
+    mission: &Mission,
     journal: impl FnMut(Entry),
     film: Option<&mut Option<Film>>,
-) -> Result<(Row, Outcome)> {
-    let mut judge =
-        RuleJudge::new(rules).map_err(|error| Error::said("simulate/rules", error.to_string(), None))?;
+) -> Result<Row> {
     let radius = floor.network.disc.radius;
     let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
     outfit.robot.radius_m = radius;
     let before = Instant::now();
     let outcome = mission
-        .run(building, &outfit, &mut judge, journal, film)
+        .run(building, &outfit, judge, journal, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let possible = mission.possible(&floor.plan, radius);
-    let row = Row {
+    Ok(Row {
         mission: number,
         seed: mission.seed,
         start: [mission.start.at.x, mission.start.at.y],
@@ -132,12 +162,11 @@ pub fn watched(
         worst_error: outcome.worst_error_m,
         seconds: outcome.simulated_s,
         milliseconds,
-        trouble: judge.trouble().map(str::to_owned),
-    };
-    Ok((row, outcome))
+        trouble: None,
+    })
 }
 
-const fn ending(ending: Ending) -> &'static str {
+pub(super) const fn ending(ending: Ending) -> &'static str {
     match ending {
         Ending::Arrived => "arrived",
         Ending::NoWay => "no_way",

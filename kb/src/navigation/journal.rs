@@ -1,0 +1,152 @@
+//! The journal of a mission: what happened, and by which rule.
+
+use adit_db::mission::{Decided, Entry, Mission as Record};
+use adit_engine::Considered;
+use adit_planners::local_model::{SegmentFacts, Transition};
+use adit_planners::navigation::{self, Action, Happening, Judge, StateDecision, StateFacts, WayFacts};
+use adit_planners::pose::Pose;
+use serde_json::{Value, json};
+
+use super::judge::{RuleJudge, action_word, state_word};
+use super::missions::Row;
+
+/// A judge that notes which rule decided, where the state changed or something was done.
+#[derive(Debug)]
+pub struct Noting {
+    judge: RuleJudge,
+    decided: Vec<Option<Considered>>,
+}
+
+impl Noting {
+    /// Notes what this judge decides by.
+    pub const fn new(judge: RuleJudge) -> Self {
+        Self { judge, decided: Vec::new() }
+    }
+
+    /// What the rules did not say.
+    pub fn trouble(&self) -> Option<&str> {
+        self.judge.trouble()
+    }
+}
+
+impl Judge for Noting {
+    fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
+        let decision = self.judge.next_state(facts);
+        if is_told(facts, decision) {
+            let rows = self.judge.considered();
+            self.decided.push(rows.into_iter().find(|row| row.miss.is_none()));
+        }
+        decision
+    }
+
+    fn segment(&mut self, facts: &SegmentFacts) -> Transition {
+        self.judge.segment(facts)
+    }
+
+    fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
+        self.judge.weigh(facts)
+    }
+}
+
+/// Whether the navigator tells of a decision.
+fn is_told(facts: &StateFacts, decision: StateDecision) -> bool {
+    facts.state != decision.state || decision.action != Action::None
+}
+
+/// The mission as it is kept.
+pub fn record(world: &str, rules: &str, row: &Row, entries: &[navigation::Entry], noted: Noting) -> Record {
+    let mut decided = noted.decided.into_iter();
+    let entry = |entry: &navigation::Entry| {
+        let (event, change, detail) = told(&entry.event.what);
+        let rule = change.as_ref().and_then(|_| decided.next().flatten());
+        Entry {
+            time: entry.event.time_s,
+            event: event.to_owned(),
+            change,
+            rule: rule.map(|rule| Decided {
+                rule: rule.rule,
+                row: rule.row.map(|row| row as i64),
+                file: rule.file,
+                line: rule.line as i64,
+            }),
+            pose: numbers(&entry.event.pose),
+            truth: numbers(&entry.truth),
+            detail: detail.map(|detail| detail.to_string()),
+        }
+    };
+    Record {
+        world: world.to_owned(),
+        mission: row.mission as i64,
+        seed: row.seed.to_string(),
+        rules: rules.to_owned(),
+        start: row.start,
+        goal: row.goal,
+        obstacles: row.obstacles as i64,
+        ending: row.ending.to_owned(),
+        length: row.length,
+        optimum: row.optimum,
+        seconds: row.seconds,
+        journal: entries.iter().map(entry).collect(),
+    }
+}
+
+fn numbers(pose: &Pose) -> [f64; 3] {
+    [pose.at.x, pose.at.y, pose.heading.to_degrees()]
+}
+
+type Told = (&'static str, Option<[String; 3]>, Option<Value>);
+
+fn told(what: &Happening) -> Told {
+    let points = |points: &[adit_planners::geometry::Point]| -> Vec<[f64; 2]> {
+        points.iter().map(|at| [at.x, at.y]).collect()
+    };
+    match what {
+        Happening::State { facts, decision } => {
+            let change = [state_word(facts.state), state_word(decision.state), action_word(decision.action)];
+            ("state", Some(change.map(str::to_owned)), Some(situation(facts)))
+        }
+        Happening::SetEstimatedPosition(estimate) => {
+            ("set estimated position", None, Some(json!({"pose": numbers(&estimate.pose)})))
+        }
+        Happening::Segments { entered, removed } => {
+            ("segments", None, Some(json!({"entered": entered.len(), "removed": removed.len()})))
+        }
+        Happening::Contact { bearing } => ("contact", None, Some(json!({"bearing": bearing.to_degrees()}))),
+        Happening::Planned { points: way, length_m, is_off_network } => (
+            "planned",
+            None,
+            Some(json!({"points": points(way), "length": length_m, "off_network": is_off_network})),
+        ),
+        Happening::Detour { points: way, length_m, other_m } => {
+            ("detour", None, Some(json!({"points": points(way), "length": length_m, "other": other_m})))
+        }
+        Happening::WayClosed { at, doorway, region } => {
+            ("way closed", None, Some(json!({"at": [at.x, at.y], "doorway": doorway, "region": region})))
+        }
+        Happening::Retried => ("begun anew", None, None),
+        Happening::Reached(at) => ("reached", None, Some(json!({"at": [at.x, at.y]}))),
+        Happening::Ended(ending) => {
+            ("ended", None, Some(json!({"ending": super::missions::ending(*ending)})))
+        }
+        _ => ("other", None, None),
+    }
+}
+
+/// What the rules were told.
+fn situation(facts: &StateFacts) -> Value {
+    json!({
+        "distance": facts.distance_m,
+        "is_falling": facts.is_falling,
+        "heading_error": facts.heading_error,
+        "off_line": facts.off_line_m,
+        "free": facts.free_m,
+        "echo": facts.echo_m,
+        "is_contact": facts.is_contact,
+        "is_obstacle_moving": facts.is_obstacle_moving,
+        "left": facts.left_m,
+        "right": facts.right_m,
+        "has_way": facts.has_way,
+        "waits": facts.waits,
+        "retries": facts.retries,
+    })
+}

@@ -1,0 +1,126 @@
+//! Paths and missions on a flat of our own.
+
+use std::fs;
+use std::process::Command;
+
+use adit_tests::{Ran, TestSite, adit, repository};
+use serde_json::{Value, json};
+
+/// The flat in a folder of its own.
+fn flat() -> TestSite {
+    let folder = TestSite::empty();
+    for name in ["flat.toml", "flat.json"] {
+        folder.write(name, fs::read(repository().join("kb/worlds").join(name)).expect("the flat"));
+    }
+    folder
+}
+
+fn run(folder: &TestSite, verb: &str, args: &[&str]) -> Ran {
+    let mut command = Command::new(adit());
+    command.current_dir(folder.path()).args([verb, "flat.toml"]).args(args);
+    Ran::new(&command.output().expect("adit runs"))
+}
+
+fn copy_rules(folder: &TestSite) {
+    for entry in fs::read_dir(repository().join("rules/navigation")).expect("the rule base") {
+        let file = entry.expect("a file").path();
+        if file.is_file() {
+            let name = file.file_name().expect("a name").to_string_lossy().into_owned();
+            folder.write(&format!("rules/{name}"), fs::read(&file).expect("readable"));
+        }
+    }
+    folder.write("flat.toml", format!("rules = \"rules\"\n{}", folder.read("flat.toml")));
+}
+
+#[test]
+fn a_path_leads_from_place_to_place_and_is_pulled_tight() {
+    let found = run(&flat(), "plan", &["bed", "bath", "--json"]).expect_status(0).json();
+    let length = |key: &str| found[key].as_f64().expect("a length");
+    assert_eq!(found["status"], "ok");
+    assert_eq!(found["waypoints"][0], json!([1.5, 1.5]));
+    assert!(length("length") < length("length_over_all_adits"));
+    assert!(length("length_over_all_adits") <= length("length_by_nearest_adit"));
+    // A point instead of a place, and the way back.
+    let back = run(&flat(), "plan", &["bath", "1.5,1.5", "--json"]).expect_status(0).json();
+    assert!((back["length"].as_f64().expect("a length") - length("length")).abs() < 1e-6);
+}
+
+#[test]
+fn missions_are_the_same_from_the_same_seed_and_end_as_they_should() {
+    let rows = run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
+    let again = run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
+    let without_time = |rows: &Value| -> Vec<Value> {
+        let mut rows = rows.as_array().expect("rows").clone();
+        rows.iter_mut().for_each(|row| row["milliseconds"] = Value::Null);
+        rows
+    };
+    assert_eq!(without_time(&rows), without_time(&again));
+    assert_eq!(rows.as_array().map(Vec::len), Some(6));
+    for row in rows.as_array().expect("rows") {
+        assert_eq!((&row["right"], &row["collided"]), (&json!(true), &json!(false)), "{row}");
+    }
+}
+
+#[test]
+fn the_journal_says_where_the_robot_was_and_by_which_rule_it_went_on() {
+    let folder = flat();
+    run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
+    let sql = |query: &str| -> Vec<String> {
+        let mut command = Command::new("sqlite3");
+        let output =
+            command.args(["-readonly", "missions.db", query]).current_dir(folder.path()).output().expect("runs");
+        String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
+    };
+    assert_eq!(sql("SELECT world, mission, ending FROM missions"), ["flat|1|arrived"]);
+    assert_eq!(
+        sql("SELECT state, next, rule FROM journal WHERE event = 'state' ORDER BY entry LIMIT 1"),
+        ["hold|decide|hold"]
+    );
+    assert_eq!(sql("SELECT count(*) FROM journal WHERE event = 'state' AND rule IS NULL"), ["0"]);
+    assert_eq!(sql("SELECT detail FROM journal ORDER BY entry DESC LIMIT 1"), ["{\"ending\":\"arrived\"}"]);
+    // It thinks that it is where it is, to some centimetres.
+    assert_eq!(sql("SELECT max(abs(x - true_x) + abs(y - true_y)) < 0.3 FROM journal"), ["1"]);
+}
+
+#[test]
+fn a_film_is_made_of_a_mission() {
+    let folder = flat();
+    run(&folder, "simulate", &["bed", "bath", "--film", "film.svg"]).expect_status(0);
+    let film = folder.read("film.svg");
+    assert!(film.starts_with("<svg") && film.contains("<animate"), "{}", &film[..200.min(film.len())]);
+}
+
+#[test]
+fn who_edits_a_rule_changes_what_the_robot_does() {
+    let folder = flat();
+    copy_rules(&folder);
+    // A robot that holds instead of going.
+    folder.edit("rules/execution.rhai", "any,   any,  any,  any,   any,   \"move\",    \"none\"", "any,   any,  any,  any,   any,   \"hold\",    \"no way\"");
+    let rows = run(&folder, "simulate", &["bed", "bath", "--json"]).json();
+    assert_eq!(rows[0]["ending"], "no_way");
+    // One doorway is not to be used: the path goes another way, or there is none.
+    let folder = flat();
+    let before = run(&folder, "plan", &["bed", "desk", "--json"]).expect_status(0).json();
+    copy_rules(&folder);
+    let doorway = before["doorways"][0].to_string();
+    folder.write(
+        "rules/own.rhai",
+        format!("rule \"that door squeaks\" priority 2 each way in WAYS where way.doorway == {doorway} then {{ way.passable = false; }}\n"),
+    );
+    let ran = run(&folder, "plan", &["bed", "desk", "--json"]);
+    assert_ne!(ran.json()["doorways"], before["doorways"]);
+}
+
+#[test]
+fn what_cannot_be_is_said() {
+    let folder = flat();
+    run(&folder, "plan", &["bed", "attic"]).expect_status(2).complains(&["`attic` is no place", "places: bed"]);
+    run(&folder, "plan", &[]).expect_status(2).complains(&["needs START and GOAL"]);
+    folder.edit("flat.toml", "radius = 0.25", "radius = 0.75");
+    run(&folder, "plan", &["bed", "bath"]).expect_status(2).complains(&["wide"]);
+    folder.edit("flat.toml", "radius = 0.75", "radius = 0.25");
+    folder.edit("flat.json", "[[0, 0], [12, 0]]", "[[0, 0], [12, 9]]");
+    run(&folder, "plan", &["bed", "bath"]).expect_status(2).complains(&["flat.json"]);
+    folder.edit("flat.toml", "flat.json", "nowhere.json");
+    run(&folder, "simulate", &[]).expect_status(2).complains(&["nowhere.json"]);
+}
