@@ -19,8 +19,8 @@ use crate::segment::Segment;
 /// So much farther than it was counts as farther away, metres.
 const FALLING_M: f64 = 0.05;
 
-/// A touch is in the way of a move if the cosine of its bearing is larger.
-const SIDEWAYS: f64 = 0.05;
+/// A course that ends so much earlier than it should was cut short, metres.
+const SHORT_M: f64 = 0.002;
 
 /// So many raw echoes in the way count, one may be false.
 const ECHOES: usize = 2;
@@ -51,8 +51,8 @@ pub struct Navigator<'b> {
     radius_m: f64,
     sensed: Option<Sensed>,
     contact: Option<Contact>,
-    /// Which way the wheels go: 1 ahead, -1 back, 0 where they turn or stand.
-    driving: f64,
+    /// The straight course that was commanded last; `None` where the wheels turn or stand.
+    course: Option<Course>,
     part: Vec<Reading>,
     readings_standing: usize,
     detours: Option<Detours>,
@@ -64,6 +64,19 @@ pub struct Navigator<'b> {
 struct Line {
     from: Point,
     nearest_m: f64,
+}
+
+/// A straight course by the wheels' count.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    from: Pose,
+    distance_m: f64,
+}
+
+impl Course {
+    fn is_cut_short(&self, sensed: &Sensed) -> bool {
+        sensed.odometry.at.distance(self.from.at) < self.distance_m.abs() - SHORT_M
+    }
 }
 
 /// Where the robot was blocked, and what it did there.
@@ -105,7 +118,7 @@ impl<'b> Navigator<'b> {
             radius_m: building.network.disc.radius,
             sensed: None,
             contact: None,
-            driving: 0.0,
+            course: None,
             part: Vec::new(),
             readings_standing: 0,
             detours: None,
@@ -210,9 +223,9 @@ impl<'b> Navigator<'b> {
         let sensed = body.sense();
         self.radius_m = body.radius_m();
         self.model.reckon(&sensed.odometry);
-        let is_driven = self.driving != 0.0 || self.state == State::Turn;
-        let stops = |contact: &Contact| self.driving * contact.bearing.cos() > SIDEWAYS;
-        let touch = sensed.contact.filter(|contact| before.is_none() || (!sensed.is_busy && stops(contact)));
+        let is_driven = self.course.is_some() || self.state == State::Turn;
+        let is_stopped = !sensed.is_busy && self.course.is_some_and(|course| course.is_cut_short(&sensed));
+        let touch = sensed.contact.filter(|_| before.is_none() || is_stopped);
         self.sensed = Some(sensed);
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
@@ -392,14 +405,14 @@ impl<'b> Navigator<'b> {
     }
 
     fn stop(&mut self, body: &mut impl Body) {
-        self.driving = 0.0;
+        self.course = None;
         body.command(Command::Stop);
     }
 
     fn turn(&mut self, body: &mut impl Body) {
         if let Some(&target) = self.legs.front() {
             body.command(Command::Turn { by: self.pose().bearing(target) });
-            (self.driving, self.readings_standing) = (0.0, 0);
+            (self.course, self.readings_standing) = (None, 0);
         }
     }
 
@@ -410,17 +423,19 @@ impl<'b> Navigator<'b> {
             self.line = Line { from: at, nearest_m: at.distance(target) };
             self.contact = None;
         }
-        let (distance_m, speed_m_s) =
-            (at.distance(target).min(self.settings.stride_m), self.settings.speed_m_s);
-        body.command(Command::Move { distance_m, speed_m_s });
-        (self.driving, self.readings_standing) = (1.0, 0);
+        self.drive_straight(body, at.distance(target).min(self.settings.stride_m));
     }
 
     fn back_off(&mut self, body: &mut impl Body) {
         let is_ahead = self.contact.take().is_none_or(|contact| contact.bearing.cos() >= 0.0);
         let distance_m = if is_ahead { -self.settings.back_off_m } else { self.settings.back_off_m };
+        self.drive_straight(body, distance_m);
+    }
+
+    fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
         body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
-        (self.driving, self.readings_standing) = (distance_m.signum(), 0);
+        self.course = self.sensed.map(|sensed| Course { from: sensed.odometry, distance_m });
+        self.readings_standing = 0;
     }
 
     fn come_to_spot(&mut self) {

@@ -60,7 +60,7 @@ impl Default for Settings {
             detour_clearance_m: 0.05,
             detour_reach_m: 4.0,
             grain_m: 0.04,
-            back_off_m: 0.08,
+            back_off_m: 0.15,
             least_confidence: 2,
             memory_m: 6.0,
             same_spot_m: 0.5,
