@@ -30,6 +30,13 @@ pub(super) struct Detours {
     pub right: Option<Vec<Point>>,
 }
 
+impl Detours {
+    /// The length of the shorter one.
+    pub fn shortest_m(&self) -> Option<f64> {
+        self.left.iter().chain(&self.right).map(|points| length(points)).min_by(f64::total_cmp)
+    }
+}
+
 impl Ground<'_> {
     /// The shortest paths that leave the obstacle to the right (`left`), and to the left (`right`).
     pub fn detours(&self, from: Point, to: Point) -> Detours {

@@ -81,6 +81,8 @@ pub struct StateFacts {
     pub is_busy: bool,
     /// Whether a whole scan was taken since the robot stands here.
     pub is_scan_complete: bool,
+    /// Whole scans since the goal was given, or everything was forgotten.
+    pub scans: u32,
     /// Metres of the detour on the left of the obstacle; `None` where none is free. Known in Blocked, after a scan.
     pub left_m: Option<f64>,
     /// The same on the right.

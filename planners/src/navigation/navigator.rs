@@ -1,6 +1,7 @@
 //! The navigator: it drives a body from state to state as the judge decides.
 
 use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_2;
 
 use super::Settings;
 use super::cuts::{Blocked, forbidden};
@@ -55,6 +56,10 @@ pub struct Navigator<'b> {
     course: Option<Course>,
     part: Vec<Reading>,
     readings_standing: usize,
+    /// Whole scans since the goal was given, or everything was forgotten.
+    scans: u32,
+    /// What was touched, and when; the model may have it elsewhere.
+    felt: Vec<(f64, Segment)>,
     detours: Option<Detours>,
     events: Vec<Event>,
 }
@@ -121,6 +126,8 @@ impl<'b> Navigator<'b> {
             course: None,
             part: Vec::new(),
             readings_standing: 0,
+            scans: 0,
+            felt: Vec::new(),
             detours: None,
             events: Vec::new(),
         }
@@ -178,7 +185,7 @@ impl<'b> Navigator<'b> {
 
     /// Plans a path to a goal, and goes there from now on.
     pub fn go(&mut self, goal: Point, judge: &mut impl Judge) {
-        (self.mode, self.goal, self.retries) = (Mode::Automatic, Some(goal), 0);
+        (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
         self.blocked = Blocked::new(&self.building.network);
         self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         self.gather();
@@ -231,7 +238,10 @@ impl<'b> Navigator<'b> {
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
         if let Some(contact) = touch {
             // What runs into a robot that stands is no reason to stop; it is in the model then.
-            self.contact = self.contact.or(Some(contact).filter(|_| is_driven));
+            if is_driven {
+                self.contact = self.contact.or(Some(contact));
+                self.felt.push((sensed.time_s, self.surface_at(&contact)));
+            }
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
             self.tell(Happening::Contact { bearing: contact.bearing });
@@ -241,6 +251,21 @@ impl<'b> Navigator<'b> {
         if self.part.len() >= most {
             self.update(judge);
         }
+    }
+
+    /// A short surface across a touch.
+    fn surface_at(&self, contact: &Contact) -> Segment {
+        let pose = self.pose();
+        let (towards, across) =
+            (pose.direction(contact.bearing), pose.direction(contact.bearing + FRAC_PI_2));
+        let half = self.model.settings().contact_length_m / 2.0;
+        let end = |side: f64| {
+            Point::new(
+                pose.at.x + self.radius_m * towards.x + side * across.x,
+                pose.at.y + self.radius_m * towards.y + side * across.y,
+            )
+        };
+        Segment::new(end(-half), end(half))
     }
 
     /// Takes the readings into the model.
@@ -255,6 +280,7 @@ impl<'b> Navigator<'b> {
             self.tell(Happening::Segments { entered: update.entered, removed: update.removed });
         }
         if self.is_scan_complete() {
+            self.scans += 1;
             self.tell(Happening::SetEstimatedPosition(*self.model.estimate()));
         }
     }
@@ -264,9 +290,17 @@ impl<'b> Navigator<'b> {
         self.barriers.truncate(self.building.walls.len());
         self.barriers.extend(&self.forbidden);
         self.obstacles_from = self.barriers.len();
-        self.barriers.extend(self.memory.obstacles(&self.model, 1));
+        let (now, patience) = (self.time_s(), self.settings.felt_s);
+        self.felt.retain(|(time_s, _)| now - time_s <= patience);
+        self.barriers.extend(self.obstacles(1));
         self.moving = moving(&self.model).collect();
         self.detours = None;
+    }
+
+    fn obstacles(&self, confidence: u8) -> Vec<Segment> {
+        let mut obstacles = self.memory.obstacles(&self.model, confidence);
+        obstacles.extend(self.felt.iter().map(|(_, surface)| *surface));
+        obstacles
     }
 
     fn facts(&self) -> StateFacts {
@@ -291,6 +325,7 @@ impl<'b> Navigator<'b> {
             is_contact: self.contact.is_some(),
             is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
             is_scan_complete: self.is_scan_complete(),
+            scans: self.scans,
             left_m: detours.and_then(|detours| length_of(&detours.left)),
             right_m: detours.and_then(|detours| length_of(&detours.right)),
             detours_here: self.spot.detours,
@@ -340,18 +375,29 @@ impl<'b> Navigator<'b> {
         let at = self.pose().at;
         let mut found = Detours::default();
         while let Some(&target) = self.legs.front() {
-            found = self.ground(&self.barriers).detours(at, target);
+            found = self.detours(at, target);
             // A point on the path may be covered by the obstacle: then the next one is gone to.
             if found != Detours::default() || self.legs.len() == 1 {
                 break;
             }
-            let next = self.ground(&self.barriers).detours(at, self.legs[1]);
+            let next = self.detours(at, self.legs[1]);
             if next == Detours::default() {
                 break;
             }
             self.legs.pop_front();
         }
         self.detours = Some(found);
+    }
+
+    /// Detours with room on either side, unless they are much longer than those with little.
+    fn detours(&self, from: Point, to: Point) -> Detours {
+        let narrow = self.ground(&self.barriers);
+        let wide = Ground { reach: self.radius_m + self.settings.detour_room_m, ..narrow };
+        let found = narrow.detours(from, to);
+        let Some(shortest) = found.shortest_m() else { return found };
+        let with_room = wide.detours(from, to);
+        let is_worth = |length: f64| length <= self.settings.room_worth * shortest;
+        if with_room.shortest_m().is_some_and(is_worth) { with_room } else { found }
     }
 
     fn ground<'a>(&self, barriers: &'a [Segment]) -> Ground<'a> {
@@ -471,10 +517,12 @@ impl<'b> Navigator<'b> {
         let at = self.pose().at;
         let reach = self.radius_m + self.settings.detour_clearance_m;
         if let Some(&target) = self.legs.front() {
-            let free = free_ahead(at, target, reach, &self.barriers).metres;
-            let share = free / at.distance(target).max(1e-9);
-            let at = Point::new(at.x + share * (target.x - at.x), at.y + share * (target.y - at.y));
-            let (doorway, region) = self.blocked.note(&self.building.network, at, 2.0 * reach);
+            let free = free_ahead(at, target, reach, &self.barriers);
+            let share = free.metres / at.distance(target).max(1e-9);
+            let stop = Point::new(at.x + share * (target.x - at.x), at.y + share * (target.y - at.y));
+            let met = free.by.map(|by| self.barriers[by]);
+            let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
+            let (doorway, region) = self.blocked.note(&self.building.network, at, reach);
             self.tell(Happening::WayClosed { at, doorway, region });
         }
         self.replans += 1;
@@ -494,7 +542,8 @@ impl<'b> Navigator<'b> {
         }
         (self.memory, self.spot) = (Memory::default(), Spot::default());
         self.blocked = Blocked::new(&self.building.network);
-        self.retries += 1;
+        (self.retries, self.scans) = (self.retries + 1, 0);
+        self.felt.clear();
         self.part.clear();
         self.gather();
         self.tell(Happening::Retried);
@@ -506,7 +555,7 @@ impl<'b> Navigator<'b> {
         let Some(goal) = self.goal else { return };
         let ends = [self.pose().at, goal];
         let mut barriers = self.barriers[..self.obstacles_from].to_vec();
-        barriers.extend(self.memory.obstacles(&self.model, self.settings.least_confidence));
+        barriers.extend(self.obstacles(self.settings.least_confidence));
         let ground = self.ground(&barriers);
         let mut route = None;
         if !is_off_network {

@@ -21,14 +21,20 @@ pub struct Settings {
     pub scan_readings: usize,
     /// Readings after which the model is updated on the way.
     pub part_readings: usize,
-    /// What a detour keeps free on either side of the robot, metres.
+    /// What a detour keeps free on either side of the robot at the least, metres.
     pub detour_clearance_m: f64,
+    /// What it keeps free where there is room, metres.
+    pub detour_room_m: f64,
+    /// A detour with room may be longer than one without by this factor.
+    pub room_worth: f64,
     /// A detour leaves the rectangle about its ends by at most so much, metres.
     pub detour_reach_m: f64,
     /// The grain of the search for detours, metres.
     pub grain_m: f64,
     /// How far the robot withdraws from what it touched, metres.
     pub back_off_m: f64,
+    /// What was touched is in the way for so long, seconds.
+    pub felt_s: f64,
     /// Surfaces of less confidence close no way for good.
     pub least_confidence: u8,
     /// Surfaces farther away than this are out of the local model's sight: if it drops them, they are remembered, metres.
@@ -58,9 +64,12 @@ impl Default for Settings {
             scan_readings: 120,
             part_readings: 40,
             detour_clearance_m: 0.05,
-            detour_reach_m: 4.0,
+            detour_room_m: 0.10,
+            room_worth: 1.3,
+            detour_reach_m: 2.0,
             grain_m: 0.04,
             back_off_m: 0.15,
+            felt_s: 90.0,
             least_confidence: 2,
             memory_m: 6.0,
             same_spot_m: 0.5,

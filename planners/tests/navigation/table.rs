@@ -9,6 +9,7 @@
 //! | Hold    | has_goal                                               | Decide  |          |
 //! | Hold    | otherwise                                              | Hold    |          |
 //! | Decide  | has_goal is false                                      | Hold    |          |
+//! | Decide  | scans = 0                                              | Wait    |          |
 //! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Decide  | is_contact                                             | Blocked |          |
 //! | Decide  | free_m < reach                                         | Blocked |          |
@@ -71,7 +72,9 @@ fn row(facts: &StateFacts) -> (State, Action) {
         State::Hold if !facts.has_way => State::Blocked,
         State::Hold if facts.has_goal => State::Decide,
         State::Hold => State::Hold,
-        State::Decide if !facts.has_goal || is_there => State::Hold,
+        State::Decide if !facts.has_goal => State::Hold,
+        State::Decide if facts.scans == 0 => State::Wait,
+        State::Decide if is_there => State::Hold,
         State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
         State::Decide if !is_turned => State::Turn,
         State::Decide => State::Move,
