@@ -293,12 +293,12 @@ impl<'b> Navigator<'b> {
         let (now, patience) = (self.time_s(), self.settings.felt_s);
         self.felt.retain(|(time_s, _)| now - time_s <= patience);
         self.barriers.extend(self.obstacles(1));
-        self.moving = moving(&self.model).collect();
+        self.moving = moving(&self.model, &self.settings).collect();
         self.detours = None;
     }
 
     fn obstacles(&self, confidence: u8) -> Vec<Segment> {
-        let mut obstacles = self.memory.obstacles(&self.model, confidence);
+        let mut obstacles = self.memory.obstacles(&self.model, confidence, &self.settings);
         obstacles.extend(self.felt.iter().map(|(_, surface)| *surface));
         obstacles
     }

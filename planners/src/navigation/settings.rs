@@ -37,6 +37,8 @@ pub struct Settings {
     pub felt_s: f64,
     /// Surfaces of less confidence close no way for good.
     pub least_confidence: u8,
+    /// Surfaces of this confidence stand, even if they are part of what seems to move.
+    pub firm_confidence: u8,
     /// Surfaces farther away than this are out of the local model's sight: if it drops them, they are remembered, metres.
     pub memory_m: f64,
     /// Blocked within so far of where it was blocked before counts as the same spot, metres.
@@ -71,6 +73,7 @@ impl Default for Settings {
             back_off_m: 0.15,
             felt_s: 90.0,
             least_confidence: 2,
+            firm_confidence: 3,
             memory_m: 6.0,
             same_spot_m: 0.5,
             most_waits: 4,

@@ -76,6 +76,7 @@ fn boxes_in_both_doors_leave_no_way() {
 
 #[test]
 fn a_goal_under_a_box_is_not_reached() {
+    // The sides of the box come into sight one after the other, as if it moved: it went round and round.
     let run = run(&mission([1.0, 3.0], [4.0, 3.0], vec![stands(4.0, 3.0, 0.6, 0.6)]));
     assert_eq!(run.outcome.ending, Ending::NoWay, "{}", run.told());
 }

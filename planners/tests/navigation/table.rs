@@ -112,14 +112,15 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
     }
 }
 
-/// The state table of segments.
+/// The state table of segments. A surface that was seen often enough is not taken for one that moves: sides of a box that
+/// come into sight one after the other look as if it did.
 fn segment(facts: &SegmentFacts) -> Transition {
     let is_recalled = facts.source == Source::RECALLED;
     let confidence = match facts {
         SegmentFacts { confidence: 0, .. } if is_recalled => 5,
         SegmentFacts { confidence: 0, .. } => 1,
-        SegmentFacts { is_moving: true, is_matched: false, .. } => 0,
-        SegmentFacts { is_moving: true, .. } => 1,
+        SegmentFacts { is_moving: true, is_matched: false, confidence: ..=2, .. } => 0,
+        SegmentFacts { is_moving: true, confidence: ..=2, .. } => 1,
         SegmentFacts { is_seen_free: true, is_matched: false, .. } => facts.confidence.saturating_sub(2),
         SegmentFacts { is_matched: true, .. } => (facts.confidence + 1).min(5),
         SegmentFacts { is_visible: true, beams_on: 0, .. } => facts.confidence - 1,
@@ -129,7 +130,7 @@ fn segment(facts: &SegmentFacts) -> Transition {
         confidence,
         source: facts.source,
         is_kept: confidence > 0 && (is_recalled || facts.distance_m <= 15.0),
-        counts_for_pose: !facts.is_moving && confidence >= 2,
+        counts_for_pose: (!facts.is_moving || confidence > 2) && confidence >= 2,
         is_anchored: is_recalled,
         is_cut: !is_recalled && facts.free_m > 0.2,
     }
