@@ -9,7 +9,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use adit_planners::floor_plan::{Disc, FloorPlan, Network, read_floor_plan};
-use adit_planners::navigation::{Building, Ending, Happening, Mission, Outcome, Outfit, Possible, ROOM_M, draw};
+use adit_planners::navigation::{
+    Building, Ending, Happening, Mission, Outcome, Outfit, Possible, ROOM_M, draw,
+};
 use rayon::prelude::*;
 
 struct Case {
@@ -42,7 +44,12 @@ fn load(path: &str) -> (FloorPlan, Building, Outfit) {
     (plan, building, outfit)
 }
 
-fn mission(plan: &FloorPlan, building: &Building, outfit: &Outfit, number: u64) -> Option<(Mission, Possible)> {
+fn mission(
+    plan: &FloorPlan,
+    building: &Building,
+    outfit: &Outfit,
+    number: u64,
+) -> Option<(Mission, Possible)> {
     let mission = draw(plan, &building.network, outfit.robot.radius_m, number)?;
     let possible = mission.possible(plan, outfit.robot.radius_m)?;
     Some((mission, possible))
@@ -62,8 +69,16 @@ fn watch(path: &str, number: u64) {
         match entry.event.what {
             Happening::State { facts: f, decision } => println!(
                 "{at} {:?} -> {:?} {:?}: to go {:.2} free {:.2} echo {:.2} turn {:.3} aside {:.3} left {:?} right {:?}",
-                f.state, decision.state, decision.action, f.distance_m, f.free_m, f.echo_m, f.heading_error,
-                f.off_line_m, f.left_m, f.right_m
+                f.state,
+                decision.state,
+                decision.action,
+                f.distance_m,
+                f.free_m,
+                f.echo_m,
+                f.heading_error,
+                f.off_line_m,
+                f.left_m,
+                f.right_m
             ),
             Happening::SetEstimatedPosition(_) | Happening::Segments { .. } => {}
             what => println!("{at} {what:?}"),
@@ -108,7 +123,11 @@ fn table_of(path: &str, count: u64) {
         cases.iter().map(|case| (case.outcome.touches, case.number, case.has_movers)).collect();
     touched.retain(|(touches, ..)| *touches > 0);
     touched.sort_by(|a, b| b.cmp(a));
-    println!("  missions with touches: {} (touches, number, something moves): {:?}", touched.len(), &touched[..touched.len().min(8)]);
+    println!(
+        "  missions with touches: {} (touches, number, something moves): {:?}",
+        touched.len(),
+        &touched[..touched.len().min(8)]
+    );
     let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.path_m / optimum);
     let reached = || cases.iter().filter(|case| arrived(case));
     spread("path over optimum", reached().filter_map(ratio).collect());
@@ -125,13 +144,27 @@ fn table_of(path: &str, count: u64) {
             _ => false,
         };
         if !is_right {
-            println!("  {} {}{:?} {:?}", case.number, if case.has_movers { "(moving) " } else { "" }, case.possible, case.outcome);
+            println!(
+                "  {} {}{:?} {:?}",
+                case.number,
+                if case.has_movers { "(moving) " } else { "" },
+                case.possible,
+                case.outcome
+            );
         }
     }
 }
 
 fn spread(what: &str, mut values: Vec<f64>) {
     values.sort_by(f64::total_cmp);
-    let at = |share: f64| values.get(((values.len().max(1) - 1) as f64 * share) as usize).copied().unwrap_or(f64::NAN);
-    println!("  {what}: median {:.3}, 90 % {:.3}, 99 % {:.3}, worst {:.3}", at(0.5), at(0.9), at(0.99), at(1.0));
+    let at = |share: f64| {
+        values.get(((values.len().max(1) - 1) as f64 * share) as usize).copied().unwrap_or(f64::NAN)
+    };
+    println!(
+        "  {what}: median {:.3}, 90 % {:.3}, 99 % {:.3}, worst {:.3}",
+        at(0.5),
+        at(0.9),
+        at(0.99),
+        at(1.0)
+    );
 }

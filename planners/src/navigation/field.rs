@@ -74,8 +74,8 @@ impl Field {
 /// The rectangle about points, larger by a margin.
 pub(super) fn window(points: impl IntoIterator<Item = Point>, margin: f64) -> Rect {
     let start = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let all = points.into_iter().fold(start, |r, p| {
-        Rect::new(r.x0.min(p.x), r.y0.min(p.y), r.x1.max(p.x), r.y1.max(p.y))
-    });
+    let all = points
+        .into_iter()
+        .fold(start, |r, p| Rect::new(r.x0.min(p.x), r.y0.min(p.y), r.x1.max(p.x), r.y1.max(p.y)));
     Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin)
 }

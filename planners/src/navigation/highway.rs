@@ -82,7 +82,8 @@ fn first_within(from: Point, to: Point, reach: f64, barrier: &Segment) -> f64 {
 
 fn is_far(from: Point, to: Point, reach: f64, barrier: &Segment) -> bool {
     let apart = |a: f64, b: f64, c: f64, d: f64| (c.min(d) - a.max(b)).max(a.min(b) - c.max(d));
-    apart(from.x, to.x, barrier.a.x, barrier.b.x) > reach || apart(from.y, to.y, barrier.a.y, barrier.b.y) > reach
+    apart(from.x, to.x, barrier.a.x, barrier.b.x) > reach
+        || apart(from.y, to.y, barrier.a.y, barrier.b.y) > reach
 }
 
 #[cfg(test)]

@@ -33,8 +33,9 @@ impl Memory {
     /// Takes note of the model after an update.
     pub fn note(&mut self, model: &LocalModel, walls: &[Segment], settings: &Settings) {
         let at = model.estimate().pose.at;
-        let now: Vec<(SegmentId, Segment, u8)> =
-            obstacles(model, settings).map(|segment| (segment.id, segment.line, segment.confidence)).collect();
+        let now: Vec<(SegmentId, Segment, u8)> = obstacles(model, settings)
+            .map(|segment| (segment.id, segment.line, segment.confidence))
+            .collect();
         for (id, line, confidence) in std::mem::take(&mut self.lately) {
             let is_gone = now.binary_search_by_key(&id, |known| known.0).is_err();
             if is_gone && line.distance(at) > settings.memory_m {

@@ -56,6 +56,10 @@ pub struct Navigator<'b> {
     course: Option<Course>,
     part: Vec<Reading>,
     readings_standing: usize,
+    /// Times that the robot withdrew since it last waited.
+    back_offs: u32,
+    /// When the goal was given, seconds.
+    begun_s: f64,
     /// Whole scans since the goal was given, or everything was forgotten.
     scans: u32,
     /// What was touched, and when; the model may have it elsewhere.
@@ -126,6 +130,8 @@ impl<'b> Navigator<'b> {
             course: None,
             part: Vec::new(),
             readings_standing: 0,
+            back_offs: 0,
+            begun_s: 0.0,
             scans: 0,
             felt: Vec::new(),
             detours: None,
@@ -186,6 +192,7 @@ impl<'b> Navigator<'b> {
     /// Plans a path to a goal, and goes there from now on.
     pub fn go(&mut self, goal: Point, judge: &mut impl Judge) {
         (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
+        self.begun_s = self.time_s();
         self.blocked = Blocked::new(&self.building.network);
         self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         self.gather();
@@ -214,10 +221,10 @@ impl<'b> Navigator<'b> {
         let facts = self.facts();
         let decision = judge.next_state(&facts);
         if decision.state != facts.state || decision.action != Action::None {
-            self.tell(Happening::State { facts, decision });
+            self.tell(Happening::State { facts: Box::new(facts), decision });
         }
         let ending = self.follow(&facts, decision, body, judge);
-        let ending = ending.or_else(|| Ending::of_patience(self.time_s(), &self.settings));
+        let ending = ending.or_else(|| Ending::of_patience(facts.time_s, &self.settings));
         if let Some(ending) = ending {
             self.tell(Happening::Ended(ending));
             self.manual(body);
@@ -240,7 +247,7 @@ impl<'b> Navigator<'b> {
             // What runs into a robot that stands is no reason to stop; it is in the model then.
             if is_driven {
                 self.contact = self.contact.or(Some(contact));
-                self.felt.push((sensed.time_s, self.surface_at(&contact)));
+                self.felt.push((sensed.time_s, self.surface_at(contact)));
             }
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
@@ -254,7 +261,7 @@ impl<'b> Navigator<'b> {
     }
 
     /// A short surface across a touch.
-    fn surface_at(&self, contact: &Contact) -> Segment {
+    fn surface_at(&self, contact: Contact) -> Segment {
         let pose = self.pose();
         let (towards, across) =
             (pose.direction(contact.bearing), pose.direction(contact.bearing + FRAC_PI_2));
@@ -323,6 +330,7 @@ impl<'b> Navigator<'b> {
             echo_m: self.echo_m(target),
             is_obstacle_moving,
             is_contact: self.contact.is_some(),
+            back_offs: self.back_offs,
             is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
             is_scan_complete: self.is_scan_complete(),
             scans: self.scans,
@@ -332,6 +340,7 @@ impl<'b> Navigator<'b> {
             waits: self.spot.waits,
             has_way: self.has_way,
             retries: self.retries,
+            time_s: self.time_s() - self.begun_s,
             settings: self.settings,
         }
     }
@@ -439,6 +448,7 @@ impl<'b> Navigator<'b> {
             State::Wait if is_entered => {
                 self.stop(body);
                 (self.readings_standing, self.spot.waits) = (0, self.spot.waits + 1);
+                (self.contact, self.back_offs) = (None, 0);
                 self.part.clear();
             }
             State::Blocked if is_entered => {
@@ -473,6 +483,7 @@ impl<'b> Navigator<'b> {
     }
 
     fn back_off(&mut self, body: &mut impl Body) {
+        self.back_offs += 1;
         let is_ahead = self.contact.take().is_none_or(|contact| contact.bearing.cos() >= 0.0);
         let distance_m = if is_ahead { -self.settings.back_off_m } else { self.settings.back_off_m };
         self.drive_straight(body, distance_m);

@@ -49,6 +49,10 @@ pub struct Settings {
     pub most_detours: u32,
     /// Times that everything is looked at anew before there is no way.
     pub most_retries: u32,
+    /// There may be a way again for so long: things that move come to rest, seconds.
+    pub no_way_after_s: f64,
+    /// Times that the robot withdraws from touches before it looks around.
+    pub most_back_offs: u32,
     /// After so long a mission is given up, seconds.
     pub patience_s: f64,
 }
@@ -79,6 +83,8 @@ impl Default for Settings {
             most_waits: 4,
             most_detours: 4,
             most_retries: 2,
+            no_way_after_s: 180.0,
+            most_back_offs: 3,
             patience_s: 3600.0,
         }
     }

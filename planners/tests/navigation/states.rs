@@ -71,7 +71,8 @@ fn boxes_in_both_doors_leave_no_way() {
     assert_eq!(run.outcome.ending, Ending::NoWay, "{}", run.told());
     assert_eq!(run.outcome.touches, 0);
     let retries = run.count(|what| matches!(what, Happening::Retried));
-    assert_eq!(retries, Settings::default().most_retries as usize, "it is looked at anew before that is said");
+    assert!(retries >= Settings::default().most_retries as usize, "it is looked at anew before that is said");
+    assert!(run.outcome.simulated_s >= Settings::default().no_way_after_s);
 }
 
 #[test]

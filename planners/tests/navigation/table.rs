@@ -30,9 +30,10 @@
 //! | Wait    | is_scan_complete                                       | Decide  |          |
 //! | Wait    | otherwise                                              | Wait    |          |
 //! | Blocked | is_busy                                                | Blocked |          |
-//! | Blocked | is_contact                                             | Blocked | BackOff  |
+//! | Blocked | is_contact and back_offs < most_back_offs              | Blocked | BackOff  |
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
+//! | Blocked | has_way is false and time_s < no_way_after_s           | Decide  | Retry    |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
 //! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
 //! | Blocked | detours_here >= most_detours                           | Decide  | Close    |
@@ -62,6 +63,7 @@ impl Judge for Table {
     }
 }
 
+#[expect(clippy::match_same_arms, reason = "an arm is a row of the table")]
 fn row(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
     let reach = facts.distance_m.min(settings.look_ahead_m) - 1e-6;
@@ -97,12 +99,15 @@ fn row(facts: &StateFacts) -> (State, Action) {
 
 fn blocked(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
+    let is_early = facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s;
     let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
     match () {
         () if facts.is_busy => (State::Blocked, Action::None),
-        () if facts.is_contact => (State::Blocked, Action::BackOff),
+        () if facts.is_contact && facts.back_offs < settings.most_back_offs => {
+            (State::Blocked, Action::BackOff)
+        }
         () if !facts.is_scan_complete => (State::Wait, Action::None),
-        () if !facts.has_way && facts.retries < settings.most_retries => (State::Decide, Action::Retry),
+        () if !facts.has_way && is_early => (State::Decide, Action::Retry),
         () if !facts.has_way => (State::Hold, Action::NoWay),
         () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
         () if facts.detours_here >= settings.most_detours => (State::Decide, Action::Close),
