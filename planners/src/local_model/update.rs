@@ -9,7 +9,7 @@ use super::reinforce::{across, reinforce, same_surface};
 use super::sensor_model::{self, Seen};
 use super::sequences;
 use super::sight::{Crossing, Evidence, Fan};
-use super::{LocalModel, ModelSegment, ObjectId, SegmentFacts, SegmentId, Source, Transition};
+use super::{LocalModel, ModelSegment, ObjectId, SegmentFacts, SegmentId, Settings, Source, Transition};
 use crate::body::Reading;
 use crate::pose::Pose;
 
@@ -213,7 +213,7 @@ impl LocalModel {
                 looks[on.model].is_matched = true;
             }
             if found.iter().any(|on| self.segments[on.model].is_anchored) {
-                new.extend(self.beside(one, &found));
+                new.extend(self.beside(one, near));
             } else {
                 let segment = &mut self.segments[found[0].model];
                 reinforce(segment, &one.fit, &one.line, &self.estimate);
@@ -230,7 +230,10 @@ impl LocalModel {
 
     /// The pieces of a scan's segment that lie beside none of the segments on which it lies. One between two walls, with
     /// echoes in it, fills the gap: a closed door. One at an end has to be enough for a segment of its own.
-    fn beside(&self, one: &Seen, on: &[Match]) -> Vec<Seen> {
+    fn beside(&self, one: &Seen, near: &[Near]) -> Vec<Seen> {
+        // whatever lies on the same line leaves nothing of it, however short the part beside it
+        let settings = Settings { match_overlap: 0.0, ..self.settings };
+        let on = matches(one, near, &self.segments, &self.estimate, &settings);
         let place = |p| one.fit.place(p);
         let ordered = |a: f64, b: f64| (a.min(b), a.max(b));
         let lines = on.iter().map(|on| self.segments[on.model].line);
@@ -351,7 +354,7 @@ impl LocalModel {
                 ..segment.facts(at)
             };
             let transition = decide(&facts);
-            segment.follow(&transition);
+            segment.follow(transition);
             let mut keeps = transition.is_kept;
             if keeps && facts.free_m > 0.0 && transition.is_cut {
                 let left = segment.without(&evidence.free, settings.shortest_m);
