@@ -4,10 +4,9 @@
 //! that turn out to be one straight line are joined again.
 
 use super::Settings;
-use super::beam::Beam;
+use super::beam::{Beam, Shift};
 use super::fit::{Echo, Fit};
 use crate::geometry::Point;
-use crate::pose::Pose;
 use crate::segment::Segment;
 
 /// A straight surface that a scan shows.
@@ -33,8 +32,8 @@ impl Seen {
     }
 
     /// The same, once the pose that it was placed by is found to be another.
-    pub fn moved(&self, before: &Pose, after: &Pose) -> Self {
-        let moved = |p: Point| after.then(&before.to(&Pose { at: p, heading: 0.0 })).at;
+    pub fn moved(&self, shift: &Shift) -> Self {
+        let moved = |p: Point| shift.of(p);
         let (tip, centre) = (self.fit.at(1.0), moved(self.fit.centre));
         let tip = moved(tip);
         let along = Point::new(tip.x - centre.x, tip.y - centre.y);
