@@ -7,6 +7,7 @@ pub mod channels;
 pub mod clearance;
 pub mod doors;
 pub mod facts;
+pub mod floor_plan;
 pub mod geometry;
 mod known;
 pub mod layers;

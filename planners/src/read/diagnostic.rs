@@ -64,6 +64,12 @@ pub enum Code {
     GridTooFine,
     /// An image with more pixels than a map may have.
     ImageTooLarge,
+    /// A wall that bounds no free space, or no walls that do.
+    OpenOutline,
+    /// Two walls that cross or lie on one another.
+    CrossingWalls,
+    /// A robot that fits through no doorway.
+    RobotTooWide,
     /// A world of a planner that cannot be as it is given.
     Impossible,
 }
@@ -99,6 +105,9 @@ impl Code {
             Self::ImageTruncated => "map/image-truncated",
             Self::GridTooFine => "map/grid-too-fine",
             Self::ImageTooLarge => "map/image-too-large",
+            Self::OpenOutline => "map/open-outline",
+            Self::CrossingWalls => "map/crossing-walls",
+            Self::RobotTooWide => "map/robot-too-wide",
             Self::Impossible => "map/impossible",
         }
     }

@@ -1,0 +1,227 @@
+//! Where the centre of a disc can be, as triangles that lie in one region each.
+
+use geo::{CoordsIter, LineString, MultiPolygon};
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+use super::disc::Disc;
+use super::plan::FloorPlan;
+use super::regions::Regions;
+use crate::geometry::Point;
+
+type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// No triangle.
+const NONE: u32 = u32::MAX;
+
+/// Whether an edge of the mesh lies on a doorway is told by its middle, metres.
+const NEAR_M: f64 = 1e-6;
+
+#[derive(Clone, Copy, Debug)]
+struct Triangle {
+    /// Counterclockwise.
+    corners: [Point; 3],
+    /// Beside the edge from each corner to the next; [`NONE`] where that is no triangle of the same region.
+    beside: [u32; 3],
+}
+
+/// A part of a doorway that the centre can pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Opening {
+    pub doorway: usize,
+    /// The ends, so that the doorway's first region lies to the left.
+    pub ends: [Point; 2],
+    /// The triangles in the doorway's regions.
+    pub triangles: [u32; 2],
+}
+
+impl Opening {
+    pub fn middle(&self) -> Point {
+        Point::new(
+            f64::midpoint(self.ends[0].x, self.ends[1].x),
+            f64::midpoint(self.ends[0].y, self.ends[1].y),
+        )
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct Mesh {
+    /// Region by region.
+    triangles: Vec<Triangle>,
+    /// For each region its first triangle, and one more.
+    begins: Vec<u32>,
+    pub openings: Vec<Opening>,
+}
+
+/// An edge that a way crosses: what lies left of the way, what right.
+pub(super) type Gate = [Point; 2];
+
+impl Mesh {
+    pub fn new(plan: &FloorPlan, regions: &Regions, disc: &Disc) -> Self {
+        let grown = disc.grown(plan);
+        let cdt = triangulate(&grown, regions);
+        let region_of = regions_of_faces(&cdt, &grown, plan, regions);
+        let mut order: Vec<u32> =
+            (0..cdt.num_all_faces() as u32).filter(|&f| region_of[f as usize] != NONE).collect();
+        order.sort_by_key(|&face| region_of[face as usize]);
+        let mut number = vec![NONE; cdt.num_all_faces()];
+        let mut begins = vec![0; regions.regions.len() + 1];
+        for (index, &face) in (0..).zip(&order) {
+            number[face as usize] = index;
+            begins[region_of[face as usize] as usize + 1] = index + 1;
+        }
+        for region in 1..begins.len() {
+            begins[region] = begins[region].max(begins[region - 1]);
+        }
+        let mut mesh = Self { triangles: Vec::with_capacity(order.len()), begins, openings: Vec::new() };
+        let by_number = cdt.inner_faces().filter(|face| number[face.fix().index()] != NONE);
+        let mut faces: Vec<_> = by_number.collect();
+        faces.sort_by_key(|face| number[face.fix().index()]);
+        for face in faces {
+            let own = face.fix().index();
+            let mut triangle = Triangle { corners: face.positions().map(at), beside: [NONE; 3] };
+            for (edge, beside) in face.adjacent_edges().iter().zip(&mut triangle.beside) {
+                let other = edge.rev().face().fix().index();
+                if region_of[other] == region_of[own] {
+                    *beside = number[other];
+                } else if region_of[other] != NONE {
+                    let ends = edge.positions().map(at);
+                    let sides = [own, other].map(|face| (region_of[face] as usize, number[face]));
+                    mesh.openings.extend(opening(regions, ends, sides));
+                }
+            }
+            mesh.triangles.push(triangle);
+        }
+        mesh.openings.sort_by_key(|opening| opening.doorway);
+        mesh
+    }
+
+    fn of_region(&self, region: usize) -> std::ops::Range<u32> {
+        self.begins[region]..self.begins[region + 1]
+    }
+
+    /// The triangle of a region that holds a point.
+    pub fn locate(&self, region: usize, p: Point) -> Option<u32> {
+        let holds = |corners: &[Point; 3]| {
+            (0..3).all(|i| {
+                let (a, b) = (corners[i], corners[(i + 1) % 3]);
+                (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= -1e-9 * a.distance(b)
+            })
+        };
+        self.of_region(region).find(|&triangle| holds(&self.triangles[triangle as usize].corners))
+    }
+
+    /// The gates on the way from one triangle of a region to another one; `None` where they are not joined in it.
+    pub fn gates(&self, region: usize, from: u32, to: u32) -> Option<Vec<Gate>> {
+        let range = self.of_region(region);
+        let mut before: Vec<(u32, u32)> = vec![(NONE, 0); range.len()];
+        let place = |triangle: u32| (triangle - range.start) as usize;
+        before[place(to)] = (to, 0);
+        let mut next = std::collections::VecDeque::from([to]);
+        while before[place(from)].0 == NONE {
+            let triangle = next.pop_front()?;
+            for &other in self.triangles[triangle as usize].beside.iter().filter(|&&other| other != NONE) {
+                if before[place(other)].0 == NONE {
+                    let beside = self.triangles[other as usize].beside;
+                    let edge = beside.iter().position(|&b| b == triangle)? as u32;
+                    before[place(other)] = (triangle, edge);
+                    next.push_back(other);
+                }
+            }
+        }
+        let (mut gates, mut at) = (Vec::new(), from);
+        while at != to {
+            let (towards, edge) = before[place(at)];
+            let corners = self.triangles[at as usize].corners;
+            // The triangle lies left of its edges, so a way out of it has the edge's end to the left.
+            gates.push([corners[(edge as usize + 1) % 3], corners[edge as usize]]);
+            at = towards;
+        }
+        Some(gates)
+    }
+}
+
+fn at(p: Point2<f64>) -> Point {
+    Point::new(p.x, p.y)
+}
+
+fn triangulate(grown: &MultiPolygon, regions: &Regions) -> Cdt {
+    let mut cdt = Cdt::new();
+    let insert = |cdt: &mut Cdt, x: f64, y: f64| cdt.insert(Point2::new(x, y)).ok();
+    let mut lines: Vec<[FixedVertexHandle; 2]> = Vec::new();
+    for ring in rings(grown) {
+        let handles: Vec<Option<FixedVertexHandle>> =
+            ring.coords_iter().map(|c| insert(&mut cdt, c.x, c.y)).collect();
+        lines.extend(handles.windows(2).filter_map(|ends| Some([ends[0]?, ends[1]?])));
+    }
+    for doorway in &regions.doorways {
+        let ends = [doorway.from, doorway.to].map(|p| insert(&mut cdt, p.x, p.y));
+        if let [Some(a), Some(b)] = ends {
+            lines.push([a, b]);
+        }
+    }
+    for [a, b] in lines.into_iter().filter(|[a, b]| a != b) {
+        cdt.add_constraint_and_split(a, b, |p| p);
+    }
+    cdt
+}
+
+fn rings(grown: &MultiPolygon) -> impl Iterator<Item = &LineString> {
+    grown.iter().flat_map(|polygon| std::iter::once(polygon.exterior()).chain(polygon.interiors()))
+}
+
+/// For each face the region that it lies in; [`NONE`] where the centre cannot be.
+fn regions_of_faces(cdt: &Cdt, grown: &MultiPolygon, plan: &FloorPlan, regions: &Regions) -> Vec<u32> {
+    let mut region_of = vec![NONE; cdt.num_all_faces()];
+    let mut is_known = vec![false; cdt.num_all_faces()];
+    for first in cdt.inner_faces() {
+        if is_known[first.fix().index()] {
+            continue;
+        }
+        is_known[first.fix().index()] = true;
+        let (mut part, mut next) = (Vec::new(), vec![first]);
+        while let Some(face) = next.pop() {
+            part.push(face);
+            let open = face.adjacent_edges().into_iter().filter(|edge| !edge.is_constraint_edge());
+            for other in open.filter_map(|edge| edge.rev().face().as_inner()) {
+                if !std::mem::replace(&mut is_known[other.fix().index()], true) {
+                    next.push(other);
+                }
+            }
+        }
+        let largest = part.iter().max_by(|a, b| a.area().total_cmp(&b.area()));
+        let middle = largest.map_or(Point::default(), |face| at(face.center()));
+        let is_grown = rings(grown).filter(|ring| is_inside(ring, middle)).count() % 2 == 1;
+        if is_grown || !plan.is_free(middle) {
+            continue;
+        }
+        if let Some(region) = regions.regions.iter().position(|region| region.contains(middle)) {
+            for face in part {
+                region_of[face.fix().index()] = region as u32;
+            }
+        }
+    }
+    region_of
+}
+
+/// Whether a point lies in a ring, by the parity of the edges to its right.
+fn is_inside(ring: &LineString, p: Point) -> bool {
+    let is_crossed = |line: geo::Line| {
+        let (a, b) = (line.start, line.end);
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    ring.lines().filter(|&line| is_crossed(line)).count() % 2 == 1
+}
+
+/// The opening on an edge of the mesh, seen from its left side, if that is the doorway's first region.
+fn opening(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Option<Opening> {
+    let middle = Point::new(f64::midpoint(ends[0].x, ends[1].x), f64::midpoint(ends[0].y, ends[1].y));
+    let is_own = |doorway: &&(usize, &super::regions::Doorway)| {
+        let (_, doorway) = doorway;
+        doorway.regions == sides.map(|side| side.0)
+            && middle.distance(middle.nearest_on(doorway.from, doorway.to)) <= NEAR_M
+    };
+    let all: Vec<_> = regions.doorways.iter().enumerate().collect();
+    let &(doorway, _) = all.iter().find(is_own)?;
+    Some(Opening { doorway, ends, triangles: sides.map(|side| side.1) })
+}

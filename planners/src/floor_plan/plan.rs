@@ -1,0 +1,178 @@
+//! A floor plan that was checked: its walls close outlines, cross nowhere, and its places are free.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::check::Check;
+use super::noding::Noded;
+use super::planar::Planar;
+use crate::geometry::{Point, Rect};
+use crate::read::{Code, MapErrors, Problem, Text};
+use crate::world::{Occupancy, Place, Shape, World};
+
+/// Walls without thickness, solid things, and named places, in metres.
+#[derive(Clone, Debug)]
+pub struct FloorPlan {
+    /// What it is called.
+    pub name: String,
+    walls: Vec<[Point; 2]>,
+    solids: Vec<Vec<Point>>,
+    places: Vec<Place>,
+    source: Source,
+    space: Arc<Space>,
+}
+
+/// What a plan is made of, before it is checked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawn {
+    /// What it is called.
+    pub name: String,
+    /// Walls by their ends. They may end on one another, and must not cross.
+    pub walls: Vec<[Point; 2]>,
+    /// Pillars and walls with a thickness, by their corners in order. They may overlap walls and one another.
+    pub solids: Vec<Vec<Point>>,
+    /// Points with names.
+    pub places: Vec<Place>,
+}
+
+/// Where in a file each thing stands, if it comes from one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Source {
+    pub text: Option<Text>,
+    pub walls: Vec<Range<usize>>,
+    pub solids: Vec<Range<usize>>,
+    pub places: Vec<Range<usize>>,
+}
+
+/// The outline of all that is solid, and on which sides of it there is free space.
+#[derive(Clone, Debug)]
+pub(super) struct Space {
+    pub plan: Planar,
+    /// For each half-edge whether free space lies to its left.
+    pub free_half: Vec<bool>,
+}
+
+impl FloorPlan {
+    /// Checks a plan.
+    ///
+    /// # Returns
+    /// All that is wrong with it: numbers that are none, walls without a length, crossing walls, open outlines,
+    /// places in walls or outside.
+    pub fn new(drawn: Drawn) -> Result<Self, MapErrors> {
+        Self::from_source(drawn, Source::default())
+    }
+
+    /// The floor plan of a map: its edge and all that is solid on it, polygons as they are drawn. Bridges are left
+    /// out, and so is the map's clearance: a disc has a margin of its own.
+    pub fn of_world(world: &World) -> Result<Self, MapErrors> {
+        let corners = |shape: &Shape| match shape {
+            Shape::Rect(r) => rectangle(r),
+            Shape::Polygon(corners) => corners.clone(),
+        };
+        let mut solids: Vec<Vec<Point>> = world.obstacles.iter().map(|item| corners(&item.shape)).collect();
+        solids.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(|rect| rectangle(&rect)));
+        solids.extend(frame(&world.bounds));
+        Self::new(Drawn { solids, places: world.places.clone(), ..Drawn::default() })
+    }
+
+    pub(super) fn from_source(drawn: Drawn, source: Source) -> Result<Self, MapErrors> {
+        let Drawn { name, walls, solids, places } = drawn;
+        let mut check = Check::new(&source);
+        check.shapes(&walls, &solids);
+        check.names(&places);
+        check.stop()?;
+        let (noded, ring_from) = check.outlines(&walls, &solids)?;
+        let space = Space::new(&noded, ring_from);
+        check.closed(&walls, &noded, ring_from, &space);
+        check.places(&places, &walls, &solids, &space);
+        check.stop()?;
+        let space = Arc::new(space);
+        Ok(Self { name, walls, solids, places, source, space })
+    }
+
+    /// The walls by their ends, as drawn.
+    pub fn walls(&self) -> &[[Point; 2]] {
+        &self.walls
+    }
+
+    /// The solid things by their corners, as drawn.
+    pub fn solids(&self) -> &[Vec<Point>] {
+        &self.solids
+    }
+
+    /// The named places.
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// Whatever stops a robot or an echo: walls, and outlines of solid things.
+    pub fn barriers(&self) -> Vec<[Point; 2]> {
+        self.space
+            .plan
+            .edges
+            .iter()
+            .map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize]))
+            .collect()
+    }
+
+    /// The area of the free space, square metres.
+    pub fn free_area(&self) -> f64 {
+        let plan = &self.space.plan;
+        plan.cycles
+            .iter()
+            .filter(|cycle| self.space.free_half[cycle.first as usize])
+            .map(|cycle| cycle.area)
+            .sum()
+    }
+
+    /// Whether a point lies in free space; on a wall it may or may not.
+    pub fn is_free(&self, p: Point) -> bool {
+        self.space.is_free(p)
+    }
+
+    pub(super) fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// A problem with a place, told where it stands in the file.
+    pub(super) fn problem_of_place(&self, place: usize, code: Code, message: String) -> Problem {
+        Check::new(&self.source).problem(self.source.places.get(place), code, message)
+    }
+}
+
+impl Space {
+    fn new(noded: &Noded, ring_from: usize) -> Self {
+        let plan = Planar::new(noded.points.clone(), noded.edges.clone());
+        let is_solid = |half: u32| half.is_multiple_of(2) && noded.wall_of[half as usize / 2] >= ring_from;
+        let is_free = |face: &Option<u32>| face.is_some_and(|face| !plan.along(face).any(is_solid));
+        let free: Vec<bool> = plan.faces().iter().map(is_free).collect();
+        let free_half = plan.cycle_of.iter().map(|&cycle| free[cycle as usize]).collect();
+        Self { plan, free_half }
+    }
+
+    /// Whether a point lies in free space; on its outline it may or may not.
+    pub fn is_free(&self, p: Point) -> bool {
+        let area = |&c: &u32| self.plan.cycles[c as usize].area;
+        let outer = (0..self.plan.cycles.len() as u32).filter(|c| area(c) > 0.0);
+        let around = outer.filter(|&c| self.plan.is_inside(c, p));
+        let nearest = around.min_by(|a, b| area(a).total_cmp(&area(b)));
+        nearest.is_some_and(|cycle| self.free_half[self.plan.cycles[cycle as usize].first as usize])
+    }
+}
+
+fn rectangle(r: &Rect) -> Vec<Point> {
+    [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(|(x, y)| Point::new(x, y)).to_vec()
+}
+
+/// Something solid all around, as thick as the rectangle's smaller side.
+fn frame(r: &Rect) -> Vec<Vec<Point>> {
+    let thick = r.smaller_side();
+    let (x0, y0, x1, y1) = (r.x0 - thick, r.y0 - thick, r.x1 + thick, r.y1 + thick);
+    let bars = [
+        Rect::new(x0, y0, x1, r.y0),
+        Rect::new(x0, r.y1, x1, y1),
+        Rect::new(x0, r.y0, r.x0, r.y1),
+        Rect::new(r.x1, r.y0, x1, r.y1),
+    ];
+    bars.iter().map(rectangle).collect()
+}
