@@ -129,3 +129,22 @@ fn the_safest_gap_of_the_example_is_the_one_in_closed_form() {
     assert!((ROBOT.safest(3.0) - safest).abs() < 1e-15);
     assert!((safest - 0.929_688).abs() < 1e-6);
 }
+
+#[test]
+fn far_from_the_origin_the_same_is_driven() {
+    let (east, north) = (4_512_345.678, -987_654.321);
+    for corridor in &CORRIDORS {
+        let moved = |r: &[f64; 4]| rect([r[0] + east, r[1] + north, r[2] + east, r[3] + north]);
+        let channels: Vec<Rect> = corridor.channels.iter().map(moved).collect();
+        let corridors = Corridors::new(&channels).unwrap();
+        let at = |(x, y): (f64, f64)| Point::new(x + east, y + north);
+        let (start, goal) = (at(corridor.start), at(corridor.goal));
+        let route = corridors.route(start, goal, |passage| Ok::<_, ()>(Some(passage.length))).unwrap();
+        for path in corridor.paths {
+            let drive =
+                route.drive(ROBOT, None, |facts| corrected(facts, path.gap.unwrap_or(facts.safest))).unwrap();
+            assert!((drive.length - path.length).abs() < 1e-5, "{}: {}", corridor.name, drive.length);
+            assert!((drive.min_clearance - path.min_clearance).abs() < 1e-5, "{}", corridor.name);
+        }
+    }
+}

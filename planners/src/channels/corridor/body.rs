@@ -77,6 +77,14 @@ impl Body {
         length((point.x.abs() - self.half_length).max(0.0), (point.y.abs() - self.half_width).max(0.0))
     }
 
+    /// The direction, of length 1, in which a point is farther from the body the soonest; no direction inside.
+    pub fn away(&self, point: Point) -> Point {
+        let beyond = |at: f64, half: f64| (at.abs() - half).max(0.0).copysign(at);
+        let (x, y) = (beyond(point.x, self.half_length), beyond(point.y, self.half_width));
+        let per_metre = 1.0 / length(x, y).max(f64::MIN_POSITIVE);
+        Point::new(x * per_metre, y * per_metre)
+    }
+
     /// Metres that the segment from `a` to `b` is away at least: those of the rectangle about it.
     pub fn least_distance(&self, a: Point, b: Point) -> f64 {
         let beyond = |a: f64, b: f64, half: f64| (a.min(b) - half).max(-half - a.max(b)).max(0.0);

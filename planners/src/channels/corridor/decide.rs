@@ -98,7 +98,9 @@ impl TurnMade {
     /// Puts the arriving point where the decision says, if `line` is the one that touches the circle there.
     pub(super) fn arrive_by_table<E>(&mut self, line: &Tangent) -> Result<(), DriveError<E>> {
         let (theta, arriving) = by_table(self, line.from);
-        if arriving.distance(line.to) > NOISE * (self.radius + line.length) {
+        // far from the frame's origin, coordinates themselves are as coarse as this
+        let coarse = 16.0 * f64::EPSILON * (self.corner.x.abs() + self.corner.y.abs());
+        if arriving.distance(line.to) > NOISE * (self.radius + line.length) + coarse {
             return Err(DriveError::NotOnCircle {
                 junction: self.facts.junction,
                 rule: self.steer.rule,

@@ -30,7 +30,7 @@ impl<'a> Sweep<'a> {
     pub fn line(&self, line: &Tangent, from_heading: f64, to_heading: f64) -> Result<f64, Wall> {
         let by = to_heading - from_heading;
         if by.abs() > STRAIGHT {
-            let turning = Turning { from: line.from, to: line.to, heading: from_heading, by };
+            let turning = Turning::new(line.from, line.to, from_heading, by);
             let least = turning.nearest(&self.body, self.walls).map_or(f64::INFINITY, |nearest| nearest.0);
             if least <= 0.0 {
                 let within = turning.nearest(&self.body.grown(-TOUCH_TURNING), self.walls);
@@ -132,6 +132,7 @@ impl<'a> Orbit<'a> {
         };
         let mut least = at(Angle { sin: 0.0, cos: 1.0 }).min(at(self.angle));
         let mut look = |point: Point, offset: Angle| {
+            // of the centre itself, which never comes nearer, this is no number, and neither comparison holds
             let angle = Angle::of(point.x, point.y).minus(offset);
             if angle.sin > 0.0 && self.angle.minus(angle).sin > 0.0 {
                 least = least.min(at(angle));
