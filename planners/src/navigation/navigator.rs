@@ -20,6 +20,9 @@ use crate::segment::Segment;
 /// So much farther than it was counts as farther away, metres.
 const FALLING_M: f64 = 0.05;
 
+/// A touch is ahead of a course if the cosine of its bearing is larger.
+const SIDEWAYS: f64 = 0.05;
+
 /// A course that ends so much earlier than it should was cut short, metres.
 const SHORT_M: f64 = 0.002;
 
@@ -83,6 +86,10 @@ struct Course {
 }
 
 impl Course {
+    fn leads_to(&self, contact: Contact) -> bool {
+        self.distance_m.signum() * contact.bearing.cos() > SIDEWAYS
+    }
+
     fn is_cut_short(&self, sensed: &Sensed) -> bool {
         sensed.odometry.at.distance(self.from.at) < self.distance_m.abs() - SHORT_M
     }
@@ -237,15 +244,15 @@ impl<'b> Navigator<'b> {
         let sensed = body.sense();
         self.radius_m = body.radius_m();
         self.model.reckon(&sensed.odometry);
-        let is_driven = self.course.is_some() || self.state == State::Turn;
         let is_stopped = !sensed.is_busy && self.course.is_some_and(|course| course.is_cut_short(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_stopped);
         self.sensed = Some(sensed);
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
         if let Some(contact) = touch {
-            // What runs into a robot that stands is no reason to stop; it is in the model then.
-            if is_driven {
+            // What runs into a robot that stands, or goes elsewhere, is in the model then, and no reason to stop.
+            let is_ahead = self.course.is_some_and(|course| course.leads_to(contact));
+            if is_stopped || is_ahead || self.state == State::Turn {
                 self.contact = self.contact.or(Some(contact));
                 self.felt.push((sensed.time_s, self.surface_at(contact)));
             }
@@ -566,7 +573,9 @@ impl<'b> Navigator<'b> {
         let Some(goal) = self.goal else { return };
         let ends = [self.pose().at, goal];
         let mut barriers = self.barriers[..self.obstacles_from].to_vec();
-        barriers.extend(self.obstacles(self.settings.least_confidence));
+        // Where detours found nothing again and again, what they saw in the way counts, too.
+        let confidence = if is_off_network { 1 } else { self.settings.least_confidence };
+        barriers.extend(self.obstacles(confidence));
         let ground = self.ground(&barriers);
         let mut route = None;
         if !is_off_network {
