@@ -57,7 +57,7 @@ impl Ground<'_> {
 
     /// Lines from the obstacle that is met first to what is next on its left, and on its right.
     fn cuts(&self, from: Point, to: Point) -> Option<[Segment; 2]> {
-        let free = free_ahead(from, to, self.reach, self.barriers);
+        let free = free_ahead(from, to, [self.least, self.reach], self.barriers);
         let met = free.by?;
         let whole = from.distance(to);
         let (ux, uy) = ((to.x - from.x) / whole, (to.y - from.y) / whole);
