@@ -25,6 +25,9 @@ const FALLING_M: f64 = 0.05;
 /// A touch is ahead of a course if the cosine of its bearing is larger.
 const SIDEWAYS: f64 = 0.05;
 
+/// A touch is aside if the cosine of its bearing is smaller.
+const ASIDE: f64 = 0.5;
+
 /// A course that ends before so much of it is done was held by what is touched, metres.
 const SHORT_M: f64 = 0.01;
 
@@ -59,6 +62,8 @@ pub struct Navigator<'b> {
     contact: Option<Contact>,
     /// The straight course that was commanded last; `None` where the wheels turn or stand.
     course: Option<Course>,
+    /// The straight course that follows the turn, metres.
+    then_m: Option<f64>,
     part: Vec<Reading>,
     readings_standing: usize,
     /// Times that the robot withdrew since it last waited.
@@ -138,6 +143,7 @@ impl<'b> Navigator<'b> {
             sensed: None,
             contact: None,
             course: None,
+            then_m: None,
             part: Vec::new(),
             readings_standing: 0,
             back_offs: 0,
@@ -181,7 +187,7 @@ impl<'b> Navigator<'b> {
 
     /// Lets the user drive: the goal is dropped, and the body stops.
     pub fn manual(&mut self, body: &mut impl Body) {
-        (self.mode, self.state, self.goal) = (Mode::Manual, State::Hold, None);
+        (self.mode, self.state, self.goal, self.then_m) = (Mode::Manual, State::Hold, None, None);
         self.legs.clear();
         body.command(Command::Stop);
     }
@@ -225,6 +231,12 @@ impl<'b> Navigator<'b> {
     pub fn step(&mut self, body: &mut impl Body, judge: &mut impl Judge) -> Option<Ending> {
         self.sense(body, judge);
         if self.mode == Mode::Manual {
+            return None;
+        }
+        if self.sensed.is_some_and(|sensed| !sensed.is_busy)
+            && let Some(then_m) = self.then_m.take()
+        {
+            self.drive_straight(body, then_m);
             return None;
         }
         self.look_for_detours();

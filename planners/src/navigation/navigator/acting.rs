@@ -1,6 +1,6 @@
 //! What the judge decided, done.
 
-use super::{Course, Line, Navigator, Spot};
+use super::{ASIDE, Course, Line, Navigator, Spot};
 use crate::body::{Body, Command};
 use crate::geometry::Point;
 use crate::navigation::detour::{Detours, length};
@@ -70,11 +70,17 @@ impl Navigator<'_> {
         self.drive_straight(body, at.distance(target).min(self.settings.stride_m));
     }
 
+    /// Withdraws from a touch: straight, or after a turn towards it where it is aside.
     pub(super) fn back_off(&mut self, body: &mut impl Body) {
         self.back_offs += 1;
-        let is_ahead = self.contact.take().is_none_or(|contact| contact.bearing.cos() >= 0.0);
-        let distance_m = if is_ahead { -self.settings.back_off_m } else { self.settings.back_off_m };
-        self.drive_straight(body, distance_m);
+        let bearing = self.contact.take().map_or(0.0, |contact| contact.bearing);
+        let far = self.settings.back_off_m;
+        if bearing.cos().abs() >= ASIDE {
+            self.drive_straight(body, if bearing.cos() > 0.0 { -far } else { far });
+        } else {
+            body.command(Command::Turn { by: bearing });
+            (self.course, self.readings_standing, self.then_m) = (None, 0, Some(-far));
+        }
     }
 
     pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
