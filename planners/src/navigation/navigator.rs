@@ -25,6 +25,10 @@ const FALLING_M: f64 = 0.05;
 /// A touch is ahead of a course if the cosine of its bearing is larger.
 const SIDEWAYS: f64 = 0.05;
 
+/// The track has a point each so many metres, and so many points.
+const TRACK_M: f64 = 0.2;
+const TRACK_POINTS: usize = 16;
+
 /// A touch is aside if the cosine of its bearing is smaller.
 const ASIDE: f64 = 0.5;
 
@@ -55,6 +59,7 @@ pub struct Navigator<'b> {
     line: Line,
     has_way: bool,
     spot: Spot,
+    track: VecDeque<Point>,
     retries: u32,
     replans: u32,
     radius_m: f64,
@@ -137,6 +142,7 @@ impl<'b> Navigator<'b> {
             line: Line::default(),
             has_way: true,
             spot: Spot::default(),
+            track: VecDeque::new(),
             retries: 0,
             replans: 0,
             radius_m: building.network.disc.radius,

@@ -49,6 +49,8 @@ pub struct Settings {
     pub most_detours: u32,
     /// Times that everything is looked at anew before there is no way.
     pub most_retries: u32,
+    /// Before it begins anew the robot goes back on its own track, up to so far, to give way, metres.
+    pub give_way_m: f64,
     /// There may be a way again for so long: things that move come to rest, seconds.
     pub no_way_after_s: f64,
     /// Times that the robot withdraws from touches before it looks around.
@@ -83,6 +85,7 @@ impl Default for Settings {
             most_waits: 4,
             most_detours: 4,
             most_retries: 2,
+            give_way_m: 1.5,
             no_way_after_s: 180.0,
             most_back_offs: 3,
             patience_s: 3600.0,

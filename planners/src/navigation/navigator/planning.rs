@@ -6,7 +6,7 @@ use crate::local_model::LocalModel;
 use crate::navigation::cuts::Blocked;
 use crate::navigation::detour::{Detours, Ground};
 use crate::navigation::event::Happening;
-use crate::navigation::highway::free_ahead;
+use crate::navigation::highway::{free_ahead, is_clear};
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::Memory;
 use crate::navigation::route::{Route, off_network, over_network};
@@ -93,6 +93,23 @@ impl Navigator<'_> {
         self.gather();
         self.tell(Happening::Retried);
         self.plan(judge, false);
+        self.give_way();
+    }
+
+    /// Goes back on its own track first: what moves may be waiting for the robot, as it waits for that.
+    fn give_way(&mut self) {
+        let at = self.pose().at;
+        let reach = self.radius_m + self.settings.highway_clearance_m;
+        let is_near = |back: &&Point| {
+            let far = back.distance(at);
+            far > self.settings.goal_tolerance_m && far <= self.settings.give_way_m
+        };
+        let clear =
+            self.track.iter().filter(is_near).find(|back| is_clear(at, **back, reach, &self.barriers));
+        if let Some(&back) = clear.filter(|_| !self.legs.is_empty()) {
+            self.legs.push_front(at);
+            self.legs.push_front(back);
+        }
     }
 
     /// Looks for a path to the goal over the network; through free space as it is known where that has none.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::Navigator;
+use super::{Navigator, TRACK_M, TRACK_POINTS};
 use crate::body::{Body, Contact};
 use crate::geometry::Point;
 use crate::navigation::event::Happening;
@@ -19,6 +19,7 @@ impl Navigator<'_> {
         let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
         self.sensed = Some(sensed);
+        self.keep_track();
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
         if let Some(contact) = touch {
@@ -36,6 +37,17 @@ impl Navigator<'_> {
         let most = if is_standing { self.settings.scan_readings } else { self.settings.part_readings };
         if self.part.len() >= most {
             self.update(judge);
+        }
+    }
+
+    /// Remembers where the robot came from, the latest part of it.
+    fn keep_track(&mut self) {
+        let at = self.pose().at;
+        if self.track.back().is_none_or(|last| last.distance(at) >= TRACK_M) {
+            self.track.push_back(at);
+            while self.track.len() > TRACK_POINTS {
+                self.track.pop_front();
+            }
         }
     }
 
