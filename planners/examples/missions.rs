@@ -119,6 +119,15 @@ fn table_of(path: &str, count: u64) {
         cases.iter().map(|case| case.outcome.touches).sum::<usize>(),
         cases.iter().map(|case| case.outcome.overlap_m).fold(f64::NEG_INFINITY, f64::max),
     );
+    let mut touched: Vec<(usize, u64, bool)> =
+        cases.iter().map(|case| (case.outcome.touches, case.number, case.has_movers)).collect();
+    touched.retain(|(touches, ..)| *touches > 0);
+    touched.sort_by(|a, b| b.cmp(a));
+    println!(
+        "  missions with touches: {} (touches, number, something moves): {:?}",
+        touched.len(),
+        &touched[..touched.len().min(8)]
+    );
     let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.path_m / optimum);
     let reached = || cases.iter().filter(|case| arrived(case));
     spread("path over optimum", reached().filter_map(ratio).collect());

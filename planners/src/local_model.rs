@@ -165,7 +165,7 @@ impl LocalModel {
             let facts =
                 SegmentFacts { is_matched: true, is_visible: true, ..known.facts(self.estimate.pose.at) };
             let transition = decide(&facts);
-            self.segments[place].follow(&transition);
+            self.segments[place].follow(transition);
             if !transition.is_kept {
                 self.segments.remove(place);
                 sequences::forget(&mut self.segments, &[id]);
@@ -190,7 +190,7 @@ impl LocalModel {
         let at = self.estimate.pose.at;
         let Some(segment) = self.segments.last_mut() else { return false };
         let transition = decide(&SegmentFacts { is_matched, ..segment.facts(at) });
-        segment.follow(&transition);
+        segment.follow(transition);
         if !transition.is_kept {
             self.segments.pop();
         }

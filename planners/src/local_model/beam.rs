@@ -50,13 +50,32 @@ impl Beam {
     }
 
     /// The same reading, once the pose that it was placed by is found to be another.
-    pub fn moved(&self, before: &Pose, after: &Pose) -> Self {
-        let from = after.then(&before.to(&Pose { at: self.from, heading: 0.0 })).at;
-        let (sin, cos) = (after.heading - before.heading).sin_cos();
+    pub fn moved(&self, shift: &Shift) -> Self {
+        let Shift { sin, cos, .. } = *shift;
         let towards = Point::new(
             cos * self.towards.x - sin * self.towards.y,
             sin * self.towards.x + cos * self.towards.y,
         );
-        Self { from, towards, ..*self }
+        Self { from: shift.of(self.from), towards, ..*self }
+    }
+}
+
+/// From where things were placed by one pose to where another puts them.
+pub(super) struct Shift {
+    sin: f64,
+    cos: f64,
+    from: Point,
+    to: Point,
+}
+
+impl Shift {
+    pub fn new(before: &Pose, after: &Pose) -> Self {
+        let (sin, cos) = (after.heading - before.heading).sin_cos();
+        Self { sin, cos, from: before.at, to: after.at }
+    }
+
+    pub fn of(&self, p: Point) -> Point {
+        let (dx, dy) = (p.x - self.from.x, p.y - self.from.y);
+        Point::new(self.to.x + self.cos * dx - self.sin * dy, self.to.y + self.sin * dx + self.cos * dy)
     }
 }

@@ -17,6 +17,7 @@ impl Source {
 
 /// What a scan showed about one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a column of the state table")]
 pub struct SegmentFacts {
     /// Which one it is.
     pub id: SegmentId,
@@ -52,6 +53,7 @@ pub struct SegmentFacts {
 
 /// What becomes of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a column of the state table")]
 pub struct Transition {
     /// Its confidence from now on.
     pub confidence: u8,

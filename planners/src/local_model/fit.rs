@@ -69,7 +69,10 @@ impl Fit {
     /// Standard deviation of an echo across this line.
     pub fn deviation(&self, beam: &Beam) -> f64 {
         // a millimetre: no echo is exact, however the beam runs
-        (beam.sigma_m * (beam.towards.y * self.along.x - beam.towards.x * self.along.y)).hypot(1e-3)
+        (beam.sigma_m * (beam.towards.y * self.along.x - beam.towards.x * self.along.y))
+            .powi(2)
+            .max(1e-6)
+            .sqrt()
     }
 
     /// How far along the line a point lies from its centre.

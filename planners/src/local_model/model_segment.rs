@@ -62,7 +62,7 @@ impl ModelSegment {
     }
 
     /// Becomes what the state table says.
-    pub(super) fn follow(&mut self, transition: &Transition) {
+    pub(super) fn follow(&mut self, transition: Transition) {
         self.source = transition.source;
         self.confidence = transition.confidence;
         self.counts_for_pose = transition.counts_for_pose;

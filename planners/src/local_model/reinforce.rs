@@ -54,6 +54,15 @@ pub(super) fn across(seen: &Fit, estimate: &Estimate) -> (f64, f64) {
 
 /// Whether two segments of the model show one surface: then `other` as if it had been seen.
 pub(super) fn same_surface(segment: &ModelSegment, other: &ModelSegment, settings: &Settings) -> Option<Fit> {
+    let reach = settings.match_offset_m;
+    let apart = |a: [f64; 2], b: [f64; 2]| {
+        a[0].max(a[1]) + reach < b[0].min(b[1]) || b[0].max(b[1]) + reach < a[0].min(a[1])
+    };
+    let (p, q) = (&segment.line, &other.line);
+    // most are nowhere near one another
+    if apart([p.a.x, p.b.x], [q.a.x, q.b.x]) || apart([p.a.y, p.b.y], [q.a.y, q.b.y]) {
+        return None;
+    }
     let line = |s: &ModelSegment| Fit {
         centre: s.line.middle(),
         along: s.line.direction(),

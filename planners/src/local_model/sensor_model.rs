@@ -4,10 +4,9 @@
 //! that turn out to be one straight line are joined again.
 
 use super::Settings;
-use super::beam::Beam;
+use super::beam::{Beam, Shift};
 use super::fit::{Echo, Fit};
 use crate::geometry::Point;
-use crate::pose::Pose;
 use crate::segment::Segment;
 
 /// A straight surface that a scan shows.
@@ -21,8 +20,11 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    fn new(echoes: &[Echo], beams: &[Beam], settings: &Settings) -> Option<Self> {
-        let fit = Fit::new(echoes, beams)?;
+    /// The surface through echoes, if they are enough. `is_corner` tells of the first and the last echo whether another
+    /// surface begins there: such an echo may lie on that one only.
+    fn new(echoes: &[Echo], is_corner: [bool; 2], beams: &[Beam], settings: &Settings) -> Option<Self> {
+        let inner = echoes.get(usize::from(is_corner[0])..echoes.len() - usize::from(is_corner[1]));
+        let fit = Fit::new(inner.filter(|inner| inner.len() > 2).unwrap_or(echoes), beams)?;
         let line = fit.segment(echoes);
         let is_enough = echoes.len() >= settings.fewest_echoes && line.length() >= settings.shortest_m;
         let since_m = echoes.iter().map(|echo| beams[echo.beam].since_m).sum::<f64>() / echoes.len() as f64;
@@ -30,8 +32,8 @@ impl Seen {
     }
 
     /// The same, once the pose that it was placed by is found to be another.
-    pub fn moved(&self, before: &Pose, after: &Pose) -> Self {
-        let moved = |p: Point| after.then(&before.to(&Pose { at: p, heading: 0.0 })).at;
+    pub fn moved(&self, shift: &Shift) -> Self {
+        let moved = |p: Point| shift.of(p);
         let (tip, centre) = (self.fit.at(1.0), moved(self.fit.centre));
         let tip = moved(tip);
         let along = Point::new(tip.x - centre.x, tip.y - centre.y);
@@ -88,7 +90,13 @@ pub(super) fn build(groups: &[Vec<Echo>], beams: &[Beam], settings: &Settings) -
         split(group, 0, beams, settings, &mut cuts);
         cuts.push(group.len() - 1);
         merge(group, &mut cuts, beams, settings);
-        let part = |ends: &[usize]| Seen::new(&group[ends[0]..=ends[1]], beams, settings);
+        let last = group.len() - 1;
+        // a closed turn begins and ends with the same echo, in a corner
+        let is_corner = |cut: usize| (cut > 0 && cut < last) || group[0].beam == group[last].beam;
+        let part = |ends: &[usize]| {
+            let corners = [ends[0], ends[1]].map(is_corner);
+            Seen::new(&group[ends[0]..=ends[1]], corners, beams, settings)
+        };
         let mut parts: Vec<Option<Seen>> = cuts.windows(2).map(part).collect();
         join(&mut parts, settings);
         seen.extend(parts.into_iter().flatten());

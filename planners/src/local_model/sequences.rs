@@ -12,8 +12,8 @@ pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usi
             let at = ends(&segments[one])[end];
             let others = near.iter().copied().filter(|&other| other != one);
             let others = others.flat_map(|other| [(other, 0), (other, 1)]);
-            let far = others.map(|(other, side)| (ends(&segments[other])[side].distance(at), other, side));
-            let close = far.filter(|(far, ..)| *far <= settings.join_m);
+            let far = others.map(|(other, side)| (squared(ends(&segments[other])[side], at), other, side));
+            let close = far.filter(|(far, ..)| *far <= settings.join_m.powi(2));
             let best = close.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
             if let Some((_, other, side)) = best {
                 part(segments, other, side);
@@ -29,7 +29,8 @@ pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usi
 fn part(segments: &mut [ModelSegment], one: usize, end: usize) {
     let id = segments[one].id;
     if let Some(joined) = segments[one].joins[end].take()
-        && let Some(other) = segments.iter_mut().find(|segment| segment.id == joined)
+        && let Some(other) =
+            segments.binary_search_by_key(&joined, |segment| segment.id).ok().map(|at| &mut segments[at])
     {
         for side in other.joins.iter_mut().filter(|side| **side == Some(id)) {
             *side = None;
@@ -47,6 +48,10 @@ pub(super) fn forget(segments: &mut [ModelSegment], gone: &[SegmentId]) {
             *side = None;
         }
     }
+}
+
+fn squared(p: Point, q: Point) -> f64 {
+    (p.x - q.x).powi(2) + (p.y - q.y).powi(2)
 }
 
 fn ends(segment: &ModelSegment) -> [Point; 2] {

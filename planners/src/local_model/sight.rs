@@ -17,6 +17,17 @@ pub(super) struct Crossing {
     pub sine: f64,
 }
 
+impl Crossing {
+    /// Whether the echo may come from the segment, the place of which is as sure as `sigma_m` seen from the robot.
+    pub fn agrees(&self, beam: &Beam, sigma_m: f64, settings: &Settings) -> bool {
+        // without square roots: this is asked of every crossing
+        let allowed = beam.sigma_m * beam.sigma_m + sigma_m * sigma_m / (self.sine * self.sine).max(0.01);
+        let off = |range: f64| (range - self.range_m) * (range - self.range_m);
+        beam.range_m
+            .is_some_and(|range| off(range) <= settings.match_sigmas * settings.match_sigmas * allowed)
+    }
+}
+
 /// Beams sorted by direction, so that the few that can meet a segment are found at once.
 pub(super) struct Fan {
     /// Direction, as a number that grows with the angle from 0 to 4, and the beam.
@@ -48,10 +59,11 @@ impl Fan {
         Self { order, centre, spread_m }
     }
 
-    /// All beams across a segment, by place in the fan; beams reach as far as the sonar hears.
+    /// All beams across a segment of a length, by place in the fan; beams reach as far as the sonar hears.
     pub fn crossings(
         &self,
         segment: &ModelSegment,
+        length: f64,
         beams: &[Beam],
         settings: &Settings,
         found: &mut Vec<Crossing>,
@@ -62,7 +74,6 @@ impl Fan {
         if nearest > settings.sonar_range_m + self.spread_m {
             return;
         }
-        let length = segment.line.length();
         let mut test = |&(_, i): &(f64, usize)| {
             let beam = &beams[i];
             if let Some((range_m, share)) = segment.line.hit(beam.from, beam.towards)
@@ -124,16 +135,16 @@ impl Evidence {
         let (mut run, mut before_m) = (None::<(f64, u32)>, 0.0);
         for crossing in crossings.iter().filter(|crossing| crossing.sine >= least_sine) {
             let beam = &beams[crossing.beam];
-            let allowed = settings.match_sigmas * beam.sigma_m.hypot(sigma_m / crossing.sine);
             let beyond = beam.range_m.unwrap_or(f64::INFINITY) - crossing.range_m;
-            if beyond > allowed {
+            let agrees = crossing.agrees(beam, sigma_m, settings);
+            if !agrees && beyond > 0.0 {
                 evidence.through += 1;
                 // what is free begins half way from the beam before
                 let (from, count) = run.unwrap_or((f64::midpoint(before_m, crossing.place_m), 0));
                 let from = if before_m > 0.0 || count > 0 { from } else { 0.0 };
                 run = Some((from, count + 1));
             } else {
-                evidence.on += u32::from(beyond >= -allowed);
+                evidence.on += u32::from(agrees);
                 evidence.close(run.take(), f64::midpoint(before_m, crossing.place_m), settings);
             }
             before_m = crossing.place_m;

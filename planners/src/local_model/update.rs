@@ -1,6 +1,6 @@
 //! One scan taken into the model.
 
-use super::beam::Beam;
+use super::beam::{Beam, Shift};
 use super::correction::Correction;
 use super::fit::Echo;
 use super::matching::{Match, Near, matches};
@@ -9,7 +9,7 @@ use super::reinforce::{across, reinforce, same_surface};
 use super::sensor_model::{self, Seen};
 use super::sequences;
 use super::sight::{Crossing, Evidence, Fan};
-use super::{LocalModel, ModelSegment, ObjectId, SegmentFacts, SegmentId, Source, Transition};
+use super::{LocalModel, ModelSegment, ObjectId, SegmentFacts, SegmentId, Settings, Source, Transition};
 use crate::body::Reading;
 use crate::pose::Pose;
 
@@ -65,12 +65,14 @@ impl LocalModel {
         let near = self.near();
         let mut observations = self.correct_by_matches(&seen, &near);
         let shift = |beams: &[Beam], to: &Pose| -> Vec<Beam> {
-            beams.iter().map(|beam| beam.moved(&before.pose, to)).collect()
+            let shift = Shift::new(&before.pose, to);
+            beams.iter().map(|beam| beam.moved(&shift)).collect()
         };
         let placed = shift(&beams, &self.estimate.pose);
         let (mut looks, firsts, mut is_explained) = self.look(&placed, &near);
         observations += self.correct_by_readings(&placed, &firsts, &seen, &is_explained);
-        let seen: Vec<Seen> = seen.iter().map(|one| one.moved(&before.pose, &self.estimate.pose)).collect();
+        let moved = Shift::new(&before.pose, &self.estimate.pose);
+        let seen: Vec<Seen> = seen.iter().map(|one| one.moved(&moved)).collect();
         let placed = shift(&beams, &self.estimate.pose);
 
         let mut update = Update {
@@ -97,19 +99,22 @@ impl LocalModel {
         update
     }
 
-    /// Segments within hearing.
-    fn near(&self) -> Vec<Near> {
+    /// The places of segments within hearing.
+    fn within_hearing(&self) -> impl Iterator<Item = usize> {
         let reach = self.settings.sonar_range_m + self.settings.match_offset_m;
         let at = self.estimate.pose.at;
-        let is_near = |segment: &ModelSegment| {
+        let is_near = move |segment: &ModelSegment| {
             let line = &segment.line;
             line.a.x.min(line.b.x) - reach <= at.x
                 && at.x <= line.a.x.max(line.b.x) + reach
                 && line.a.y.min(line.b.y) - reach <= at.y
                 && at.y <= line.a.y.max(line.b.y) + reach
         };
-        let near = self.segments.iter().enumerate().filter(|(_, segment)| is_near(segment));
-        near.map(|(place, segment)| Near::new(place, segment)).collect()
+        self.segments.iter().enumerate().filter(move |(_, segment)| is_near(segment)).map(|(place, _)| place)
+    }
+
+    fn near(&self) -> Vec<Near> {
+        self.within_hearing().map(|place| Near::new(place, &self.segments[place])).collect()
     }
 
     fn matches(&self, seen: &Seen, near: &[Near]) -> Vec<Match> {
@@ -140,7 +145,7 @@ impl LocalModel {
         let (sigma_m, sigma_heading) = (self.estimate.sigma_m(), self.estimate.sigma_heading());
         for wall in near {
             let segment = &self.segments[wall.model];
-            fan.crossings(segment, beams, &self.settings, &mut crossings);
+            fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
             if crossings.is_empty() {
                 continue;
             }
@@ -152,9 +157,7 @@ impl LocalModel {
                     *first = Some((wall.model, *crossing));
                 }
                 let beam = &beams[crossing.beam];
-                let allowed = self.settings.match_sigmas * beam.sigma_m.hypot(sigma / crossing.sine.max(0.1));
-                is_explained[crossing.beam] |=
-                    beam.range_m.is_some_and(|range| (range - crossing.range_m).abs() <= allowed);
+                is_explained[crossing.beam] |= crossing.agrees(beam, sigma, &self.settings);
             }
             looks[wall.model].evidence =
                 Evidence::new(&mut crossings, beams, wall.length_m, sigma, &self.settings);
@@ -213,7 +216,7 @@ impl LocalModel {
                 looks[on.model].is_matched = true;
             }
             if found.iter().any(|on| self.segments[on.model].is_anchored) {
-                new.extend(self.beside(one, &found));
+                new.extend(self.beside(one, near));
             } else {
                 let segment = &mut self.segments[found[0].model];
                 reinforce(segment, &one.fit, &one.line, &self.estimate);
@@ -230,7 +233,10 @@ impl LocalModel {
 
     /// The pieces of a scan's segment that lie beside none of the segments on which it lies. One between two walls, with
     /// echoes in it, fills the gap: a closed door. One at an end has to be enough for a segment of its own.
-    fn beside(&self, one: &Seen, on: &[Match]) -> Vec<Seen> {
+    fn beside(&self, one: &Seen, near: &[Near]) -> Vec<Seen> {
+        // whatever lies on the same line leaves nothing of it, however short the part beside it
+        let settings = Settings { match_overlap: 0.0, ..self.settings };
+        let on = matches(one, near, &self.segments, &self.estimate, &settings);
         let place = |p| one.fit.place(p);
         let ordered = |a: f64, b: f64| (a.min(b), a.max(b));
         let lines = on.iter().map(|on| self.segments[on.model].line);
@@ -351,7 +357,7 @@ impl LocalModel {
                 ..segment.facts(at)
             };
             let transition = decide(&facts);
-            segment.follow(&transition);
+            segment.follow(transition);
             let mut keeps = transition.is_kept;
             if keeps && facts.free_m > 0.0 && transition.is_cut {
                 let left = segment.without(&evidence.free, settings.shortest_m);
@@ -379,7 +385,7 @@ impl LocalModel {
     /// Joins the ends of what changed.
     fn connect(&mut self, changed: &[SegmentId], gone: &[SegmentId]) {
         sequences::forget(&mut self.segments, gone);
-        let near: Vec<usize> = self.near().into_iter().map(|wall| wall.model).collect();
+        let near: Vec<usize> = self.within_hearing().collect();
         let changed: Vec<usize> = changed.iter().filter_map(|id| self.place(*id).ok()).collect();
         sequences::join(&mut self.segments, &changed, &near, &self.settings);
     }

@@ -7,6 +7,7 @@ use super::judge::WayFacts;
 use crate::floor_plan::clear::distance_between;
 use crate::floor_plan::{Network, Spot, Way};
 use crate::geometry::{Point, Rect};
+use crate::segment::Segment;
 
 /// An adit may be covered where beside it there is room; the nearest free place up to so far stands for it, metres.
 const BESIDE_M: f64 = 0.4;
@@ -14,11 +15,13 @@ const BESIDE_M: f64 = 0.4;
 /// About a doorway so much is looked at, metres.
 const ABOUT_DOORWAY_M: f64 = 1.0;
 
-/// Free space in a window, and which places of it are joined.
+/// Which places of a window are joined.
 #[derive(Clone, Debug)]
-struct Parts {
-    grid: FreeGrid,
-    parts: Vec<Option<u32>>,
+enum Parts {
+    /// All that the network joins: no obstacle is in it.
+    Whole,
+    /// Those of the same number.
+    Split { grid: FreeGrid, parts: Vec<Option<u32>> },
 }
 
 /// What becomes of ways as it is asked for.
@@ -26,7 +29,8 @@ struct Parts {
 pub(super) struct Cuts<'a> {
     network: &'a Network,
     ground: Ground<'a>,
-    regions: Vec<Option<Option<Parts>>>,
+    /// What was found of each region so far.
+    regions: Vec<Option<Parts>>,
 }
 
 impl<'a> Cuts<'a> {
@@ -42,57 +46,50 @@ impl<'a> Cuts<'a> {
     }
 
     fn is_cut(&mut self, way: &Way) -> bool {
-        let (Some(from), Some(to)) = (way.points.first(), way.points.last()) else { return false };
-        match way.region {
-            Some(region) => self.region(region).as_ref().is_some_and(|parts| !parts.joins(*from, *to)),
-            None => {
-                let window = window([*from, *to], ABOUT_DOORWAY_M);
-                self.is_touched(&window) && !Parts::new(window, &self.ground).joins(*from, *to)
-            }
-        }
-    }
-
-    /// Parts of a region; `None` where no obstacle is in it.
-    fn region(&mut self, region: usize) -> &Option<Parts> {
-        if self.regions[region].is_none() {
-            let shape = &self.network.regions.regions[region];
-            let window = window(shape.outline.iter().copied(), self.ground.grain);
-            let parts = self.is_touched(&window).then(|| {
-                let mut grid = blocked_grid(window, &self.ground);
-                grid.keep(|at| shape.contains(at));
-                Parts { parts: grid.parts(), grid }
-            });
-            self.regions[region] = Some(parts);
-        }
-        self.regions[region].as_ref().unwrap_or(&None)
-    }
-
-    fn is_touched(&self, window: &Rect) -> bool {
-        let reach = self.ground.reach;
-        let obstacles = self.ground.barriers.iter().skip(self.ground.obstacles_from);
-        let grown = Rect::new(window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach);
-        obstacles.into_iter().any(|line| grown.clip(line.a, line.b).is_some() || grown.contains(line.a))
+        let (Some(&from), Some(&to)) = (way.points.first(), way.points.last()) else { return false };
+        let joins = if let Some(region) = way.region {
+            let (network, ground) = (self.network, self.ground);
+            self.regions[region]
+                .get_or_insert_with(|| Parts::of_region(network, region, &ground))
+                .joins(from, to)
+        } else {
+            Parts::within(window([from, to], ABOUT_DOORWAY_M), &self.ground, |_| true).joins(from, to)
+        };
+        !joins
     }
 }
 
 impl Parts {
-    fn new(window: Rect, ground: &Ground) -> Self {
-        let grid = blocked_grid(window, ground);
-        Self { parts: grid.parts(), grid }
+    fn of_region(network: &Network, region: usize, ground: &Ground) -> Self {
+        let shape = &network.regions.regions[region];
+        Self::within(window(shape.outline.iter().copied(), ground.grain), ground, |at| shape.contains(at))
+    }
+
+    fn within(window: Rect, ground: &Ground, is_inside: impl Fn(Point) -> bool) -> Self {
+        if !is_touched(&window, ground) {
+            return Self::Whole;
+        }
+        let mut grid = FreeGrid::new(window, ground.grain);
+        for barrier in ground.barriers {
+            grid.block(barrier, ground.reach);
+        }
+        grid.keep(is_inside);
+        Self::Split { parts: grid.parts(), grid }
     }
 
     fn joins(&self, from: Point, to: Point) -> bool {
-        let part = |p: Point| self.grid.nearest(p, BESIDE_M, |_| true).and_then(|cell| self.parts[cell]);
+        let Self::Split { grid, parts } = self else { return true };
+        let part = |p: Point| grid.nearest(p, BESIDE_M, |_| true).and_then(|cell| parts[cell]);
         part(from).is_some_and(|one| part(to) == Some(one))
     }
 }
 
-fn blocked_grid(window: Rect, ground: &Ground) -> FreeGrid {
-    let mut grid = FreeGrid::new(window, ground.grain);
-    for barrier in ground.barriers {
-        grid.block(barrier, ground.reach);
-    }
-    grid
+/// Whether an obstacle is in a window, or nearly.
+fn is_touched(window: &Rect, ground: &Ground) -> bool {
+    let reach = ground.reach;
+    let grown = Rect::new(window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach);
+    let mut obstacles = ground.barriers.iter().skip(ground.obstacles_from);
+    obstacles.any(|line| grown.clip(line.a, line.b).is_some() || grown.contains(line.a))
 }
 
 /// How often doorways and regions were reported closed.
@@ -131,10 +128,7 @@ impl Blocked {
 }
 
 /// Doorways that are closed whatever is seen: every way through them is.
-pub(super) fn forbidden(
-    network: &Network,
-    mut weigh: impl FnMut(&WayFacts) -> Option<f64>,
-) -> Vec<crate::segment::Segment> {
+pub(super) fn forbidden(network: &Network, mut weigh: impl FnMut(&WayFacts) -> Option<f64>) -> Vec<Segment> {
     let mut is_open = vec![false; network.regions.doorways.len()];
     let mut has_way = is_open.clone();
     for way in &network.ways {
@@ -146,7 +140,7 @@ pub(super) fn forbidden(
     let closed = (0..is_open.len()).filter(|&doorway| has_way[doorway] && !is_open[doorway]);
     let line = |doorway: usize| {
         let door = &network.regions.doorways[doorway];
-        crate::segment::Segment::new(door.from, door.to)
+        Segment::new(door.from, door.to)
     };
     closed.map(line).collect()
 }

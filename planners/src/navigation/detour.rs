@@ -30,6 +30,13 @@ pub(super) struct Detours {
     pub right: Option<Vec<Point>>,
 }
 
+impl Detours {
+    /// The length of the shorter one.
+    pub fn shortest_m(&self) -> Option<f64> {
+        self.left.iter().chain(&self.right).map(|points| length(points)).min_by(f64::total_cmp)
+    }
+}
+
 impl Ground<'_> {
     /// The shortest paths that leave the obstacle to the right (`left`), and to the left (`right`).
     pub fn detours(&self, from: Point, to: Point) -> Detours {
@@ -50,7 +57,7 @@ impl Ground<'_> {
 
     /// Lines from the obstacle that is met first to what is next on its left, and on its right.
     fn cuts(&self, from: Point, to: Point) -> Option<[Segment; 2]> {
-        let free = free_ahead(from, to, self.reach, self.barriers);
+        let free = free_ahead(from, to, [self.least, self.reach], self.barriers);
         let met = free.by?;
         let whole = from.distance(to);
         let (ux, uy) = ((to.x - from.x) / whole, (to.y - from.y) / whole);

@@ -23,7 +23,7 @@ pub enum Happening {
     /// The judge was asked, and the state changed or something was done.
     State {
         /// What was asked.
-        facts: StateFacts,
+        facts: Box<StateFacts>,
         /// What was answered.
         decision: StateDecision,
     },

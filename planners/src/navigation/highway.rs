@@ -17,11 +17,13 @@ pub(super) struct Free {
 }
 
 /// How far the middle of a disc can go from one point towards another before it is nearer than `reach` to a barrier.
-/// Where it is nearer from the start, it may go along or away.
-pub(super) fn free_ahead(from: Point, to: Point, reach: f64, barriers: &[Segment]) -> Free {
+/// Where it is nearer from the start, it may go along or away; where the goal is nearer, it may come as near, but no nearer
+/// than `least`.
+pub(super) fn free_ahead(from: Point, to: Point, [least, reach]: [f64; 2], barriers: &[Segment]) -> Free {
     let whole = from.distance(to);
     let mut free = Free { metres: whole, by: None };
     for (index, barrier) in barriers.iter().enumerate() {
+        let reach = reach.min(barrier.distance(to).max(least));
         if let Some(metres) = hit(from, to, reach, barrier).filter(|metres| *metres < free.metres) {
             free = Free { metres, by: Some(index) };
         }
@@ -95,7 +97,7 @@ mod tests {
     fn ahead(barrier: [f64; 4]) -> f64 {
         let [x0, y0, x1, y1] = barrier;
         let barrier = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
-        free_ahead(EAST[0], EAST[1], 0.3, &[barrier]).metres
+        free_ahead(EAST[0], EAST[1], [0.3, 0.3], &[barrier]).metres
     }
 
     #[test]
@@ -109,6 +111,14 @@ mod tests {
         assert!((ahead([0.0, 0.31, 4.0, 0.31]) - 4.0).abs() < 1e-9);
         assert!((ahead([4.31, -1.0, 4.31, 1.0]) - 4.0).abs() < 1e-9);
         assert!((ahead([-1.0, -1.0, -1.0, 1.0]) - 4.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_goal_near_a_wall_may_be_gone_to_as_far_as_the_disc_fits() {
+        let beside = |y: f64| Segment::new(Point::new(3.5, y), Point::new(5.0, y));
+        let free = |y: f64| free_ahead(EAST[0], EAST[1], [0.25, 0.3], &[beside(y)]).metres;
+        assert!((free(0.26) - 4.0).abs() < 1e-9);
+        assert!(free(0.24) < 3.5);
     }
 
     #[test]

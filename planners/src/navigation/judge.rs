@@ -54,6 +54,7 @@ pub enum Action {
 
 /// What the next state depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own, for rules to ask")]
 pub struct StateFacts {
     /// Who drives.
     pub mode: Mode,
@@ -77,10 +78,14 @@ pub struct StateFacts {
     pub is_obstacle_moving: bool,
     /// Whether the skirt touched something since the robot last withdrew.
     pub is_contact: bool,
+    /// How often it withdrew since it last waited.
+    pub back_offs: u32,
     /// Whether the wheels are still at work.
     pub is_busy: bool,
     /// Whether a whole scan was taken since the robot stands here.
     pub is_scan_complete: bool,
+    /// Whole scans since the goal was given, or everything was forgotten.
+    pub scans: u32,
     /// Metres of the detour on the left of the obstacle; `None` where none is free. Known in Blocked, after a scan.
     pub left_m: Option<f64>,
     /// The same on the right.
@@ -93,6 +98,8 @@ pub struct StateFacts {
     pub has_way: bool,
     /// How often everything was begun anew.
     pub retries: u32,
+    /// Seconds since the goal was given.
+    pub time_s: f64,
     /// The tolerances.
     pub settings: Settings,
 }

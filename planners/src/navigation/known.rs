@@ -33,8 +33,9 @@ impl Memory {
     /// Takes note of the model after an update.
     pub fn note(&mut self, model: &LocalModel, walls: &[Segment], settings: &Settings) {
         let at = model.estimate().pose.at;
-        let now: Vec<(SegmentId, Segment, u8)> =
-            obstacles(model).map(|segment| (segment.id, segment.line, segment.confidence)).collect();
+        let now: Vec<(SegmentId, Segment, u8)> = obstacles(model, settings)
+            .map(|segment| (segment.id, segment.line, segment.confidence))
+            .collect();
         for (id, line, confidence) in std::mem::take(&mut self.lately) {
             let is_gone = now.binary_search_by_key(&id, |known| known.0).is_err();
             if is_gone && line.distance(at) > settings.memory_m {
@@ -49,25 +50,30 @@ impl Memory {
     }
 
     /// Surfaces of obstacles of at least a confidence.
-    pub fn obstacles(&self, model: &LocalModel, confidence: u8) -> Vec<Segment> {
-        let seen = obstacles(model).filter(|segment| segment.confidence >= confidence);
+    pub fn obstacles(&self, model: &LocalModel, confidence: u8, settings: &Settings) -> Vec<Segment> {
+        let seen = obstacles(model, settings).filter(|segment| segment.confidence >= confidence);
         let kept = self.kept.iter().filter(|(_, known)| *known >= confidence);
         seen.map(|segment| segment.line).chain(kept.map(|(line, _)| *line)).collect()
     }
 }
 
 /// Surfaces of the model that the building does not have, and that stand.
-fn obstacles(model: &LocalModel) -> impl Iterator<Item = &ModelSegment> {
-    model.segments().iter().filter(|segment| segment.source != Source::RECALLED && !is_moving(model, segment))
+fn obstacles<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<Item = &'m ModelSegment> {
+    let firm = settings.firm_confidence;
+    let unknown = model.segments().iter().filter(|segment| segment.source != Source::RECALLED);
+    unknown.filter(move |segment| !is_moving(model, segment, firm))
 }
 
 /// Surfaces of things that move.
-pub(super) fn moving(model: &LocalModel) -> impl Iterator<Item = Segment> {
-    model.segments().iter().filter(|segment| is_moving(model, segment)).map(|segment| segment.line)
+pub(super) fn moving<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<Item = Segment> + 'm {
+    let firm = settings.firm_confidence;
+    let moving = model.segments().iter().filter(move |segment| is_moving(model, segment, firm));
+    moving.map(|segment| segment.line)
 }
 
-fn is_moving(model: &LocalModel, segment: &ModelSegment) -> bool {
-    model.objects().iter().any(|object| Some(object.id) == segment.object && object.is_moving)
+fn is_moving(model: &LocalModel, segment: &ModelSegment, firm: u8) -> bool {
+    segment.confidence < firm
+        && model.objects().iter().any(|object| Some(object.id) == segment.object && object.is_moving)
 }
 
 fn is_in_sight(from: Point, to: Point, walls: &[Segment]) -> bool {

@@ -57,7 +57,8 @@ pub struct Outcome {
     pub simulated_s: f64,
     /// Touches of the skirt by the robot: it went there, and stopped.
     pub touches: usize,
-    /// The deepest that anything was within the robot, metres; more than nothing is a collision.
+    /// The deepest that anything was within the robot, metres; below 0 where there was always a gap. More than a hair is
+    /// a collision.
     pub overlap_m: f64,
     /// Metres from where the robot really was at the end to the goal.
     pub miss_m: f64,
@@ -109,7 +110,7 @@ impl Mission {
             detours: 0,
             simulated_s: 0.0,
             touches: 0,
-            overlap_m: 0.0,
+            overlap_m: f64::NEG_INFINITY,
             miss_m: 0.0,
             worst_error_m: 0.0,
             worst_heading_error: 0.0,

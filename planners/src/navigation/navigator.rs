@@ -1,15 +1,18 @@
 //! The navigator: it drives a body from state to state as the judge decides.
 
+mod acting;
+mod planning;
+mod sensing;
+mod watching;
+
 use std::collections::VecDeque;
 
 use super::Settings;
 use super::cuts::{Blocked, forbidden};
-use super::detour::{Detours, Ground, length};
+use super::detour::Detours;
 use super::event::{Ending, Event, Happening};
-use super::highway::free_ahead;
-use super::judge::{Action, Judge, Mode, State, StateDecision, StateFacts};
-use super::known::{Building, Memory, moving};
-use super::route::{Route, off_network, over_network};
+use super::judge::{Action, Judge, Mode, State};
+use super::known::{Building, Memory};
 use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::Point;
 use crate::local_model::{Estimate, LocalModel};
@@ -19,8 +22,18 @@ use crate::segment::Segment;
 /// So much farther than it was counts as farther away, metres.
 const FALLING_M: f64 = 0.05;
 
-/// A touch is in the way of a move if the cosine of its bearing is larger.
+/// A touch is ahead of a course if the cosine of its bearing is larger.
 const SIDEWAYS: f64 = 0.05;
+
+/// The track has a point each so many metres, and so many points.
+const TRACK_M: f64 = 0.2;
+const TRACK_POINTS: usize = 16;
+
+/// A touch is aside if the cosine of its bearing is smaller.
+const ASIDE: f64 = 0.5;
+
+/// A course that ends before so much of it is done was held by what is touched, metres.
+const SHORT_M: f64 = 0.01;
 
 /// So many raw echoes in the way count, one may be false.
 const ECHOES: usize = 2;
@@ -46,15 +59,26 @@ pub struct Navigator<'b> {
     line: Line,
     has_way: bool,
     spot: Spot,
+    track: VecDeque<Point>,
     retries: u32,
     replans: u32,
     radius_m: f64,
     sensed: Option<Sensed>,
     contact: Option<Contact>,
-    /// Which way the wheels go: 1 ahead, -1 back, 0 where they turn or stand.
-    driving: f64,
+    /// The straight course that was commanded last; `None` where the wheels turn or stand.
+    course: Option<Course>,
+    /// The straight course that follows the turn, metres.
+    then_m: Option<f64>,
     part: Vec<Reading>,
     readings_standing: usize,
+    /// Times that the robot withdrew since it last waited.
+    back_offs: u32,
+    /// When the goal was given, seconds.
+    begun_s: f64,
+    /// Whole scans since the goal was given, or everything was forgotten.
+    scans: u32,
+    /// What was touched, and when; the model may have it elsewhere.
+    felt: Vec<(f64, Segment)>,
     detours: Option<Detours>,
     events: Vec<Event>,
 }
@@ -64,6 +88,24 @@ pub struct Navigator<'b> {
 struct Line {
     from: Point,
     nearest_m: f64,
+}
+
+/// A straight course by the wheels' count.
+#[derive(Clone, Copy, Debug)]
+struct Course {
+    from: Pose,
+    distance_m: f64,
+}
+
+impl Course {
+    fn leads_to(&self, contact: Contact) -> bool {
+        self.distance_m.signum() * contact.bearing.cos() > SIDEWAYS
+    }
+
+    /// Whether it ended where it began.
+    fn is_held(&self, sensed: &Sensed) -> bool {
+        sensed.odometry.at.distance(self.from.at) < SHORT_M.min(self.distance_m.abs() / 2.0)
+    }
 }
 
 /// Where the robot was blocked, and what it did there.
@@ -100,14 +142,20 @@ impl<'b> Navigator<'b> {
             line: Line::default(),
             has_way: true,
             spot: Spot::default(),
+            track: VecDeque::new(),
             retries: 0,
             replans: 0,
             radius_m: building.network.disc.radius,
             sensed: None,
             contact: None,
-            driving: 0.0,
+            course: None,
+            then_m: None,
             part: Vec::new(),
             readings_standing: 0,
+            back_offs: 0,
+            begun_s: 0.0,
+            scans: 0,
+            felt: Vec::new(),
             detours: None,
             events: Vec::new(),
         }
@@ -145,7 +193,7 @@ impl<'b> Navigator<'b> {
 
     /// Lets the user drive: the goal is dropped, and the body stops.
     pub fn manual(&mut self, body: &mut impl Body) {
-        (self.mode, self.state, self.goal) = (Mode::Manual, State::Hold, None);
+        (self.mode, self.state, self.goal, self.then_m) = (Mode::Manual, State::Hold, None, None);
         self.legs.clear();
         body.command(Command::Stop);
     }
@@ -165,7 +213,8 @@ impl<'b> Navigator<'b> {
 
     /// Plans a path to a goal, and goes there from now on.
     pub fn go(&mut self, goal: Point, judge: &mut impl Judge) {
-        (self.mode, self.goal, self.retries) = (Mode::Automatic, Some(goal), 0);
+        (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
+        self.begun_s = self.time_s();
         self.blocked = Blocked::new(&self.building.network);
         self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         self.gather();
@@ -190,321 +239,25 @@ impl<'b> Navigator<'b> {
         if self.mode == Mode::Manual {
             return None;
         }
+        if self.sensed.is_some_and(|sensed| !sensed.is_busy)
+            && let Some(then_m) = self.then_m.take()
+        {
+            self.drive_straight(body, then_m);
+            return None;
+        }
         self.look_for_detours();
         let facts = self.facts();
         let decision = judge.next_state(&facts);
         if decision.state != facts.state || decision.action != Action::None {
-            self.tell(Happening::State { facts, decision });
+            self.tell(Happening::State { facts: Box::new(facts), decision });
         }
         let ending = self.follow(&facts, decision, body, judge);
-        let ending = ending.or_else(|| Ending::of_patience(self.time_s(), &self.settings));
+        let ending = ending.or_else(|| Ending::of_patience(facts.time_s, &self.settings));
         if let Some(ending) = ending {
             self.tell(Happening::Ended(ending));
             self.manual(body);
         }
         ending
-    }
-
-    fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) {
-        let before = self.sensed.and_then(|sensed| sensed.contact);
-        let sensed = body.sense();
-        self.radius_m = body.radius_m();
-        self.model.reckon(&sensed.odometry);
-        let is_driven = self.driving != 0.0 || self.state == State::Turn;
-        let stops = |contact: &Contact| self.driving * contact.bearing.cos() > SIDEWAYS;
-        let touch = sensed.contact.filter(|contact| before.is_none() || (!sensed.is_busy && stops(contact)));
-        self.sensed = Some(sensed);
-        self.part.push(sensed.reading);
-        self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
-        if let Some(contact) = touch {
-            // What runs into a robot that stands is no reason to stop; it is in the model then.
-            self.contact = self.contact.or(Some(contact).filter(|_| is_driven));
-            self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
-            self.gather();
-            self.tell(Happening::Contact { bearing: contact.bearing });
-        }
-        let is_standing = self.readings_standing > 0;
-        let most = if is_standing { self.settings.scan_readings } else { self.settings.part_readings };
-        if self.part.len() >= most {
-            self.update(judge);
-        }
-    }
-
-    /// Takes the readings into the model.
-    fn update(&mut self, judge: &mut impl Judge) {
-        let part = std::mem::take(&mut self.part);
-        let walls = (0..).zip(self.building.walls.iter().copied());
-        self.model.recall(walls, |facts| judge.segment(facts));
-        let update = self.model.update(&part, self.time_s(), |facts| judge.segment(facts));
-        self.memory.note(&self.model, &self.building.walls, &self.settings);
-        self.gather();
-        if !(update.entered.is_empty() && update.removed.is_empty()) {
-            self.tell(Happening::Segments { entered: update.entered, removed: update.removed });
-        }
-        if self.is_scan_complete() {
-            self.tell(Happening::SetEstimatedPosition(*self.model.estimate()));
-        }
-    }
-
-    /// Brings what is in the way up to date.
-    fn gather(&mut self) {
-        self.barriers.truncate(self.building.walls.len());
-        self.barriers.extend(&self.forbidden);
-        self.obstacles_from = self.barriers.len();
-        self.barriers.extend(self.memory.obstacles(&self.model, 1));
-        self.moving = moving(&self.model).collect();
-        self.detours = None;
-    }
-
-    fn facts(&self) -> StateFacts {
-        let pose = self.pose();
-        let target = self.legs.front().copied();
-        let distance_m = target.map_or(0.0, |target| pose.at.distance(target));
-        let (free_m, is_obstacle_moving) = self.free_m(target);
-        let length_of = |path: &Option<Vec<Point>>| path.as_ref().map(|points| length(points));
-        let detours = self.detours.as_ref();
-        StateFacts {
-            mode: self.mode,
-            state: self.state,
-            has_goal: target.is_some(),
-            distance_m,
-            is_falling: distance_m <= self.line.nearest_m + FALLING_M,
-            heading_error: target.map_or(0.0, |target| pose.bearing(target).abs()),
-            off_line_m: target
-                .map_or(0.0, |target| pose.at.distance(pose.at.nearest_on(self.line.from, target))),
-            free_m,
-            echo_m: self.echo_m(target),
-            is_obstacle_moving,
-            is_contact: self.contact.is_some(),
-            is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
-            is_scan_complete: self.is_scan_complete(),
-            left_m: detours.and_then(|detours| length_of(&detours.left)),
-            right_m: detours.and_then(|detours| length_of(&detours.right)),
-            detours_here: self.spot.detours,
-            waits: self.spot.waits,
-            has_way: self.has_way,
-            retries: self.retries,
-            settings: self.settings,
-        }
-    }
-
-    /// Metres ahead that are free in the model, and whether what is there moves.
-    fn free_m(&self, target: Option<Point>) -> (f64, bool) {
-        let Some(target) = target else { return (0.0, false) };
-        let reach = self.radius_m + self.settings.highway_clearance_m;
-        let standing = free_ahead(self.pose().at, target, reach, &self.barriers);
-        let moving = free_ahead(self.pose().at, target, reach, &self.moving);
-        (standing.metres.min(moving.metres), moving.by.is_some() && moving.metres <= standing.metres)
-    }
-
-    /// Metres ahead that are free by readings that are not in the model yet.
-    fn echo_m(&self, target: Option<Point>) -> f64 {
-        let (Some(target), Some(sensed)) = (target, self.sensed) else { return 0.0 };
-        let pose = self.pose();
-        let distance = pose.at.distance(target);
-        let heading = pose.bearing(target);
-        let half = self.radius_m + self.settings.highway_clearance_m;
-        let ahead = self.part.iter().filter_map(|reading| {
-            let from = sensed.odometry.to(&reading.odometry);
-            let towards = from.direction(reading.bearing);
-            let range = reading.range_m?;
-            let at = Point::new(from.at.x + range * towards.x, from.at.y + range * towards.y);
-            let (sin, cos) = heading.sin_cos();
-            let (ahead, aside) = (at.x * cos + at.y * sin, at.y * cos - at.x * sin);
-            let free = ahead - (half.powi(2) - aside.powi(2)).max(0.0).sqrt();
-            (aside.abs() < half && ahead > 0.0 && free < distance).then_some(free.max(0.0))
-        });
-        let mut near: Vec<f64> = ahead.collect();
-        near.sort_by(f64::total_cmp);
-        near.get(ECHOES - 1).copied().unwrap_or(distance)
-    }
-
-    fn look_for_detours(&mut self) {
-        let is_asked = self.state == State::Blocked && self.is_scan_complete() && self.has_way;
-        if !is_asked || self.detours.is_some() {
-            return;
-        }
-        let at = self.pose().at;
-        let mut found = Detours::default();
-        while let Some(&target) = self.legs.front() {
-            found = self.ground(&self.barriers).detours(at, target);
-            // A point on the path may be covered by the obstacle: then the next one is gone to.
-            if found != Detours::default() || self.legs.len() == 1 {
-                break;
-            }
-            let next = self.ground(&self.barriers).detours(at, self.legs[1]);
-            if next == Detours::default() {
-                break;
-            }
-            self.legs.pop_front();
-        }
-        self.detours = Some(found);
-    }
-
-    fn ground<'a>(&self, barriers: &'a [Segment]) -> Ground<'a> {
-        Ground {
-            barriers,
-            obstacles_from: self.obstacles_from,
-            reach: self.radius_m + self.settings.detour_clearance_m,
-            least: self.radius_m,
-            aside: self.settings.detour_reach_m,
-            grain: self.settings.grain_m,
-        }
-    }
-
-    fn follow(
-        &mut self,
-        facts: &StateFacts,
-        decision: StateDecision,
-        body: &mut impl Body,
-        judge: &mut impl Judge,
-    ) -> Option<Ending> {
-        match decision.action {
-            Action::None => {}
-            Action::BackOff => self.back_off(body),
-            Action::Left => self.take_detour(|detours| (detours.left, detours.right)),
-            Action::Right => self.take_detour(|detours| (detours.right, detours.left)),
-            Action::Close => self.close(judge),
-            Action::Retry => self.retry(judge),
-            Action::NoWay => return Some(Ending::NoWay),
-        }
-        let is_entered = decision.state != self.state;
-        self.state = decision.state;
-        match self.state {
-            State::Hold if is_entered => {
-                self.stop(body);
-                return self.reached(facts);
-            }
-            State::Turn if is_entered || !facts.is_busy => self.turn(body),
-            State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
-            State::Wait if is_entered => {
-                self.stop(body);
-                (self.readings_standing, self.spot.waits) = (0, self.spot.waits + 1);
-                self.part.clear();
-            }
-            State::Blocked if is_entered => {
-                self.stop(body);
-                self.come_to_spot();
-            }
-            _ => {}
-        }
-        None
-    }
-
-    fn stop(&mut self, body: &mut impl Body) {
-        self.driving = 0.0;
-        body.command(Command::Stop);
-    }
-
-    fn turn(&mut self, body: &mut impl Body) {
-        if let Some(&target) = self.legs.front() {
-            body.command(Command::Turn { by: self.pose().bearing(target) });
-            (self.driving, self.readings_standing) = (0.0, 0);
-        }
-    }
-
-    fn set_off(&mut self, body: &mut impl Body, is_entered: bool) {
-        let Some(&target) = self.legs.front() else { return };
-        let at = self.pose().at;
-        if is_entered {
-            self.line = Line { from: at, nearest_m: at.distance(target) };
-            self.contact = None;
-        }
-        let (distance_m, speed_m_s) =
-            (at.distance(target).min(self.settings.stride_m), self.settings.speed_m_s);
-        body.command(Command::Move { distance_m, speed_m_s });
-        (self.driving, self.readings_standing) = (1.0, 0);
-    }
-
-    fn back_off(&mut self, body: &mut impl Body) {
-        let is_ahead = self.contact.take().is_none_or(|contact| contact.bearing.cos() >= 0.0);
-        let distance_m = if is_ahead { -self.settings.back_off_m } else { self.settings.back_off_m };
-        body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
-        (self.driving, self.readings_standing) = (distance_m.signum(), 0);
-    }
-
-    fn come_to_spot(&mut self) {
-        let at = self.pose().at;
-        if at.distance(self.spot.at) > self.settings.same_spot_m {
-            self.spot = Spot { at, ..Spot::default() };
-        }
-    }
-
-    fn reached(&mut self, facts: &StateFacts) -> Option<Ending> {
-        if facts.has_goal && facts.distance_m <= self.settings.goal_tolerance_m {
-            let reached = self.legs.pop_front()?;
-            self.tell(Happening::Reached(reached));
-            return self.legs.is_empty().then_some(Ending::Arrived);
-        }
-        None
-    }
-
-    fn take_detour(&mut self, pick: impl Fn(Detours) -> (Option<Vec<Point>>, Option<Vec<Point>>)) {
-        let (taken, other) = pick(self.detours.take().unwrap_or_default());
-        let Some(points) = taken else { return };
-        self.spot.detours += 1;
-        self.legs.pop_front();
-        for &point in points.iter().skip(1).rev() {
-            self.legs.push_front(point);
-        }
-        let other_m = other.map(|points| length(&points));
-        self.tell(Happening::Detour { length_m: length(&points), points, other_m });
-    }
-
-    fn close(&mut self, judge: &mut impl Judge) {
-        self.spot.closed += 1;
-        let at = self.pose().at;
-        let reach = self.radius_m + self.settings.detour_clearance_m;
-        if let Some(&target) = self.legs.front() {
-            let free = free_ahead(at, target, reach, &self.barriers).metres;
-            let share = free / at.distance(target).max(1e-9);
-            let at = Point::new(at.x + share * (target.x - at.x), at.y + share * (target.y - at.y));
-            let (doorway, region) = self.blocked.note(&self.building.network, at, 2.0 * reach);
-            self.tell(Happening::WayClosed { at, doorway, region });
-        }
-        self.replans += 1;
-        // What is in the way of another path has to be seen again before that one counts as closed, too.
-        self.readings_standing = 0;
-        self.part.clear();
-        let is_stuck = self.spot.closed > 2;
-        self.plan(judge, is_stuck);
-    }
-
-    fn retry(&mut self, judge: &mut impl Judge) {
-        let estimate = *self.model.estimate();
-        self.model = LocalModel::new(*self.model.settings(), estimate);
-        if let Some(sensed) = self.sensed {
-            self.model.reckon(&sensed.odometry);
-            self.model.set_estimate(estimate);
-        }
-        (self.memory, self.spot) = (Memory::default(), Spot::default());
-        self.blocked = Blocked::new(&self.building.network);
-        self.retries += 1;
-        self.part.clear();
-        self.gather();
-        self.tell(Happening::Retried);
-        self.plan(judge, false);
-    }
-
-    /// Looks for a path to the goal over the network; through free space as it is known where that has none.
-    fn plan(&mut self, judge: &mut impl Judge, is_off_network: bool) {
-        let Some(goal) = self.goal else { return };
-        let ends = [self.pose().at, goal];
-        let mut barriers = self.barriers[..self.obstacles_from].to_vec();
-        barriers.extend(self.memory.obstacles(&self.model, self.settings.least_confidence));
-        let ground = self.ground(&barriers);
-        let mut route = None;
-        if !is_off_network {
-            route = over_network(self.building, ground, &self.blocked, ends, judge);
-        }
-        let route = route.or_else(|| off_network(self.building, ground, ends));
-        self.has_way = route.is_some();
-        self.legs.clear();
-        if let Some(Route { points, length_m, is_off_network }) = route {
-            self.legs.extend(points.iter().skip(1));
-            self.tell(Happening::Planned { points, length_m, is_off_network });
-        }
-        self.detours = None;
     }
 
     fn is_scan_complete(&self) -> bool {

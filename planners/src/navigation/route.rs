@@ -37,7 +37,8 @@ pub(super) fn over_network(
             Ok(path) => {
                 let lead = (start != from).then_some(from);
                 let points: Vec<Point> = lead.into_iter().chain(path.points).collect();
-                let points = straightened(&points, |from, to| is_clear(from, to, ground.reach, ground.barriers));
+                let points =
+                    straightened(&points, |from, to| is_clear(from, to, ground.reach, ground.barriers));
                 return Some(Route { length_m: length(&points), points, is_off_network: false });
             }
             Err(NoPath::Start) => {}

@@ -21,16 +21,24 @@ pub struct Settings {
     pub scan_readings: usize,
     /// Readings after which the model is updated on the way.
     pub part_readings: usize,
-    /// What a detour keeps free on either side of the robot, metres.
+    /// What a detour keeps free on either side of the robot at the least, metres.
     pub detour_clearance_m: f64,
+    /// What it keeps free where there is room, metres.
+    pub detour_room_m: f64,
+    /// A detour with room may be longer than one without by this factor.
+    pub room_worth: f64,
     /// A detour leaves the rectangle about its ends by at most so much, metres.
     pub detour_reach_m: f64,
     /// The grain of the search for detours, metres.
     pub grain_m: f64,
     /// How far the robot withdraws from what it touched, metres.
     pub back_off_m: f64,
+    /// What was touched is in the way for so long, seconds.
+    pub felt_s: f64,
     /// Surfaces of less confidence close no way for good.
     pub least_confidence: u8,
+    /// Surfaces of this confidence stand, even if they are part of what seems to move.
+    pub firm_confidence: u8,
     /// Surfaces farther away than this are out of the local model's sight: if it drops them, they are remembered, metres.
     pub memory_m: f64,
     /// Blocked within so far of where it was blocked before counts as the same spot, metres.
@@ -41,6 +49,12 @@ pub struct Settings {
     pub most_detours: u32,
     /// Times that everything is looked at anew before there is no way.
     pub most_retries: u32,
+    /// Before it begins anew the robot goes back on its own track, up to so far, to give way, metres.
+    pub give_way_m: f64,
+    /// There may be a way again for so long: things that move come to rest, seconds.
+    pub no_way_after_s: f64,
+    /// Times that the robot withdraws from touches before it looks around.
+    pub most_back_offs: u32,
     /// After so long a mission is given up, seconds.
     pub patience_s: f64,
 }
@@ -58,15 +72,22 @@ impl Default for Settings {
             scan_readings: 120,
             part_readings: 40,
             detour_clearance_m: 0.05,
-            detour_reach_m: 4.0,
+            detour_room_m: 0.10,
+            room_worth: 1.3,
+            detour_reach_m: 2.0,
             grain_m: 0.04,
-            back_off_m: 0.08,
+            back_off_m: 0.15,
+            felt_s: 90.0,
             least_confidence: 2,
+            firm_confidence: 3,
             memory_m: 6.0,
             same_spot_m: 0.5,
             most_waits: 4,
             most_detours: 4,
             most_retries: 2,
+            give_way_m: 1.5,
+            no_way_after_s: 180.0,
+            most_back_offs: 3,
             patience_s: 3600.0,
         }
     }

@@ -123,9 +123,8 @@ fn a_closed_door_in_a_recalled_wall_is_entered_beside_it() {
     world.scan(table);
     let new: Vec<_> = world.model.segments().iter().filter(|known| known.source == Source::SONAR).collect();
     assert_eq!(new.len(), 1, "{new:?}");
-    assert!(
-        (new[0].line.length() - 1.0).abs() < 0.3 && new[0].line.middle().distance(Point::new(6.0, 2.5)) < 0.2
-    );
+    let (length, middle) = (new[0].line.length(), new[0].line.middle());
+    assert!((length - 1.0).abs() < 0.3 && middle.distance(Point::new(6.0, 2.5)) < 0.2, "{:?}", new[0]);
 }
 
 #[test]

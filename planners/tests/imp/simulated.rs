@@ -173,7 +173,7 @@ fn errors_are_as_large_as_the_settings_say() {
         (values.iter().map(|v| (v - middle).powi(2)).sum::<f64>() / values.len() as f64).sqrt()
     };
     let near = |found: f64, expected: f64, by: f64| {
-        assert!((found - expected).abs() < by, "{found} is not {expected}")
+        assert!((found - expected).abs() < by, "{found} is not {expected}");
     };
     near(deviation(&along), 0.02, 0.002);
     near(deviation(&turned), 2.0, 0.2);

@@ -61,6 +61,21 @@ pub fn run_with(mission: &Mission, outfit: &Outfit, judge: &mut impl Judge) -> R
 }
 
 impl Run {
+    /// Changes of state and the like, a line each, for the message of a failed test.
+    pub fn told(&self) -> String {
+        let line = |entry: &Entry| match &entry.event.what {
+            Happening::State { facts: f, decision } => format!(
+                "{:.2} {:?} -> {decision:?}: to go {:.2} free {:.2} left {:?} right {:?}",
+                entry.event.time_s, f.state, f.distance_m, f.free_m, f.left_m, f.right_m
+            ),
+            Happening::Segments { .. } | Happening::SetEstimatedPosition(_) => String::new(),
+            what => format!("{:.2} {what:?}", entry.event.time_s),
+        };
+        let lines: Vec<String> = self.journal.iter().map(line).filter(|line| !line.is_empty()).collect();
+        let last = lines.len().saturating_sub(40);
+        format!("{:?}\n{}", self.outcome, lines[last..].join("\n"))
+    }
+
     pub fn has_arrived(&self) -> bool {
         self.outcome.ending == Ending::Arrived && self.outcome.miss_m < 0.1
     }

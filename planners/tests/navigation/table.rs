@@ -9,6 +9,7 @@
 //! | Hold    | has_goal                                               | Decide  |          |
 //! | Hold    | otherwise                                              | Hold    |          |
 //! | Decide  | has_goal is false                                      | Hold    |          |
+//! | Decide  | scans = 0                                              | Wait    |          |
 //! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Decide  | is_contact                                             | Blocked |          |
 //! | Decide  | free_m < reach                                         | Blocked |          |
@@ -29,9 +30,10 @@
 //! | Wait    | is_scan_complete                                       | Decide  |          |
 //! | Wait    | otherwise                                              | Wait    |          |
 //! | Blocked | is_busy                                                | Blocked |          |
-//! | Blocked | is_contact                                             | Blocked | BackOff  |
+//! | Blocked | is_contact and back_offs < most_back_offs              | Blocked | BackOff  |
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
+//! | Blocked | has_way is false and time_s < no_way_after_s           | Decide  | Retry    |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
 //! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
 //! | Blocked | detours_here >= most_detours                           | Decide  | Close    |
@@ -61,6 +63,7 @@ impl Judge for Table {
     }
 }
 
+#[expect(clippy::match_same_arms, reason = "an arm is a row of the table")]
 fn row(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
     let reach = facts.distance_m.min(settings.look_ahead_m) - 1e-6;
@@ -71,7 +74,9 @@ fn row(facts: &StateFacts) -> (State, Action) {
         State::Hold if !facts.has_way => State::Blocked,
         State::Hold if facts.has_goal => State::Decide,
         State::Hold => State::Hold,
-        State::Decide if !facts.has_goal || is_there => State::Hold,
+        State::Decide if !facts.has_goal => State::Hold,
+        State::Decide if facts.scans == 0 => State::Wait,
+        State::Decide if is_there => State::Hold,
         State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
         State::Decide if !is_turned => State::Turn,
         State::Decide => State::Move,
@@ -94,12 +99,15 @@ fn row(facts: &StateFacts) -> (State, Action) {
 
 fn blocked(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
+    let is_early = facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s;
     let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
     match () {
         () if facts.is_busy => (State::Blocked, Action::None),
-        () if facts.is_contact => (State::Blocked, Action::BackOff),
+        () if facts.is_contact && facts.back_offs < settings.most_back_offs => {
+            (State::Blocked, Action::BackOff)
+        }
         () if !facts.is_scan_complete => (State::Wait, Action::None),
-        () if !facts.has_way && facts.retries < settings.most_retries => (State::Decide, Action::Retry),
+        () if !facts.has_way && is_early => (State::Decide, Action::Retry),
         () if !facts.has_way => (State::Hold, Action::NoWay),
         () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
         () if facts.detours_here >= settings.most_detours => (State::Decide, Action::Close),
@@ -109,14 +117,15 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
     }
 }
 
-/// The state table of segments.
+/// The state table of segments. A surface that was seen often enough is not taken for one that moves: sides of a box that
+/// come into sight one after the other look as if it did.
 fn segment(facts: &SegmentFacts) -> Transition {
     let is_recalled = facts.source == Source::RECALLED;
     let confidence = match facts {
         SegmentFacts { confidence: 0, .. } if is_recalled => 5,
         SegmentFacts { confidence: 0, .. } => 1,
-        SegmentFacts { is_moving: true, is_matched: false, .. } => 0,
-        SegmentFacts { is_moving: true, .. } => 1,
+        SegmentFacts { is_moving: true, is_matched: false, confidence: ..=2, .. } => 0,
+        SegmentFacts { is_moving: true, confidence: ..=2, .. } => 1,
         SegmentFacts { is_seen_free: true, is_matched: false, .. } => facts.confidence.saturating_sub(2),
         SegmentFacts { is_matched: true, .. } => (facts.confidence + 1).min(5),
         SegmentFacts { is_visible: true, beams_on: 0, .. } => facts.confidence - 1,
@@ -126,7 +135,7 @@ fn segment(facts: &SegmentFacts) -> Transition {
         confidence,
         source: facts.source,
         is_kept: confidence > 0 && (is_recalled || facts.distance_m <= 15.0),
-        counts_for_pose: !facts.is_moving && confidence >= 2,
+        counts_for_pose: (!facts.is_moving || confidence > 2) && confidence >= 2,
         is_anchored: is_recalled,
         is_cut: !is_recalled && facts.free_m > 0.2,
     }

@@ -1,0 +1,119 @@
+//! What the judge decided, done.
+
+use super::{ASIDE, Course, Line, Navigator, Spot};
+use crate::body::{Body, Command};
+use crate::geometry::Point;
+use crate::navigation::detour::{Detours, length};
+use crate::navigation::event::{Ending, Happening};
+use crate::navigation::judge::{Action, Judge, State, StateDecision, StateFacts};
+
+impl Navigator<'_> {
+    pub(super) fn follow(
+        &mut self,
+        facts: &StateFacts,
+        decision: StateDecision,
+        body: &mut impl Body,
+        judge: &mut impl Judge,
+    ) -> Option<Ending> {
+        match decision.action {
+            Action::None => {}
+            Action::BackOff => self.back_off(body),
+            Action::Left => self.take_detour(|detours| (detours.left, detours.right)),
+            Action::Right => self.take_detour(|detours| (detours.right, detours.left)),
+            Action::Close => self.close(judge),
+            Action::Retry => self.retry(judge),
+            Action::NoWay => return Some(Ending::NoWay),
+        }
+        let is_entered = decision.state != self.state;
+        self.state = decision.state;
+        match self.state {
+            State::Hold if is_entered => {
+                self.stop(body);
+                return self.reached(facts);
+            }
+            State::Turn if is_entered || !facts.is_busy => self.turn(body),
+            State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
+            State::Wait if is_entered => {
+                self.stop(body);
+                (self.readings_standing, self.spot.waits) = (0, self.spot.waits + 1);
+                (self.contact, self.back_offs) = (None, 0);
+                self.part.clear();
+            }
+            State::Blocked if is_entered => {
+                self.stop(body);
+                self.come_to_spot();
+            }
+            _ => {}
+        }
+        None
+    }
+
+    pub(super) fn stop(&mut self, body: &mut impl Body) {
+        self.course = None;
+        body.command(Command::Stop);
+    }
+
+    pub(super) fn turn(&mut self, body: &mut impl Body) {
+        if let Some(&target) = self.legs.front() {
+            body.command(Command::Turn { by: self.pose().bearing(target) });
+            (self.course, self.readings_standing) = (None, 0);
+        }
+    }
+
+    pub(super) fn set_off(&mut self, body: &mut impl Body, is_entered: bool) {
+        let Some(&target) = self.legs.front() else { return };
+        let at = self.pose().at;
+        if is_entered {
+            self.line = Line { from: at, nearest_m: at.distance(target) };
+            self.contact = None;
+        }
+        self.drive_straight(body, at.distance(target).min(self.settings.stride_m));
+    }
+
+    /// Withdraws from a touch: straight, or after a turn towards it where it is aside.
+    pub(super) fn back_off(&mut self, body: &mut impl Body) {
+        self.back_offs += 1;
+        let bearing = self.contact.take().map_or(0.0, |contact| contact.bearing);
+        let far = self.settings.back_off_m;
+        if bearing.cos().abs() >= ASIDE {
+            self.drive_straight(body, if bearing.cos() > 0.0 { -far } else { far });
+        } else {
+            body.command(Command::Turn { by: bearing });
+            (self.course, self.readings_standing, self.then_m) = (None, 0, Some(-far));
+        }
+    }
+
+    pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
+        body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
+        self.course = self.sensed.map(|sensed| Course { from: sensed.odometry, distance_m });
+        self.readings_standing = 0;
+    }
+
+    pub(super) fn come_to_spot(&mut self) {
+        let at = self.pose().at;
+        if at.distance(self.spot.at) > self.settings.same_spot_m {
+            self.spot = Spot { at, ..Spot::default() };
+        }
+    }
+
+    pub(super) fn reached(&mut self, facts: &StateFacts) -> Option<Ending> {
+        if facts.has_goal && facts.distance_m <= self.settings.goal_tolerance_m {
+            let reached = self.legs.pop_front()?;
+            self.tell(Happening::Reached(reached));
+            return self.legs.is_empty().then_some(Ending::Arrived);
+        }
+        None
+    }
+
+    pub(super) fn take_detour(&mut self, pick: impl Fn(Detours) -> (Option<Vec<Point>>, Option<Vec<Point>>)) {
+        let (taken, other) = pick(self.detours.take().unwrap_or_default());
+        let Some(points) = taken else { return };
+        self.spot.detours += 1;
+        self.legs.pop_front();
+        for &point in points.iter().skip(1).rev() {
+            self.legs.push_front(point);
+        }
+        let other_m = other.map(|points| length(&points));
+        self.tell(Happening::Detour { length_m: length(&points), points, other_m });
+    }
+}

@@ -1,0 +1,137 @@
+//! Detours, and ways over the whole building.
+
+use super::{Navigator, Spot};
+use crate::geometry::Point;
+use crate::local_model::LocalModel;
+use crate::navigation::cuts::Blocked;
+use crate::navigation::detour::{Detours, Ground};
+use crate::navigation::event::Happening;
+use crate::navigation::highway::{free_ahead, is_clear};
+use crate::navigation::judge::{Judge, State};
+use crate::navigation::known::Memory;
+use crate::navigation::route::{Route, off_network, over_network};
+use crate::segment::Segment;
+
+impl Navigator<'_> {
+    pub(super) fn look_for_detours(&mut self) {
+        let is_asked = self.state == State::Blocked && self.is_scan_complete() && self.has_way;
+        if !is_asked || self.detours.is_some() {
+            return;
+        }
+        let at = self.pose().at;
+        let mut found = Detours::default();
+        while let Some(&target) = self.legs.front() {
+            found = self.detours(at, target);
+            // A point on the path may be covered by the obstacle: then the next one is gone to.
+            if found != Detours::default() || self.legs.len() == 1 {
+                break;
+            }
+            let next = self.detours(at, self.legs[1]);
+            if next == Detours::default() {
+                break;
+            }
+            self.legs.pop_front();
+        }
+        self.detours = Some(found);
+    }
+
+    /// Detours with room on either side, unless they are much longer than those with little.
+    pub(super) fn detours(&self, from: Point, to: Point) -> Detours {
+        let narrow = self.ground(&self.barriers);
+        let wide = Ground { reach: self.radius_m + self.settings.detour_room_m, ..narrow };
+        let found = narrow.detours(from, to);
+        let Some(shortest) = found.shortest_m() else { return found };
+        let with_room = wide.detours(from, to);
+        let is_worth = |length: f64| length <= self.settings.room_worth * shortest;
+        if with_room.shortest_m().is_some_and(is_worth) { with_room } else { found }
+    }
+
+    pub(super) fn ground<'a>(&self, barriers: &'a [Segment]) -> Ground<'a> {
+        Ground {
+            barriers,
+            obstacles_from: self.obstacles_from,
+            reach: self.radius_m + self.settings.detour_clearance_m,
+            least: self.radius_m,
+            aside: self.settings.detour_reach_m,
+            grain: self.settings.grain_m,
+        }
+    }
+
+    pub(super) fn close(&mut self, judge: &mut impl Judge) {
+        self.spot.closed += 1;
+        let at = self.pose().at;
+        let reach = self.radius_m + self.settings.detour_clearance_m;
+        if let Some(&target) = self.legs.front() {
+            let free = free_ahead(at, target, [self.radius_m, reach], &self.barriers);
+            let share = free.metres / at.distance(target).max(1e-9);
+            let stop = Point::new(at.x + share * (target.x - at.x), at.y + share * (target.y - at.y));
+            let met = free.by.map(|by| self.barriers[by]);
+            let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
+            let (doorway, region) = self.blocked.note(&self.building.network, at, reach);
+            self.tell(Happening::WayClosed { at, doorway, region });
+        }
+        self.replans += 1;
+        // What is in the way of another path has to be seen again before that one counts as closed, too.
+        self.readings_standing = 0;
+        self.part.clear();
+        let is_stuck = self.spot.closed > 2;
+        self.plan(judge, is_stuck);
+    }
+
+    pub(super) fn retry(&mut self, judge: &mut impl Judge) {
+        let estimate = *self.model.estimate();
+        self.model = LocalModel::new(*self.model.settings(), estimate);
+        if let Some(sensed) = self.sensed {
+            self.model.reckon(&sensed.odometry);
+            self.model.set_estimate(estimate);
+        }
+        (self.memory, self.spot) = (Memory::default(), Spot::default());
+        self.blocked = Blocked::new(&self.building.network);
+        (self.retries, self.scans) = (self.retries + 1, 0);
+        self.felt.clear();
+        self.part.clear();
+        self.gather();
+        self.tell(Happening::Retried);
+        self.plan(judge, false);
+        self.give_way();
+    }
+
+    /// Goes back on its own track first: what moves may be waiting for the robot, as it waits for that.
+    fn give_way(&mut self) {
+        let at = self.pose().at;
+        let reach = self.radius_m + self.settings.highway_clearance_m;
+        let is_near = |back: &&Point| {
+            let far = back.distance(at);
+            far > self.settings.goal_tolerance_m && far <= self.settings.give_way_m
+        };
+        let clear =
+            self.track.iter().filter(is_near).find(|back| is_clear(at, **back, reach, &self.barriers));
+        if let Some(&back) = clear.filter(|_| !self.legs.is_empty()) {
+            self.legs.push_front(at);
+            self.legs.push_front(back);
+        }
+    }
+
+    /// Looks for a path to the goal over the network; through free space as it is known where that has none.
+    pub(super) fn plan(&mut self, judge: &mut impl Judge, is_off_network: bool) {
+        let Some(goal) = self.goal else { return };
+        let ends = [self.pose().at, goal];
+        let mut barriers = self.barriers[..self.obstacles_from].to_vec();
+        // Where detours found nothing again and again, what they saw in the way counts, too.
+        let confidence = if is_off_network { 1 } else { self.settings.least_confidence };
+        barriers.extend(self.obstacles(confidence));
+        let ground = self.ground(&barriers);
+        let mut route = None;
+        if !is_off_network {
+            route = over_network(self.building, ground, &self.blocked, ends, judge);
+        }
+        let route = route.or_else(|| off_network(self.building, ground, ends));
+        self.has_way = route.is_some();
+        self.legs.clear();
+        if let Some(Route { points, length_m, is_off_network }) = route {
+            self.legs.extend(points.iter().skip(1));
+            self.tell(Happening::Planned { points, length_m, is_off_network });
+        }
+        self.detours = None;
+    }
+}

@@ -1,0 +1,103 @@
+//! What the robot senses, taken into the model.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{Navigator, TRACK_M, TRACK_POINTS};
+use crate::body::{Body, Contact};
+use crate::geometry::Point;
+use crate::navigation::event::Happening;
+use crate::navigation::judge::{Judge, State};
+use crate::navigation::known::moving;
+use crate::segment::Segment;
+
+impl Navigator<'_> {
+    pub(super) fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) {
+        let before = self.sensed.and_then(|sensed| sensed.contact);
+        let sensed = body.sense();
+        self.radius_m = body.radius_m();
+        self.model.reckon(&sensed.odometry);
+        let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
+        let touch = sensed.contact.filter(|_| before.is_none() || is_held);
+        self.sensed = Some(sensed);
+        self.keep_track();
+        self.part.push(sensed.reading);
+        self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
+        if let Some(contact) = touch {
+            // What runs into a robot that stands, or goes elsewhere, is in the model then, and no reason to stop.
+            let is_ahead = self.course.is_some_and(|course| course.leads_to(contact));
+            if is_held || is_ahead || self.state == State::Turn {
+                self.contact = self.contact.or(Some(contact));
+                self.felt.push((sensed.time_s, self.surface_at(contact)));
+            }
+            self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
+            self.gather();
+            self.tell(Happening::Contact { bearing: contact.bearing });
+        }
+        let is_standing = self.readings_standing > 0;
+        let most = if is_standing { self.settings.scan_readings } else { self.settings.part_readings };
+        if self.part.len() >= most {
+            self.update(judge);
+        }
+    }
+
+    /// Remembers where the robot came from, the latest part of it.
+    fn keep_track(&mut self) {
+        let at = self.pose().at;
+        if self.track.back().is_none_or(|last| last.distance(at) >= TRACK_M) {
+            self.track.push_back(at);
+            while self.track.len() > TRACK_POINTS {
+                self.track.pop_front();
+            }
+        }
+    }
+
+    /// A short surface across a touch.
+    pub(super) fn surface_at(&self, contact: Contact) -> Segment {
+        let pose = self.pose();
+        let (towards, across) =
+            (pose.direction(contact.bearing), pose.direction(contact.bearing + FRAC_PI_2));
+        let half = self.model.settings().contact_length_m / 2.0;
+        let end = |side: f64| {
+            Point::new(
+                pose.at.x + self.radius_m * towards.x + side * across.x,
+                pose.at.y + self.radius_m * towards.y + side * across.y,
+            )
+        };
+        Segment::new(end(-half), end(half))
+    }
+
+    /// Takes the readings into the model.
+    pub(super) fn update(&mut self, judge: &mut impl Judge) {
+        let part = std::mem::take(&mut self.part);
+        let walls = (0..).zip(self.building.walls.iter().copied());
+        self.model.recall(walls, |facts| judge.segment(facts));
+        let update = self.model.update(&part, self.time_s(), |facts| judge.segment(facts));
+        self.memory.note(&self.model, &self.building.walls, &self.settings);
+        self.gather();
+        if !(update.entered.is_empty() && update.removed.is_empty()) {
+            self.tell(Happening::Segments { entered: update.entered, removed: update.removed });
+        }
+        if self.is_scan_complete() {
+            self.scans += 1;
+            self.tell(Happening::SetEstimatedPosition(*self.model.estimate()));
+        }
+    }
+
+    /// Brings what is in the way up to date.
+    pub(super) fn gather(&mut self) {
+        self.barriers.truncate(self.building.walls.len());
+        self.barriers.extend(&self.forbidden);
+        self.obstacles_from = self.barriers.len();
+        let (now, patience) = (self.time_s(), self.settings.felt_s);
+        self.felt.retain(|(time_s, _)| now - time_s <= patience);
+        self.barriers.extend(self.obstacles(1));
+        self.moving = moving(&self.model, &self.settings).collect();
+        self.detours = None;
+    }
+
+    pub(super) fn obstacles(&self, confidence: u8) -> Vec<Segment> {
+        let mut obstacles = self.memory.obstacles(&self.model, confidence, &self.settings);
+        obstacles.extend(self.felt.iter().map(|(_, surface)| *surface));
+        obstacles
+    }
+}

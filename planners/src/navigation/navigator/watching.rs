@@ -1,0 +1,75 @@
+//! What the judge is told.
+
+use super::{ECHOES, FALLING_M, Navigator};
+use crate::geometry::Point;
+use crate::navigation::detour::length;
+use crate::navigation::highway::free_ahead;
+use crate::navigation::judge::StateFacts;
+
+impl Navigator<'_> {
+    pub(super) fn facts(&self) -> StateFacts {
+        let pose = self.pose();
+        let target = self.legs.front().copied();
+        let distance_m = target.map_or(0.0, |target| pose.at.distance(target));
+        let (free_m, is_obstacle_moving) = self.free_m(target);
+        let length_of = |path: &Option<Vec<Point>>| path.as_ref().map(|points| length(points));
+        let detours = self.detours.as_ref();
+        StateFacts {
+            mode: self.mode,
+            state: self.state,
+            has_goal: target.is_some(),
+            distance_m,
+            is_falling: distance_m <= self.line.nearest_m + FALLING_M,
+            heading_error: target.map_or(0.0, |target| pose.bearing(target).abs()),
+            off_line_m: target
+                .map_or(0.0, |target| pose.at.distance(pose.at.nearest_on(self.line.from, target))),
+            free_m,
+            echo_m: self.echo_m(target),
+            is_obstacle_moving,
+            is_contact: self.contact.is_some(),
+            back_offs: self.back_offs,
+            is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
+            is_scan_complete: self.is_scan_complete(),
+            scans: self.scans,
+            left_m: detours.and_then(|detours| length_of(&detours.left)),
+            right_m: detours.and_then(|detours| length_of(&detours.right)),
+            detours_here: self.spot.detours,
+            waits: self.spot.waits,
+            has_way: self.has_way,
+            retries: self.retries,
+            time_s: self.time_s() - self.begun_s,
+            settings: self.settings,
+        }
+    }
+
+    /// Metres ahead that are free in the model, and whether what is there moves.
+    pub(super) fn free_m(&self, target: Option<Point>) -> (f64, bool) {
+        let Some(target) = target else { return (0.0, false) };
+        let reach = [self.radius_m, self.radius_m + self.settings.highway_clearance_m];
+        let standing = free_ahead(self.pose().at, target, reach, &self.barriers);
+        let moving = free_ahead(self.pose().at, target, reach, &self.moving);
+        (standing.metres.min(moving.metres), moving.by.is_some() && moving.metres <= standing.metres)
+    }
+
+    /// Metres ahead that are free by readings that are not in the model yet.
+    pub(super) fn echo_m(&self, target: Option<Point>) -> f64 {
+        let (Some(target), Some(sensed)) = (target, self.sensed) else { return 0.0 };
+        let pose = self.pose();
+        let distance = pose.at.distance(target);
+        let heading = pose.bearing(target);
+        let half = self.radius_m + self.settings.highway_clearance_m;
+        let ahead = self.part.iter().filter_map(|reading| {
+            let from = sensed.odometry.to(&reading.odometry);
+            let towards = from.direction(reading.bearing);
+            let range = reading.range_m?;
+            let at = Point::new(from.at.x + range * towards.x, from.at.y + range * towards.y);
+            let (sin, cos) = heading.sin_cos();
+            let (ahead, aside) = (at.x * cos + at.y * sin, at.y * cos - at.x * sin);
+            let free = ahead - (half.powi(2) - aside.powi(2)).max(0.0).sqrt();
+            (aside.abs() < half && ahead > 0.0 && free < distance).then_some(free.max(0.0))
+        });
+        let mut near: Vec<f64> = ahead.collect();
+        near.sort_by(f64::total_cmp);
+        near.get(ECHOES - 1).copied().unwrap_or(distance)
+    }
+}
