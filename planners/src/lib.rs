@@ -1,6 +1,7 @@
 //! Geometry and search for Adit: pure functions from a world to typed records (rooms, doors), and from
 //! weighted records to routes. No SQL, no rules.
 
+pub mod body;
 pub mod bridges;
 pub mod channels;
 pub mod clearance;
@@ -10,15 +11,19 @@ pub mod floor_plan;
 pub mod geometry;
 mod known;
 pub mod layers;
+pub mod local_model;
 pub mod minimum;
 pub mod names;
 pub mod overlays;
 pub mod planner;
+pub mod pose;
 pub mod prime_areas;
 pub mod read;
 pub mod rect_index;
 pub mod rooms;
 pub mod routes;
+pub mod segment;
+pub mod simulator;
 mod skyline;
 pub mod strips;
 pub mod world;

@@ -1,0 +1,68 @@
+//! What a navigator knows of the robot that it drives. Whether that is a machine or a simulation is not told.
+
+use crate::pose::Pose;
+
+/// A round robot with a rotating sonar, wheels that are counted, and a skirt that feels contact.
+pub trait Body {
+    /// Half the width of the robot, metres.
+    fn radius_m(&self) -> f64;
+
+    /// What it is to do from now on; what it was doing ends.
+    fn command(&mut self, command: Command);
+
+    /// Waits for the next reading of the sonar, and tells what was sensed until then.
+    fn sense(&mut self) -> Sensed;
+}
+
+/// One thing for the wheels to do. Wheels go by their own count: how far it really was is not told.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Command {
+    /// To stand still.
+    #[default]
+    Stop,
+    /// To turn on the spot: radians, counter-clockwise above 0.
+    Turn {
+        /// How far.
+        by: f64,
+    },
+    /// To go straight: ahead, or back where the distance is below 0. It ends early where the skirt touches something.
+    Move {
+        /// How far, metres.
+        distance_m: f64,
+        /// How fast, metres a second. The body's own greatest speed is not exceeded.
+        speed_m_s: f64,
+    },
+}
+
+/// What a body sensed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensed {
+    /// Seconds since the body was switched on.
+    pub time_s: f64,
+    /// Where the wheels' count puts the robot, beginning from the pose 0, 0, 0 when it was switched on.
+    pub odometry: Pose,
+    /// The newest reading of the sonar.
+    pub reading: Reading,
+    /// What the skirt feels; nothing is felt any more once the robot has moved off.
+    pub contact: Option<Contact>,
+    /// Whether the command is still being carried out.
+    pub is_busy: bool,
+}
+
+/// One reading of the sonar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Where the beam went: radians from the heading, counter-clockwise.
+    pub bearing: f64,
+    /// How far away the echo came from, metres from the robot's middle; `None` where none was heard.
+    pub range_m: Option<f64>,
+    /// Where the wheels' count put the robot at that time.
+    pub odometry: Pose,
+}
+
+/// A touch of the skirt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Where on the skirt: radians from the heading, counter-clockwise.
+    pub bearing: f64,
+}

@@ -1,0 +1,83 @@
+//! Connected sequences: ends of segments that meet.
+
+use super::{ModelSegment, SegmentId, Settings};
+use crate::geometry::Point;
+
+/// Joins the ends of segments that changed to the nearest ends of others, and lets them meet in a corner where both may
+/// be moved. `near` are the places of segments that may be joined to.
+pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usize], settings: &Settings) {
+    for &one in changed {
+        for end in [0, 1] {
+            part(segments, one, end);
+            let at = ends(&segments[one])[end];
+            let others = near.iter().copied().filter(|&other| other != one);
+            let others = others.flat_map(|other| [(other, 0), (other, 1)]);
+            let far = others.map(|(other, side)| (squared(ends(&segments[other])[side], at), other, side));
+            let close = far.filter(|(far, ..)| *far <= settings.join_m.powi(2));
+            let best = close.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+            if let Some((_, other, side)) = best {
+                part(segments, other, side);
+                segments[one].joins[end] = Some(segments[other].id);
+                segments[other].joins[side] = Some(segments[one].id);
+                meet(segments, (one, end), (other, side), settings);
+            }
+        }
+    }
+}
+
+/// Takes a joint apart from both sides.
+fn part(segments: &mut [ModelSegment], one: usize, end: usize) {
+    let id = segments[one].id;
+    if let Some(joined) = segments[one].joins[end].take()
+        && let Some(other) =
+            segments.binary_search_by_key(&joined, |segment| segment.id).ok().map(|at| &mut segments[at])
+    {
+        for side in other.joins.iter_mut().filter(|side| **side == Some(id)) {
+            *side = None;
+        }
+    }
+}
+
+/// Forgets joints with segments that are gone.
+pub(super) fn forget(segments: &mut [ModelSegment], gone: &[SegmentId]) {
+    if gone.is_empty() {
+        return;
+    }
+    for side in segments.iter_mut().flat_map(|segment| segment.joins.iter_mut()) {
+        if side.is_some_and(|id| gone.contains(&id)) {
+            *side = None;
+        }
+    }
+}
+
+fn squared(p: Point, q: Point) -> f64 {
+    (p.x - q.x).powi(2) + (p.y - q.y).powi(2)
+}
+
+fn ends(segment: &ModelSegment) -> [Point; 2] {
+    [segment.line.a, segment.line.b]
+}
+
+fn meet(
+    segments: &mut [ModelSegment],
+    (one, end): (usize, usize),
+    (other, side): (usize, usize),
+    settings: &Settings,
+) {
+    let (p, q) = (segments[one].line, segments[other].line);
+    let (along, across) = (p.direction(), q.direction());
+    let cross = along.x * across.y - along.y * across.x;
+    // lines that differ by less than 6 degrees meet anywhere
+    if cross.abs() < 0.1 {
+        return;
+    }
+    let far = ((q.a.x - p.a.x) * across.y - (q.a.y - p.a.y) * across.x) / cross;
+    let corner = Point::new(p.a.x + far * along.x, p.a.y + far * along.y);
+    for (segment, end) in [(one, end), (other, side)] {
+        let is_close = ends(&segments[segment])[end].distance(corner) <= settings.join_m;
+        if !segments[segment].is_anchored && is_close {
+            let line = &mut segments[segment].line;
+            *(if end == 0 { &mut line.a } else { &mut line.b }) = corner;
+        }
+    }
+}

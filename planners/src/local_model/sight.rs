@@ -1,0 +1,167 @@
+//! Which beams cross which segments: what should have been seen, and what is seen to be gone.
+
+use super::beam::Beam;
+use super::{ModelSegment, Settings};
+use crate::geometry::Point;
+
+/// A beam across a segment.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    /// The beam, by its place in the scan.
+    pub beam: usize,
+    /// Metres along the beam.
+    pub range_m: f64,
+    /// Metres along the segment from its end `a`.
+    pub place_m: f64,
+    /// Sine of the angle between both.
+    pub sine: f64,
+}
+
+impl Crossing {
+    /// Whether the echo may come from the segment, the place of which is as sure as `sigma_m` seen from the robot.
+    pub fn agrees(&self, beam: &Beam, sigma_m: f64, settings: &Settings) -> bool {
+        // without square roots: this is asked of every crossing
+        let allowed = beam.sigma_m * beam.sigma_m + sigma_m * sigma_m / (self.sine * self.sine).max(0.01);
+        let off = |range: f64| (range - self.range_m) * (range - self.range_m);
+        beam.range_m
+            .is_some_and(|range| off(range) <= settings.match_sigmas * settings.match_sigmas * allowed)
+    }
+}
+
+/// Beams sorted by direction, so that the few that can meet a segment are found at once.
+pub(super) struct Fan {
+    /// Direction, as a number that grows with the angle from 0 to 4, and the beam.
+    order: Vec<(f64, usize)>,
+    centre: Point,
+    /// How far from the centre the beams begin, at most.
+    spread_m: f64,
+}
+
+/// A number that grows with the angle of a direction, from 0 to 4 in a turn; never faster than the angle itself.
+fn turn(x: f64, y: f64) -> f64 {
+    let part = y / (x.abs() + y.abs());
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => part,
+        (true, false) => 4.0 + part,
+        (false, _) => 2.0 - part,
+    }
+}
+
+impl Fan {
+    pub fn new(beams: &[Beam]) -> Self {
+        let count = beams.len().max(1) as f64;
+        let (x, y) = beams.iter().fold((0.0, 0.0), |(x, y), beam| (x + beam.from.x, y + beam.from.y));
+        let centre = Point::new(x / count, y / count);
+        let spread_m = beams.iter().map(|beam| beam.from.distance(centre)).fold(0.0, f64::max);
+        let direction = |(i, beam): (usize, &Beam)| (turn(beam.towards.x, beam.towards.y), i);
+        let mut order: Vec<(f64, usize)> = beams.iter().enumerate().map(direction).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Self { order, centre, spread_m }
+    }
+
+    /// All beams across a segment of a length, by place in the fan; beams reach as far as the sonar hears.
+    pub fn crossings(
+        &self,
+        segment: &ModelSegment,
+        length: f64,
+        beams: &[Beam],
+        settings: &Settings,
+        found: &mut Vec<Crossing>,
+    ) {
+        found.clear();
+        let (a, b, c) = (segment.line.a, segment.line.b, self.centre);
+        let nearest = segment.line.distance(c);
+        if nearest > settings.sonar_range_m + self.spread_m {
+            return;
+        }
+        let mut test = |&(_, i): &(f64, usize)| {
+            let beam = &beams[i];
+            if let Some((range_m, share)) = segment.line.hit(beam.from, beam.towards)
+                && range_m <= settings.sonar_range_m
+            {
+                let cross = beam.towards.x * (b.y - a.y) - beam.towards.y * (b.x - a.x);
+                found.push(Crossing {
+                    beam: i,
+                    range_m,
+                    place_m: share * length,
+                    sine: (cross / length).abs(),
+                });
+            }
+        };
+        if nearest <= 2.0 * self.spread_m || nearest <= 0.0 {
+            self.order.iter().for_each(&mut test);
+            return;
+        }
+        let is_left = (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x) >= 0.0;
+        let (first, last) = if is_left { (a, b) } else { (b, a) };
+        // an angle whose sine is at most a half is at most 1.05 times as large as the sine
+        let widened = 1.05 * self.spread_m / nearest + 1e-9;
+        let from = turn(first.x - c.x, first.y - c.y) - widened;
+        let mut to = turn(last.x - c.x, last.y - c.y) + widened;
+        if to < from {
+            to += 4.0;
+        }
+        for around in [-4.0, 0.0, 4.0] {
+            let begin = self.order.partition_point(|(at, _)| *at < from + around);
+            let end = self.order.partition_point(|(at, _)| *at <= to + around);
+            self.order.get(begin..end).into_iter().flatten().for_each(&mut test);
+        }
+    }
+}
+
+/// What the beams across a segment say of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Evidence {
+    pub on: u32,
+    pub through: u32,
+    /// Pieces of the segment seen free, metres from its end `a`.
+    pub free: Vec<(f64, f64)>,
+}
+
+impl Evidence {
+    /// Judges crossings: a beam ends on the segment, before it (which says nothing), or ran through it.
+    /// `sigma_m` is how sure the place of the segment is as seen from the robot.
+    pub fn new(
+        crossings: &mut [Crossing],
+        beams: &[Beam],
+        length_m: f64,
+        sigma_m: f64,
+        settings: &Settings,
+    ) -> Self {
+        crossings.sort_by(|a, b| a.place_m.total_cmp(&b.place_m).then(a.beam.cmp(&b.beam)));
+        let mut evidence = Self::default();
+        let least_sine = settings.grazing_angle.sin();
+        // a run of beams side by side through it: where the first one crosses, how many there are, and the place before
+        let (mut run, mut before_m) = (None::<(f64, u32)>, 0.0);
+        for crossing in crossings.iter().filter(|crossing| crossing.sine >= least_sine) {
+            let beam = &beams[crossing.beam];
+            let beyond = beam.range_m.unwrap_or(f64::INFINITY) - crossing.range_m;
+            let agrees = crossing.agrees(beam, sigma_m, settings);
+            if !agrees && beyond > 0.0 {
+                evidence.through += 1;
+                // what is free begins half way from the beam before
+                let (from, count) = run.unwrap_or((f64::midpoint(before_m, crossing.place_m), 0));
+                let from = if before_m > 0.0 || count > 0 { from } else { 0.0 };
+                run = Some((from, count + 1));
+            } else {
+                evidence.on += u32::from(agrees);
+                evidence.close(run.take(), f64::midpoint(before_m, crossing.place_m), settings);
+            }
+            before_m = crossing.place_m;
+        }
+        evidence.close(run, length_m, settings);
+        evidence
+    }
+
+    fn close(&mut self, run: Option<(f64, u32)>, to: f64, settings: &Settings) {
+        if let Some((from, count)) = run
+            && count >= settings.free_beams
+        {
+            self.free.push((from, to));
+        }
+    }
+
+    pub fn free_m(&self) -> f64 {
+        self.free.iter().map(|(from, to)| to - from).sum()
+    }
+}

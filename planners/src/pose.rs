@@ -1,0 +1,101 @@
+//! Where a robot is and which way it looks.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::geometry::Point;
+
+/// A place and a heading: in the map's frame, or relative to another pose.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Where, in metres.
+    pub at: Point,
+    /// Which way, in radians counter-clockwise from the x axis.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// A pose from its parts: metres, metres, radians.
+    pub const fn new(x: f64, y: f64, heading: f64) -> Self {
+        Self { at: Point::new(x, y), heading }
+    }
+
+    /// This pose, moved by a step that is told as seen from it.
+    #[must_use]
+    pub fn then(&self, step: &Self) -> Self {
+        let (sin, cos) = self.heading.sin_cos();
+        Self {
+            at: Point::new(
+                self.at.x + cos * step.at.x - sin * step.at.y,
+                self.at.y + sin * step.at.x + cos * step.at.y,
+            ),
+            heading: wrapped(self.heading + step.heading),
+        }
+    }
+
+    /// The other pose as seen from this one: `self.then(&self.to(other))` is `other`.
+    #[must_use]
+    pub fn to(&self, other: &Self) -> Self {
+        let (sin, cos) = self.heading.sin_cos();
+        let (dx, dy) = (other.at.x - self.at.x, other.at.y - self.at.y);
+        Self {
+            at: Point::new(cos * dx + sin * dy, cos * dy - sin * dx),
+            heading: wrapped(other.heading - self.heading),
+        }
+    }
+
+    /// The pose so many metres ahead.
+    #[must_use]
+    pub fn ahead(&self, distance_m: f64) -> Self {
+        self.then(&Self::new(distance_m, 0.0, 0.0))
+    }
+
+    /// The direction of a bearing (radians from the heading), of length 1.
+    pub fn direction(&self, bearing: f64) -> Point {
+        let (sin, cos) = (self.heading + bearing).sin_cos();
+        Point::new(cos, sin)
+    }
+
+    /// The bearing of a point: radians from the heading, above -PI up to PI.
+    pub fn bearing(&self, of: Point) -> f64 {
+        wrapped((of.y - self.at.y).atan2(of.x - self.at.x) - self.heading)
+    }
+}
+
+/// The same angle above -PI and up to PI, radians.
+pub fn wrapped(angle: f64) -> f64 {
+    let turned = angle.rem_euclid(TAU);
+    if turned > PI { turned - TAU } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_step_is_told_as_seen_from_the_robot() {
+        let moved = Pose::new(1.0, 2.0, PI / 2.0).then(&Pose::new(3.0, 1.0, -PI / 2.0));
+        assert!(moved.at.distance(Point::new(0.0, 5.0)) < 1e-12);
+        assert!(moved.heading.abs() < 1e-12);
+    }
+
+    proptest! {
+        #[test]
+        fn what_was_seen_from_a_pose_is_found_from_it(
+            (x, y, heading) in (-9.0..9.0, -9.0..9.0, -9.0..9.0),
+            (u, v, way) in (-9.0..9.0, -9.0..9.0, -9.0..9.0),
+        ) {
+            let (from, other) = (Pose::new(x, y, heading), Pose::new(u, v, way));
+            let found = from.then(&from.to(&other));
+            prop_assert!(found.at.distance(other.at) < 1e-9);
+            prop_assert!(wrapped(found.heading - other.heading).abs() < 1e-9);
+        }
+
+        #[test]
+        fn an_angle_is_wrapped_to_one_turn(angle in -50.0..50.0_f64) {
+            let turned = wrapped(angle);
+            prop_assert!(-PI < turned && turned <= PI);
+            prop_assert!((turned.sin() - angle.sin()).abs() < 1e-9);
+        }
+    }
+}

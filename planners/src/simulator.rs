@@ -1,0 +1,395 @@
+//! A simulated robot among walls: wheels that slip, a rotating sonar that errs, a skirt that feels contact, and things in the
+//! way that no model knows.
+//!
+//! A navigator drives it as a [`Body`], and is not told that it is a simulation. The truth is for judges and for pictures:
+//! [`Simulator::pose`], [`Simulator::touches`], [`Film`]. All errors come from the seed: the same seed and the same commands
+//! give the same readings, to the bit.
+//!
+//! # Example
+//! ```
+//! use adit_planners::body::{Body, Command};
+//! use adit_planners::geometry::Point;
+//! use adit_planners::pose::Pose;
+//! use adit_planners::segment::Segment;
+//! use adit_planners::simulator::{Settings, Simulator};
+//!
+//! let wall = Segment::new(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
+//! let mut robot = Simulator::new(&[wall], Vec::new(), Settings::exact(), Pose::default(), 1)?;
+//! robot.command(Command::Move { distance_m: 3.0, speed_m_s: 0.5 });
+//! let sensed = std::iter::repeat_with(|| robot.sense()).find(|sensed| !sensed.is_busy).unwrap();
+//! assert_eq!(sensed.contact.unwrap().bearing, 0.0);
+//! assert!((robot.pose().at.x - 1.75).abs() < 1e-8);
+//! # Ok::<(), adit_planners::simulator::SimulationError>(())
+//! ```
+
+mod building;
+mod chance;
+mod disc;
+mod error;
+mod film;
+mod obstacle;
+mod settings;
+
+pub use error::SimulationError;
+pub use film::{Film, Frame};
+pub use obstacle::{Course, Obstacle};
+pub use settings::Settings;
+
+use std::f64::consts::TAU;
+
+use building::Building;
+use chance::Chance;
+use disc::{HAIR_M, Touch, touch};
+use obstacle::Mover;
+
+use crate::body::{Body, Command, Contact, Reading, Sensed};
+use crate::geometry::Point;
+use crate::pose::{Pose, wrapped};
+use crate::segment::Segment;
+
+/// A robot in a building, with the truth about it.
+#[derive(Clone, Debug)]
+pub struct Simulator {
+    settings: Settings,
+    building: Building,
+    movers: Vec<Mover>,
+    chance: Chance,
+    pose: Pose,
+    odometry: Pose,
+    readings: u64,
+    task: Task,
+    touches: Vec<TouchEvent>,
+}
+
+/// A touch, as a judge sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TouchEvent {
+    /// When, in seconds.
+    pub time_s: f64,
+    /// Where, in the map's frame.
+    pub at: Point,
+    /// The obstacle that was touched, by its number from 0; `None` for a wall.
+    pub obstacle: Option<usize>,
+    /// Whether the robot went towards it. An obstacle that runs into a robot which stands, or goes elsewhere, is not the
+    /// robot's collision.
+    pub by_robot: bool,
+}
+
+/// What is left to do of a command.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Task {
+    Rest,
+    Turn {
+        left: f64,
+    },
+    /// Wheels go as far as they count; `scale` is how far that really is.
+    Move {
+        left_m: f64,
+        speed_m_s: f64,
+        scale: f64,
+    },
+}
+
+/// One step of the wheels: what they count, and the truth.
+#[derive(Clone, Copy, Default)]
+struct Step {
+    counted_m: f64,
+    way: Point,
+    turn: f64,
+}
+
+impl Simulator {
+    /// A robot at a pose among walls and obstacles.
+    pub fn new(
+        walls: &[Segment],
+        obstacles: Vec<Obstacle>,
+        settings: Settings,
+        start: Pose,
+        seed: u64,
+    ) -> Result<Self, SimulationError> {
+        check(walls, &obstacles, &settings, &start)?;
+        let simulator = Self {
+            settings,
+            building: Building::new(walls),
+            movers: obstacles.into_iter().map(Mover::new).collect(),
+            chance: Chance::new(seed),
+            pose: start,
+            odometry: Pose::default(),
+            readings: 0,
+            task: Task::Rest,
+            touches: Vec::new(),
+        };
+        simulator.start_is_free().map(|()| simulator)
+    }
+
+    /// Where the robot really is.
+    pub fn pose(&self) -> Pose {
+        self.pose
+    }
+
+    /// Seconds since it was switched on.
+    pub fn time_s(&self) -> f64 {
+        self.readings as f64 * self.settings.reading_period_s
+    }
+
+    /// All touches so far, in the order of time. One that lasts is told once.
+    pub fn touches(&self) -> &[TouchEvent] {
+        &self.touches
+    }
+
+    /// The walls.
+    pub fn walls(&self) -> &[Segment] {
+        &self.building.walls
+    }
+
+    /// The outlines of the obstacles where they are now, by their sides.
+    pub fn obstacles(&self) -> impl Iterator<Item = &[Segment]> {
+        self.movers.iter().map(|mover| mover.sides.as_slice())
+    }
+
+    /// The figures of the robot.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Metres from a point in a direction (of length 1) to the first wall or obstacle; `None` beyond the sonar's hearing.
+    pub fn range(&self, from: Point, towards: Point) -> Option<f64> {
+        let reach = self.settings.sonar_range_m;
+        let wall = self.building.range(from, towards, reach);
+        let sides = self.movers.iter().flat_map(|mover| &mover.sides);
+        let hits = sides.filter_map(|side| side.hit(from, towards)).map(|(range, _)| range);
+        hits.filter(|range| *range <= reach).chain(wall).min_by(f64::total_cmp)
+    }
+
+    fn start_is_free(&self) -> Result<(), SimulationError> {
+        let (at, radius_m) = (self.pose.at, self.settings.radius_m);
+        let walls = self.building.walls.iter().enumerate();
+        let walls = walls.map(|(i, wall)| (wall.distance(at), format!("wall {}", i + 1)));
+        let obstacles = self.movers.iter().enumerate().map(|(i, mover)| {
+            let gap = mover.sides.iter().map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
+            (if is_inside(at, &mover.sides) { 0.0 } else { gap }, format!("obstacle {}", i + 1))
+        });
+        let near = walls.chain(obstacles).find(|(gap, _)| *gap < radius_m + HAIR_M);
+        near.map_or(Ok(()), |(gap_m, what)| {
+            Err(SimulationError::Start { x: at.x, y: at.y, gap_m, what, radius_m })
+        })
+    }
+
+    /// What the wheels want to do until the next reading.
+    fn step(&mut self) -> Step {
+        let period = self.settings.reading_period_s;
+        match self.task {
+            Task::Rest => Step::default(),
+            Task::Turn { left } => {
+                let most = self.settings.turning_speed * period;
+                Step { turn: left.clamp(-most, most), ..Step::default() }
+            }
+            Task::Move { left_m, speed_m_s, scale } => {
+                let most = speed_m_s * period;
+                let counted_m = left_m.clamp(-most, most);
+                let far = counted_m.abs();
+                let turn = self.settings.heading_noise * self.chance.normal() * far.sqrt()
+                    + self.settings.heading_bias * far;
+                let towards = self.pose.direction(turn / 2.0);
+                let true_m = counted_m * scale;
+                Step { counted_m, way: Point::new(true_m * towards.x, true_m * towards.y), turn }
+            }
+        }
+    }
+
+    /// Moves the robot and the obstacles until the next reading, or until they touch.
+    fn advance(&mut self) {
+        let step = self.step();
+        let (now, period) = (self.time_s(), self.settings.reading_period_s);
+        let ways: Vec<Point> = (0..self.movers.len()).map(|i| self.way(i, now, period)).collect();
+        let first = self.first_touch(&step, &ways);
+        let robot_moved = step.way != Point::default();
+        let mut share = 1.0;
+        if let Some((touch, obstacle)) = first {
+            // A robot that stands is not moved by what touches it; one that moves stops there.
+            share = if robot_moved { touch.share } else { 1.0 };
+            let time_s = now + touch.share * period;
+            let ahead =
+                (touch.at.x - self.pose.at.x) * step.way.x + (touch.at.y - self.pose.at.y) * step.way.y;
+            self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, by_robot: ahead > 0.0 });
+        }
+        self.pose.at = Point::new(self.pose.at.x + share * step.way.x, self.pose.at.y + share * step.way.y);
+        self.pose.heading = wrapped(self.pose.heading + share * step.turn);
+        for (i, way) in ways.iter().enumerate() {
+            let robot_way = Point::new(share * step.way.x, share * step.way.y);
+            let free = self.free_share(i, *way, robot_way, share);
+            self.movers[i].go(Point::new(free * way.x, free * way.y));
+        }
+        self.count(&step, share, first.is_some() && robot_moved);
+    }
+
+    /// What the robot touches first, if each went on as it wants to; what it touches is at its place at that time.
+    fn first_touch(&self, step: &Step, ways: &[Point]) -> Option<(Touch, Option<usize>)> {
+        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let reach = radius + step.way.x.hypot(step.way.y) + 1e-6;
+        let walls = self.building.around(at, reach);
+        let walls = walls.filter_map(|wall| Some((touch(at, radius, step.way, wall)?, None)));
+        let obstacles = self.movers.iter().zip(ways).enumerate().flat_map(|(i, (mover, way))| {
+            let relative = Point::new(step.way.x - way.x, step.way.y - way.y);
+            let way = *way;
+            mover.sides.iter().filter_map(move |side| {
+                let touch = touch(at, radius, relative, side)?;
+                let moved = Point::new(touch.at.x + touch.share * way.x, touch.at.y + touch.share * way.y);
+                Some((Touch { at: moved, ..touch }, Some(i)))
+            })
+        });
+        walls.chain(obstacles).min_by(|(a, i), (b, j)| a.share.total_cmp(&b.share).then(i.cmp(j)))
+    }
+
+    /// How much of its way an obstacle goes, while the robot goes a way of its own in the first `robot_share` of the time.
+    /// The robot is at the end of its way already.
+    fn free_share(&self, mover: usize, way: Point, robot_way: Point, robot_share: f64) -> f64 {
+        if way == Point::default() {
+            return 0.0;
+        }
+        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let sides = &self.movers[mover].sides;
+        let begin = Point::new(at.x - robot_way.x, at.y - robot_way.y);
+        let together = Point::new(robot_way.x - robot_share * way.x, robot_way.y - robot_share * way.y);
+        let least = |from: Point, relative: Point| {
+            let touches = sides.iter().filter_map(|side| touch(from, radius, relative, side));
+            touches.map(|touch| touch.share).fold(f64::INFINITY, f64::min)
+        };
+        let first = least(begin, together);
+        if first < 1.0 {
+            return first * robot_share;
+        }
+        let rest = Point::new(-(1.0 - robot_share) * way.x, -(1.0 - robot_share) * way.y);
+        let from = Point::new(begin.x + together.x, begin.y + together.y);
+        robot_share + (1.0 - robot_share) * least(from, rest).min(1.0)
+    }
+
+    /// The way that an obstacle tries to go. One that touches the robot waits until the way is free.
+    fn way(&self, mover: usize, now_s: f64, step_s: f64) -> Point {
+        let way = self.movers[mover].way(now_s, step_s);
+        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let back = Point::new(-way.x, -way.y);
+        let mut touches = self.movers[mover].sides.iter().filter_map(|side| touch(at, radius, back, side));
+        if touches.any(|touch| touch.share <= 0.0) { Point::default() } else { way }
+    }
+
+    /// Lets the wheels count a step of which a share was done.
+    fn count(&mut self, step: &Step, share: f64, has_touched: bool) {
+        let is_turn = matches!(self.task, Task::Turn { .. });
+        let turn = if is_turn { step.turn } else { 0.0 };
+        self.odometry = self.odometry.then(&Pose::new(share * step.counted_m, 0.0, turn));
+        self.task = match self.task {
+            _ if has_touched => Task::Rest,
+            Task::Turn { left } if (left - step.turn).abs() > 0.0 => Task::Turn { left: left - step.turn },
+            Task::Move { left_m, speed_m_s, scale } if (left_m - step.counted_m).abs() > 0.0 => {
+                Task::Move { left_m: left_m - step.counted_m, speed_m_s, scale }
+            }
+            _ => Task::Rest,
+        };
+    }
+
+    /// The next reading of the sonar. As many numbers of chance are used for each, whatever it shows.
+    fn read(&mut self) -> Reading {
+        let turn = u64::from(self.settings.readings_a_turn);
+        let bearing = wrapped(TAU * (self.readings % turn) as f64 / turn as f64);
+        let (kind, noise, place) = (self.chance.share(), self.chance.normal(), self.chance.share());
+        let reach = self.settings.sonar_range_m;
+        let range_m = if kind < self.settings.missed {
+            None
+        } else if kind < self.settings.missed + self.settings.false_echoes {
+            Some(self.settings.radius_m + place * (reach - self.settings.radius_m).max(0.0))
+        } else {
+            let range = self.range(self.pose.at, self.pose.direction(bearing));
+            let heard = range.map(|range| (range * (1.0 + self.settings.range_noise * noise)).max(0.0));
+            heard.filter(|range| *range <= reach)
+        };
+        Reading { bearing, range_m, odometry: self.odometry }
+    }
+
+    /// What the skirt feels now.
+    fn contact(&self) -> Option<Contact> {
+        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let walls = self.building.around(at, radius + 1e-6);
+        let sides = self.movers.iter().flat_map(|mover| &mover.sides);
+        let points = walls.chain(sides).map(|side| at.nearest_on(side.a, side.b));
+        let nearest = points.min_by(|a, b| at.distance(*a).total_cmp(&at.distance(*b)))?;
+        let is_felt = at.distance(nearest) <= radius + 3.0 * HAIR_M;
+        is_felt.then(|| Contact { bearing: self.pose.bearing(nearest) })
+    }
+}
+
+impl Body for Simulator {
+    fn radius_m(&self) -> f64 {
+        self.settings.radius_m
+    }
+
+    fn command(&mut self, command: Command) {
+        self.task = match command {
+            Command::Turn { by } if by.is_finite() && by != 0.0 => Task::Turn { left: by },
+            Command::Move { distance_m, speed_m_s } if distance_m.is_finite() && speed_m_s > 0.0 => {
+                let speed_m_s = speed_m_s.min(self.settings.greatest_speed_m_s);
+                let scale = 1.0 + self.settings.distance_noise * self.chance.normal();
+                Task::Move { left_m: distance_m, speed_m_s, scale }
+            }
+            _ => Task::Rest,
+        };
+    }
+
+    fn sense(&mut self) -> Sensed {
+        self.advance();
+        let reading = self.read();
+        self.readings += 1;
+        Sensed {
+            time_s: self.time_s(),
+            odometry: self.odometry,
+            reading,
+            contact: self.contact(),
+            is_busy: self.task != Task::Rest,
+        }
+    }
+}
+
+fn check(
+    walls: &[Segment],
+    obstacles: &[Obstacle],
+    settings: &Settings,
+    start: &Pose,
+) -> Result<(), SimulationError> {
+    if let Some((name, value)) = settings.wrong() {
+        return Err(SimulationError::Setting { name, value });
+    }
+    let walls = walls.iter().enumerate();
+    let ends = walls.flat_map(|(i, wall)| [wall.a, wall.b].map(|p| (p, format!("an end of wall {}", i + 1))));
+    let corners = obstacles.iter().enumerate().flat_map(|(i, obstacle)| {
+        let course = obstacle.course.iter().flat_map(|course| &course.through);
+        obstacle.corners.iter().chain(course).map(move |p| (*p, format!("a point of obstacle {}", i + 1)))
+    });
+    let heading = (Point::new(start.heading, 0.0), "the robot's heading".to_owned());
+    let points = ends.chain(corners).chain([(start.at, "the robot".to_owned()), heading]);
+    for (p, what) in points {
+        if !(p.x.is_finite() && p.y.is_finite()) {
+            return Err(SimulationError::NotFinite { what, x: p.x, y: p.y });
+        }
+    }
+    for (number, obstacle) in (1..).zip(obstacles) {
+        let corners = obstacle.corners.len();
+        if corners < 3 {
+            return Err(SimulationError::Outline { number, corners });
+        }
+        if let Some(course) = &obstacle.course
+            && !(course.speed_m_s.is_finite() && course.speed_m_s >= 0.0 && course.starts_s.is_finite())
+        {
+            return Err(SimulationError::Speed { number, speed_m_s: course.speed_m_s });
+        }
+    }
+    Ok(())
+}
+
+/// Whether a point lies in an outline: a ray from it leaves the outline an odd number of times.
+fn is_inside(p: Point, sides: &[Segment]) -> bool {
+    let crosses = |side: &&Segment| {
+        let (a, b) = (side.a, side.b);
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    sides.iter().filter(crosses).count() % 2 == 1
+}

@@ -1,0 +1,287 @@
+//! An animation that one can watch: an SVG that plays in any browser, without scripts.
+
+use std::fmt::Write as _;
+
+use super::Simulator;
+use crate::geometry::Point;
+use crate::pose::Pose;
+use crate::segment::Segment;
+
+/// What there was to see at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// When, in seconds.
+    pub time_s: f64,
+    /// Where the robot was.
+    pub robot: Pose,
+    /// Where it thought that it was; `None` where that is not known.
+    pub estimate: Option<Pose>,
+    /// How far each obstacle was from where it began, metres.
+    pub obstacles: Vec<Point>,
+    /// Surfaces that its model held then; `None` where they are those of the frame before.
+    pub surfaces: Option<Vec<Segment>>,
+    /// What is to be said of this moment.
+    pub caption: Option<String>,
+}
+
+/// Frames, with what stays the same in all of them.
+#[derive(Clone, Debug)]
+pub struct Film {
+    walls: Vec<Segment>,
+    /// Obstacles by their corners, where they began.
+    obstacles: Vec<Vec<Point>>,
+    radius_m: f64,
+    frames: Vec<Frame>,
+}
+
+/// Pixels a metre.
+const SCALE: f64 = 40.0;
+/// Around the plan, metres.
+const MARGIN_M: f64 = 0.5;
+/// Room for a caption, metres.
+const CAPTION_M: f64 = 0.8;
+
+impl Simulator {
+    /// How things are now, as a frame without an estimate.
+    pub fn frame(&self) -> Frame {
+        let obstacles = self.movers.iter().map(|mover| mover.shift).collect();
+        let (time_s, robot) = (self.time_s(), self.pose);
+        Frame { time_s, robot, estimate: None, obstacles, surfaces: None, caption: None }
+    }
+}
+
+impl Film {
+    /// A film of a simulation, without frames.
+    pub fn new(simulator: &Simulator) -> Self {
+        Self {
+            walls: simulator.building.walls.clone(),
+            obstacles: simulator.movers.iter().map(|mover| mover.obstacle.corners.clone()).collect(),
+            radius_m: simulator.settings.radius_m,
+            frames: Vec::new(),
+        }
+    }
+
+    /// Appends a frame; one that is not later than the last is left out.
+    pub fn push(&mut self, frame: Frame) {
+        if self.frames.last().is_none_or(|last| last.time_s < frame.time_s) {
+            self.frames.push(frame);
+        }
+    }
+
+    /// The frames so far.
+    pub fn frames(&self) -> &[Frame] {
+        &self.frames
+    }
+
+    /// The film as an SVG that plays `speed` times as fast as time runs, again and again.
+    pub fn svg(&self, speed: f64) -> String {
+        let (low, high) = self.extent();
+        let (width, height) = (high.x - low.x, high.y - low.y + CAPTION_M);
+        let mut out = String::new();
+        let _ = write!(
+            out,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0}\" height=\"{:.0}\" viewBox=\"0 0 {width:.2} {height:.2}\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
+             <g transform=\"matrix(1 0 0 -1 {:.2} {:.2})\" fill=\"none\" stroke-linecap=\"round\" stroke-width=\".05\">\n",
+            width * SCALE,
+            height * SCALE,
+            -low.x,
+            high.y,
+        );
+        self.trail(&mut out, "#9ab", ".03", |frame| Some(frame.robot));
+        self.trail(&mut out, "#c33\" stroke-dasharray=\".1 .1", ".03", |frame| frame.estimate);
+        lines(&mut out, "stroke=\"#222\"", &self.walls);
+        let clock = Clock::new(&self.frames, speed);
+        self.surfaces(&mut out, &clock);
+        self.movers(&mut out, &clock);
+        self.robots(&mut out, &clock);
+        out.push_str("</g>\n");
+        self.captions(&mut out, &clock, height);
+        out.push_str("</svg>\n");
+        out
+    }
+
+    fn extent(&self) -> (Point, Point) {
+        let walls = self.walls.iter().flat_map(|wall| [wall.a, wall.b]);
+        let points = walls.chain(self.frames.iter().map(|frame| frame.robot.at));
+        let (low, high) = points.fold(
+            (Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)),
+            |(low, high), p| {
+                (
+                    Point::new(low.x.min(p.x - MARGIN_M), low.y.min(p.y - MARGIN_M)),
+                    Point::new(high.x.max(p.x + MARGIN_M), high.y.max(p.y + MARGIN_M)),
+                )
+            },
+        );
+        if low.x.is_finite() { (low, high) } else { (Point::default(), Point::new(1.0, 1.0)) }
+    }
+
+    fn trail(&self, out: &mut String, colour: &str, width: &str, pose: impl Fn(&Frame) -> Option<Pose>) {
+        let points = self.frames.iter().filter_map(pose);
+        let points: Vec<String> = points.map(|pose| format!("{:.2},{:.2}", pose.at.x, pose.at.y)).collect();
+        if points.len() > 1 {
+            let points = points.join(" ");
+            let _ =
+                writeln!(out, "<polyline stroke=\"{colour}\" stroke-width=\"{width}\" points=\"{points}\"/>");
+        }
+    }
+
+    fn surfaces(&self, out: &mut String, clock: &Clock) {
+        let changes: Vec<(usize, &Vec<Segment>)> = self
+            .frames
+            .iter()
+            .enumerate()
+            .filter_map(|(i, frame)| Some((i, frame.surfaces.as_ref()?)))
+            .collect();
+        for (place, (from, surfaces)) in changes.iter().enumerate() {
+            let until = changes.get(place + 1).map(|(until, _)| *until);
+            out.push_str(
+                "<g stroke=\"#27a\" stroke-width=\".09\" stroke-opacity=\".6\" visibility=\"hidden\">",
+            );
+            clock.show(out, *from, until);
+            lines(out, "", surfaces);
+            out.push_str("</g>\n");
+        }
+    }
+
+    fn movers(&self, out: &mut String, clock: &Clock) {
+        for (number, corners) in self.obstacles.iter().enumerate() {
+            let points: Vec<String> = corners.iter().map(|p| format!("{:.3},{:.3}", p.x, p.y)).collect();
+            let shift = |frame: &Frame| frame.obstacles.get(number).copied().unwrap_or_default();
+            out.push_str("<g>");
+            let at = self.frames.iter().map(shift);
+            clock.slide(out, "translate", at.map(|p| format!("{:.3} {:.3}", p.x, p.y)));
+            let _ = writeln!(
+                out,
+                "<polygon fill=\"#e9b44c\" stroke=\"#96690a\" points=\"{}\"/></g>",
+                points.join(" ")
+            );
+        }
+    }
+
+    fn robots(&self, out: &mut String, clock: &Clock) {
+        let truth = self.frames.iter().map(|frame| frame.robot);
+        self.robot(out, clock, "stroke=\"#345\" fill=\"#cde\"", truth);
+        if self.frames.iter().any(|frame| frame.estimate.is_some()) {
+            let estimate = self.frames.iter().map(|frame| frame.estimate.unwrap_or(frame.robot));
+            self.robot(out, clock, "stroke=\"#c33\" stroke-dasharray=\".08 .08\"", estimate);
+        }
+    }
+
+    fn robot(&self, out: &mut String, clock: &Clock, style: &str, poses: impl Iterator<Item = Pose>) {
+        let poses: Vec<Pose> = poses.collect();
+        let _ = write!(out, "<g {style}>");
+        clock.slide(out, "translate", poses.iter().map(|p| format!("{:.3} {:.3}", p.at.x, p.at.y)));
+        out.push_str("<g>");
+        // headings are counted on over a whole turn, so that the robot does not spin back
+        let mut total = 0.0;
+        let mut last = 0.0;
+        let headings = poses.iter().map(|pose| {
+            total += crate::pose::wrapped(pose.heading - last);
+            last = pose.heading;
+            format!("{:.1}", total.to_degrees())
+        });
+        clock.slide(out, "rotate", headings.collect::<Vec<_>>().into_iter());
+        let radius = self.radius_m;
+        let _ = writeln!(out, "<circle r=\"{radius}\"/><path d=\"M0 0H{radius}\"/></g></g>");
+    }
+
+    fn captions(&self, out: &mut String, clock: &Clock, height: f64) {
+        let changes: Vec<(usize, &String)> = self
+            .frames
+            .iter()
+            .enumerate()
+            .filter_map(|(i, frame)| Some((i, frame.caption.as_ref()?)))
+            .collect();
+        for (place, (from, caption)) in changes.iter().enumerate() {
+            let until = changes.get(place + 1).map(|(until, _)| *until);
+            let at = height - CAPTION_M / 2.0;
+            let _ = write!(
+                out,
+                "<text x=\".3\" y=\"{at:.2}\" font-size=\".4\" font-family=\"sans-serif\" visibility=\"hidden\">"
+            );
+            clock.show(out, *from, until);
+            for c in caption.chars().filter(|c| !c.is_control()) {
+                match c {
+                    '<' => out.push_str("&lt;"),
+                    '>' => out.push_str("&gt;"),
+                    '&' => out.push_str("&amp;"),
+                    c => out.push(c),
+                }
+            }
+            out.push_str("</text>\n");
+        }
+    }
+}
+
+fn lines(out: &mut String, style: &str, segments: &[Segment]) {
+    if segments.is_empty() {
+        return;
+    }
+    let _ = write!(out, "<path {style} d=\"");
+    for Segment { a, b } in segments {
+        let _ = write!(out, "M{:.2} {:.2}L{:.2} {:.2}", a.x, a.y, b.x, b.y);
+    }
+    out.push_str("\"/>\n");
+}
+
+/// When each frame is shown, as shares of the whole.
+struct Clock {
+    shares: Vec<String>,
+    lasts_s: f64,
+}
+
+impl Clock {
+    fn new(frames: &[Frame], speed: f64) -> Self {
+        let begin = frames.first().map_or(0.0, |frame| frame.time_s);
+        let lasts = frames.last().map_or(0.0, |frame| frame.time_s - begin);
+        let share = |frame: &Frame| format!("{:.5}", (frame.time_s - begin) / lasts);
+        let shares = frames.iter().map(share).collect();
+        let is_usable = speed.is_finite() && speed > 0.0;
+        Self { shares, lasts_s: lasts / if is_usable { speed } else { 1.0 } }
+    }
+
+    /// Moves what it is in, frame by frame.
+    fn slide(&self, out: &mut String, kind: &str, values: impl Iterator<Item = String>) {
+        let values: Vec<String> = values.collect();
+        if self.lasts_s <= 0.0 {
+            return;
+        }
+        let _ = write!(
+            out,
+            "<animateTransform attributeName=\"transform\" type=\"{kind}\" dur=\"{:.2}s\" repeatCount=\"indefinite\" \
+             keyTimes=\"{}\" values=\"{}\"/>",
+            self.lasts_s,
+            self.shares.join(";"),
+            values.join(";"),
+        );
+    }
+
+    /// Shows what it is in from one frame until another, or to the end.
+    fn show(&self, out: &mut String, from: usize, until: Option<usize>) {
+        if self.lasts_s <= 0.0 {
+            return;
+        }
+        let (begin, end) = (&self.shares[from], until.map(|until| &self.shares[until]));
+        let mut times = vec!["0"];
+        let mut values = vec!["hidden"];
+        if from == 0 {
+            values[0] = "visible";
+        } else {
+            times.push(begin);
+            values.push("visible");
+        }
+        if let Some(end) = end {
+            times.push(end);
+            values.push("hidden");
+        }
+        let _ = write!(
+            out,
+            "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{:.2}s\" repeatCount=\"indefinite\" \
+             keyTimes=\"{}\" values=\"{}\"/>",
+            self.lasts_s,
+            times.join(";"),
+            values.join(";"),
+        );
+    }
+}
