@@ -1,5 +1,6 @@
--- Missions of robots on floor plans (`adit simulate`), each under the name of its world and its number.
-CREATE TABLE missions (
+-- Missions of robots on floor plans (`adit simulate`), each under the name of its world and its number. Made where
+-- a mission is kept for the first time.
+CREATE TABLE IF NOT EXISTS missions (
   world     TEXT NOT NULL,
   mission   INTEGER NOT NULL,
   seed      TEXT NOT NULL,
@@ -20,7 +21,7 @@ CREATE TABLE missions (
 -- What happened, entry by entry: seconds by the robot's clock, where it thought it was, and where it was, in metres and
 -- degrees. Of a change of state `state`, `next` and `action` say which, `rule`, `table_row`, `file` and `line` by what,
 -- and `detail` what the rules were told; of other events `detail` has what there is, as JSON.
-CREATE TABLE journal (
+CREATE TABLE IF NOT EXISTS journal (
   world     TEXT NOT NULL,
   mission   INTEGER NOT NULL,
   entry     INTEGER NOT NULL,
