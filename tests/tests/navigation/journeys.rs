@@ -47,8 +47,10 @@ fn a_path_leads_from_place_to_place_and_is_pulled_tight() {
 
 #[test]
 fn missions_are_the_same_from_the_same_seed_and_end_as_they_should() {
-    let rows = run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
-    let again = run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
+    let rows =
+        run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
+    let again =
+        run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
     let without_time = |rows: &Value| -> Vec<Value> {
         let mut rows = rows.as_array().expect("rows").clone();
         rows.iter_mut().for_each(|row| row["milliseconds"] = Value::Null);
@@ -67,8 +69,11 @@ fn the_journal_says_where_the_robot_was_and_by_which_rule_it_went_on() {
     run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
     let sql = |query: &str| -> Vec<String> {
         let mut command = Command::new("sqlite3");
-        let output =
-            command.args(["-readonly", "missions.db", query]).current_dir(folder.path()).output().expect("runs");
+        let output = command
+            .args(["-readonly", "missions.db", query])
+            .current_dir(folder.path())
+            .output()
+            .expect("runs");
         String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
     };
     assert_eq!(sql("SELECT world, mission, ending FROM missions"), ["flat|1|arrived"]);
@@ -95,7 +100,11 @@ fn who_edits_a_rule_changes_what_the_robot_does() {
     let folder = flat();
     copy_rules(&folder);
     // A robot that holds instead of going.
-    folder.edit("rules/execution.rhai", "any,   any,  any,  any,   any,   \"move\",    \"none\"", "any,   any,  any,  any,   any,   \"hold\",    \"no way\"");
+    folder.edit(
+        "rules/execution.rhai",
+        "any,   any,  any,  any,   any,   \"move\",    \"none\"",
+        "any,   any,  any,  any,   any,   \"hold\",    \"no way\"",
+    );
     let rows = run(&folder, "simulate", &["bed", "bath", "--json"]).json();
     assert_eq!(rows[0]["ending"], "no_way");
     // One doorway is not to be used: the path goes another way, or there is none.
@@ -114,7 +123,9 @@ fn who_edits_a_rule_changes_what_the_robot_does() {
 #[test]
 fn what_cannot_be_is_said() {
     let folder = flat();
-    run(&folder, "plan", &["bed", "attic"]).expect_status(2).complains(&["`attic` is no place", "places: bed"]);
+    run(&folder, "plan", &["bed", "attic"])
+        .expect_status(2)
+        .complains(&["`attic` is no place", "places: bed"]);
     run(&folder, "plan", &[]).expect_status(2).complains(&["needs START and GOAL"]);
     folder.edit("flat.toml", "radius = 0.25", "radius = 0.75");
     let too_wide = run(&folder, "plan", &["bed", "bath"]).expect_status(1);

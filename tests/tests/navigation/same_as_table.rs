@@ -51,7 +51,8 @@ proptest! {
         echo_m in near(0.5),
         left_m in prop::option::of(near(1.0)),
         right_m in prop::option::of(near(1.0)),
-        [detours_here, waits, retries] in prop::array::uniform3(0_u32..6),
+        [detours_here, waits, retries, scans, back_offs] in prop::array::uniform5(0_u32..6),
+        time_s in near(600.0),
     ) {
         let facts = StateFacts {
             mode: if automatic { Mode::Automatic } else { Mode::Manual },
@@ -71,6 +72,9 @@ proptest! {
             right_m,
             detours_here,
             waits,
+            scans,
+            back_offs,
+            time_s,
             has_way: g,
             retries,
             settings: Settings::default(),
