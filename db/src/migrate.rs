@@ -39,7 +39,6 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/50-in-force.sql"),
     ],
     &[include_str!("../sql/v3/10-traversals.sql"), include_str!("../sql/v3/20-saved-queries.sql")],
-    &[include_str!("../sql/v4/10-plans.sql")],
 ];
 
 /// The newest schema version.

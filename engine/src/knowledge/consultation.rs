@@ -160,7 +160,7 @@ impl Consultation {
             return;
         };
         let inputs = self.untold.as_deref().unwrap_or_default();
-        direct.run(&self.rules, &self.base, inputs, &mut self.answers);
+        direct.run(&self.base, inputs, &mut self.answers);
     }
 
     /// An output, by its number, as a number; `None` where it is unknown or none.

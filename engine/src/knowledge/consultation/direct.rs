@@ -10,7 +10,6 @@ use crate::plan::clause::ClausePlan;
 use crate::plan::fragment::Fragment;
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, Operator, PropertyName};
-use crate::rule_base::RuleBase;
 use crate::script::syntax::Quantifier;
 use crate::symbols::Symbols;
 use crate::value::{Cell, Truth, Type};
@@ -178,13 +177,7 @@ fn looks_at_one(plan: &Plan) -> bool {
 
 impl Direct {
     /// Runs the rules for an object with these inputs, and puts down what is asked for.
-    pub(super) fn run(
-        &mut self,
-        base: &RuleBase,
-        knowledge: &KnowledgeBase,
-        inputs: &[Cell],
-        answers: &mut [Cell],
-    ) {
+    pub(super) fn run(&mut self, knowledge: &KnowledgeBase, inputs: &[Cell], answers: &mut [Cell]) {
         self.cells.fill(Cell::Unknown);
         for (&(place, kind), &cell) in self.inputs.iter().zip(inputs) {
             if cell.kind() == Some(kind) {
@@ -195,7 +188,6 @@ impl Direct {
             match step {
                 Do::Run(number) => {
                     let running = &mut self.rules[*number];
-                    debug_assert!(running.rule < base.rules.len(), "planned for this rule base");
                     let planned = knowledge.network.nodes[running.rule].planned.as_ref();
                     let object =
                         Object { columns: &running.columns, cells: &self.cells, symbols: &knowledge.symbols };

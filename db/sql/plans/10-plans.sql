@@ -1,5 +1,7 @@
--- What the planners of worlds of their own (`adit plan`) found, each under the name of its world.
-CREATE TABLE plans (
+-- What the planners of worlds of their own (`adit plan`) found, each under the name of its world. Made where a plan is
+-- kept for the first time: a site without plans has none of these tables, and in one that has them they are classes for
+-- its rules, like any table.
+CREATE TABLE IF NOT EXISTS plans (
   plan          TEXT PRIMARY KEY,
   kind          TEXT NOT NULL CHECK (kind IN ('assembly', 'corridor')),
   rules         TEXT NOT NULL,
@@ -11,7 +13,7 @@ CREATE TABLE plans (
 ) STRICT;
 
 -- Channels as boxes, numbered from 1; z is NULL in the plane of a robot, y in that of a part.
-CREATE TABLE channels (
+CREATE TABLE IF NOT EXISTS channels (
   plan    TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   channel INTEGER NOT NULL,
   axis    TEXT NOT NULL CHECK (axis IN ('x', 'y', 'z')),
@@ -20,7 +22,7 @@ CREATE TABLE channels (
 ) STRICT;
 
 -- Where two channels overlap.
-CREATE TABLE junctions (
+CREATE TABLE IF NOT EXISTS junctions (
   plan     TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   junction INTEGER NOT NULL,
   channel1 INTEGER NOT NULL,
@@ -30,7 +32,7 @@ CREATE TABLE junctions (
 ) STRICT;
 
 -- The corners of junctions in the plane of a robot; `turned` is 1 at the one that the robot turns round.
-CREATE TABLE corners (
+CREATE TABLE IF NOT EXISTS corners (
   plan     TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   junction INTEGER NOT NULL,
   corner   TEXT NOT NULL,
@@ -43,7 +45,7 @@ CREATE TABLE corners (
 -- The steps of a path, from 1: `start`, then lines and arcs. Lengths in metres, headings in degrees from the x axis,
 -- counter-clockwise. x, y, z are where a step ends, and `state` what a part is in there (Lee, definitions 3.1, 3.2): of a part the corner with the smallest coordinates, of a robot the
 -- middle.
-CREATE TABLE path_steps (
+CREATE TABLE IF NOT EXISTS path_steps (
   plan      TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   step      INTEGER NOT NULL,
   kind      TEXT NOT NULL CHECK (kind IN ('start', 'line', 'arc')),
@@ -62,7 +64,7 @@ CREATE TABLE path_steps (
 ) STRICT;
 
 -- What rules were told at each junction, and what they concluded there: then `rule` names the one that did.
-CREATE TABLE step_facts (
+CREATE TABLE IF NOT EXISTS step_facts (
   plan     TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   junction INTEGER NOT NULL,
   property TEXT NOT NULL,
@@ -73,7 +75,7 @@ CREATE TABLE step_facts (
 ) STRICT;
 
 -- The rules of a table that were looked at, row by row: which spoke, and why the others did not.
-CREATE TABLE step_rules (
+CREATE TABLE IF NOT EXISTS step_rules (
   plan      TEXT NOT NULL REFERENCES plans ON DELETE CASCADE,
   junction  INTEGER NOT NULL,
   number    INTEGER NOT NULL,
