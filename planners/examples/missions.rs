@@ -5,6 +5,7 @@
 #[path = "../tests/navigation/table.rs"]
 mod table;
 
+use std::ops::Range;
 use std::path::Path;
 use std::time::Instant;
 
@@ -28,11 +29,16 @@ fn main() {
         [film, plan, number] if film == "film" => watch(plan, number.parse().unwrap_or(0)),
         [count, plans @ ..] => {
             for plan in plans {
-                table_of(plan, count.parse().unwrap_or(60));
+                table_of(plan, numbers(count));
             }
         }
-        [] => eprintln!("usage: missions COUNT PLAN.json... | missions film PLAN.json NUMBER"),
+        [] => eprintln!("usage: missions COUNT|FROM..TO PLAN.json... | missions film PLAN.json NUMBER"),
     }
+}
+
+fn numbers(told: &str) -> Range<u64> {
+    let (from, to) = told.split_once("..").unwrap_or(("0", told));
+    from.parse().unwrap_or(0)..to.parse().unwrap_or(60)
 }
 
 fn load(path: &str) -> (FloorPlan, Building, Outfit) {
@@ -92,7 +98,7 @@ fn watch(path: &str, number: u64) {
     }
 }
 
-fn table_of(path: &str, count: u64) {
+fn table_of(path: &str, numbers: Range<u64>) {
     let (plan, building, outfit) = load(path);
     let begin = Instant::now();
     let run = |number: u64| {
@@ -103,7 +109,7 @@ fn table_of(path: &str, count: u64) {
         let has_movers = mission.obstacles.iter().any(|obstacle| obstacle.course.is_some());
         Some(Case { number, outcome, possible, has_movers, wall_s: start.elapsed().as_secs_f64() })
     };
-    let cases: Vec<Case> = (0..count).into_par_iter().filter_map(run).collect();
+    let cases: Vec<Case> = numbers.into_par_iter().filter_map(run).collect();
     println!("{}: {} missions in {:.1} s", plan.name, cases.len(), begin.elapsed().as_secs_f64());
     let number = |is: &dyn Fn(&Case) -> bool| cases.iter().filter(|case| is(case)).count();
     let arrived = |case: &Case| case.outcome.ending == Ending::Arrived;

@@ -104,3 +104,47 @@ fn lies_left(from: Point, to: Point, path: &[Point]) -> bool {
 pub(super) fn length(points: &[Point]) -> f64 {
     points.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ENDS: [Point; 2] = [Point::new(0.0, 0.0), Point::new(4.0, 0.0)];
+
+    fn line(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+        Segment::new(Point::new(x0, y0), Point::new(x1, y1))
+    }
+
+    /// Walls on both sides of the way, and a screen across it from `low` to `high`.
+    fn detours(low: f64, high: f64) -> Detours {
+        let barriers = [line(-1.0, 2.0, 5.0, 2.0), line(-1.0, -2.0, 5.0, -2.0), line(2.0, low, 2.0, high)];
+        let ground = Ground {
+            barriers: &barriers,
+            obstacles_from: 2,
+            reach: 0.3,
+            least: 0.25,
+            aside: 2.0,
+            grain: 0.04,
+        };
+        ground.detours(ENDS[0], ENDS[1])
+    }
+
+    #[test]
+    fn an_obstacle_is_passed_in_both_senses() {
+        let Detours { left: Some(left), right: Some(right) } = detours(-0.5, 0.8) else {
+            panic!("both are free")
+        };
+        assert!(left.iter().any(|p| p.y >= 1.1) && left.iter().all(|p| p.y > -0.1));
+        assert!(right.iter().any(|p| p.y <= -0.8) && right.iter().all(|p| p.y < 0.1));
+        // by Pythagoras, and a little for the grain
+        let shortest = 2.0 * 2.0_f64.hypot(0.8);
+        assert!((shortest..1.05 * shortest).contains(&length(&right)), "{}", length(&right));
+    }
+
+    #[test]
+    fn a_gap_that_is_too_narrow_is_no_detour() {
+        let found = detours(-1.45, 0.5);
+        assert!(found.left.is_some() && found.right.is_none());
+        assert_eq!(detours(-1.45, 1.45), Detours::default());
+    }
+}

@@ -61,6 +61,8 @@ pub struct Navigator<'b> {
     spot: Spot,
     track: VecDeque<Point>,
     retries: u32,
+    /// Times that a path with hardly any room was taken for want of another one.
+    squeezes: u32,
     replans: u32,
     radius_m: f64,
     sensed: Option<Sensed>,
@@ -144,6 +146,7 @@ impl<'b> Navigator<'b> {
             spot: Spot::default(),
             track: VecDeque::new(),
             retries: 0,
+            squeezes: 0,
             replans: 0,
             radius_m: building.network.disc.radius,
             sensed: None,
@@ -214,7 +217,7 @@ impl<'b> Navigator<'b> {
     /// Plans a path to a goal, and goes there from now on.
     pub fn go(&mut self, goal: Point, judge: &mut impl Judge) {
         (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
-        self.begun_s = self.time_s();
+        (self.begun_s, self.squeezes) = (self.time_s(), 0);
         self.blocked = Blocked::new(&self.building.network);
         self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         self.gather();

@@ -27,6 +27,10 @@ pub struct Settings {
     pub detour_room_m: f64,
     /// A detour with room may be longer than one without by this factor.
     pub room_worth: f64,
+    /// What is kept free on either side where there is no other way: a little more than on the highway, metres.
+    pub squeeze_m: f64,
+    /// So many times on a mission the robot squeezes through.
+    pub most_squeezes: u32,
     /// A detour leaves the rectangle about its ends by at most so much, metres.
     pub detour_reach_m: f64,
     /// The grain of the search for detours, metres.
@@ -74,6 +78,8 @@ impl Default for Settings {
             detour_clearance_m: 0.05,
             detour_room_m: 0.10,
             room_worth: 1.3,
+            squeeze_m: 0.025,
+            most_squeezes: 4,
             detour_reach_m: 2.0,
             grain_m: 0.04,
             back_off_m: 0.15,

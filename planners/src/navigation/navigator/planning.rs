@@ -125,7 +125,12 @@ impl Navigator<'_> {
         if !is_off_network {
             route = over_network(self.building, ground, &self.blocked, ends, judge);
         }
-        let route = route.or_else(|| off_network(self.building, ground, ends));
+        let mut route = route.or_else(|| off_network(self.building, ground, ends));
+        if route.is_none() && self.squeezes < self.settings.most_squeezes {
+            let reach = self.radius_m + self.settings.squeeze_m;
+            route = off_network(self.building, Ground { reach, ..ground }, ends);
+            self.squeezes += u32::from(route.is_some());
+        }
         self.has_way = route.is_some();
         self.legs.clear();
         if let Some(Route { points, length_m, is_off_network }) = route {
