@@ -20,8 +20,9 @@ pub fn adit() -> &'static Path {
         let exe = std::env::current_exe().expect("a test knows its own path");
         let profile = exe.ancestors().nth(2).expect("tests run in target/PROFILE/deps").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        // of the whole workspace, as the tests are built: of one package alone, crates with fewer features would be built anew
-        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit"]);
+        // of the whole workspace and with a test, as the tests are built: otherwise crates whose features tests add to would
+        // be built anew without them, and with them all that stands on those
+        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit", "--test", "readme"]);
         if profile.ends_with("release") {
             build.arg("--release");
         }

@@ -28,7 +28,16 @@ fn build_with_the_example_planner(site: &TestSite) {
     let program = adit().with_file_name("adit-example-planner");
     let mut build = Command::new(env!("CARGO"));
     // of the whole workspace, as the tests are built: of one package alone, crates with fewer features would be built anew
-    build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit-example-planner"]);
+    build.args([
+        "build",
+        "--quiet",
+        "--locked",
+        "--workspace",
+        "--bin",
+        "adit-example-planner",
+        "--test",
+        "readme",
+    ]);
     if program.ancestors().nth(1).is_some_and(|profile| profile.ends_with("release")) {
         build.arg("--release");
     }
