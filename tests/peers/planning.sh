@@ -28,7 +28,7 @@ python3 "$shared/peers/planning/corridor_txt.py" "$shared/golden" "$work"
 cargo build --quiet --release --locked -p adit --example plan_time
 
 world() { # NAME GAP: one of the examples with a gap
-    sed "s/^gap = .*/gap = $2/" "kb/worlds/$1.toml" > "$work/$1.toml"
+    sed "s/^gap *= .*/gap = $2/" "kb/worlds/$1.toml" > "$work/$1.toml"
 }
 world part 0.01
 for name in L U S; do world "corridor-$name" 0.2; done
