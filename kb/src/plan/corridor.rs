@@ -1,6 +1,7 @@
 //! A rectangular robot that drives through corridors (Lee, section 5).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use adit_planners::channels::corridor::{Corridors, Drive, DriveError, Robot, RouteError, StepFacts};
 use adit_planners::geometry::{Point, Rect};
@@ -68,8 +69,10 @@ impl Corridor {
 
     fn driven(&self, turns: &mut Turns, mut look: impl FnMut(&mut Turns, usize)) -> Result<Driven, NoPath> {
         let general = Wishes { gap: &self.gap, fragile: self.fragile, hurry: self.hurry };
+        turns.take_refusals();
         let weigh = |passage: &_| turns.weigh(passage, self.robot, general);
-        let route = self.corridors.route(self.start, self.goal, weigh).map_err(no_route)?;
+        let route = self.corridors.route(self.start, self.goal, weigh);
+        let route = route.map_err(|error| no_route(error, &turns.take_refusals()))?;
         let mut remarks = Vec::new();
         let steer = |facts: &StepFacts| {
             let gap = self.gaps.get(&facts.junction).unwrap_or(&self.gap);
@@ -90,10 +93,13 @@ impl Corridor {
     }
 }
 
-fn no_route(error: RouteError<NoPath>) -> NoPath {
+fn no_route(error: RouteError<NoPath>, refusals: &[Arc<str>]) -> NoPath {
     match error {
         RouteError::Weigh(no_path) => no_path,
-        other => NoPath { junction: None, reason: other.to_string(), considered: vec![] },
+        other => {
+            let reason = std::iter::once(other.to_string()).chain(refusals.iter().map(ToString::to_string));
+            NoPath { junction: None, reason: reason.collect::<Vec<_>>().join("; "), considered: vec![] }
+        }
     }
 }
 

@@ -14,13 +14,15 @@ use super::rules::{PASSAGES, TURNS, place};
 
 const OUTPUTS: [&str; 10] =
     ["rule", "gap", "corner_x", "corner_y", "turns", "arrive_x", "arrive_y", "offset", "refusal", "remark"];
-const WEIGHED: [&str; 2] = ["weight", "passable"];
+const WEIGHED: [&str; 3] = ["weight", "passable", "refusal"];
 
 /// The rules, ready to be asked turn after turn.
 #[derive(Debug)]
 pub struct Turns {
     turns: Consultation,
     passages: Consultation,
+    /// Why passages were refused, since the last path was looked for.
+    refusals: Vec<Arc<str>>,
 }
 
 /// What a world says of each turn, besides its geometry.
@@ -40,7 +42,13 @@ impl Turns {
         Ok(Self {
             turns: Consultation::new(Arc::clone(&rules), "TURNS", TURNS, &OUTPUTS)?,
             passages: Consultation::new(rules, "PASSAGES", PASSAGES, &WEIGHED)?,
+            refusals: Vec::new(),
         })
+    }
+
+    /// Why passages were refused since this was last asked.
+    pub fn take_refusals(&mut self) -> Vec<Arc<str>> {
+        std::mem::take(&mut self.refusals)
     }
 
     /// What a passage weighs; `None` where it must not be used.
@@ -67,7 +75,11 @@ impl Turns {
         };
         match self.passages.truth(1) {
             None => Err(said("whether it is passable")),
-            Some(false) => Ok(None),
+            Some(false) => {
+                let refusal = self.passages.text(2);
+                self.refusals.extend(refusal.filter(|refusal| !self.refusals.contains(refusal)));
+                Ok(None)
+            }
             Some(true) => self.passages.number(0).map(Some).ok_or_else(|| said("what the weight is")),
         }
     }

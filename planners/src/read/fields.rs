@@ -285,7 +285,12 @@ impl Fields<'_, '_> {
 
     /// Says that a value should be something else.
     pub fn wrong_type(&self, key: &str, wanted: &str, found: &DeValue<'_>, span: Range<usize>) -> Problem {
-        let message = format!("`{key}` of {} must be {wanted}, not a {}", self.what, found.type_str());
+        let message = format!("`{key}` of {} must be {wanted}, not {}", self.what, article(found.type_str()));
         self.text.problem(Code::WrongType, &span, message)
     }
+}
+
+fn article(noun: &str) -> String {
+    let an = noun.starts_with(['a', 'e', 'i', 'o', 'u']);
+    format!("{} {noun}", if an { "an" } else { "a" })
 }

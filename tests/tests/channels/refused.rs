@@ -50,6 +50,15 @@ fn a_part_larger_than_a_junction() {
 }
 
 #[test]
+fn a_robot_wider_than_a_corridor() {
+    no_path(
+        &S.replace("width = 1.0", "width = 3.5"),
+        &[],
+        &["channel 1 from the start to junction 1", "channel 1 is 3 wide, and the robot 3.5"],
+    );
+}
+
+#[test]
 fn a_move_towards_minus_z() {
     // Up the shaft, over into the next one, down again.
     let pass = "[assembly]\ngap = 0.1\nmale = [[15, 6], [16, 6], [16, 7], [15, 7]]\n\

@@ -100,7 +100,11 @@ fn who_edits_a_rule_changes_what_the_robot_does() {
     let folder = flat();
     copy_rules(&folder);
     // A robot that holds instead of going.
-    folder.edit("rules/execution.rhai", "any,   \"move\",    \"none\" ] ]", "any,   \"hold\",    \"no way\" ] ]");
+    folder.edit(
+        "rules/execution.rhai",
+        "any,   \"move\",    \"none\" ] ]",
+        "any,   \"hold\",    \"no way\" ] ]",
+    );
     let rows = run(&folder, "simulate", &["bed", "bath", "--json"]).json();
     assert_eq!(rows[0]["ending"], "no_way");
     // One doorway is not to be used: the path goes another way, or there is none.

@@ -1,17 +1,13 @@
 //! The rules of one class, run for one object without the bookkeeping of an inference.
 
-use std::cell::RefCell;
-
-use super::Consultation;
+use super::{Consultation, Object};
 use crate::knowledge::KnowledgeBase;
-use crate::machine::scalar::{Binding, Scalar, Written};
+use crate::machine::scalar::{Scalar, Written};
 use crate::order::Step;
 use crate::plan::clause::ClausePlan;
-use crate::plan::fragment::Fragment;
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, Operator, PropertyName};
 use crate::script::syntax::Quantifier;
-use crate::symbols::Symbols;
 use crate::value::{Cell, Truth, Type};
 
 /// What has to be done for an object, in the order of the rules' dependencies.
@@ -56,30 +52,6 @@ struct Running {
     sets: Vec<usize>,
     /// What it claims of each, for the present object; `None`: it says nothing.
     claims: Vec<Option<Cell>>,
-}
-
-struct Object<'a> {
-    columns: &'a [usize],
-    cells: &'a [Cell],
-    symbols: &'a RefCell<Symbols>,
-}
-
-impl Binding for Object<'_> {
-    fn property(&self, _variable: usize, column: usize) -> Cell {
-        self.cells[self.columns[column]]
-    }
-
-    fn aggregate(&self, _clause: usize) -> f64 {
-        f64::NAN
-    }
-
-    fn interpret(&self, _fragment: &Fragment) -> Cell {
-        Cell::Unknown
-    }
-
-    fn symbols(&self) -> &RefCell<Symbols> {
-        self.symbols
-    }
 }
 
 impl Consultation {

@@ -3,10 +3,8 @@
 use std::cell::RefCell;
 use std::fmt;
 
-use super::Consultation;
-use crate::knowledge::KnowledgeBase;
-use crate::machine::scalar::{Binding, Scalar, Written};
-use crate::plan::fragment::Fragment;
+use super::{Consultation, Object};
+use crate::machine::scalar::{Scalar, Written};
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, PropertyName, Rule};
 use crate::symbols::Symbols;
@@ -51,36 +49,6 @@ impl fmt::Display for Miss {
     }
 }
 
-struct Object<'a> {
-    cells: Vec<Cell>,
-    symbols: &'a RefCell<Symbols>,
-}
-
-impl<'a> Object<'a> {
-    fn new(base: &'a KnowledgeBase, columns: &[PropertyName]) -> Self {
-        let cell = |name| base.view(name, None).map_or(Cell::Unknown, |column| column.cell(0));
-        Self { cells: columns.iter().map(cell).collect(), symbols: &base.symbols }
-    }
-}
-
-impl Binding for Object<'_> {
-    fn property(&self, _variable: usize, column: usize) -> Cell {
-        self.cells[column]
-    }
-
-    fn aggregate(&self, _clause: usize) -> f64 {
-        f64::NAN
-    }
-
-    fn interpret(&self, _fragment: &Fragment) -> Cell {
-        Cell::Unknown
-    }
-
-    fn symbols(&self) -> &RefCell<Symbols> {
-        self.symbols
-    }
-}
-
 impl Consultation {
     /// The rules that set this property, tables row by row: which of them spoke of the last object, and why the others
     /// did not. Rules that look at other objects as well, and parts left to the interpreter, are not looked into:
@@ -94,7 +62,11 @@ impl Consultation {
             if !rule.sets.contains_key(&name) || rule.clauses.len() != 1 || planned.interprets {
                 continue;
             }
-            let object = Object::new(&self.base, &planned.plan.columns);
+            let columns = &planned.plan.columns;
+            let cell = |name| self.base.view(name, None).map_or(Cell::Unknown, |column| column.cell(0));
+            let cells: Vec<Cell> = columns.iter().map(cell).collect();
+            let places: Vec<usize> = (0..columns.len()).collect();
+            let object = Object { columns: &places, cells: &cells, symbols: &self.base.symbols };
             out.extend(of_rule(rule, &planned.plan, &object));
         }
         out
