@@ -425,7 +425,7 @@ pub struct PlanArgs {
 /// `adit simulate`.
 #[derive(Args, Debug)]
 pub struct SimulateArgs {
-    /// The world: a TOML file with [floor_plan]
+    /// The world: a TOML file with `[floor_plan]`
     pub world: PathBuf,
     /// Where to start, a place or `x,y`; without START and GOAL missions with obstacles are drawn by chance
     #[arg(allow_hyphen_values = true, requires = "goal")]

@@ -31,12 +31,11 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     };
     let (rules, _) = rules::load(world.task.kind(), name, beside)?;
     let missions = missions(args, floor)?;
-    let rows = match &args.db {
-        Some(db) => kept(&world.name, name, floor, &rules, &missions, db)?,
-        None => {
-            let bar = Bar::new("missions", missions.len() as u64);
-            run_all(floor, &rules, &missions, || bar.step())?
-        }
+    let rows = if let Some(db) = &args.db {
+        kept(&world.name, name, floor, &rules, &missions, db)?
+    } else {
+        let bar = Bar::new("missions", missions.len() as u64);
+        run_all(floor, &rules, &missions, || bar.step())?
     };
     if let Some(film) = &args.film {
         let building = Building::new(&floor.plan, floor.network.clone());

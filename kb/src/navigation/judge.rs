@@ -221,7 +221,7 @@ fn situation(facts: &StateFacts) -> [Datum<'static>; SITUATIONS.len()] {
     let settings = &facts.settings;
     let mode = match facts.mode {
         Mode::Automatic => "automatic",
-        _ => "manual",
+        Mode::Manual => "manual",
     };
     object[const { place(SITUATIONS, "mode") }] = Datum::Text(mode);
     object[const { place(SITUATIONS, "state") }] = Datum::Text(state_word(facts.state));

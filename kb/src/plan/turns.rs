@@ -19,7 +19,7 @@ const WEIGHED: [&str; 3] = ["weight", "passable", "refusal"];
 /// The rules, ready to be asked turn after turn.
 #[derive(Debug)]
 pub struct Turns {
-    turns: Consultation,
+    junctions: Consultation,
     passages: Consultation,
     /// Why passages were refused, since the last path was looked for.
     refusals: Vec<Arc<str>>,
@@ -40,7 +40,7 @@ impl Turns {
     /// Makes ready.
     pub fn new(rules: Arc<RuleBase>) -> Result<Self, ClassError> {
         Ok(Self {
-            turns: Consultation::new(Arc::clone(&rules), "TURNS", TURNS, &OUTPUTS)?,
+            junctions: Consultation::new(Arc::clone(&rules), "TURNS", TURNS, &OUTPUTS)?,
             passages: Consultation::new(rules, "PASSAGES", PASSAGES, &WEIGHED)?,
             refusals: Vec::new(),
         })
@@ -90,16 +90,16 @@ impl Turns {
         facts: &StepFacts,
         wishes: Wishes<'_>,
     ) -> Result<(Steer, Option<Arc<str>>), NoPath> {
-        self.turns.consult(&object(facts, wishes));
+        self.junctions.consult(&object(facts, wishes));
         let refused = |reason: String| NoPath { junction: Some(facts.junction), reason, considered: vec![] };
-        if let Some(reason) = self.turns.text(const { output("refusal") }) {
+        if let Some(reason) = self.junctions.text(const { output("refusal") }) {
             return Err(refused(reason.to_string()));
         }
-        let Some(gap) = self.turns.number(const { output("gap") }) else {
-            return Err(silent(&mut self.turns, "TURNS", facts.junction, "gap"));
+        let Some(gap) = self.junctions.number(const { output("gap") }) else {
+            return Err(silent(&mut self.junctions, "TURNS", facts.junction, "gap"));
         };
         let steer = Steer {
-            rule: self.turns.number(const { output("rule") }).map(|rule| rule as u32),
+            rule: self.junctions.number(const { output("rule") }).map(|rule| rule as u32),
             corner: (
                 self.word(facts, const { output("corner_x") }, &EXTREMES)?,
                 self.word(facts, const { output("corner_y") }, &EXTREMES)?,
@@ -112,16 +112,16 @@ impl Turns {
             ),
             measured_along: self.word(facts, const { output("offset") }, &AXES)?,
         };
-        Ok((steer, self.turns.text(const { output("remark") })))
+        Ok((steer, self.junctions.text(const { output("remark") })))
     }
 
     /// What an output's word stands for.
     fn word<T: Copy>(&mut self, facts: &StepFacts, at: usize, words: &[(&str, T)]) -> Result<T, NoPath> {
-        if let Some((_, meant)) = words.iter().find(|(word, _)| self.turns.is(at, word)) {
+        if let Some((_, meant)) = words.iter().find(|(word, _)| self.junctions.is(at, word)) {
             return Ok(*meant);
         }
-        let Some(found) = self.turns.value(at) else {
-            return Err(silent(&mut self.turns, "TURNS", facts.junction, OUTPUTS[at]));
+        let Some(found) = self.junctions.value(at) else {
+            return Err(silent(&mut self.junctions, "TURNS", facts.junction, OUTPUTS[at]));
         };
         let words: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
         let (name, junction) = (OUTPUTS[at], facts.junction);
@@ -132,17 +132,17 @@ impl Turns {
 
     /// Which rules spoke of the last turn's corner, and why the others did not.
     pub fn considered(&mut self) -> Vec<Spoke> {
-        self.turns.considered("corner_x").into_iter().map(Spoke::from).collect()
+        self.junctions.considered("corner_x").into_iter().map(Spoke::from).collect()
     }
 
     /// What the rules were told of the last turn and what they concluded, by property.
     pub fn facts(&mut self) -> Vec<Fact> {
-        super::keep::facts(&mut self.turns, "TURNS", TURNS, &OUTPUTS)
+        super::keep::facts(&mut self.junctions, "TURNS", TURNS, &OUTPUTS)
     }
 
     /// Whether the rules look at one turn or passage alone, so that they are asked at full speed.
     pub const fn is_direct(&self) -> bool {
-        self.turns.is_direct() && self.passages.is_direct()
+        self.junctions.is_direct() && self.passages.is_direct()
     }
 }
 

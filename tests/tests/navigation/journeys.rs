@@ -53,7 +53,9 @@ fn missions_are_the_same_from_the_same_seed_and_end_as_they_should() {
         run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();
     let without_time = |rows: &Value| -> Vec<Value> {
         let mut rows = rows.as_array().expect("rows").clone();
-        rows.iter_mut().for_each(|row| row["milliseconds"] = Value::Null);
+        for row in &mut rows {
+            row["milliseconds"] = Value::Null;
+        }
         rows
     };
     assert_eq!(without_time(&rows), without_time(&again));
