@@ -115,7 +115,14 @@ impl Store {
         let mut tx = self.begin("BEGIN IMMEDIATE")?;
         let result = work(&mut tx);
         match result {
-            Ok(value) => tx.commit().map(|()| value).map_err(E::from),
+            Ok(value) => match tx.commit() {
+                Ok(()) => Ok(value),
+                Err(error) => {
+                    // the rollback is only on its way: whoever reads the file next must not find it locked still
+                    self.runtime.block_on(self.connection.ping()).ok();
+                    Err(E::from(error))
+                }
+            },
             Err(error) => {
                 // on a full disk SQLite has rolled back already, and says so; what went wrong first is what counts
                 tx.roll_back().ok();

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use adit_db::{Error, Store, VERSION};
+use adit_db::history::Author;
+use adit_db::{Cell, Error, Store, VERSION};
 
 use crate::clients::outside;
 use crate::paper;
@@ -13,6 +14,10 @@ fn altered(sql: &'static str) -> (tempfile::TempDir, std::path::PathBuf) {
     drop(store);
     outside(&path, sql);
     (folder, path)
+}
+
+fn author() -> Author {
+    Author { who: "ada".into(), why: "it is slippery".into() }
 }
 
 fn message<T>(result: Result<T, Error>) -> String {
@@ -84,6 +89,28 @@ fn a_locked_database_is_named_after_a_while() {
         })
         .unwrap();
     other.transaction(|_| Ok::<_, Error>(())).unwrap();
+}
+
+/// Whoever comes right after a commit that failed does not meet a lock that is about to go.
+#[test]
+fn a_commit_that_fails_leaves_no_lock() {
+    let (_folder, store) = paper::site();
+    let mut reader = Store::open_read_only(store.path()).unwrap();
+    let mut writer = Store::open_waiting(store.path(), Duration::ZERO).unwrap();
+    let mut next = Store::open_waiting(store.path(), Duration::ZERO).unwrap();
+    reader
+        .snapshot(|tx| {
+            tx.rooms()?;
+            for _ in 0..30 {
+                let refused = writer.transaction(|tx| {
+                    tx.set_cell(("robots", "SQUAT", "hardness"), &Cell::Real(3.0), &author())
+                });
+                assert!(message(refused).ends_with("site.db is locked by another program"));
+                next.rehearse(|_| Ok::<_, Error>(()))?;
+            }
+            Ok::<_, Error>(())
+        })
+        .unwrap();
 }
 
 #[test]
