@@ -31,17 +31,15 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     };
     let (rules, _) = rules::load(world.task.kind(), name, beside)?;
     let missions = missions(args, floor)?;
+    let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
         kept(&world.name, name, floor, &rules, &missions, db)?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
         run_all(floor, &rules, &missions, || bar.step())?
     };
-    if let Some(film) = &args.film {
+    if let (Some(film), Some(mission)) = (&args.film, filmed) {
         let building = Building::new(&floor.plan, floor.network.clone());
-        let mission = missions.get(args.mission - 1).ok_or_else(|| {
-            Error::said("simulate/no-mission", format!("there is no mission {}", args.mission), None)
-        })?;
         let mut made = None;
         journalled(floor, &building, &rules, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
@@ -55,6 +53,22 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         show(&rows);
     }
     Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided && row.trouble.is_none()))
+}
+
+/// The mission of which a film is wanted.
+fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m Mission>> {
+    if args.film.is_none() {
+        return Ok(None);
+    }
+    if !(args.speed.is_finite() && args.speed > 0.0) {
+        let message =
+            format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
+        return Err(Error::said("simulate/speed", message, None));
+    }
+    let mission = args.mission.checked_sub(1).and_then(|index| missions.get(index));
+    let missing =
+        || format!("there is no mission {}; they are numbered 1 to {}", args.mission, missions.len());
+    mission.map(Some).ok_or_else(|| Error::said("simulate/no-mission", missing(), None))
 }
 
 /// Runs missions one after the other, each kept with its journal.

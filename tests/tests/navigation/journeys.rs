@@ -98,6 +98,20 @@ fn a_film_is_made_of_a_mission() {
 }
 
 #[test]
+fn a_film_of_a_mission_that_is_not_there_is_refused_before_any_is_run() {
+    for (wrong, said) in [
+        (["--mission", "0"], "there is no mission 0; they are numbered 1 to 1"),
+        (["--mission", "2"], "there is no mission 2"),
+        (["--speed", "0"], "expected more than 0"),
+    ] {
+        let folder = flat();
+        let args = [["--film", "film.svg"], wrong].concat();
+        run(&folder, "simulate", &args).expect_status(2).complains(&[said]);
+        assert!(!folder.path().join("film.svg").exists());
+    }
+}
+
+#[test]
 fn who_edits_a_rule_changes_what_the_robot_does() {
     let folder = flat();
     copy_rules(&folder);
