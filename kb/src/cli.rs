@@ -1,6 +1,7 @@
 //! The command line `adit`: its verbs, and what they print.
 
 mod build;
+mod curve;
 mod demo;
 mod doctor;
 mod firm;
@@ -284,8 +285,15 @@ pub struct WhyArgs {
     /// The site
     #[command(flatten)]
     pub site: SiteArgs,
-    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; of a database of `adit simulate --db` instead of a site the
+    /// number of a mission: why the robot stopped
     pub what: String,
+    /// Of a mission: ask about what the robot did at this time instead of about its last stop
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub at: Option<f64>,
+    /// Of a mission: the name of its world, where the database has several
+    #[arg(long, value_name = "NAME")]
+    pub world: Option<String>,
 }
 
 /// `adit why-not`.
@@ -448,6 +456,13 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance, with the
+    /// walls known and with a model built on the way: .svg or .png; --missions says how many drives of each
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]
+    pub curve: Option<PathBuf>,
+    /// How far such a drive goes
+    #[arg(long, value_name = "METRES", default_value_t = 200.0)]
+    pub metres: f64,
     /// Make a film of a mission: an animated SVG
     #[arg(long, value_name = "FILE")]
     pub film: Option<PathBuf>,

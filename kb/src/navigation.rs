@@ -4,4 +4,9 @@
 pub mod floor;
 pub mod journal;
 pub mod judge;
+pub mod keep;
 pub mod missions;
+pub mod reading;
+pub mod told;
+pub mod tours;
+pub mod why;

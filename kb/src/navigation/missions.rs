@@ -4,14 +4,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use adit_engine::RuleBase;
-use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outfit, Possible, draw};
+use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, draw};
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
 use super::journal::Noting;
-use super::judge::RuleJudge;
 use crate::error::{Error, Result};
 
 /// How a mission went.
@@ -63,6 +62,10 @@ pub struct Row {
 /// Deeper than that is a collision, metres.
 const TOUCH_M: f64 = 1e-6;
 
+/// A robot that says that it has arrived is at most so far from its goal, metres: its tolerance, and what it may be wrong
+/// about where it is.
+const ARRIVED_M: f64 = 0.20;
+
 /// The missions of a seed.
 pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
     let of = |number: usize| {
@@ -83,7 +86,7 @@ pub fn run(
     missions: &[Mission],
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>> {
-    let building = Building::new(&floor.plan, floor.network.clone());
+    let building = floor.building();
     let run = |(index, mission): (usize, &Mission)| {
         let row = one(floor, &building, rules, index + 1, mission);
         done();
@@ -100,7 +103,7 @@ fn one(
     number: usize,
     mission: &Mission,
 ) -> Result<Row> {
-    let mut judge = judge(rules)?;
+    let mut judge = floor.judge(rules)?;
     let row = judged(floor, building, &mut judge, number, mission, |_| {}, None)?;
     Ok(Row { trouble: judge.trouble().map(str::to_owned), ..row })
 }
@@ -113,15 +116,11 @@ pub fn journalled(
     (number, mission): (usize, &Mission),
     film: Option<&mut Option<Film>>,
 ) -> Result<(Row, Vec<Entry>, Noting)> {
-    let mut noting = Noting::new(judge(rules)?);
+    let mut noting = Noting::new(floor.judge(rules)?);
     let mut entries = Vec::new();
     let row = judged(floor, building, &mut noting, number, mission, |entry| entries.push(entry), film)?;
     let row = Row { trouble: noting.trouble().map(str::to_owned), ..row };
     Ok((row, entries, noting))
-}
-
-fn judge(rules: &Arc<RuleBase>) -> Result<RuleJudge> {
-    RuleJudge::new(rules).map_err(|error| Error::said("simulate/rules", error.to_string(), None))
 }
 
 fn judged(
@@ -151,7 +150,7 @@ fn judged(
         ending: ending(outcome.ending),
         possible: possible.map(|possible| possible.is_for_radius),
         possible_with_room: possible.map(|possible| possible.is_with_room),
-        right: possible.map(|possible| is_right(outcome.ending, &possible)),
+        right: possible.map(|possible| is_right(&outcome, &possible)),
         length: outcome.path_m,
         optimum: possible.and_then(|possible| possible.optimum_m),
         replans: outcome.replans,
@@ -174,9 +173,9 @@ pub(super) const fn ending(ending: Ending) -> &'static str {
     }
 }
 
-const fn is_right(ending: Ending, possible: &Possible) -> bool {
-    match ending {
-        Ending::Arrived => possible.is_for_radius,
+fn is_right(outcome: &Outcome, possible: &Possible) -> bool {
+    match outcome.ending {
+        Ending::Arrived => possible.is_for_radius && outcome.miss_m <= ARRIVED_M,
         Ending::NoWay => !possible.is_with_room,
         Ending::OutOfPatience => false,
     }
