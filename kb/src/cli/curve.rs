@@ -54,6 +54,7 @@ fn show(drives: &[Driven]) {
             format!("{:.2}", driven.heading_error),
             format!("{:.1}", 100.0 * driven.worst_error),
             format!("{:.2}", driven.reckoned_error),
+            format!("{:.2}", driven.worst_reckoned_error),
             format!("{:.1}", driven.reckoned_heading_error),
         ]
     });
@@ -65,6 +66,7 @@ fn show(drives: &[Driven]) {
         "median degrees",
         "worst cm",
         "reckoned m",
+        "worst reckoned m",
         "reckoned degrees",
     ];
     table(&head, rows);

@@ -20,15 +20,11 @@ const TINTS: [&str; 6] = ["#dce9f5", "#fbeed5", "#e2f0dd", "#f6e0e0", "#e8e3f3",
 
 /// The floor plan with the network of a robot, and the path, as a standalone SVG text.
 pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Option<&Path>) -> String {
-    let frame = Frame::new(bounds(plan), LONGEST, MARGIN, MARGIN + TITLE);
+    let frame = Frame::new(bounds(network), LONGEST, MARGIN, MARGIN + TITLE);
     let mut svg = Svg::default();
     let mut labels = Labels::default();
     svg.group("regions", |svg| regions(svg, &frame, network));
-    svg.group("solids", |svg| {
-        for solid in plan.solids() {
-            area(svg, &frame, solid, CLOSED, ("", 0.0));
-        }
-    });
+    svg.group("solids", |svg| solids(svg, &frame, plan));
     svg.group("doorways", |svg| {
         for doorway in &network.regions.doorways {
             line(svg, frame.at(doorway.from), frame.at(doorway.to), BRIDGE, 2.0, "5 3");
@@ -64,10 +60,14 @@ pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Opti
     })
 }
 
+/// Smaller regions have no number in the picture.
+const LEAST: f64 = 700.0;
+
 const LEGEND: &str = "numbers: regions; dashes: doorways; rings: adits, joined to their twins; dots: places; thick line: the path";
 
-fn bounds(plan: &FloorPlan) -> Rect {
-    let ends = plan.barriers().into_iter().flatten();
+/// Of the free space: what is solid may reach far beyond it.
+fn bounds(network: &Network) -> Rect {
+    let ends = network.regions.regions.iter().flat_map(|region| &region.outline);
     let empty = Rect { x0: f64::INFINITY, y0: f64::INFINITY, x1: f64::NEG_INFINITY, y1: f64::NEG_INFINITY };
     ends.fold(empty, |r, p| Rect {
         x0: r.x0.min(p.x),
@@ -75,6 +75,22 @@ fn bounds(plan: &FloorPlan) -> Rect {
         x1: r.x1.max(p.x),
         y1: r.y1.max(p.y),
     })
+}
+
+/// Cut off where nothing is free any more.
+fn solids(svg: &mut Svg, frame: &Frame, plan: &FloorPlan) {
+    if plan.solids().is_empty() {
+        return;
+    }
+    let Block { x, y, w, h } = frame.map;
+    svg.element("clipPath").attr("id", "within").children(|svg| {
+        svg.element("rect").nums([("x", x), ("y", y), ("width", w), ("height", h)]).end();
+    });
+    svg.element("g").attr("clip-path", "url(#within)").children(|svg| {
+        for solid in plan.solids() {
+            area(svg, frame, solid, CLOSED, ("", 0.0));
+        }
+    });
 }
 
 fn regions(svg: &mut Svg, frame: &Frame, network: &Network) {
@@ -150,7 +166,13 @@ fn places(svg: &mut Svg, frame: &Frame, plan: &FloorPlan, path: Option<&Path>, l
 /// The numbers of regions, by which rules know them.
 fn numbers(frame: &Frame, network: &Network, labels: &mut Labels) {
     let face = Face { size: 12.0, colour: GREY, strong: false, chip: false };
-    for (number, region) in network.regions.regions.iter().enumerate() {
+    for adit in &network.adits {
+        let (x, y) = frame.at(adit.at);
+        labels.take(Block::about(x, y, 9.0, 9.0));
+    }
+    let is_large = |area: f64| area * frame.scale * frame.scale > LEAST;
+    let regions = network.regions.regions.iter().enumerate();
+    for (number, region) in regions.filter(|(_, region)| is_large(region.area)) {
         let count = region.outline.len().max(1) as f64;
         let sum = region.outline.iter().fold((0.0, 0.0), |(x, y), p| (x + p.x, y + p.y));
         let (x, y) = frame.at(Point::new(sum.0 / count, sum.1 / count));

@@ -55,7 +55,12 @@ pub fn read(
         }
         Source::Map(file, settings) => of_map(world, &folder.join(file), &settings, problems)?,
     };
-    let network = Network::new(&plan, disc).map_err(|error| Error::all(error.problems))?;
+    let network = Network::new(&plan, disc.value).map_err(|errors| {
+        // what is wrong with a robot is said where it stands
+        let here = |problem: Problem| fields.text.problem(problem.code, &disc.span, problem.message);
+        let help = "a smaller `radius`, or another plan, is expected";
+        Error::all(errors.problems.into_iter().map(|problem| here(problem).with_help(help)))
+    })?;
     let told = Told::new(&said, &network, world, problems);
     Ok(problems.is_empty().then_some(Floor { plan, network, settings, told }))
 }
@@ -117,16 +122,17 @@ fn of_map(
     FloorPlan::of_world(&map).map_err(|errors| Error::all(errors.problems))
 }
 
-fn disc(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Disc> {
+fn disc(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Located<Disc>> {
     if fields.get("robot").is_none() {
-        return Some(Disc { radius: 0.25, margin: 0.0 });
+        return Some(Located { value: Disc { radius: 0.25, margin: 0.0 }, span: fields.span.clone() });
     }
     let robot = fields.table("robot", "robot", problems)?;
     robot.refuse_unknown(&["radius", "margin"], problems);
-    let radius = robot.positive("radius", problems).map(|Located { value, .. }| value);
+    let radius = robot.positive("radius", problems);
     let margin =
         if robot.get("margin").is_none() { Some(0.0) } else { not_negative(&robot, "margin", problems) };
-    Some(Disc { radius: radius?, margin: margin? })
+    let (Located { value: radius, span }, margin) = (radius?, margin?);
+    Some(Located { value: Disc { radius, margin }, span })
 }
 
 fn not_negative(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {

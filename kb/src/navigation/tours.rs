@@ -35,6 +35,8 @@ pub struct Driven {
     pub worst_error: f64,
     /// Metres by the wheels alone.
     pub reckoned_error: f64,
+    /// The largest error by the wheels alone, metres.
+    pub worst_reckoned_error: f64,
     /// Degrees by the wheels alone.
     pub reckoned_heading_error: f64,
     /// What the rules did not say.
@@ -82,33 +84,37 @@ pub fn drive(
 
 impl Driven {
     fn new(seed: u64, is_known: bool, trouble: Option<String>, wrong: Vec<Wrong>) -> Self {
-        let median = |of: fn(&Wrong) -> f64| {
-            let mut values: Vec<f64> = wrong.iter().map(of).collect();
-            values.sort_by(f64::total_cmp);
-            values.get(values.len() / 2).copied().unwrap_or(0.0)
-        };
+        let median = |of: fn(&Wrong) -> f64| median(&wrong, &of);
+        let worst = |of: fn(&Wrong) -> f64| wrong.iter().map(of).fold(0.0, f64::max);
         Self {
             seed,
             is_known,
             length: wrong.last().map_or(0.0, |last| last.driven_m),
             error: median(|wrong| wrong.place_m),
             heading_error: median(|wrong| wrong.heading).to_degrees(),
-            worst_error: wrong.iter().map(|wrong| wrong.place_m).fold(0.0, f64::max),
+            worst_error: worst(|wrong| wrong.place_m),
             reckoned_error: median(|wrong| wrong.reckoned_m),
+            worst_reckoned_error: worst(|wrong| wrong.reckoned_m),
             reckoned_heading_error: median(|wrong| wrong.reckoned_heading).to_degrees(),
             trouble,
             wrong,
         }
     }
 
-    /// The largest error of each metre.
+    /// The median of each metre.
     fn curve(&self, of: impl Fn(&Wrong) -> f64) -> Vec<(f64, f64)> {
         let metre = |wrong: &Wrong| wrong.driven_m as u64;
         self.wrong
             .chunk_by(|one, next| metre(one) == metre(next))
-            .map(|chunk| (metre(&chunk[0]) as f64, chunk.iter().map(&of).fold(0.0, f64::max)))
+            .map(|chunk| (metre(&chunk[0]) as f64, median(chunk, &of)))
             .collect()
     }
+}
+
+fn median(wrong: &[Wrong], of: &impl Fn(&Wrong) -> f64) -> f64 {
+    let mut values: Vec<f64> = wrong.iter().map(of).collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// The errors of drives over the distance, as a standalone SVG text.
@@ -120,7 +126,7 @@ pub fn draw(world: &str, far_m: f64, drives: &[Driven]) -> String {
         panels.push(CurvePanel {
             heading: format!("position, {said}"),
             unit: "m",
-            scale: [0.001, 100.0],
+            scale: [0.001, 10.0],
             limit: KEPT_M,
             far_m,
             bold: curves(&|wrong| wrong.place_m),
@@ -129,13 +135,13 @@ pub fn draw(world: &str, far_m: f64, drives: &[Driven]) -> String {
         panels.push(CurvePanel {
             heading: format!("heading, {said}"),
             unit: "°",
-            scale: [0.01, 1000.0],
+            scale: [0.01, 100.0],
             limit: KEPT_DEGREES,
             far_m,
             bold: curves(&|wrong| wrong.heading.to_degrees()),
             faint: curves(&|wrong| wrong.reckoned_heading.to_degrees()),
         });
     }
-    let title = format!("{world}: errors of the estimated pose, the largest of each metre");
+    let title = format!("{world}: errors of the estimated pose, the median of each metre");
     render_curves(&title, ["estimated pose", "dead reckoning"], &panels)
 }

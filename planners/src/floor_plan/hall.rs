@@ -77,6 +77,10 @@ impl Corner {
     }
 }
 
+/// Pairs of walls are looked at from each corner of a hall with no more sides: a scanned map has thousands, and its largest
+/// region hardly grows by it.
+const MOST_SIDES: usize = 160;
+
 impl Hall {
     /// The face of which these are the outlines.
     pub fn new(plan: &Planar, cycles: &[u32]) -> Self {
@@ -183,8 +187,11 @@ impl Hall {
         one.iter().any(|corner| other.contains(corner)) || crossing(line(one), line(other)).is_some()
     }
 
-    /// The directions in which a line from wall to wall is halved by a corner.
+    /// The directions in which a line from wall to wall is halved by a corner; none in a hall of very many walls.
     fn halved(&self, corner: &Corner) -> Vec<Point> {
+        if self.sides.len() > MOST_SIDES {
+            return Vec::new();
+        }
         let centre = self.points[corner.node as usize];
         let walls = self.sides.iter().filter(|side| !side.ends.contains(&corner.node));
         let walls: Vec<[Point; 2]> = walls.map(|side| side.ends.map(|n| self.points[n as usize])).collect();

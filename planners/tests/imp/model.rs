@@ -191,8 +191,29 @@ fn a_wall_out_of_sight_stays_and_a_far_one_goes_if_the_table_says_so() {
     world.model.update(&[], 100.0, table);
     assert_eq!(world.model.segments().len(), count, "nobody looked");
     world.model.set_estimate(Estimate::new(Pose::new(99.0, 0.0, 0.0), 0.0, 0.0));
-    let update = world.model.update(&[], 200.0, table);
-    assert_eq!((update.removed.len(), world.model.segments().len()), (count, 0));
+    let turns = Settings::default().hidden_scans;
+    let gone = (0..turns).map(|_| world.model.update(&[], 200.0, table).removed.len()).sum::<usize>();
+    assert_eq!((gone, world.model.segments().len()), (count, 0), "each has its turn");
+}
+
+#[test]
+fn of_what_a_scan_does_not_show_the_table_is_asked_in_turn() {
+    let mut world = World::new(&walls(), Vec::new(), simulator::Settings::default(), World::here());
+    world.scan(table);
+    let ids: Vec<_> = world.model.segments().iter().map(|known| known.id).collect();
+    let turns = Settings::default().hidden_scans;
+    let mut asked = Vec::new();
+    for _ in 0..3 * turns {
+        world.model.update(&[], 100.0, |facts| {
+            asked.push((facts.id, facts.age));
+            table(facts)
+        });
+    }
+    for id in ids {
+        let ages: Vec<u32> = asked.iter().filter(|(of, _)| *of == id).map(|(_, age)| *age).collect();
+        assert_eq!(ages.len(), 3, "{ages:?}");
+        assert!(ages.windows(2).all(|pair| pair[1] == pair[0] + turns), "it grows older unasked: {ages:?}");
+    }
 }
 
 #[test]

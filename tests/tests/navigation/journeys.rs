@@ -1,36 +1,8 @@
 //! Paths and missions on a flat of our own.
 
-use std::fs;
-use std::process::Command;
-
-use adit_tests::{Ran, TestSite, adit, repository};
 use serde_json::{Value, json};
 
-/// The flat in a folder of its own.
-fn flat() -> TestSite {
-    let folder = TestSite::empty();
-    for name in ["flat.toml", "flat.json"] {
-        folder.write(name, fs::read(repository().join("kb/worlds").join(name)).expect("the flat"));
-    }
-    folder
-}
-
-fn run(folder: &TestSite, verb: &str, args: &[&str]) -> Ran {
-    let mut command = Command::new(adit());
-    command.current_dir(folder.path()).args([verb, "flat.toml"]).args(args);
-    Ran::new(&command.output().expect("adit runs"))
-}
-
-fn copy_rules(folder: &TestSite) {
-    for entry in fs::read_dir(repository().join("rules/navigation")).expect("the rule base") {
-        let file = entry.expect("a file").path();
-        if file.is_file() {
-            let name = file.file_name().expect("a name").to_string_lossy().into_owned();
-            folder.write(&format!("rules/{name}"), fs::read(&file).expect("readable"));
-        }
-    }
-    folder.write("flat.toml", format!("rules = \"rules\"\n{}", folder.read("flat.toml")));
-}
+use crate::flat::{copy_rules, flat, run, sql};
 
 #[test]
 fn a_path_leads_from_place_to_place_and_is_pulled_tight() {
@@ -69,15 +41,7 @@ fn missions_are_the_same_from_the_same_seed_and_end_as_they_should() {
 fn the_journal_says_where_the_robot_was_and_by_which_rule_it_went_on() {
     let folder = flat();
     run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
-    let sql = |query: &str| -> Vec<String> {
-        let mut command = Command::new("sqlite3");
-        let output = command
-            .args(["-readonly", "missions.db", query])
-            .current_dir(folder.path())
-            .output()
-            .expect("runs");
-        String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
-    };
+    let sql = |query: &str| sql(&folder, "missions.db", query);
     assert_eq!(sql("SELECT world, mission, ending FROM missions"), ["flat|1|arrived"]);
     assert_eq!(
         sql("SELECT state, next, rule FROM journal WHERE event = 'state' ORDER BY entry LIMIT 1"),
