@@ -14,6 +14,7 @@ mod free_grid;
 mod highway;
 mod judge;
 mod known;
+pub mod learn;
 mod mission;
 mod missions;
 mod navigator;

@@ -337,6 +337,7 @@ impl LocalModel {
         let mut pieces = Vec::new();
         let mut place = 0;
         let (objects, settings) = (&self.objects, &self.settings);
+        let is_learning = settings.is_learning;
         self.segments.retain_mut(|segment| {
             let look = &looks[place];
             place += 1;
@@ -354,7 +355,7 @@ impl LocalModel {
                 beams_on: evidence.on,
                 beams_through: evidence.through,
                 free_m: evidence.free_m(),
-                ..segment.facts(at)
+                ..segment.facts(at, is_learning)
             };
             let transition = decide(&facts);
             segment.follow(transition);

@@ -172,7 +172,7 @@ fn at_rest(obstacle: &Obstacle) -> Vec<Point> {
 }
 
 /// How deep something is within the robot, metres.
-fn overlap(body: &Simulator) -> f64 {
+pub(super) fn overlap(body: &Simulator) -> f64 {
     let at = body.pose().at;
     let sides = body.obstacles().flatten().chain(body.walls());
     let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
