@@ -1,5 +1,9 @@
 //! Missions of robots on floor plans: the tables `missions` and `journal`.
 
+mod decision;
+
+pub use decision::{Decision, Which, decision, numbers, worlds};
+
 use sqlx::SqliteConnection;
 
 use crate::error::Result;

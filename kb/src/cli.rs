@@ -1,10 +1,12 @@
 //! The command line `adit`: its verbs, and what they print.
 
 mod build;
+mod curve;
 mod demo;
 mod doctor;
 mod firm;
 mod fit;
+mod learn;
 mod new;
 mod output;
 mod picture;
@@ -284,8 +286,15 @@ pub struct WhyArgs {
     /// The site
     #[command(flatten)]
     pub site: SiteArgs,
-    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; of a database of `adit simulate --db` instead of a site the
+    /// number of a mission: why the robot stopped
     pub what: String,
+    /// Of a mission: ask about what the robot did at this time instead of about its last stop
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub at: Option<f64>,
+    /// Of a mission: the name of its world, where the database has several
+    #[arg(long, value_name = "NAME")]
+    pub world: Option<String>,
 }
 
 /// `adit why-not`.
@@ -448,6 +457,26 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// Instead of missions, learn the building, of which the robot knows nothing but where it starts, a place or `x,y`;
+    /// with --db what was learned is kept
+    #[arg(long, value_name = "START", allow_hyphen_values = true, conflicts_with_all = ["start", "curve", "learned", "drive"])]
+    pub learn: Option<String>,
+    /// The direction of exploration that the user points out: towards a place or `x,y`
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true, requires = "learn")]
+    pub towards: Option<String>,
+    /// The robot knows of the building what was learned of it and stands in --db
+    #[arg(long, requires = "db", conflicts_with = "curve")]
+    pub learned: bool,
+    /// Instead of missions, drive by hand in the learned building: a file of orders, or `-` for standard input
+    #[arg(long, value_name = "FILE", requires = "learned", conflicts_with_all = ["start", "film"])]
+    pub drive: Option<PathBuf>,
+    /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance, with the
+    /// walls known and with a model built on the way: .svg or .png; --missions says how many drives of each
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]
+    pub curve: Option<PathBuf>,
+    /// How far such a drive goes
+    #[arg(long, value_name = "METRES", default_value_t = 200.0)]
+    pub metres: f64,
     /// Make a film of a mission: an animated SVG
     #[arg(long, value_name = "FILE")]
     pub film: Option<PathBuf>,

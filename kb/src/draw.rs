@@ -4,7 +4,9 @@
 //! What is seen is told by width, dash, number or name as well as by colour, so a print in black and white reads.
 
 mod channels;
+mod curve;
 mod doors;
+mod floor;
 mod frame;
 mod graph;
 mod ground;
@@ -31,6 +33,8 @@ mod text;
 mod view;
 
 pub use channels::{ChannelPanel, render_channels};
+pub use curve::{CurvePanel, render_curves};
+pub use floor::render_floor;
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};
 pub use scene::{Door, DoorKind, PrimeArea, Room, Route, Scene, Step, StepKind};

@@ -74,13 +74,15 @@ pub struct LocalModel {
     segments: Vec<ModelSegment>,
     objects: objects::Objects,
     next: u32,
+    /// Scans that were taken into it.
+    scans: u32,
 }
 
 impl LocalModel {
     /// An empty model. The wheels' count is thought to be 0, 0, 0 where the estimate is.
     pub fn new(settings: Settings, estimate: Estimate) -> Self {
         let (segments, objects) = (Vec::new(), objects::Objects::default());
-        Self { settings, estimate, odometry: Pose::default(), segments, objects, next: 0 }
+        Self { settings, estimate, odometry: Pose::default(), segments, objects, next: 0, scans: 0 }
     }
 
     /// The surfaces, in the order in which they were entered.
@@ -130,8 +132,11 @@ impl LocalModel {
         known.sort_unstable();
         let mut count = 0;
         for (number, line) in surfaces {
-            let is_near = line.distance(at) <= self.settings.recall_m;
-            if !is_near || line.length() <= 0.0 || known.binary_search(&number).is_ok() {
+            // what is known already is told apart first: mostly it is nearly all
+            if known.binary_search(&number).is_ok()
+                || line.distance(at) > self.settings.recall_m
+                || line.length() <= 0.0
+            {
                 continue;
             }
             let (sigma_m, sigma_angle) = (self.settings.recalled_sigma_m, self.settings.recalled_sigma_angle);

@@ -8,6 +8,7 @@
 
 mod cuts;
 mod detour;
+mod drive;
 mod event;
 mod field;
 mod free_grid;
@@ -20,11 +21,14 @@ mod missions;
 mod navigator;
 mod route;
 mod settings;
+mod tour;
 
+pub use drive::{Driven, Order, drive};
 pub use event::{Ending, Event, Happening};
 pub use judge::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 pub use known::Building;
 pub use mission::{Entry, Mission, Outcome, Outfit, Possible, ROOM_M};
-pub use missions::draw;
+pub use missions::{draw, stops};
 pub use navigator::Navigator;
 pub use settings::Settings;
+pub use tour::{Tour, Wrong};

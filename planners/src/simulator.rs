@@ -127,6 +127,11 @@ impl Simulator {
         self.pose
     }
 
+    /// Where the wheels' count puts the robot, from the pose 0, 0, 0 at the beginning.
+    pub fn odometry(&self) -> Pose {
+        self.odometry
+    }
+
     /// Seconds since it was switched on.
     pub fn time_s(&self) -> f64 {
         self.readings as f64 * self.settings.reading_period_s

@@ -10,13 +10,14 @@ use adit_planners::geometry::Point;
 use super::PlanArgs;
 use super::output::{json, line, remark};
 use super::picture;
-use crate::draw::{ChannelPanel, render_channels};
+use crate::draw::{ChannelPanel, render_channels, render_floor};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
-use crate::navigation::judge::RuleJudge;
+use crate::navigation::keep::record;
+use crate::number::number;
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
-use crate::plan::{Asked, Steps, Task, Turns, World, rules};
+use crate::plan::{Asked, Steps, Task, Turns, World};
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {
@@ -24,11 +25,8 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
         picture::check(output)?;
     }
     let world = World::read(&args.world)?;
-    let (name, beside) = match &args.rules {
-        Some(rules) => (rules.as_str(), std::path::Path::new("")),
-        None => (world.rules.as_str(), world.folder.as_path()),
-    };
-    let (rules, remarks) = rules::load(world.task.kind(), name, beside)?;
+    let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
+    let name = name.as_str();
     if args.explain && !world.task.kind().shipped().contains(&name) {
         for text in &remarks {
             remark(text);
@@ -44,22 +42,39 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
             let mut turns = turns.map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
             drive(args, &world, name, &between(args, corridor)?, &mut turns)
         }
-        Task::FloorPlan(floor) => walk(args, floor, &rules),
+        Task::FloorPlan(floor) => walk(args, &world.name, name, floor, &rules),
     }
 }
 
-fn walk(args: &PlanArgs, floor: &Floor, rules: &Arc<RuleBase>) -> Result<bool> {
+fn walk(
+    args: &PlanArgs,
+    world: &str,
+    rules_name: &str,
+    floor: &Floor,
+    rules: &Arc<RuleBase>,
+) -> Result<bool> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
         let help = format!("places: {}", floor.names().join(", "));
         return Err(Error::said("plan/ends", "a floor plan needs START and GOAL", Some(help)));
     };
-    let mut judge =
-        RuleJudge::new(rules).map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+    let mut judge = floor.judge(rules)?;
     let walked = floor.plan(floor.point(start)?, floor.point(goal)?, &mut judge)?;
     if args.json {
         json(&walked.json())?;
     } else {
         walked.lines().iter().for_each(|text| line(text));
+    }
+    if let Some(path) = &args.db {
+        let record = record(world, rules_name, floor, &mut judge, &walked);
+        Store::open_or_create(path)?.transaction(|tx| tx.keep_floor_plan(&record))?;
+    }
+    if let Some(output) = &args.output {
+        let path = walked.tight.as_ref().ok();
+        let title = match path {
+            Some(path) => format!("{world}: {start} to {goal}, {} m", number(path.length)),
+            None => format!("{world}: no path from {start} to {goal}"),
+        };
+        picture::save(render_floor(&title, &floor.plan, &floor.network, path), output, PNG_WIDTH)?;
     }
     Ok(walked.is_path())
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use adit_db::Store;
 use adit_engine::RuleBase;
-use adit_planners::navigation::{Building, Mission};
+use adit_planners::navigation::Mission;
 use adit_planners::pose::Pose;
 
 use super::SimulateArgs;
@@ -13,9 +13,10 @@ use super::output::{json, line, remark, table};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
-use crate::navigation::missions::{Row, drawn, journalled, run as run_all};
+use crate::navigation::learning;
+use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
 use crate::number::number;
-use crate::plan::{Task, World, rules};
+use crate::plan::{Task, World};
 use crate::progress::Bar;
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
@@ -25,23 +26,36 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         let message = format!("{} has no [floor_plan]: there is nothing to simulate", args.world.display());
         return Err(Error::said("simulate/no-floor-plan", message, None));
     };
-    let (name, beside) = match &args.rules {
-        Some(rules) => (rules.as_str(), Path::new("")),
-        None => (world.rules.as_str(), world.folder.as_path()),
+    let (rules, name, _) = world.rules(args.rules.as_deref())?;
+    if let Some(output) = &args.curve {
+        return super::curve::run(args, output, &world.name, floor, &rules);
+    }
+    if let Some(start) = &args.learn {
+        return super::learn::run(args, start, &world.name, (floor, &name), &rules);
+    }
+    let learned = if args.learned { Some(learned(args, &world.name, floor)?) } else { None };
+    if let Some(script) = &args.drive {
+        return match learned {
+            Some((stored, known)) => super::learn::drive(args, script, (stored, floor, &known), &rules),
+            None => Err(Error::said("simulate/drive", "--drive goes with --learned and --db", None)),
+        };
+    }
+    let stage = match &learned {
+        Some((_, known)) => Stage::learned(floor, known, learning::START_SIGMA_M),
+        None => Stage::new(floor),
     };
-    let (rules, _) = rules::load(world.task.kind(), name, beside)?;
-    let missions = missions(args, floor)?;
+    let known = learned.as_ref().map_or(&**floor, |(_, known)| known);
+    let missions = missions(args, floor, known)?;
     let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
-        kept(&world.name, name, floor, &rules, &missions, db)?
+        kept(&world.name, &name, &stage, &rules, &missions, db)?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
-        run_all(floor, &rules, &missions, || bar.step())?
+        run_all(&stage, &rules, &missions, || bar.step())?
     };
     if let (Some(film), Some(mission)) = (&args.film, filmed) {
-        let building = Building::new(&floor.plan, floor.network.clone());
         let mut made = None;
-        journalled(floor, &building, &rules, (args.mission, mission), Some(&mut made))?;
+        journalled(&stage, &rules, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
             std::fs::write(film, made.svg(args.speed)).map_err(|error| Error::io("write", film, &error))?;
             remark(&format!("{}: mission {}", film.display(), args.mission));
@@ -75,17 +89,16 @@ fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m
 fn kept(
     world: &str,
     rules_name: &str,
-    floor: &Floor,
+    stage: &Stage<'_>,
     rules: &Arc<RuleBase>,
     missions: &[Mission],
     db: &Path,
 ) -> Result<Vec<Row>> {
-    let building = Building::new(&floor.plan, floor.network.clone());
     let mut store = Store::open_or_create(db)?;
     let bar = Bar::new("missions", missions.len() as u64);
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
-        let (row, entries, noting) = journalled(floor, &building, rules, (index + 1, mission), None)?;
+        let (row, entries, noting) = journalled(stage, rules, (index + 1, mission), None)?;
         let record = record(world, rules_name, &row, &entries, noting);
         store.transaction(|tx| tx.keep_mission(&record))?;
         rows.push(row);
@@ -94,15 +107,44 @@ fn kept(
     Ok(rows)
 }
 
-/// The missions that are drawn, or the one from START to GOAL.
-fn missions(args: &SimulateArgs, floor: &Floor) -> Result<Vec<Mission>> {
+/// What was learned of the world, from the database.
+fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::learned::Learned, Floor)> {
+    let Some(db) = &args.db else {
+        return Err(Error::said(
+            "simulate/learned",
+            "--learned goes with --db: the building stands there",
+            None,
+        ));
+    };
+    let stored = Store::open(db)?.transaction(|tx| tx.learned(world))?;
+    let Some(stored) = stored else {
+        let message = format!("{} has no building that was learned of the world `{world}`", db.display());
+        let help = "learn it first: `adit simulate WORLD --learn START --db FILE`".to_owned();
+        return Err(Error::said("simulate/not-learned", message, Some(help)));
+    };
+    let known = learning::known(&stored, floor)?;
+    Ok((stored, known))
+}
+
+/// The missions that are drawn, or the one from START to GOAL: places as the robot knows them, else as the world has them.
+fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mission>> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
         return drawn(floor, args.missions as usize, args.seed);
     };
-    let (start, goal) = (floor.point(start)?, floor.point(goal)?);
-    let heading = args.heading.to_radians();
+    let point = |text: &str| known.point(text).or_else(|_| floor.point(text));
+    let (start, goal) = (point(start)?, point(goal)?);
+    let heading = heading(args)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
+}
+
+/// The heading at the start, radians.
+pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
+    if (-360.0..=360.0).contains(&args.heading) {
+        return Ok(args.heading.to_radians());
+    }
+    let message = format!("--heading {} is no heading; expected degrees from -360 to 360", args.heading);
+    Err(Error::said("simulate/heading", message, None))
 }
 
 fn show(rows: &[Row]) {
@@ -137,24 +179,44 @@ fn show(rows: &[Row]) {
 
 fn summary(rows: &[Row]) {
     let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
-    let mut over: Vec<f64> = rows
-        .iter()
-        .filter(|row| row.ending == "arrived")
-        .filter_map(|row| Some(row.length / row.optimum?))
-        .collect();
-    over.sort_by(f64::total_cmp);
-    let at = |share: f64| over.get(((over.len() as f64 - 1.0) * share).round() as usize).copied();
-    let figure = |share| at(share).map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
     line(&format!(
-        "{} missions: {} arrived, {} found no way, {} gave up; {} wrong, {} collided; length over optimum median {}, 95 % {}, worst {}",
+        "{} missions: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touches",
         rows.len(),
         count("arrived"),
         count("no_way"),
         count("gave_up"),
         rows.iter().filter(|row| row.right == Some(false)).count(),
+        rows.iter().filter(|row| row.right.is_none()).count(),
         rows.iter().filter(|row| row.collided).count(),
-        figure(0.5),
-        figure(0.95),
-        figure(1.0)
+        rows.iter().map(|row| row.touches).sum::<usize>(),
     ));
+    let possible = |with_room, radius| {
+        let of = rows
+            .iter()
+            .filter(move |row| row.possible_with_room == Some(with_room) && row.possible == Some(radius));
+        let arrived = of.clone().filter(|row| row.ending == "arrived").count();
+        (of.count(), arrived)
+    };
+    let ((possible, by_room), (between, by_luck), (impossible, by_error)) =
+        (possible(true, true), possible(false, true), possible(false, false));
+    line(&format!(
+        "{possible} possible with room: {by_room} arrived; {between} possible without: {by_luck} arrived; \
+         {impossible} impossible: {by_error} arrived"
+    ));
+    let arrived = || rows.iter().filter(|row| row.ending == "arrived");
+    let spreads: [(&str, Vec<f64>); 6] = [
+        ("length over optimum", arrived().filter_map(|row| Some(row.length / row.optimum?)).collect()),
+        ("replans", rows.iter().map(|row| f64::from(row.replans)).collect()),
+        ("detours", rows.iter().map(|row| f64::from(row.detours)).collect()),
+        ("seconds by the robot's clock", rows.iter().map(|row| row.seconds).collect()),
+        ("metres from the goal", arrived().map(|row| row.miss).collect()),
+        ("worst error of position", rows.iter().map(|row| row.worst_error).collect()),
+    ];
+    let spread = |(what, mut values): (&str, Vec<f64>)| {
+        values.sort_by(f64::total_cmp);
+        let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize);
+        let figure = |share| at(share).map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
+        vec![what.to_owned(), figure(0.5), figure(0.9), figure(0.99), figure(1.0)]
+    };
+    table(&["", "median", "90 %", "99 %", "worst"], spreads.map(spread));
 }

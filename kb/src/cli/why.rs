@@ -2,15 +2,25 @@
 
 use super::build::open;
 use super::output::{json, line};
-use super::{WhyArgs, WhyNotArgs};
-use crate::error::Result;
+use super::{SiteArgs, WhyArgs, WhyNotArgs};
+use crate::error::{Error, Result};
 use crate::live::Live;
+use crate::navigation::why as mission;
 
 /// Rejections that are printed; all of them stand in the JSON.
 const PRINTED: usize = 20;
 
 /// Prints why an object is as it is.
 pub fn why(args: &WhyArgs) -> Result<()> {
+    if args.site.site.is_file() {
+        return of_mission(args);
+    }
+    if args.at.is_some() || args.world.is_some() {
+        let message =
+            format!("--at and --world are for missions, and {} is no file", args.site.site.display());
+        let help = "`adit simulate WORLD --db FILE` keeps missions; `adit why FILE NUMBER` asks about one";
+        return Err(Error::said("why/no-missions", message, Some(help.to_owned())));
+    }
     let answer = Live::open(open(&args.site)?)?.why(&args.what)?;
     if args.site.json {
         return json(&answer);
@@ -20,6 +30,19 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     }
     if answer.conclusions.is_empty() {
         line(&format!("no rule concluded anything about {}", answer.name));
+    }
+    Ok(())
+}
+
+/// Prints why a robot stopped.
+fn of_mission(args: &WhyArgs) -> Result<()> {
+    let SiteArgs { site, rules, .. } = &args.site;
+    let answer = mission::why(site, &args.what, args.world.as_deref(), args.at, rules.as_deref())?;
+    if args.site.json {
+        return json(&answer);
+    }
+    for text in answer.lines() {
+        line(&text);
     }
     Ok(())
 }

@@ -1,14 +1,15 @@
 //! A floor plan with its robot, as a world of `adit plan` and `adit simulate`.
 
-use std::path::Path;
+use std::sync::Arc;
 
-use adit_planners::floor_plan::{Disc, FloorPlan, Network, NoPath, Path as Walk, Rule, read_floor_plan};
+use adit_engine::RuleBase;
+use adit_planners::floor_plan::{Disc, FloorPlan, Network, NoPath, Path as Walk, Rule};
 use adit_planners::geometry::Point;
-use adit_planners::navigation::{Judge, Settings, WayFacts};
-use adit_planners::read::{Fields, Problem};
+use adit_planners::navigation::{Building, Judge, Settings, WayFacts};
 use serde_json::{Value, json};
 
 use super::judge::RuleJudge;
+use super::told::Told;
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::suggest::did_you_mean;
@@ -22,83 +23,27 @@ pub struct Floor {
     pub network: Network,
     /// Tolerances and other figures.
     pub settings: Settings,
-}
-
-const KEYS: [&str; 3] = ["file", "robot", "navigation"];
-/// What a user may set of the navigator: key, unit, and what it is.
-const FIGURES: [&str; 9] = [
-    "goal_tolerance",
-    "turning_resolution",
-    "highway_half_width",
-    "look_ahead",
-    "speed",
-    "detour_clearance",
-    "most_waits",
-    "most_detours",
-    "most_retries",
-];
-
-/// Reads `[floor_plan]`; the plan's file lies beside the world's.
-pub fn read(fields: &Fields<'_, '_>, folder: &Path, problems: &mut Vec<Problem>) -> Result<Option<Floor>> {
-    fields.refuse_unknown(&KEYS, problems);
-    let file = fields.string("file", problems);
-    let disc =
-        fields.table("robot", "robot", problems).map_or(Some(Disc { radius: 0.25, margin: 0.0 }), |robot| {
-            robot.refuse_unknown(&["radius", "margin"], problems);
-            let radius = robot.positive("radius", problems);
-            let margin = match robot.get("margin") {
-                None => Some(0.0),
-                Some(_) => robot.number("margin", problems).map(|margin| margin.value),
-            };
-            Some(Disc { radius: radius?.value, margin: margin? })
-        });
-    let settings = settings(fields, problems);
-    let (Some(file), Some(disc)) = (file, disc) else { return Ok(None) };
-    if !problems.is_empty() {
-        return Ok(None);
-    }
-    let plan = read_floor_plan(&folder.join(&file.value)).map_err(|error| Error::all(error.problems))?;
-    let network = Network::new(&plan, disc).map_err(|error| Error::all(error.problems))?;
-    Ok(Some(Floor { plan, network, settings }))
-}
-
-fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Settings {
-    let mut settings = Settings::default();
-    let Some(table) = fields.table("navigation", "[floor_plan.navigation]", problems) else {
-        return settings;
-    };
-    table.refuse_unknown(&FIGURES, problems);
-    let mut figure =
-        |key| table.get(key).and_then(|_| table.positive(key, problems)).map(|found| found.value);
-    let count = |found: f64| found.min(f64::from(u32::MAX)) as u32;
-    if let Some(metres) = figure("goal_tolerance") {
-        settings.goal_tolerance_m = metres;
-    }
-    if let Some(degrees) = figure("turning_resolution") {
-        settings.turning_resolution = degrees.to_radians();
-    }
-    if let Some(metres) = figure("highway_half_width") {
-        settings.highway_half_width_m = metres;
-    }
-    if let Some(metres) = figure("look_ahead") {
-        settings.look_ahead_m = metres;
-    }
-    if let Some(speed) = figure("speed") {
-        settings.speed_m_s = speed;
-    }
-    if let Some(metres) = figure("detour_clearance") {
-        settings.detour_clearance_m = metres;
-    }
-    settings.most_waits = figure("most_waits").map_or(settings.most_waits, count);
-    settings.most_detours = figure("most_detours").map_or(settings.most_detours, count);
-    settings.most_retries = figure("most_retries").map_or(settings.most_retries, count);
-    settings
+    /// What the world says of doorways and regions.
+    pub told: Told,
 }
 
 impl Floor {
     /// The names of its places.
     pub fn names(&self) -> Vec<&str> {
         self.plan.places().iter().map(|place| place.name.as_str()).collect()
+    }
+
+    /// The judge for it.
+    pub fn judge(&self, rules: &Arc<RuleBase>) -> Result<RuleJudge> {
+        RuleJudge::with(rules, &self.told).map_err(|error| Error::said("plan/rules", error.to_string(), None))
+    }
+
+    /// The building as a robot drives in it: its ways leave room beside the robot, where there is a way with room.
+    pub fn building(&self) -> Building {
+        let disc =
+            Disc { margin: self.network.disc.margin.max(self.settings.detour_room_m), ..self.network.disc };
+        let with_room = Network::new(&self.plan, disc).unwrap_or_else(|_| self.network.clone());
+        Building::new(&self.plan, with_room)
     }
 
     /// A place by its name, or a point `x,y`.

@@ -1,13 +1,13 @@
 //! The journal of a mission: what happened, and by which rule.
 
 use adit_db::mission::{Decided, Entry, Mission as Record};
-use adit_engine::Considered;
+use adit_engine::{Considered, Datum};
 use adit_planners::local_model::{SegmentFacts, Transition};
 use adit_planners::navigation::{self, Action, Happening, Judge, StateDecision, StateFacts, WayFacts};
 use adit_planners::pose::Pose;
 use serde_json::{Value, json};
 
-use super::judge::{RuleJudge, action_word, state_word};
+use super::judge::{RuleJudge, action_word, state_word, told_of};
 use super::missions::Row;
 
 /// A judge that notes which rule decided, where the state changed or something was done.
@@ -134,19 +134,11 @@ fn told(what: &Happening) -> Told {
 
 /// What the rules were told.
 fn situation(facts: &StateFacts) -> Value {
-    json!({
-        "distance": facts.distance_m,
-        "is_falling": facts.is_falling,
-        "heading_error": facts.heading_error,
-        "off_line": facts.off_line_m,
-        "free": facts.free_m,
-        "echo": facts.echo_m,
-        "is_contact": facts.is_contact,
-        "is_obstacle_moving": facts.is_obstacle_moving,
-        "left": facts.left_m,
-        "right": facts.right_m,
-        "has_way": facts.has_way,
-        "waits": facts.waits,
-        "retries": facts.retries,
-    })
+    let value = |datum| match datum {
+        Datum::Number(number) => json!(number),
+        Datum::Text(text) => json!(text),
+        Datum::Truth(truth) => json!(truth),
+        Datum::Unknown => Value::Null,
+    };
+    Value::Object(told_of(facts).map(|(name, datum)| (name.to_owned(), value(datum))).collect())
 }

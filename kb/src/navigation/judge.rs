@@ -6,6 +6,7 @@ use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
+use super::told::Told;
 use crate::plan::rules::place;
 
 /// What rules are told of a situation.
@@ -59,6 +60,7 @@ pub const SEGMENTS: &[(&str, Type)] = &[
     ("distance", Type::Number),
     ("length", Type::Number),
     ("sigma", Type::Number),
+    ("is_learning", Type::Truth),
 ];
 
 /// What rules are told of a way between adits.
@@ -69,7 +71,11 @@ pub const WAYS: &[(&str, Type)] = &[
     ("region", Type::Number),
     ("is_cut", Type::Truth),
     ("times_blocked", Type::Number),
+    ("squeaks", Type::Truth),
 ];
+
+/// So many of them follow from the floor plan and from what was seen; the others a world tells.
+pub const MEASURED: usize = 6;
 
 const OF_SITUATIONS: [&str; 2] = ["next", "action"];
 const OF_SEGMENTS: [&str; 6] = ["becomes", "source", "is_kept", "counts_for_pose", "is_anchored", "is_cut"];
@@ -81,17 +87,28 @@ pub struct RuleJudge {
     situations: Consultation,
     segments: Consultation,
     ways: Consultation,
+    /// The properties of ways, in the order in which they are told.
+    of_ways: Vec<String>,
+    told: Told,
     trouble: Option<String>,
 }
 
 impl RuleJudge {
-    /// Makes ready.
+    /// Makes ready for a world that tells nothing of its doorways and regions.
     pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
+        Self::with(rules, &Told::default())
+    }
+
+    /// Makes ready for a world that tells this of its doorways and regions.
+    pub fn with(rules: &Arc<RuleBase>, told: &Told) -> Result<Self, ClassError> {
         let rules = || Arc::clone(rules);
+        let ways: Vec<(&str, Type)> = WAYS.iter().copied().chain(told.further()).collect();
         Ok(Self {
             situations: Consultation::new(rules(), "SITUATIONS", SITUATIONS, &OF_SITUATIONS)?,
             segments: Consultation::new(rules(), "SEGMENTS", SEGMENTS, &OF_SEGMENTS)?,
-            ways: Consultation::new(rules(), "WAYS", WAYS, &OF_WAYS)?,
+            ways: Consultation::new(rules(), "WAYS", &ways, &OF_WAYS)?,
+            of_ways: ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            told: told.clone(),
             trouble: None,
         })
     }
@@ -109,6 +126,18 @@ impl RuleJudge {
     /// Which rules spoke of the last situation, and why the others did not.
     pub fn considered(&mut self) -> Vec<Considered> {
         self.situations.considered("next")
+    }
+
+    /// Asks about a situation of which a value is known for each property that has one.
+    ///
+    /// # Returns
+    /// The next state and the action as words, and which rules were looked at.
+    pub fn consider<'f>(&mut self, told: impl Fn(&str) -> Datum<'f>) -> ([String; 2], Vec<Considered>) {
+        let object = SITUATIONS.iter().map(|(name, _)| told(name)).collect::<Vec<_>>();
+        self.situations.consult(&object);
+        let said =
+            [0, 1].map(|output| self.situations.text(output).map_or(String::new(), |text| text.to_string()));
+        (said, self.considered())
     }
 
     fn missing(&mut self, what: &str, found: Option<String>) {
@@ -197,13 +226,14 @@ impl Judge for RuleJudge {
     }
 
     fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
-        let mut object = [Datum::Unknown; WAYS.len()];
+        let mut object = vec![Datum::Unknown; self.of_ways.len()];
         object[const { place(WAYS, "length") }] = Datum::Number(facts.way.length);
         object[const { place(WAYS, "clearance") }] = Datum::Number(facts.way.clearance);
         object[const { place(WAYS, "doorway") }] = facts.way.doorway.map(|number| number as f64).into();
         object[const { place(WAYS, "region") }] = facts.way.region.map(|number| number as f64).into();
         object[const { place(WAYS, "is_cut") }] = Datum::Truth(facts.is_cut);
         object[const { place(WAYS, "times_blocked") }] = Datum::Number(f64::from(facts.times_blocked));
+        self.told.of(facts.way, &mut object, |name| self.of_ways.iter().position(|known| known == name));
         self.ways.consult(&object);
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
@@ -216,12 +246,18 @@ impl Judge for RuleJudge {
     }
 }
 
+/// What the rules are told of a situation: each property with its value.
+pub fn told_of(facts: &StateFacts) -> impl Iterator<Item = (&'static str, Datum<'static>)> {
+    SITUATIONS.iter().map(|(name, _)| *name).zip(situation(facts))
+}
+
 fn situation(facts: &StateFacts) -> [Datum<'static>; SITUATIONS.len()] {
     let mut object = [Datum::Unknown; SITUATIONS.len()];
     let settings = &facts.settings;
     let mode = match facts.mode {
         Mode::Automatic => "automatic",
         Mode::Manual => "manual",
+        Mode::Learn => "learn",
     };
     object[const { place(SITUATIONS, "mode") }] = Datum::Text(mode);
     object[const { place(SITUATIONS, "state") }] = Datum::Text(state_word(facts.state));
@@ -274,6 +310,7 @@ fn segment(facts: &SegmentFacts) -> [Datum<'static>; SEGMENTS.len()] {
         (const { place(SEGMENTS, "is_visible") }, facts.is_visible),
         (const { place(SEGMENTS, "is_seen_free") }, facts.is_seen_free),
         (const { place(SEGMENTS, "is_moving") }, facts.is_moving),
+        (const { place(SEGMENTS, "is_learning") }, facts.is_learning),
     ] {
         object[at] = Datum::Truth(truth);
     }

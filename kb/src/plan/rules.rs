@@ -6,6 +6,7 @@ use std::sync::Arc;
 use adit_engine::{RuleBase, Schema, Severity, Type};
 
 use crate::error::{Error, Result};
+use crate::navigation::guide::OPENINGS;
 use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
 use crate::rules::{self, Rules};
 
@@ -43,7 +44,8 @@ impl Kind {
             Self::Navigation => Schema::default()
                 .class("SITUATIONS", SITUATIONS)
                 .class("SEGMENTS", SEGMENTS)
-                .class("WAYS", WAYS),
+                .class("WAYS", WAYS)
+                .class("OPENINGS", OPENINGS),
         }
     }
 }
@@ -146,30 +148,42 @@ pub(super) const fn same(one: &[u8], other: &[u8]) -> bool {
 /// # Returns
 /// The rules, and what is not wrong but worth a look, as text.
 pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
-    let Rules { base, tests } = if kind.shipped().contains(&name) {
-        rules::shipped(&kind.folder(name))?
-    } else {
-        let folder = beside.join(name);
-        if !folder.is_dir() {
-            let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
-            let help = format!(
-                "the shipped ones are `{}`; anything else is a folder",
-                kind.shipped().join("` and `")
-            );
-            return Err(Error::said("plan/no-rules", message, Some(help)));
-        }
-        rules::from_folder(&folder)?
-    };
+    load_by(kind, name, beside, &kind.schema())
+}
+
+/// As [`load`], where rules may speak of what a schema has.
+pub fn load_by(
+    kind: Kind,
+    name: &str,
+    beside: &Path,
+    schema: &Schema,
+) -> Result<(Arc<RuleBase>, Vec<String>)> {
+    let Rules { base, tests } = found(kind, name, beside)?;
     let (errors, remarks): (Vec<_>, Vec<_>) =
-        base.check(&kind.schema()).into_iter().partition(|found| found.severity == Severity::Error);
+        base.check(schema).into_iter().partition(|found| found.severity == Severity::Error);
     if !errors.is_empty() {
         return Err(Error::all(errors));
     }
-    let outcomes = tests.run(&base, &kind.schema()).map_err(|wrong| Error::all(wrong.0))?;
+    let outcomes = tests.run(&base, schema).map_err(|wrong| Error::all(wrong.0))?;
     let failures: Vec<_> =
         outcomes.into_iter().flat_map(|outcome| outcome.failures).map(|failure| failure.diagnostic).collect();
     if !failures.is_empty() {
         return Err(Error::all(failures));
     }
     Ok((Arc::new(base), remarks.iter().map(ToString::to_string).collect()))
+}
+
+/// Reads a rule base that was in use already, whatever it speaks of.
+pub(crate) fn found(kind: Kind, name: &str, beside: &Path) -> Result<Rules> {
+    if kind.shipped().contains(&name) {
+        return rules::shipped(&kind.folder(name));
+    }
+    let folder = beside.join(name);
+    if folder.is_dir() {
+        return rules::from_folder(&folder);
+    }
+    let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
+    let help =
+        format!("the shipped ones are `{}`; anything else is a folder", kind.shipped().join("` and `"));
+    Err(Error::said("plan/no-rules", message, Some(help)))
 }

@@ -2,14 +2,17 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use adit_engine::RuleBase;
 use adit_planners::read::{Document, Fields, Problem};
 
 use super::assembly::Assembly;
 use super::corridor::Corridor;
-use super::rules::Kind;
+use super::rules::{self, Kind};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
+use crate::navigation::reading;
 
 /// What is to be planned, and by which rules.
 #[derive(Debug)]
@@ -48,6 +51,29 @@ impl Task {
 }
 
 impl World {
+    /// Reads its rules, or those that stand instead of them: a shipped rule base by its name, else a folder, beside the
+    /// world's file where the world names it. What the world tells, rules may speak of.
+    ///
+    /// # Returns
+    /// The rules, by what name or in which folder they are found again, and what is worth a look, as text.
+    pub fn rules(&self, instead: Option<&str>) -> Result<(Arc<RuleBase>, String, Vec<String>)> {
+        let (name, beside) = match instead {
+            Some(rules) => (rules, Path::new("")),
+            None => (self.rules.as_str(), self.folder.as_path()),
+        };
+        let kind = self.task.kind();
+        let mut schema = kind.schema();
+        if let Task::FloorPlan(floor) = &self.task {
+            for (name, of) in floor.told.further() {
+                schema.add("WAYS", name, of);
+            }
+        }
+        let (rules, remarks) = rules::load_by(kind, name, beside, &schema)?;
+        let is_shipped = kind.shipped().contains(&name);
+        let found = if is_shipped { name.to_owned() } else { beside.join(name).display().to_string() };
+        Ok((rules, found, remarks))
+    }
+
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
         let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
@@ -66,7 +92,11 @@ fn parse(name: &str, text: &str, folder: &Path) -> Result<(Option<String>, Task)
     let document = Document::parse(name, text).map_err(|error| Error::all(error.problems))?;
     let fields = document.fields("the world");
     let mut problems: Vec<Problem> = Vec::new();
-    fields.refuse_unknown(&["rules", "assembly", "corridor", "floor_plan"], &mut problems);
+    let mut keys = vec!["rules", "assembly", "corridor", "floor_plan"];
+    if fields.get("floor_plan").is_some() {
+        keys.extend(reading::keys());
+    }
+    fields.refuse_unknown(&keys, &mut problems);
     let rules = match fields.get("rules") {
         None => None,
         Some(_) => fields.string("rules", &mut problems).map(|rules| rules.value),
@@ -81,7 +111,7 @@ fn parse(name: &str, text: &str, folder: &Path) -> Result<(Option<String>, Task)
             .and_then(|fields| super::corridor::read(&fields, &mut problems))
             .map(Task::Corridor),
         ["floor_plan"] => match fields.table("floor_plan", "[floor_plan]", &mut problems) {
-            Some(fields) => crate::navigation::floor::read(&fields, folder, &mut problems)?
+            Some(floor) => reading::read(&fields, &floor, folder, &mut problems)?
                 .map(|floor| Task::FloorPlan(Box::new(floor))),
             None => None,
         },

@@ -127,6 +127,11 @@ impl Network {
         (0..self.adits.len()).filter(move |&adit| self.adits[adit].region == region)
     }
 
+    /// The region in which the disc stands at a point, by index; `None` where it cannot.
+    pub fn region_of(&self, at: Point) -> Option<usize> {
+        self.stand(at).map(|standing| standing.region)
+    }
+
     fn lay_adits(&mut self) {
         for opening in self.mesh.openings.clone() {
             let doorway = &self.regions.doorways[opening.doorway];

@@ -1,5 +1,10 @@
 //! Walls as drawn, cut where another one ends on them, so that they meet only at their ends.
 
+use std::collections::BTreeMap;
+
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
 use super::planar::Edge;
 use crate::geometry::Point;
 
@@ -25,30 +30,27 @@ pub(super) struct Noded {
 }
 
 /// Cuts walls where others end on them.
+///
+/// # Complexity
+/// O(w log w) for w walls that meet few others each.
 pub(super) fn node(walls: &[[Point; 2]]) -> Result<Noded, Vec<Clash>> {
-    let mut points: Vec<Point> = Vec::new();
-    let mut number = |p: Point| {
-        let known = points.iter().position(|q| q.distance(p) <= SNAP_M);
-        known.unwrap_or_else(|| {
-            points.push(p);
-            points.len() - 1
-        }) as u32
-    };
-    let ends: Vec<[u32; 2]> = walls.iter().map(|&[a, b]| [number(a), number(b)]).collect();
+    let mut numbered = Numbered::default();
+    let ends: Vec<[u32; 2]> = walls.iter().map(|&[a, b]| [numbered.number(a), numbered.number(b)]).collect();
+    let points = numbered.points;
     let clashes = clashes(&points, &ends);
     if !clashes.is_empty() {
         return Err(clashes);
     }
+    let standing = points.iter().enumerate().map(|(n, p)| GeomWithData::new([p.x, p.y], n as u32));
+    let index = RTree::bulk_load(standing.collect());
     let (mut edges, mut wall_of) = (Vec::new(), Vec::new());
     for (wall, &[a, b]) in ends.iter().enumerate() {
-        let on_it = (0..points.len() as u32).filter(|&n| {
-            n == a || n == b || is_on(points[n as usize], [points[a as usize], points[b as usize]])
-        });
+        let line = [points[a as usize], points[b as usize]];
+        let near = index.locate_in_envelope(around(line)).map(|point| point.data);
+        let on_it = near.filter(|&n| n == a || n == b || is_on(points[n as usize], line));
         let mut stops: Vec<u32> = on_it.collect();
-        let start = points[a as usize];
-        stops.sort_by(|&m, &n| {
-            start.distance(points[m as usize]).total_cmp(&start.distance(points[n as usize]))
-        });
+        let far = |n: u32| line[0].distance(points[n as usize]);
+        stops.sort_by(|&m, &n| far(m).total_cmp(&far(n)).then(m.cmp(&n)));
         let direction = Edge::between(&points, a, b).direction;
         for part in stops.windows(2) {
             edges.push(Edge { ends: [part[0], part[1]], direction });
@@ -58,19 +60,57 @@ pub(super) fn node(walls: &[[Point; 2]]) -> Result<Noded, Vec<Clash>> {
     Ok(Noded { points, edges, wall_of })
 }
 
+/// Points by number, found by where they are.
+#[derive(Default)]
+struct Numbered {
+    points: Vec<Point>,
+    /// Their numbers by squares of twice [`SNAP_M`], so that those closer than it lie in the same or in the next one.
+    squares: BTreeMap<[i64; 2], Vec<u32>>,
+}
+
+impl Numbered {
+    /// The number of the first point that was as close as [`SNAP_M`]; a new one where there is none.
+    fn number(&mut self, p: Point) -> u32 {
+        let [x, y] = [p.x, p.y].map(|v| (v / (2.0 * SNAP_M)).floor() as i64);
+        let about = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
+        let near = about.filter_map(|square| self.squares.get(&square)).flatten().copied();
+        let known = near.filter(|&n| self.points[n as usize].distance(p) <= SNAP_M).min();
+        known.unwrap_or_else(|| {
+            let new = self.points.len() as u32;
+            self.points.push(p);
+            self.squares.entry([x, y]).or_default().push(new);
+            new
+        })
+    }
+}
+
+/// The box about a wall, with what may be as good as on it.
+fn around([a, b]: [Point; 2]) -> AABB<[f64; 2]> {
+    AABB::from_corners(
+        [a.x.min(b.x) - SNAP_M, a.y.min(b.y) - SNAP_M],
+        [a.x.max(b.x) + SNAP_M, a.y.max(b.y) + SNAP_M],
+    )
+}
+
 fn is_on(p: Point, [a, b]: [Point; 2]) -> bool {
     p.distance(p.nearest_on(a, b)) <= SNAP_M
 }
 
 fn clashes(points: &[Point], ends: &[[u32; 2]]) -> Vec<Clash> {
     let line = |wall: usize| ends[wall].map(|n| points[n as usize]);
+    let boxed = (0..ends.len()).map(|wall| {
+        let [a, b] = line(wall).map(|p| [p.x, p.y]);
+        GeomWithData::new(Rectangle::from_corners(a, b), wall)
+    });
+    let index = RTree::bulk_load(boxed.collect());
     let mut found = Vec::new();
     for i in 0..ends.len() {
-        for j in i + 1..ends.len() {
-            let (first, second) = (line(i), line(j));
-            if !do_boxes_meet(first, second) {
-                continue;
-            }
+        let first = line(i);
+        let near = index.locate_in_envelope_intersecting(around(first)).map(|wall| wall.data);
+        let mut others: Vec<usize> = near.filter(|&j| j > i).collect();
+        others.sort_unstable();
+        for j in others {
+            let second = line(j);
             if let Some(at) = crossing(first, second) {
                 found.push(Clash::Cross { walls: [i, j], at });
             } else if do_overlap(first, second) {
@@ -79,13 +119,6 @@ fn clashes(points: &[Point], ends: &[[u32; 2]]) -> Vec<Clash> {
         }
     }
     found
-}
-
-fn do_boxes_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    a.x.min(b.x) <= c.x.max(d.x) + SNAP_M
-        && c.x.min(d.x) <= a.x.max(b.x) + SNAP_M
-        && a.y.min(b.y) <= c.y.max(d.y) + SNAP_M
-        && c.y.min(d.y) <= a.y.max(b.y) + SNAP_M
 }
 
 /// Where two segments cross, if at no end of either.

@@ -46,6 +46,11 @@ impl Doorway {
     pub fn width(&self) -> f64 {
         self.from.distance(self.to)
     }
+
+    /// The point half way between its ends.
+    pub fn middle(&self) -> Point {
+        Point::new(f64::midpoint(self.from.x, self.to.x), f64::midpoint(self.from.y, self.to.y))
+    }
 }
 
 /// Convex regions, the largest first, and their doorways.

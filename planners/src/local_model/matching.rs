@@ -28,8 +28,10 @@ pub(super) struct Near {
 
 impl Near {
     pub fn new(model: usize, segment: &ModelSegment) -> Self {
-        let (along, length_m) = (segment.line.direction(), segment.line.length());
-        Self { model, a: segment.line.a, along, length_m }
+        let (line, length_m) = (&segment.line, segment.line.length());
+        let share = 1.0 / length_m.max(f64::MIN_POSITIVE);
+        let along = Point::new(share * (line.b.x - line.a.x), share * (line.b.y - line.a.y));
+        Self { model, a: line.a, along, length_m }
     }
 
     fn place(&self, p: Point) -> f64 {

@@ -42,6 +42,9 @@ pub struct Settings {
     pub free_beams: u32,
     /// Beams that meet a segment at a smaller angle say nothing about whether it is still there.
     pub grazing_angle: f64,
+    /// Segments of which scans show nothing are asked about once in so many scans: what is hidden or out of hearing changes
+    /// by its distance and its age alone.
+    pub hidden_scans: u32,
     /// Standard deviation across a segment of the global model.
     pub recalled_sigma_m: f64,
     /// Standard deviation of the angle of a segment of the global model.
@@ -93,6 +96,7 @@ impl Default for Settings {
             visible_beams: 2,
             free_beams: 2,
             grazing_angle: 15.0_f64.to_radians(),
+            hidden_scans: 8,
             recalled_sigma_m: 0.01,
             recalled_sigma_angle: 0.2_f64.to_radians(),
             least_sigma_m: 0.005,

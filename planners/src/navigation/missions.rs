@@ -48,11 +48,7 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
     let barriers = plan.barriers();
     let bounds = extent(&barriers);
     let room = radius_m + ROOM_M + 0.05;
-    let spot = |dice: &mut Dice| {
-        let found = (0..TRIES).map(|_| any(bounds, dice));
-        let mut free = found.filter(|p| plan.is_free(*p) && wall_distance(&[*p, *p], &barriers) >= room);
-        free.next()
-    };
+    let spot = |dice: &mut Dice| spot(plan, &barriers, room, dice);
     let (start, goal, path) = (0..TRIES).find_map(|_| {
         let (start, goal) = (spot(&mut dice)?, spot(&mut dice)?);
         let path = network.path(start, goal, Rule::Tight, |way| Some(way.length)).ok()?;
@@ -78,6 +74,39 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
     Some(Mission { start: Pose { at: start, heading }, goal, obstacles, seed: dice.0.next_u64() })
 }
 
+/// Draws points with room around them, each with a way from the one before.
+///
+/// # Returns
+/// Fewer than `count` where the plan has no room for them.
+pub fn stops(plan: &FloorPlan, network: &Network, radius_m: f64, count: usize, seed: u64) -> Vec<Point> {
+    let mut dice = Dice(Pcg64::seed_from_u64(seed));
+    let barriers = plan.barriers();
+    let room = radius_m + ROOM_M + 0.05;
+    let mut found: Vec<Point> = Vec::new();
+    for _ in 0..TRIES * count {
+        let Some(next) = spot(plan, &barriers, room, &mut dice) else { break };
+        let is_reached = found.last().is_none_or(|&last| {
+            last.distance(next) >= APART_M
+                && network.path(last, next, Rule::Tight, |way| Some(way.length)).is_ok()
+        });
+        if is_reached {
+            found.push(next);
+        }
+        if found.len() == count {
+            break;
+        }
+    }
+    found
+}
+
+/// A free point so far from all walls.
+fn spot(plan: &FloorPlan, barriers: &[[Point; 2]], room: f64, dice: &mut Dice) -> Option<Point> {
+    let bounds = extent(barriers);
+    let found = (0..TRIES).map(|_| any(bounds, dice));
+    let mut free = found.filter(|p| plan.is_free(*p) && wall_distance(&[*p, *p], barriers) >= room);
+    free.next()
+}
+
 fn obstacle(
     network: &Network,
     path: &[Point],
@@ -89,8 +118,9 @@ fn obstacle(
     let mut middle = any(bounds, dice);
     if kind < 0.2 {
         let doors = &network.regions.doorways;
-        let door = &doors[dice.below(doors.len())];
-        middle = along([door.from, door.to], dice.share());
+        if let Some(door) = doors.get(dice.below(doors.len())) {
+            middle = along([door.from, door.to], dice.share());
+        }
     } else if kind < 0.8 {
         let leg = dice.below(path.len() - 1);
         let on = along([path[leg], path[leg + 1]], dice.share());

@@ -214,8 +214,21 @@ impl<'b> Navigator<'b> {
         if is_manual {
             self.readings_standing = 0;
             body.command(command);
+            if let Some(sensed) = &mut self.sensed {
+                sensed.is_busy = true;
+            }
         }
         is_manual
+    }
+
+    /// Whether a command is still being carried out.
+    pub fn is_busy(&self) -> bool {
+        self.sensed.is_none_or(|sensed| sensed.is_busy)
+    }
+
+    /// The figures that it goes by.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Plans a path to a goal, and goes there from now on.

@@ -3,7 +3,6 @@
 use super::{Explorer, Guide, Learned};
 use crate::floor_plan::{Disc, FloorPlan};
 use crate::geometry::Point;
-use crate::local_model::Estimate;
 use crate::navigation::mission::overlap;
 use crate::navigation::{Building, Ending, Entry, Happening, Outfit};
 use crate::pose::Pose;
@@ -60,7 +59,7 @@ impl Exploration {
         let walls: Vec<Segment> = plan.barriers().into_iter().map(Segment::from).collect();
         let mut body = Simulator::new(&walls, Vec::new(), outfit.robot, self.start, self.seed)?;
         let nothing = Building::unknown(Disc { radius: outfit.robot.radius_m, margin: 0.0 });
-        let start = Estimate::new(self.start, 0.01, 0.5_f64.to_radians());
+        let start = outfit.estimate(self.start);
         let mut explorer = Explorer::new(&nothing, outfit.model, outfit.navigation, start);
         explorer.point_out(self.towards);
         if let Some(film) = &mut film {

@@ -108,11 +108,6 @@ impl Cells {
         self.bits.ones().map(|index| self.window.cell(index))
     }
 
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        self.bits.count_ones(..)
-    }
-
     /// The same cells in a larger window.
     pub fn moved(&self, window: Window) -> Self {
         let mut moved = Self::none(window);

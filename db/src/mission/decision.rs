@@ -1,0 +1,108 @@
+//! What the journals of missions say of one decision.
+
+use sqlx::SqliteConnection;
+
+use crate::error::Result;
+use crate::transaction::Tx;
+
+/// A change of state of a robot, as its journal has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decision {
+    /// The rule base of the mission.
+    pub rules: String,
+    /// The number of the entry.
+    pub entry: i64,
+    /// Seconds by the robot's clock.
+    pub time: f64,
+    /// The state before.
+    pub state: String,
+    /// The state after.
+    pub next: String,
+    /// What was done on the way.
+    pub action: String,
+    /// Where the robot thought it was, metres.
+    pub at: [f64; 2],
+    /// What the rules were told, as JSON.
+    pub detail: Option<String>,
+}
+
+/// Which decision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Which {
+    /// The last one by which the robot left a state for another one.
+    LastFrom(&'static str),
+    /// The one in force so many seconds after the robot was switched on.
+    At(f64),
+}
+
+/// The worlds that have missions, sorted; none where there are no such tables.
+pub async fn worlds(connection: &mut SqliteConnection) -> Result<Vec<String>> {
+    let tables: i64 =
+        sqlx::query_scalar("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'missions'")
+            .fetch_one(&mut *connection)
+            .await?;
+    if tables == 0 {
+        return Ok(Vec::new());
+    }
+    let worlds = sqlx::query_scalar("SELECT DISTINCT world FROM missions ORDER BY world");
+    Ok(worlds.fetch_all(&mut *connection).await?)
+}
+
+/// The numbers of a world's missions: how many there are, the first and the last.
+pub async fn numbers(connection: &mut SqliteConnection, world: &str) -> Result<(i64, i64, i64)> {
+    let numbers = sqlx::query_as(
+        "SELECT count(*), coalesce(min(mission), 0), coalesce(max(mission), 0) FROM missions WHERE world = ?",
+    );
+    Ok(numbers.bind(world).fetch_one(&mut *connection).await?)
+}
+
+/// A decision of a mission; `None` where its journal has none such.
+pub async fn decision(
+    connection: &mut SqliteConnection,
+    world: &str,
+    mission: i64,
+    which: Which,
+) -> Result<Option<Decision>> {
+    let (state, at) = match which {
+        Which::LastFrom(state) => (Some(state), None),
+        Which::At(seconds) => (None, Some(seconds)),
+    };
+    let found = sqlx::query_as(
+        "SELECT missions.rules, entry, time, state, next, action, x, y, detail
+         FROM journal JOIN missions USING (world, mission)
+         WHERE world = ? AND mission = ? AND event = 'state'
+           AND (?3 IS NULL OR state = ?3 AND next <> ?3) AND (?4 IS NULL OR time <= ?4)
+         ORDER BY entry DESC LIMIT 1",
+    );
+    let found = found.bind(world).bind(mission).bind(state).bind(at);
+    let found: Option<Columns> = found.fetch_optional(&mut *connection).await?;
+    Ok(found.map(|(rules, entry, time, state, next, action, x, y, detail)| Decision {
+        rules,
+        entry,
+        time,
+        state,
+        next,
+        action,
+        at: [x, y],
+        detail,
+    }))
+}
+
+type Columns = (String, i64, f64, String, String, String, f64, f64, Option<String>);
+
+impl Tx<'_> {
+    /// The worlds that have missions.
+    pub fn worlds_of_missions(&mut self) -> Result<Vec<String>> {
+        self.run(async |connection| worlds(connection).await)
+    }
+
+    /// The numbers of a world's missions: how many there are, the first and the last.
+    pub fn numbers_of_missions(&mut self, world: &str) -> Result<(i64, i64, i64)> {
+        self.run(async |connection| numbers(connection, world).await)
+    }
+
+    /// A decision of a mission.
+    pub fn decision(&mut self, world: &str, mission: i64, which: Which) -> Result<Option<Decision>> {
+        self.run(async |connection| decision(connection, world, mission, which).await)
+    }
+}

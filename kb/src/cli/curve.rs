@@ -1,0 +1,71 @@
+//! `adit simulate --curve`: how well a robot knows where it is.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use adit_engine::RuleBase;
+
+use super::SimulateArgs;
+use super::output::{json, remark, table};
+use super::picture;
+use crate::error::{Error, Result};
+use crate::navigation::floor::Floor;
+use crate::navigation::tours::{Driven, draw, drive};
+
+/// Width of a PNG in pixels.
+const PNG_WIDTH: u32 = 1600;
+/// A drive is at most so long, metres.
+const FARTHEST_M: f64 = 100_000.0;
+
+/// Drives, draws and prints a row a drive; `false` where rules said nothing.
+pub fn run(
+    args: &SimulateArgs,
+    output: &Path,
+    world: &str,
+    floor: &Floor,
+    rules: &Arc<RuleBase>,
+) -> Result<bool> {
+    picture::check(output)?;
+    if !(args.metres > 0.0 && args.metres <= FARTHEST_M) {
+        let message =
+            format!("--metres {} is no distance; expected more than 0 and at most {FARTHEST_M}", args.metres);
+        return Err(Error::said("simulate/metres", message, None));
+    }
+    let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;
+    picture::save(draw(world, args.metres, &drives), output, PNG_WIDTH)?;
+    if args.json {
+        json(&drives)?;
+    } else {
+        show(&drives);
+    }
+    for trouble in drives.iter().filter_map(|driven| driven.trouble.as_ref()).take(1) {
+        remark(trouble);
+    }
+    Ok(drives.iter().all(|driven| driven.trouble.is_none()))
+}
+
+fn show(drives: &[Driven]) {
+    let rows = drives.iter().map(|driven| {
+        vec![
+            if driven.is_known { "known" } else { "built on the way" }.to_owned(),
+            driven.seed.to_string(),
+            format!("{:.1}", driven.length),
+            format!("{:.1}", 100.0 * driven.error),
+            format!("{:.2}", driven.heading_error),
+            format!("{:.1}", 100.0 * driven.worst_error),
+            format!("{:.2}", driven.reckoned_error),
+            format!("{:.1}", driven.reckoned_heading_error),
+        ]
+    });
+    let head = [
+        "walls",
+        "seed",
+        "metres",
+        "median cm",
+        "median degrees",
+        "worst cm",
+        "reckoned m",
+        "reckoned degrees",
+    ];
+    table(&head, rows);
+}

@@ -1,0 +1,174 @@
+//! A floor plan: its regions, the doorways between them, the adits on either side, places, and a path.
+
+use adit_planners::floor_plan::{FloorPlan, Network, Path};
+use adit_planners::geometry::{Point, Rect};
+
+use super::frame::{At, Block, Frame};
+use super::labels::{Face, Labels};
+use super::palette::{BRIDGE, CLOSED, GREY, INK, ROUTE};
+use super::sheet::line;
+use super::svg::{self, Svg};
+use super::{MARGIN, page, text};
+
+/// The longest side of the plan.
+const LONGEST: f64 = 900.0;
+/// Above the plan, for its title; and below, for what signs mean.
+const TITLE: f64 = 34.0;
+const BELOW: f64 = 34.0;
+/// Neighbours differ in these.
+const TINTS: [&str; 6] = ["#dce9f5", "#fbeed5", "#e2f0dd", "#f6e0e0", "#e8e3f3", "#e4efee"];
+
+/// The floor plan with the network of a robot, and the path, as a standalone SVG text.
+pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Option<&Path>) -> String {
+    let frame = Frame::new(bounds(plan), LONGEST, MARGIN, MARGIN + TITLE);
+    let mut svg = Svg::default();
+    let mut labels = Labels::default();
+    svg.group("regions", |svg| regions(svg, &frame, network));
+    svg.group("solids", |svg| {
+        for solid in plan.solids() {
+            area(svg, &frame, solid, CLOSED, ("", 0.0));
+        }
+    });
+    svg.group("doorways", |svg| {
+        for doorway in &network.regions.doorways {
+            line(svg, frame.at(doorway.from), frame.at(doorway.to), BRIDGE, 2.0, "5 3");
+        }
+    });
+    svg.group("walls", |svg| {
+        for [a, b] in plan.walls() {
+            line(svg, frame.at(*a), frame.at(*b), INK, 2.4, "");
+        }
+    });
+    svg.group("adits", |svg| {
+        for (number, adit) in network.adits.iter().enumerate() {
+            if number < adit.twin {
+                line(svg, frame.at(adit.at), frame.at(network.adits[adit.twin].at), GREY, 1.0, "");
+            }
+        }
+        for adit in &network.adits {
+            dot(svg, frame.at(adit.at), 3.2, GREY, "#ffffff");
+        }
+    });
+    if let Some(path) = path {
+        svg.group("path", |svg| way(svg, &frame, path));
+    }
+    svg.group("places", |svg| places(svg, &frame, plan, path, &mut labels));
+    numbers(&frame, network, &mut labels);
+    svg.append(&labels.finish());
+    let (right, below) = (frame.map.x + frame.map.w + MARGIN, frame.map.y + frame.map.h);
+    let right = right.max(text::width(LEGEND, 13.0) + 2.0 * MARGIN);
+    page(title, (right, below + BELOW), |page| {
+        write(page, (MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
+        page.append(&svg);
+        write(page, (MARGIN, below + 22.0), 13.0, GREY, LEGEND);
+    })
+}
+
+const LEGEND: &str = "numbers: regions; dashes: doorways; rings: adits, joined to their twins; dots: places; thick line: the path";
+
+fn bounds(plan: &FloorPlan) -> Rect {
+    let ends = plan.barriers().into_iter().flatten();
+    let empty = Rect { x0: f64::INFINITY, y0: f64::INFINITY, x1: f64::NEG_INFINITY, y1: f64::NEG_INFINITY };
+    ends.fold(empty, |r, p| Rect {
+        x0: r.x0.min(p.x),
+        y0: r.y0.min(p.y),
+        x1: r.x1.max(p.x),
+        y1: r.y1.max(p.y),
+    })
+}
+
+fn regions(svg: &mut Svg, frame: &Frame, network: &Network) {
+    let mut tints: Vec<usize> = Vec::new();
+    for (number, region) in network.regions.regions.iter().enumerate() {
+        let beside = network.regions.doorways.iter().filter_map(|doorway| match doorway.regions {
+            [a, b] if a == number => tints.get(b),
+            [a, b] if b == number => tints.get(a),
+            _ => None,
+        });
+        let taken: Vec<usize> = beside.copied().collect();
+        let begin = number % TINTS.len();
+        let order = (0..TINTS.len()).map(|step| (begin + step) % TINTS.len());
+        let tint = order.clone().find(|tint| !taken.contains(tint)).unwrap_or(begin);
+        tints.push(tint);
+        area(svg, frame, &region.outline, TINTS[tint], ("#ffffff", 1.0));
+    }
+}
+
+fn area(svg: &mut Svg, frame: &Frame, corners: &[Point], fill: &str, (stroke, width): (&str, f64)) {
+    let mut path = String::new();
+    for (place, corner) in corners.iter().enumerate() {
+        let (x, y) = frame.at(*corner);
+        svg::command(&mut path, if place == 0 { 'M' } else { 'L' }, &[x, y]);
+    }
+    path.push('Z');
+    let element = svg.element("path").attr("d", &path).attr("fill", fill);
+    if stroke.is_empty() {
+        element.end();
+    } else {
+        element.attr("stroke", stroke).num("stroke-width", width).end();
+    }
+}
+
+fn way(svg: &mut Svg, frame: &Frame, path: &Path) {
+    let points: Vec<String> = path
+        .points
+        .iter()
+        .map(|point| {
+            let (x, y) = frame.at(*point);
+            format!("{},{}", svg::number(x), svg::number(y))
+        })
+        .collect();
+    svg.element("polyline")
+        .attr("points", &points.join(" "))
+        .attr("fill", "none")
+        .attr("stroke", ROUTE)
+        .attr("stroke-linejoin", "round")
+        .num("stroke-width", 4.0)
+        .end();
+    if let [first, .., last] = path.points.as_slice() {
+        dot(svg, frame.at(*first), 6.0, ROUTE, "#ffffff");
+        dot(svg, frame.at(*last), 6.0, ROUTE, ROUTE);
+    }
+}
+
+fn places(svg: &mut Svg, frame: &Frame, plan: &FloorPlan, path: Option<&Path>, labels: &mut Labels) {
+    let steps = path.map_or(&[][..], |path| &path.points);
+    for pair in steps.windows(2) {
+        labels.take_line(frame.at(pair[0]), frame.at(pair[1]), 8.0, 8.0);
+    }
+    let face = Face { size: 14.0, colour: INK, strong: true, chip: false };
+    for place in plan.places() {
+        let (x, y) = frame.at(place.at);
+        dot(svg, (x, y), 3.5, INK, INK);
+        labels.take(Block::about(x, y, 8.0, 8.0));
+        let half = text::width(&place.name, face.size) / 2.0 + 10.0;
+        let about = [(x, y - 14.0), (x, y + 14.0), (x + half, y), (x - half, y)];
+        labels.place(&place.name, face, &frame.map, about);
+    }
+}
+
+/// The numbers of regions, by which rules know them.
+fn numbers(frame: &Frame, network: &Network, labels: &mut Labels) {
+    let face = Face { size: 12.0, colour: GREY, strong: false, chip: false };
+    for (number, region) in network.regions.regions.iter().enumerate() {
+        let count = region.outline.len().max(1) as f64;
+        let sum = region.outline.iter().fold((0.0, 0.0), |(x, y), p| (x + p.x, y + p.y));
+        let (x, y) = frame.at(Point::new(sum.0 / count, sum.1 / count));
+        let about = [(x, y), (x, y - 16.0), (x, y + 16.0), (x - 20.0, y), (x + 20.0, y)];
+        labels.place(&number.to_string(), face, &frame.map, about);
+    }
+}
+
+fn dot(svg: &mut Svg, (x, y): At, radius: f64, stroke: &str, fill: &str) {
+    svg.element("circle")
+        .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", 1.6)])
+        .attr("stroke", stroke)
+        .attr("fill", fill)
+        .end();
+}
+
+fn write(svg: &mut Svg, (x, y): At, size: f64, colour: &str, words: &str) {
+    if !words.is_empty() {
+        svg.element("text").nums([("x", x), ("y", y), ("font-size", size)]).attr("fill", colour).text(words);
+    }
+}

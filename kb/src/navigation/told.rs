@@ -1,0 +1,186 @@
+//! What a world says of its doorways and regions besides their shape, for the rules that weigh ways.
+
+use std::collections::BTreeMap;
+
+use adit_engine::{Datum, Type};
+use adit_planners::floor_plan::{Network, Way};
+use adit_planners::geometry::Point;
+use adit_planners::read::{Code, Fields, Located, Problem};
+use adit_planners::world::Property;
+use toml::de::DeValue;
+
+use super::judge::WAYS;
+
+/// The tables that say it.
+pub const KEYS: [&str; 2] = ["doorway", "region"];
+
+/// A point of `[[doorway]]` may be so far beside the doorway, metres.
+const BESIDE_M: f64 = 0.5;
+
+/// What is said of doorways and regions, as properties of the ways through them.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// The properties that are told, with the type of their values: those of [`WAYS`] as well as others.
+    properties: Vec<(String, Type)>,
+    doorways: BTreeMap<usize, Vec<(usize, Property)>>,
+    regions: BTreeMap<usize, Vec<(usize, Property)>>,
+}
+
+/// What is said of whatever is at a point.
+#[derive(Clone, Debug)]
+pub struct Said {
+    key: &'static str,
+    at: Located<Point>,
+    values: Vec<(String, Located<Property>)>,
+}
+
+/// Reads `[[doorway]]` and `[[region]]`.
+pub fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Said> {
+    let mut said = Vec::new();
+    for (key, what) in [("doorway", "[[doorway]]"), ("region", "[[region]]")] {
+        for item in fields.tables(key, what, problems) {
+            let at = item.numbers::<2>("at", problems);
+            let values = values(&item, problems);
+            if let Some(Located { value: [x, y], span }) = at {
+                said.push(Said { key, at: Located { value: Point::new(x, y), span }, values });
+            }
+        }
+    }
+    said
+}
+
+/// The values of all keys but `at`.
+fn values(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<(String, Located<Property>)> {
+    let mut found = Vec::new();
+    for (key, value) in item.table.iter().filter(|(key, _)| &**key.get_ref() != "at") {
+        let name = key.get_ref().to_string();
+        let property = match value.get_ref() {
+            DeValue::Boolean(truth) => Some(Property::Truth(*truth)),
+            DeValue::String(text) => Some(Property::Text(text.to_string())),
+            DeValue::Integer(_) | DeValue::Float(_) => {
+                item.finite(&name, value, problems).map(Property::Number)
+            }
+            other => {
+                let wanted = "a number, a text in quotes, true or false";
+                problems.push(item.wrong_type(&name, wanted, other, value.span()));
+                None
+            }
+        };
+        if let Some(value) = property {
+            found.push((name, Located { value, span: key.span() }));
+        }
+    }
+    found
+}
+
+const fn kind(value: &Property) -> Type {
+    match value {
+        Property::Number(_) => Type::Number,
+        Property::Text(_) => Type::Text,
+        Property::Truth(_) => Type::Truth,
+    }
+}
+
+impl Told {
+    /// Finds the doorways and regions that were spoken of.
+    pub fn new(
+        said: &[Said],
+        network: &Network,
+        fields: &Fields<'_, '_>,
+        problems: &mut Vec<Problem>,
+    ) -> Self {
+        let mut told = Self::default();
+        for one in said {
+            let place = if one.key == "doorway" {
+                doorway(network, one.at.value)
+            } else {
+                region(network, one.at.value)
+            };
+            let place = match place {
+                Ok(place) => place,
+                Err(message) => {
+                    problems.push(fields.text.problem(Code::Outside, &one.at.span, message));
+                    continue;
+                }
+            };
+            for (name, value) in &one.values {
+                match told.property(name, kind(&value.value)) {
+                    Ok(property) => {
+                        let of = if one.key == "doorway" { &mut told.doorways } else { &mut told.regions };
+                        of.entry(place).or_default().push((property, value.value.clone()));
+                    }
+                    Err(message) => problems.push(fields.text.problem(Code::WrongType, &value.span, message)),
+                }
+            }
+        }
+        told
+    }
+
+    /// The properties that are told and that no way has otherwise.
+    pub fn further(&self) -> impl Iterator<Item = (&str, Type)> {
+        let is_further = |name: &str| WAYS.iter().all(|(known, _)| *known != name);
+        self.properties
+            .iter()
+            .map(|(name, kind)| (name.as_str(), *kind))
+            .filter(move |(name, _)| is_further(name))
+    }
+
+    /// Puts down what is told of a way; `place` says where a property stands in the object.
+    pub fn of<'s>(&'s self, way: &Way, object: &mut [Datum<'s>], place: impl Fn(&str) -> Option<usize>) {
+        let doorway = way.doorway.and_then(|doorway| self.doorways.get(&doorway));
+        let region = way.region.and_then(|region| self.regions.get(&region));
+        for (property, value) in doorway.into_iter().chain(region).flatten() {
+            if let Some(place) = place(&self.properties[*property].0) {
+                object[place] = match value {
+                    Property::Number(number) => Datum::Number(*number),
+                    Property::Text(text) => Datum::Text(text),
+                    Property::Truth(truth) => Datum::Truth(*truth),
+                };
+            }
+        }
+    }
+
+    /// The number of a property; it has values of one type.
+    fn property(&mut self, name: &str, kind: Type) -> Result<usize, String> {
+        let word = |kind| match kind {
+            Type::Number => "a number",
+            Type::Text => "a text",
+            Type::Truth => "true or false",
+        };
+        let own = WAYS.iter().position(|(known, _)| *known == name);
+        if own.is_some_and(|own| own < super::judge::MEASURED) {
+            return Err(format!("`{name}` of a way follows from the floor plan, and is not said"));
+        }
+        let known = self.properties.iter().position(|(known, _)| known == name);
+        let before = known.map(|known| self.properties[known].1).or(own.map(|own| WAYS[own].1));
+        if let Some(before) = before.filter(|before| *before != kind) {
+            return Err(format!("`{name}` is {} here, and {} elsewhere", word(kind), word(before)));
+        }
+        Ok(known.unwrap_or_else(|| {
+            self.properties.push((name.to_owned(), kind));
+            self.properties.len() - 1
+        }))
+    }
+}
+
+fn doorway(network: &Network, at: Point) -> Result<usize, String> {
+    let doorways = network.regions.doorways.iter().enumerate();
+    let far =
+        doorways.map(|(number, doorway)| (at.distance(at.nearest_on(doorway.from, doorway.to)), number));
+    let Some((far, number)) = far.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Err("the floor plan has no doorways".to_owned());
+    };
+    if far <= BESIDE_M {
+        return Ok(number);
+    }
+    let middle = network.regions.doorways[number].middle();
+    Err(format!(
+        "no doorway is within {BESIDE_M} m of ({}, {}); the nearest one is about ({:.2}, {:.2}), {far:.2} m away",
+        at.x, at.y, middle.x, middle.y
+    ))
+}
+
+fn region(network: &Network, at: Point) -> Result<usize, String> {
+    let found = network.regions.regions.iter().position(|region| region.contains(at));
+    found.ok_or_else(|| format!("({}, {}) lies in no region: it is in a wall, or outside", at.x, at.y))
+}

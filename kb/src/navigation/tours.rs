@@ -1,0 +1,141 @@
+//! How well a robot knows where it is: long drives with the walls known, and with a model that is built on the way.
+
+use std::sync::Arc;
+
+use adit_engine::RuleBase;
+use adit_planners::navigation::{Building, Outfit, Tour, Wrong, stops};
+use adit_planners::pose::Pose;
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::floor::Floor;
+use crate::draw::{CurvePanel, render_curves};
+use crate::error::{Error, Result};
+
+/// Stops of a drive.
+const STOPS: usize = 12;
+/// The errors that are to be kept, in the median.
+const KEPT_M: f64 = 0.05;
+const KEPT_DEGREES: f64 = 1.0;
+
+/// How a drive went: errors are medians over the readings, unless they are called worst.
+#[derive(Clone, Debug, Serialize)]
+pub struct Driven {
+    /// From which stops and errors are drawn.
+    pub seed: u64,
+    /// Whether the robot knew the walls.
+    pub is_known: bool,
+    /// Metres driven.
+    pub length: f64,
+    /// Metres between where the robot was and where it thought it was.
+    pub error: f64,
+    /// Degrees.
+    pub heading_error: f64,
+    /// Metres.
+    pub worst_error: f64,
+    /// Metres by the wheels alone.
+    pub reckoned_error: f64,
+    /// Degrees by the wheels alone.
+    pub reckoned_heading_error: f64,
+    /// What the rules did not say.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trouble: Option<String>,
+    #[serde(skip)]
+    wrong: Vec<Wrong>,
+}
+
+/// Drives so far with each of so many seeds, with walls known and unknown.
+pub fn drive(
+    floor: &Floor,
+    rules: &Arc<RuleBase>,
+    far_m: f64,
+    seeds: u64,
+    first: u64,
+) -> Result<Vec<Driven>> {
+    let known = floor.building();
+    let unknown = Building { network: known.network.clone(), walls: Vec::new() };
+    let drives: Vec<(bool, u64)> = [true, false]
+        .into_iter()
+        .flat_map(|is_known| (0..seeds).map(move |n| (is_known, first.wrapping_add(n))))
+        .collect();
+    let one = |&(is_known, seed): &(bool, u64)| -> Result<Driven> {
+        let mut judge = floor.judge(rules)?;
+        let radius = floor.network.disc.radius;
+        let stops = stops(&floor.plan, &known.network, radius, STOPS, seed);
+        let [start, _, ..] = stops[..] else {
+            let message = "the plan has no room for a drive: stops need some metres between them";
+            return Err(Error::said("simulate/no-room", message, None));
+        };
+        let stops = [&stops[1..], &stops[..1]].concat();
+        let tour = Tour { start: Pose { at: start, heading: 0.0 }, stops, far_m, seed };
+        let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
+        outfit.robot.radius_m = radius;
+        let of_robot = if is_known { &known } else { &unknown };
+        let wrong = tour
+            .run(&known.walls, of_robot, &outfit, &mut judge)
+            .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+        let trouble = judge.trouble().map(str::to_owned);
+        Ok(Driven::new(seed, is_known, trouble, wrong))
+    };
+    drives.par_iter().map(one).collect()
+}
+
+impl Driven {
+    fn new(seed: u64, is_known: bool, trouble: Option<String>, wrong: Vec<Wrong>) -> Self {
+        let median = |of: fn(&Wrong) -> f64| {
+            let mut values: Vec<f64> = wrong.iter().map(of).collect();
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied().unwrap_or(0.0)
+        };
+        Self {
+            seed,
+            is_known,
+            length: wrong.last().map_or(0.0, |last| last.driven_m),
+            error: median(|wrong| wrong.place_m),
+            heading_error: median(|wrong| wrong.heading).to_degrees(),
+            worst_error: wrong.iter().map(|wrong| wrong.place_m).fold(0.0, f64::max),
+            reckoned_error: median(|wrong| wrong.reckoned_m),
+            reckoned_heading_error: median(|wrong| wrong.reckoned_heading).to_degrees(),
+            trouble,
+            wrong,
+        }
+    }
+
+    /// The largest error of each metre.
+    fn curve(&self, of: impl Fn(&Wrong) -> f64) -> Vec<(f64, f64)> {
+        let metre = |wrong: &Wrong| wrong.driven_m as u64;
+        self.wrong
+            .chunk_by(|one, next| metre(one) == metre(next))
+            .map(|chunk| (metre(&chunk[0]) as f64, chunk.iter().map(&of).fold(0.0, f64::max)))
+            .collect()
+    }
+}
+
+/// The errors of drives over the distance, as a standalone SVG text.
+pub fn draw(world: &str, far_m: f64, drives: &[Driven]) -> String {
+    let mut panels = Vec::new();
+    for (is_known, said) in [(true, "walls known"), (false, "model built on the way")] {
+        let of: Vec<&Driven> = drives.iter().filter(|driven| driven.is_known == is_known).collect();
+        let curves = |error: &dyn Fn(&Wrong) -> f64| of.iter().map(|driven| driven.curve(error)).collect();
+        panels.push(CurvePanel {
+            heading: format!("position, {said}"),
+            unit: "m",
+            scale: [0.001, 100.0],
+            limit: KEPT_M,
+            far_m,
+            bold: curves(&|wrong| wrong.place_m),
+            faint: curves(&|wrong| wrong.reckoned_m),
+        });
+        panels.push(CurvePanel {
+            heading: format!("heading, {said}"),
+            unit: "°",
+            scale: [0.01, 1000.0],
+            limit: KEPT_DEGREES,
+            far_m,
+            bold: curves(&|wrong| wrong.heading.to_degrees()),
+            faint: curves(&|wrong| wrong.reckoned_heading.to_degrees()),
+        });
+    }
+    let title = format!("{world}: errors of the estimated pose, the largest of each metre");
+    render_curves(&title, ["estimated pose", "dead reckoning"], &panels)
+}

@@ -1,0 +1,186 @@
+//! Why a robot did what its journal says: the rules are asked anew, with the facts of that moment.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use adit_db::Store;
+use adit_db::mission::{Decision, Which};
+use adit_engine::Datum;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::judge::RuleJudge;
+use crate::error::{Error, Result};
+use crate::number::number;
+use crate::plan::Spoke;
+use crate::plan::rules::{self, Kind};
+use crate::suggest::did_you_mean;
+
+/// A decision of a mission, and the rules that were looked at.
+#[derive(Clone, Debug, Serialize)]
+pub struct Answer {
+    /// The name of the world.
+    pub world: String,
+    /// The number of the mission.
+    pub mission: i64,
+    /// The entry of the journal.
+    pub entry: i64,
+    /// Seconds by the robot's clock.
+    pub time: f64,
+    /// Where the robot thought it was, metres.
+    pub at: [f64; 2],
+    /// The state before.
+    pub state: String,
+    /// The state after.
+    pub next: String,
+    /// What was done on the way.
+    pub action: String,
+    /// The rule base.
+    pub rules: String,
+    /// What the rules say now, where they have been changed since: next state and action.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub now: Option<[String; 2]>,
+    /// What the rules were told.
+    pub facts: Map<String, Value>,
+    /// The rules that say what comes next, tables row by row: which spoke, and why the others did not.
+    pub considered: Vec<Spoke>,
+}
+
+/// Asks why a robot stopped.
+///
+/// # Arguments
+/// `world` may be left out where the database has missions of one only; `at` are seconds: the decision that was in force
+/// then, instead of the last one that ended a move. `rules` stands instead of the rule base that the mission had.
+pub fn why(
+    database: &Path,
+    mission: &str,
+    world: Option<&str>,
+    at: Option<f64>,
+    rules: Option<&Path>,
+) -> Result<Answer> {
+    let number: i64 = mission.trim().parse().map_err(|_| {
+        let message = format!("`{mission}` is no mission of {}: missions have numbers", database.display());
+        Error::said("why/no-mission", message, None)
+    })?;
+    if let Some(at) = at.filter(|at| !at.is_finite()) {
+        return Err(Error::said("why/time", format!("--at {at} is no time; expected seconds"), None));
+    }
+    let which = at.map_or(Which::LastFrom("move"), Which::At);
+    let mut store = Store::open_read_only(database)?;
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
+        let world = one_world(&tx.worlds_of_missions()?, world, database)?;
+        let (count, first, last) = tx.numbers_of_missions(&world)?;
+        if !(first..=last).contains(&number) {
+            let message =
+                format!("{world} has no mission {number}; its {count} are numbered {first} to {last}");
+            return Err(Error::said("why/no-mission", message, None));
+        }
+        let found = tx.decision(&world, number, which)?;
+        Ok((world, found))
+    })?;
+    let Some(decision) = found else {
+        let message = match at {
+            None => format!(
+                "the robot of mission {number} of {world} never moved, so it did not stop; --at SECONDS asks about another moment"
+            ),
+            Some(at) => {
+                format!("mission {number} of {world} had decided nothing yet at {} s", self::number(at))
+            }
+        };
+        return Err(Error::said("why/no-stop", message, None));
+    };
+    explained(world, number, decision, rules)
+}
+
+fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result<String> {
+    let listed = || format!("it has missions of {}", worlds.join(", "));
+    match (wanted, worlds) {
+        (_, []) => {
+            let help = "`adit simulate WORLD --db FILE` keeps missions with their journals".to_owned();
+            Err(Error::said(
+                "why/no-missions",
+                format!("{} keeps no missions", database.display()),
+                Some(help),
+            ))
+        }
+        (None, [world]) => Ok(world.clone()),
+        (None, _) => {
+            let message = format!("{} has missions of several worlds", database.display());
+            Err(Error::said(
+                "why/which-world",
+                message,
+                Some(format!("--world NAME says which: {}", listed())),
+            ))
+        }
+        (Some(wanted), _) if worlds.iter().any(|world| world == wanted) => Ok(wanted.to_owned()),
+        (Some(wanted), _) => {
+            let help = did_you_mean(wanted, worlds.iter().map(String::as_str)).unwrap_or_else(listed);
+            let message = format!("{} has no missions of a world `{wanted}`", database.display());
+            Err(Error::said("why/which-world", message, Some(help)))
+        }
+    }
+}
+
+fn explained(world: String, mission: i64, decision: Decision, rules: Option<&Path>) -> Result<Answer> {
+    let instead = rules.map(|rules| rules.display().to_string());
+    let name = instead.unwrap_or_else(|| decision.rules.clone());
+    let base = Arc::new(rules::found(Kind::Navigation, &name, Path::new(""))?.base);
+    let mut judge =
+        RuleJudge::new(&base).map_err(|error| Error::said("why/rules", error.to_string(), None))?;
+    let facts: Map<String, Value> =
+        decision.detail.as_deref().and_then(|detail| serde_json::from_str(detail).ok()).unwrap_or_default();
+    let (said, considered) = judge.consider(|name| match facts.get(name) {
+        Some(Value::Number(number)) => number.as_f64().into(),
+        Some(Value::String(text)) => Datum::Text(text),
+        Some(Value::Bool(truth)) => Datum::Truth(*truth),
+        _ => Datum::Unknown,
+    });
+    let was = [decision.next.clone(), decision.action.clone()];
+    Ok(Answer {
+        world,
+        mission,
+        entry: decision.entry,
+        time: decision.time,
+        at: decision.at,
+        state: decision.state,
+        next: decision.next,
+        action: decision.action,
+        rules: name,
+        now: (said != was).then_some(said),
+        considered: considered.into_iter().map(Spoke::from).collect(),
+        facts,
+    })
+}
+
+impl Answer {
+    /// For people.
+    pub fn lines(&self) -> Vec<String> {
+        let action = if self.action == "none" { String::new() } else { format!(", {}", self.action) };
+        let mut lines = vec![format!(
+            "mission {} of {}, {:.2} s, at ({:.2}, {:.2}): {} -> {}{action}",
+            self.mission, self.world, self.time, self.at[0], self.at[1], self.state, self.next
+        )];
+        if let Some([next, action]) = &self.now {
+            lines.push(format!("the rules have changed since: now they say {next}, action {action}"));
+        }
+        let of_state = |spoke: &&Spoke| spoke.row.is_some();
+        for spoke in self.considered.iter().filter(of_state).filter(|spoke| spoke.spoke) {
+            lines.push(format!("because of {}", spoke.text()));
+        }
+        let facts = self.facts.iter().filter(|(_, value)| !value.is_null());
+        let facts: Vec<String> = facts.map(|(name, value)| format!("{name} {}", told(value))).collect();
+        lines.push(format!("told: {}", facts.join(", ")));
+        for spoke in self.considered.iter().filter(of_state).filter(|spoke| !spoke.spoke) {
+            lines.push(format!("not {}", spoke.text()));
+        }
+        lines
+    }
+}
+
+fn told(value: &Value) -> String {
+    match value {
+        Value::Number(value) => value.as_f64().map_or_else(|| value.to_string(), number),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}

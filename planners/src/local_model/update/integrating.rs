@@ -1,0 +1,119 @@
+//! What a scan shows put together with the model.
+
+use super::super::fit::Echo;
+use super::super::matching::{Near, matches};
+use super::super::reinforce::{reinforce, same_surface};
+use super::super::sensor_model::Seen;
+use super::super::{LocalModel, SegmentId, Settings};
+use super::Update;
+use super::looking::Look;
+
+impl LocalModel {
+    /// Reinforces and extends what was seen again.
+    ///
+    /// # Returns
+    /// What is new in the scan, and the places of segments that changed.
+    pub(super) fn integrate(
+        &mut self,
+        seen: &[Seen],
+        near: &[Near],
+        looks: &mut [Look],
+        is_explained: &mut [bool],
+        update: &mut Update,
+    ) -> (Vec<Seen>, Vec<usize>) {
+        let (mut new, mut changed) = (Vec::new(), Vec::new());
+        for one in seen {
+            let found = self.matches(one, near);
+            if found.is_empty() {
+                new.push(one.clone());
+                continue;
+            }
+            update.matched += 1;
+            for on in &found {
+                looks[on.model].is_matched = true;
+            }
+            if found.iter().any(|on| self.segments[on.model].is_anchored) {
+                new.extend(self.beside(one, near));
+            } else {
+                let segment = &mut self.segments[found[0].model];
+                reinforce(segment, &one.fit, &one.line, &self.estimate);
+                changed.push(found[0].model);
+            }
+            for echo in &one.echoes {
+                is_explained[echo.beam] = true;
+            }
+        }
+        changed.sort_unstable();
+        changed.dedup();
+        (new, changed)
+    }
+
+    /// The pieces of a scan's segment that lie beside none of the segments on which it lies. One between two walls, with
+    /// echoes in it, fills the gap: a closed door. One at an end has to be enough for a segment of its own.
+    pub(super) fn beside(&self, one: &Seen, near: &[Near]) -> Vec<Seen> {
+        // whatever lies on the same line leaves nothing of it, however short the part beside it
+        let settings = Settings { match_overlap: 0.0, ..self.settings };
+        let on = matches(one, near, &self.segments, &self.estimate, &settings);
+        let place = |p| one.fit.place(p);
+        let ordered = |a: f64, b: f64| (a.min(b), a.max(b));
+        let lines = on.iter().map(|on| self.segments[on.model].line);
+        let mut covered: Vec<(f64, f64)> = lines.map(|line| ordered(place(line.a), place(line.b))).collect();
+        covered.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (begin, end) = ordered(place(one.line.a), place(one.line.b));
+        let (mut gaps, mut from) = (Vec::new(), begin);
+        for (cover, until) in covered {
+            gaps.push((from, cover.min(end), from > begin && cover < end));
+            from = from.max(until);
+        }
+        gaps.push((from, end, false));
+        // an end is not known better than two segments that are joined there
+        let margin = self.settings.join_m / 2.0;
+        let piece = |(from, to, is_between): (f64, f64, bool)| {
+            let is_in = |echo: &&Echo| (from + margin..=to - margin).contains(&place(echo.at));
+            let echoes: Vec<Echo> = one.echoes.iter().filter(is_in).copied().collect();
+            let enough = if is_between { 2 } else { self.settings.fewest_echoes };
+            let is_enough = echoes.len() >= enough && to - from >= self.settings.shortest_m + 2.0 * margin;
+            is_enough.then(|| one.piece(from, to, echoes))
+        };
+        gaps.into_iter().filter(|(from, to, _)| from + 2.0 * margin < *to).filter_map(piece).collect()
+    }
+
+    /// Joins segments that have grown over one another.
+    ///
+    /// # Returns
+    /// The names of those that were absorbed.
+    pub(super) fn merge(
+        &mut self,
+        changed: &[SegmentId],
+        near: &[Near],
+        looks: &mut Vec<Look>,
+    ) -> Vec<SegmentId> {
+        let mut absorbed: Vec<usize> = Vec::new();
+        for id in changed {
+            let Ok(one) = self.place(*id) else { continue };
+            for other in near.iter().map(|wall| wall.model) {
+                let (a, b) = (&self.segments[one], &self.segments[other]);
+                let is_loose = !a.is_anchored && !b.is_anchored && a.object == b.object;
+                if one == other || absorbed.contains(&other) || absorbed.contains(&one) || !is_loose {
+                    continue;
+                }
+                if let Some(line) = same_surface(a, b, &self.settings) {
+                    let other_one = *b;
+                    let segment = &mut self.segments[one];
+                    reinforce(segment, &line, &other_one.line, &self.estimate);
+                    segment.confidence = segment.confidence.max(other_one.confidence);
+                    segment.counts_for_pose |= other_one.counts_for_pose;
+                    segment.age = segment.age.max(other_one.age);
+                    absorbed.push(other);
+                }
+            }
+        }
+        absorbed.sort_unstable();
+        let ids = absorbed.iter().map(|&place| self.segments[place].id).collect();
+        for place in absorbed.into_iter().rev() {
+            self.segments.remove(place);
+            looks.remove(place);
+        }
+        ids
+    }
+}

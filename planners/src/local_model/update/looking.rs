@@ -1,0 +1,113 @@
+//! What a scan says of the segments of the model, and of the pose.
+
+use super::super::beam::Beam;
+use super::super::correction::Correction;
+use super::super::matching::{Match, Near, matches};
+use super::super::sensor_model::Seen;
+use super::super::sight::{Crossing, Evidence, Fan};
+use super::super::{LocalModel, ModelSegment};
+
+/// What a scan says of a segment.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Look {
+    pub is_matched: bool,
+    pub evidence: Evidence,
+}
+
+/// The first segment that a beam meets.
+pub(super) type First = Option<(usize, Crossing)>;
+
+impl LocalModel {
+    /// The places of segments within hearing.
+    pub(super) fn within_hearing(&self) -> impl Iterator<Item = usize> {
+        let reach = self.settings.sonar_range_m + self.settings.match_offset_m;
+        let at = self.estimate.pose.at;
+        let is_near = move |segment: &ModelSegment| {
+            let line = &segment.line;
+            line.a.x.min(line.b.x) - reach <= at.x
+                && at.x <= line.a.x.max(line.b.x) + reach
+                && line.a.y.min(line.b.y) - reach <= at.y
+                && at.y <= line.a.y.max(line.b.y) + reach
+        };
+        self.segments.iter().enumerate().filter(move |(_, segment)| is_near(segment)).map(|(place, _)| place)
+    }
+
+    pub(super) fn near(&self) -> Vec<Near> {
+        self.within_hearing().map(|place| Near::new(place, &self.segments[place])).collect()
+    }
+
+    pub(super) fn matches(&self, seen: &Seen, near: &[Near]) -> Vec<Match> {
+        matches(seen, near, &self.segments, &self.estimate, &self.settings)
+    }
+
+    /// The mean error of matched segments, in orientation and position.
+    pub(super) fn correct_by_matches(&mut self, seen: &[Seen], near: &[Near]) -> usize {
+        let mut correction = Correction::new();
+        for one in seen {
+            let firm = |on: &Match| self.segments[on.model].counts_for_pose;
+            if let Some(on) = self.matches(one, near).into_iter().find(firm) {
+                correction.by_match(one, &on, &self.segments[on.model], &self.estimate, &self.settings);
+            }
+        }
+        self.estimate = correction.apply(&self.estimate, &self.settings);
+        correction.count
+    }
+
+    /// What beams say of the segments within hearing, what each beam meets first, and whether the model explains it.
+    pub(super) fn look(&self, beams: &[Beam], near: &[Near]) -> (Vec<Look>, Vec<First>, Vec<bool>) {
+        let fan = Fan::new(beams);
+        let mut looks = vec![Look::default(); self.segments.len()];
+        let mut firsts: Vec<First> = vec![None; beams.len()];
+        let mut is_explained = vec![false; beams.len()];
+        let mut crossings = Vec::new();
+        let at = self.estimate.pose.at;
+        let (sigma_m, sigma_heading) = (self.estimate.sigma_m(), self.estimate.sigma_heading());
+        for wall in near {
+            let segment = &self.segments[wall.model];
+            fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
+            if crossings.is_empty() {
+                continue;
+            }
+            let far = segment.line.distance(at);
+            let sigma = sigma_m.hypot(segment.sigma_m).hypot(sigma_heading * far);
+            for crossing in &crossings {
+                let first = &mut firsts[crossing.beam];
+                if first.is_none_or(|(_, other)| crossing.range_m < other.range_m) {
+                    *first = Some((wall.model, *crossing));
+                }
+                let beam = &beams[crossing.beam];
+                is_explained[crossing.beam] |= crossing.agrees(beam, sigma, &self.settings);
+            }
+            looks[wall.model].evidence =
+                Evidence::new(&mut crossings, beams, wall.length_m, sigma, &self.settings);
+        }
+        (looks, firsts, is_explained)
+    }
+
+    /// Readings in critical directions: there the model predicts them, and no matched segment has used them.
+    pub(super) fn correct_by_readings(
+        &mut self,
+        beams: &[Beam],
+        firsts: &[First],
+        seen: &[Seen],
+        is_explained: &[bool],
+    ) -> usize {
+        let mut is_used = vec![false; beams.len()];
+        for echo in seen.iter().flat_map(|one| &one.echoes) {
+            is_used[echo.beam] = true;
+        }
+        let mut correction = Correction::new();
+        let (sine, margin) = (self.settings.critical_angle.sin(), self.settings.critical_margin_m);
+        for (i, first) in firsts.iter().enumerate() {
+            let Some((model, crossing)) = first else { continue };
+            let segment = &self.segments[*model];
+            let is_inside = crossing.place_m >= margin && crossing.place_m <= segment.line.length() - margin;
+            let is_critical = crossing.sine >= sine && is_inside && segment.counts_for_pose;
+            if !is_used[i] && is_explained[i] && is_critical {
+                correction.by_reading(&beams[i], crossing, segment, &self.estimate, &self.settings);
+            }
+        }
+        self.estimate = correction.apply(&self.estimate, &self.settings);
+        correction.count
+    }
+}
