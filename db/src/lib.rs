@@ -19,6 +19,7 @@ mod guard;
 pub mod history;
 pub mod hours;
 pub mod kept;
+pub mod learned;
 pub mod load;
 mod migrate;
 pub mod mission;

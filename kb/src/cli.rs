@@ -6,6 +6,7 @@ mod demo;
 mod doctor;
 mod firm;
 mod fit;
+mod learn;
 mod new;
 mod output;
 mod picture;
@@ -456,6 +457,19 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// Instead of missions, learn the building, of which the robot knows nothing but where it starts, a place or `x,y`;
+    /// with --db what was learned is kept
+    #[arg(long, value_name = "START", allow_hyphen_values = true, conflicts_with_all = ["start", "curve", "learned", "drive"])]
+    pub learn: Option<String>,
+    /// The direction of exploration that the user points out: towards a place or `x,y`
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true, requires = "learn")]
+    pub towards: Option<String>,
+    /// The robot knows of the building what was learned of it and stands in --db
+    #[arg(long, requires = "db", conflicts_with = "curve")]
+    pub learned: bool,
+    /// Instead of missions, drive by hand in the learned building: a file of orders, or `-` for standard input
+    #[arg(long, value_name = "FILE", requires = "learned", conflicts_with_all = ["start", "film"])]
+    pub drive: Option<PathBuf>,
     /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance, with the
     /// walls known and with a model built on the way: .svg or .png; --missions says how many drives of each
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]

@@ -1,10 +1,13 @@
 //! Navigation on floor plans (Crowley): paths over regions and adits, and missions of a simulated robot that meets what
 //! its plan does not know. Rules decide; `adit_planners::navigation` drives.
 
+pub mod drive;
 pub mod floor;
+pub mod guide;
 pub mod journal;
 pub mod judge;
 pub mod keep;
+pub mod learning;
 pub mod missions;
 pub mod reading;
 pub mod told;

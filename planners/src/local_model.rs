@@ -167,8 +167,11 @@ impl LocalModel {
         let reach = self.settings.match_sigmas * self.estimate.sigma_m() + self.settings.join_m / 2.0;
         if let Some((place, known)) = nearest.filter(|(_, segment)| far(segment) <= reach) {
             let id = known.id;
-            let facts =
-                SegmentFacts { is_matched: true, is_visible: true, ..known.facts(self.estimate.pose.at) };
+            let facts = SegmentFacts {
+                is_matched: true,
+                is_visible: true,
+                ..known.facts(self.estimate.pose.at, self.settings.is_learning)
+            };
             let transition = decide(&facts);
             self.segments[place].follow(transition);
             if !transition.is_kept {
@@ -192,9 +195,9 @@ impl LocalModel {
         is_matched: bool,
         decide: &mut impl FnMut(&SegmentFacts) -> Transition,
     ) -> bool {
-        let at = self.estimate.pose.at;
+        let (at, is_learning) = (self.estimate.pose.at, self.settings.is_learning);
         let Some(segment) = self.segments.last_mut() else { return false };
-        let transition = decide(&SegmentFacts { is_matched, ..segment.facts(at) });
+        let transition = decide(&SegmentFacts { is_matched, ..segment.facts(at, is_learning) });
         segment.follow(transition);
         if !transition.is_kept {
             self.segments.pop();

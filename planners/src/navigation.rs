@@ -8,12 +8,14 @@
 
 mod cuts;
 mod detour;
+mod drive;
 mod event;
 mod field;
 mod free_grid;
 mod highway;
 mod judge;
 mod known;
+pub mod learn;
 mod mission;
 mod missions;
 mod navigator;
@@ -21,6 +23,7 @@ mod route;
 mod settings;
 mod tour;
 
+pub use drive::{Driven, Order, drive};
 pub use event::{Ending, Event, Happening};
 pub use judge::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 pub use known::Building;

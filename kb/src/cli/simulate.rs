@@ -13,7 +13,8 @@ use super::output::{json, line, remark, table};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
-use crate::navigation::missions::{Row, drawn, journalled, run as run_all};
+use crate::navigation::learning;
+use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
 use crate::number::number;
 use crate::plan::{Task, World};
 use crate::progress::Bar;
@@ -29,18 +30,32 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     if let Some(output) = &args.curve {
         return super::curve::run(args, output, &world.name, floor, &rules);
     }
-    let missions = missions(args, floor)?;
+    if let Some(start) = &args.learn {
+        return super::learn::run(args, start, &world.name, (floor, &name), &rules);
+    }
+    let learned = if args.learned { Some(learned(args, &world.name, floor)?) } else { None };
+    if let Some(script) = &args.drive {
+        return match learned {
+            Some((stored, known)) => super::learn::drive(args, script, (stored, floor, &known), &rules),
+            None => Err(Error::said("simulate/drive", "--drive goes with --learned and --db", None)),
+        };
+    }
+    let stage = match &learned {
+        Some((_, known)) => Stage::learned(floor, known, learning::START_SIGMA_M),
+        None => Stage::new(floor),
+    };
+    let known = learned.as_ref().map_or(&**floor, |(_, known)| known);
+    let missions = missions(args, floor, known)?;
     let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
-        kept(&world.name, &name, floor, &rules, &missions, db)?
+        kept(&world.name, &name, &stage, &rules, &missions, db)?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
-        run_all(floor, &rules, &missions, || bar.step())?
+        run_all(&stage, &rules, &missions, || bar.step())?
     };
     if let (Some(film), Some(mission)) = (&args.film, filmed) {
-        let building = floor.building();
         let mut made = None;
-        journalled(floor, &building, &rules, (args.mission, mission), Some(&mut made))?;
+        journalled(&stage, &rules, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
             std::fs::write(film, made.svg(args.speed)).map_err(|error| Error::io("write", film, &error))?;
             remark(&format!("{}: mission {}", film.display(), args.mission));
@@ -74,17 +89,16 @@ fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m
 fn kept(
     world: &str,
     rules_name: &str,
-    floor: &Floor,
+    stage: &Stage<'_>,
     rules: &Arc<RuleBase>,
     missions: &[Mission],
     db: &Path,
 ) -> Result<Vec<Row>> {
-    let building = floor.building();
     let mut store = Store::open_or_create(db)?;
     let bar = Bar::new("missions", missions.len() as u64);
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
-        let (row, entries, noting) = journalled(floor, &building, rules, (index + 1, mission), None)?;
+        let (row, entries, noting) = journalled(stage, rules, (index + 1, mission), None)?;
         let record = record(world, rules_name, &row, &entries, noting);
         store.transaction(|tx| tx.keep_mission(&record))?;
         rows.push(row);
@@ -93,19 +107,44 @@ fn kept(
     Ok(rows)
 }
 
-/// The missions that are drawn, or the one from START to GOAL.
-fn missions(args: &SimulateArgs, floor: &Floor) -> Result<Vec<Mission>> {
+/// What was learned of the world, from the database.
+fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::learned::Learned, Floor)> {
+    let Some(db) = &args.db else {
+        return Err(Error::said(
+            "simulate/learned",
+            "--learned goes with --db: the building stands there",
+            None,
+        ));
+    };
+    let stored = Store::open(db)?.transaction(|tx| tx.learned(world))?;
+    let Some(stored) = stored else {
+        let message = format!("{} has no building that was learned of the world `{world}`", db.display());
+        let help = "learn it first: `adit simulate WORLD --learn START --db FILE`".to_owned();
+        return Err(Error::said("simulate/not-learned", message, Some(help)));
+    };
+    let known = learning::known(&stored, floor)?;
+    Ok((stored, known))
+}
+
+/// The missions that are drawn, or the one from START to GOAL: places as the robot knows them, else as the world has them.
+fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mission>> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
         return drawn(floor, args.missions as usize, args.seed);
     };
-    let (start, goal) = (floor.point(start)?, floor.point(goal)?);
-    if !(-360.0..=360.0).contains(&args.heading) {
-        let message = format!("--heading {} is no heading; expected degrees from -360 to 360", args.heading);
-        return Err(Error::said("simulate/heading", message, None));
-    }
-    let heading = args.heading.to_radians();
+    let point = |text: &str| known.point(text).or_else(|_| floor.point(text));
+    let (start, goal) = (point(start)?, point(goal)?);
+    let heading = heading(args)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
+}
+
+/// The heading at the start, radians.
+pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
+    if (-360.0..=360.0).contains(&args.heading) {
+        return Ok(args.heading.to_radians());
+    }
+    let message = format!("--heading {} is no heading; expected degrees from -360 to 360", args.heading);
+    Err(Error::said("simulate/heading", message, None))
 }
 
 fn show(rows: &[Row]) {

@@ -60,6 +60,7 @@ pub const SEGMENTS: &[(&str, Type)] = &[
     ("distance", Type::Number),
     ("length", Type::Number),
     ("sigma", Type::Number),
+    ("is_learning", Type::Truth),
 ];
 
 /// What rules are told of a way between adits.
@@ -256,6 +257,7 @@ fn situation(facts: &StateFacts) -> [Datum<'static>; SITUATIONS.len()] {
     let mode = match facts.mode {
         Mode::Automatic => "automatic",
         Mode::Manual => "manual",
+        Mode::Learn => "learn",
     };
     object[const { place(SITUATIONS, "mode") }] = Datum::Text(mode);
     object[const { place(SITUATIONS, "state") }] = Datum::Text(state_word(facts.state));
@@ -308,6 +310,7 @@ fn segment(facts: &SegmentFacts) -> [Datum<'static>; SEGMENTS.len()] {
         (const { place(SEGMENTS, "is_visible") }, facts.is_visible),
         (const { place(SEGMENTS, "is_seen_free") }, facts.is_seen_free),
         (const { place(SEGMENTS, "is_moving") }, facts.is_moving),
+        (const { place(SEGMENTS, "is_learning") }, facts.is_learning),
     ] {
         object[at] = Datum::Truth(truth);
     }

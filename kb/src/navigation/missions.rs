@@ -5,12 +5,14 @@ use std::time::Instant;
 
 use adit_engine::RuleBase;
 use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, draw};
+use adit_planners::segment::Segment;
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
 use super::journal::Noting;
+use super::judge::RuleJudge;
 use crate::error::{Error, Result};
 
 /// How a mission went.
@@ -79,16 +81,48 @@ pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> 
     (0..missions).map(of).collect()
 }
 
+/// Where missions are run: the world as it is, and as the robot knows it.
+#[derive(Debug)]
+pub struct Stage<'f> {
+    truth: &'f Floor,
+    known: &'f Floor,
+    walls: Vec<Segment>,
+    building: Building,
+    outfit: Outfit,
+}
+
+impl<'f> Stage<'f> {
+    /// A world that the robot knows.
+    pub fn new(floor: &'f Floor) -> Self {
+        Self::learned(floor, floor, Outfit::default().start_sigma_m)
+    }
+
+    /// A world of which the robot knows what was learned of it.
+    ///
+    /// # Arguments
+    /// `start_sigma_m` is how sure it is of where it begins: the model is a little off.
+    pub fn learned(truth: &'f Floor, known: &'f Floor, start_sigma_m: f64) -> Self {
+        let mut outfit = Outfit { navigation: truth.settings, start_sigma_m, ..Outfit::default() };
+        outfit.robot.radius_m = truth.network.disc.radius;
+        let walls = truth.plan.barriers().into_iter().map(Segment::from).collect();
+        Self { truth, known, walls, building: known.building(), outfit }
+    }
+
+    /// The judge that decides for the robot.
+    fn judge(&self, rules: &Arc<RuleBase>) -> Result<RuleJudge> {
+        self.known.judge(rules)
+    }
+}
+
 /// Runs missions on all cores; `done` is told of each.
 pub fn run(
-    floor: &Floor,
+    stage: &Stage<'_>,
     rules: &Arc<RuleBase>,
     missions: &[Mission],
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>> {
-    let building = floor.building();
     let run = |(index, mission): (usize, &Mission)| {
-        let row = one(floor, &building, rules, index + 1, mission);
+        let row = one(stage, rules, index + 1, mission);
         done();
         row
     };
@@ -96,51 +130,40 @@ pub fn run(
 }
 
 /// Runs a mission without a journal.
-fn one(
-    floor: &Floor,
-    building: &Building,
-    rules: &Arc<RuleBase>,
-    number: usize,
-    mission: &Mission,
-) -> Result<Row> {
-    let mut judge = floor.judge(rules)?;
-    let row = judged(floor, building, &mut judge, number, mission, |_| {}, None)?;
+fn one(stage: &Stage<'_>, rules: &Arc<RuleBase>, number: usize, mission: &Mission) -> Result<Row> {
+    let mut judge = stage.judge(rules)?;
+    let row = judged(stage, &mut judge, number, mission, |_| {}, None)?;
     Ok(Row { trouble: judge.trouble().map(str::to_owned), ..row })
 }
 
 /// Runs a mission and keeps all that happened; `film` is made where it is wanted.
 pub fn journalled(
-    floor: &Floor,
-    building: &Building,
+    stage: &Stage<'_>,
     rules: &Arc<RuleBase>,
     (number, mission): (usize, &Mission),
     film: Option<&mut Option<Film>>,
 ) -> Result<(Row, Vec<Entry>, Noting)> {
-    let mut noting = Noting::new(floor.judge(rules)?);
+    let mut noting = Noting::new(stage.judge(rules)?);
     let mut entries = Vec::new();
-    let row = judged(floor, building, &mut noting, number, mission, |entry| entries.push(entry), film)?;
+    let row = judged(stage, &mut noting, number, mission, |entry| entries.push(entry), film)?;
     let row = Row { trouble: noting.trouble().map(str::to_owned), ..row };
     Ok((row, entries, noting))
 }
 
 fn judged(
-    floor: &Floor,
-    building: &Building,
+    stage: &Stage<'_>,
     judge: &mut impl Judge,
     number: usize,
     mission: &Mission,
     journal: impl FnMut(Entry),
     film: Option<&mut Option<Film>>,
 ) -> Result<Row> {
-    let radius = floor.network.disc.radius;
-    let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
-    outfit.robot.radius_m = radius;
     let before = Instant::now();
     let outcome = mission
-        .run(building, &outfit, judge, journal, film)
+        .run_among(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
-    let possible = mission.possible(&floor.plan, radius);
+    let possible = mission.possible(&stage.truth.plan, stage.truth.network.disc.radius);
     Ok(Row {
         mission: number,
         seed: mission.seed,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use adit_engine::{RuleBase, Schema, Severity, Type};
 
 use crate::error::{Error, Result};
+use crate::navigation::guide::OPENINGS;
 use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
 use crate::rules::{self, Rules};
 
@@ -43,7 +44,8 @@ impl Kind {
             Self::Navigation => Schema::default()
                 .class("SITUATIONS", SITUATIONS)
                 .class("SEGMENTS", SEGMENTS)
-                .class("WAYS", WAYS),
+                .class("WAYS", WAYS)
+                .class("OPENINGS", OPENINGS),
         }
     }
 }

@@ -108,6 +108,20 @@ impl Network {
         Ok(network)
     }
 
+    /// The network of a building of which nothing is known: no region, no way.
+    pub fn none(disc: Disc) -> Self {
+        let (regions, mesh) = (Regions::default(), Mesh::default());
+        Self {
+            disc,
+            regions,
+            adits: Vec::new(),
+            ways: Vec::new(),
+            notes: Vec::new(),
+            mesh,
+            barriers: Vec::new(),
+        }
+    }
+
     /// The adits of a region, by index.
     pub fn adits_of(&self, region: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.adits.len()).filter(move |&adit| self.adits[adit].region == region)

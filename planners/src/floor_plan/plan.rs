@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::check::Check;
-use super::noding::Noded;
+use super::noding::{Noded, SNAP_M};
 use super::planar::Planar;
 use crate::geometry::{Point, Rect};
 use crate::read::{Code, MapErrors, Problem, Text};
@@ -62,6 +62,29 @@ impl FloorPlan {
         Self::from_source(drawn, Source::default())
     }
 
+    /// The plan of the free space that a point lies in, and of nothing else: walls without that beside them are left
+    /// out, and other free space counts as solid.
+    pub fn around(drawn: Drawn, at: Point) -> Result<Self, MapErrors> {
+        let Drawn { name, mut walls, solids, places } = drawn;
+        let source = Source::default();
+        let mut check = Check::new(&source);
+        check.shapes(&walls, &solids);
+        check.names(&places);
+        check.stop()?;
+        let (noded, ring_from) = check.outlines(&walls, &solids)?;
+        let mut space = Space::new(&noded, ring_from);
+        space.keep_around(at)?;
+        let is_beside = |wall: &[Point; 2]| space.bounds().any(|edge| is_on(edge, *wall));
+        walls.retain(is_beside);
+        let (noded, ring_from) = check.outlines(&walls, &solids)?;
+        let mut space = Space::new(&noded, ring_from);
+        space.keep_around(at)?;
+        check.places(&places, &walls, &solids, &space);
+        check.stop()?;
+        let space = Arc::new(space);
+        Ok(Self { name, walls, solids, places, source, space })
+    }
+
     /// The floor plan of a map: its edge and all that is solid on it, polygons as they are drawn. Bridges are left
     /// out, and so is the map's clearance: a disc has a margin of its own.
     pub fn of_world(world: &World) -> Result<Self, MapErrors> {
@@ -107,12 +130,7 @@ impl FloorPlan {
 
     /// Whatever stops a robot or an echo: walls, and outlines of solid things.
     pub fn barriers(&self) -> Vec<[Point; 2]> {
-        self.space
-            .plan
-            .edges
-            .iter()
-            .map(|edge| edge.ends.map(|n| self.space.plan.points[n as usize]))
-            .collect()
+        self.space.bounds().collect()
     }
 
     /// The area of the free space, square metres.
@@ -152,12 +170,43 @@ impl Space {
 
     /// Whether a point lies in free space; on its outline it may or may not.
     pub fn is_free(&self, p: Point) -> bool {
+        self.cycle_around(p)
+            .is_some_and(|cycle| self.free_half[self.plan.cycles[cycle as usize].first as usize])
+    }
+
+    /// The outline of the face that a point lies in.
+    fn cycle_around(&self, p: Point) -> Option<u32> {
         let area = |&c: &u32| self.plan.cycles[c as usize].area;
         let outer = (0..self.plan.cycles.len() as u32).filter(|c| area(c) > 0.0);
         let around = outer.filter(|&c| self.plan.is_inside(c, p));
-        let nearest = around.min_by(|a, b| area(a).total_cmp(&area(b)));
-        nearest.is_some_and(|cycle| self.free_half[self.plan.cycles[cycle as usize].first as usize])
+        around.min_by(|a, b| area(a).total_cmp(&area(b)))
     }
+
+    /// Keeps of the free space the face that a point lies in.
+    fn keep_around(&mut self, p: Point) -> Result<(), MapErrors> {
+        let faces = self.plan.faces();
+        let face = self.cycle_around(p).filter(|_| self.is_free(p)).and_then(|cycle| faces[cycle as usize]);
+        let Some(face) = face else {
+            let message = format!("no free space with a closed outline is around ({}, {})", p.x, p.y);
+            return Err(Problem::of_file(Code::OpenOutline, message).into());
+        };
+        for (half, cycle) in self.plan.cycle_of.iter().enumerate() {
+            self.free_half[half] &= faces[*cycle as usize] == Some(face);
+        }
+        Ok(())
+    }
+
+    /// The edges with free space on a side.
+    fn bounds(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        let edges = self.plan.edges.iter().zip(self.free_half.chunks(2));
+        let beside = edges.filter(|(_, halves)| halves.contains(&true));
+        beside.map(|(edge, _)| edge.ends.map(|n| self.plan.points[n as usize]))
+    }
+}
+
+/// Whether an edge is a part of a wall.
+fn is_on([p, q]: [Point; 2], [a, b]: [Point; 2]) -> bool {
+    [p, q].iter().all(|end| end.distance(end.nearest_on(a, b)) <= 2.0 * SNAP_M)
 }
 
 fn rectangle(r: &Rect) -> Vec<Point> {

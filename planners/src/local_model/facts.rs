@@ -47,6 +47,8 @@ pub struct SegmentFacts {
     pub distance_m: f64,
     /// Its length, metres.
     pub length_m: f64,
+    /// Whether the model is to become a global one.
+    pub is_learning: bool,
     /// How firm its place is: standard deviation across it, metres.
     pub sigma_m: f64,
 }

@@ -41,7 +41,7 @@ pub struct ModelSegment {
 
 impl ModelSegment {
     /// What is known of it without a scan, for a robot at a place.
-    pub(super) fn facts(&self, robot: Point) -> SegmentFacts {
+    pub(super) fn facts(&self, robot: Point, is_learning: bool) -> SegmentFacts {
         SegmentFacts {
             id: self.id,
             source: self.source,
@@ -57,6 +57,7 @@ impl ModelSegment {
             unseen: self.unseen,
             distance_m: self.line.distance(robot),
             length_m: self.line.length(),
+            is_learning,
             sigma_m: self.sigma_m,
         }
     }

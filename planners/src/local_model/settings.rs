@@ -70,6 +70,8 @@ pub struct Settings {
     pub object_step_m: f64,
     /// Scans without sight of an object until it is forgotten.
     pub object_patience: u32,
+    /// Whether the model is to become a global one; the state table is told.
+    pub is_learning: bool,
 }
 
 impl Default for Settings {
@@ -107,6 +109,7 @@ impl Default for Settings {
             object_speed_m_s: 1.0,
             object_step_m: 0.25,
             object_patience: 3,
+            is_learning: false,
         }
     }
 }

@@ -12,6 +12,8 @@ pub enum Mode {
     Manual,
     /// The navigator does, to a goal in a known building.
     Automatic,
+    /// The navigator does, a little way through a building that is being learned.
+    Learn,
 }
 
 /// States of straight-line movement (Crowley 1985, Figure 5).

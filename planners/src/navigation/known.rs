@@ -1,7 +1,7 @@
 //! What the navigator knows of the building, and of obstacles in it.
 
 use super::Settings;
-use crate::floor_plan::{FloorPlan, Network};
+use crate::floor_plan::{Disc, FloorPlan, Network};
 use crate::geometry::Point;
 use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
 use crate::segment::Segment;
@@ -19,6 +19,11 @@ impl Building {
     /// The building of a floor plan with its network.
     pub fn new(plan: &FloorPlan, network: Network) -> Self {
         Self { network, walls: plan.barriers().into_iter().map(Segment::from).collect() }
+    }
+
+    /// A building of which nothing is known, for a robot.
+    pub fn unknown(disc: Disc) -> Self {
+        Self { network: Network::none(disc), walls: Vec::new() }
     }
 }
 

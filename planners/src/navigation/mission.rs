@@ -7,6 +7,7 @@ use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
 use crate::geometry::Point;
 use crate::local_model::{self, Estimate};
 use crate::pose::{Pose, wrapped};
+use crate::segment::Segment;
 use crate::simulator::{self, Film, Obstacle, SimulationError, Simulator};
 
 /// A robot's start, its goal, and what nobody told it of.
@@ -23,7 +24,7 @@ pub struct Mission {
 }
 
 /// How a robot and its navigator are set.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outfit {
     /// The robot.
     pub robot: simulator::Settings,
@@ -31,6 +32,26 @@ pub struct Outfit {
     pub model: local_model::Settings,
     /// Its navigator.
     pub navigation: Settings,
+    /// How sure it is of the place where it begins: standard deviation, metres.
+    pub start_sigma_m: f64,
+}
+
+impl Default for Outfit {
+    fn default() -> Self {
+        Self {
+            robot: simulator::Settings::default(),
+            model: local_model::Settings::default(),
+            navigation: Settings::default(),
+            start_sigma_m: 0.01,
+        }
+    }
+}
+
+impl Outfit {
+    /// Where a robot thinks that it is when it is switched on.
+    pub(super) fn estimate(&self, start: Pose) -> Estimate {
+        Estimate::new(start, self.start_sigma_m, 0.5_f64.to_radians())
+    }
 }
 
 /// An event with the truth beside it.
@@ -83,7 +104,7 @@ pub struct Possible {
 pub const ROOM_M: f64 = 0.10;
 
 impl Mission {
-    /// Runs the mission.
+    /// Runs the mission in a building that is as the robot knows it, but for the obstacles.
     ///
     /// # Arguments
     /// `journal` gets every event; `film` gets a frame for each scan and for each event worth a caption.
@@ -92,12 +113,24 @@ impl Mission {
         building: &Building,
         outfit: &Outfit,
         judge: &mut impl Judge,
+        journal: impl FnMut(Entry),
+        film: Option<&mut Option<Film>>,
+    ) -> Result<Outcome, SimulationError> {
+        self.run_among(&building.walls, building, outfit, judge, journal, film)
+    }
+
+    /// As [`Self::run`], among walls that may be others than those that the robot knows of.
+    pub fn run_among(
+        &self,
+        walls: &[Segment],
+        building: &Building,
+        outfit: &Outfit,
+        judge: &mut impl Judge,
         mut journal: impl FnMut(Entry),
         mut film: Option<&mut Option<Film>>,
     ) -> Result<Outcome, SimulationError> {
-        let mut body =
-            Simulator::new(&building.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
-        let start = Estimate::new(self.start, 0.01, 0.5_f64.to_radians());
+        let mut body = Simulator::new(walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
+        let start = outfit.estimate(self.start);
         let mut navigator = Navigator::new(building, outfit.model, outfit.navigation, start);
         if let Some(film) = &mut film {
             **film = Some(Film::new(&body));
@@ -172,7 +205,7 @@ fn at_rest(obstacle: &Obstacle) -> Vec<Point> {
 }
 
 /// How deep something is within the robot, metres.
-fn overlap(body: &Simulator) -> f64 {
+pub(super) fn overlap(body: &Simulator) -> f64 {
     let at = body.pose().at;
     let sides = body.obstacles().flatten().chain(body.walls());
     let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);

@@ -13,6 +13,7 @@ use super::detour::Detours;
 use super::event::{Ending, Event, Happening};
 use super::judge::{Action, Judge, Mode, State};
 use super::known::{Building, Memory};
+use super::learn::Seen;
 use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::Point;
 use crate::local_model::{Estimate, LocalModel};
@@ -82,6 +83,8 @@ pub struct Navigator<'b> {
     /// What was touched, and when; the model may have it elsewhere.
     felt: Vec<(f64, Segment)>,
     detours: Option<Detours>,
+    /// What was seen free, in learn mode.
+    seen: Option<Seen>,
     events: Vec<Event>,
 }
 
@@ -160,6 +163,7 @@ impl<'b> Navigator<'b> {
             scans: 0,
             felt: Vec::new(),
             detours: None,
+            seen: None,
             events: Vec::new(),
         }
     }
@@ -210,8 +214,21 @@ impl<'b> Navigator<'b> {
         if is_manual {
             self.readings_standing = 0;
             body.command(command);
+            if let Some(sensed) = &mut self.sensed {
+                sensed.is_busy = true;
+            }
         }
         is_manual
+    }
+
+    /// Whether a command is still being carried out.
+    pub fn is_busy(&self) -> bool {
+        self.sensed.is_none_or(|sensed| sensed.is_busy)
+    }
+
+    /// The figures that it goes by.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Plans a path to a goal, and goes there from now on.
@@ -222,6 +239,25 @@ impl<'b> Navigator<'b> {
         self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         self.gather();
         self.plan(judge, false);
+    }
+
+    /// Keeps what is seen free from now on.
+    pub(super) fn learn(&mut self) {
+        self.seen = Some(Seen::default());
+    }
+
+    /// What was seen free since [`Self::learn`], cell by cell.
+    pub(super) fn seen(&self) -> Option<&Seen> {
+        self.seen.as_ref()
+    }
+
+    /// Goes from point to point of a way through what is known; it is over when the last is reached, or where the way is
+    /// blocked and the judge gives it up.
+    pub(super) fn go_along(&mut self, points: Vec<Point>) {
+        (self.mode, self.goal, self.retries, self.scans) = (Mode::Learn, points.last().copied(), 0, 0);
+        (self.begun_s, self.has_way, self.spot) = (self.time_s(), !points.is_empty(), Spot::default());
+        self.legs = points.into();
+        self.gather();
     }
 
     /// Goes on until a mission is over. Only for a goal that was given.
@@ -267,11 +303,22 @@ impl<'b> Navigator<'b> {
         self.readings_standing >= self.settings.scan_readings
     }
 
+    /// Where the wheels' count puts the robot.
+    pub(super) fn odometry(&self) -> Pose {
+        self.sensed.map_or_else(Pose::default, |sensed| sensed.odometry)
+    }
+
+    /// The surfaces that stand: all of them, or those of which the model is sure enough to close a way by them.
+    pub(super) fn surfaces(&self, is_sure: bool) -> Vec<Segment> {
+        self.obstacles(if is_sure { self.settings.least_confidence } else { 1 })
+    }
+
     fn pose(&self) -> Pose {
         self.model.estimate().pose
     }
 
-    fn time_s(&self) -> f64 {
+    /// Seconds by the body's clock.
+    pub(super) fn time_s(&self) -> f64 {
         self.sensed.map_or(0.0, |sensed| sensed.time_s)
     }
 

@@ -4,7 +4,7 @@
 //!
 //! | state   | if                                                     | next    | action   |
 //! |---------|--------------------------------------------------------|---------|----------|
-//! | Hold    | mode is not Automatic                                  | Hold    |          |
+//! | Hold    | mode is Manual                                         | Hold    |          |
 //! | Hold    | has_way is false                                       | Blocked |          |
 //! | Hold    | has_goal                                               | Decide  |          |
 //! | Hold    | otherwise                                              | Hold    |          |
@@ -32,6 +32,7 @@
 //! | Blocked | is_busy                                                | Blocked |          |
 //! | Blocked | is_contact and back_offs < most_back_offs              | Blocked | BackOff  |
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
+//! | Blocked | mode is Learn                                          | Hold    | NoWay    |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
 //! | Blocked | has_way is false and time_s < no_way_after_s           | Decide  | Retry    |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
@@ -41,7 +42,10 @@
 //! | Blocked | right_m is known                                       | Decide  | Right    |
 //! | Blocked | otherwise                                              | Decide  | Close    |
 
+use std::f64::consts::FRAC_PI_4;
+
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
+use adit_planners::navigation::learn::{Guide, OpeningFacts};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
 /// The table.
@@ -63,6 +67,19 @@ impl Judge for Table {
     }
 }
 
+impl Guide for Table {
+    fn opening(&mut self, facts: &OpeningFacts) -> Option<f64> {
+        let is_asked = facts.off_asked.is_some_and(|off| off <= FRAC_PI_4);
+        match facts {
+            OpeningFacts { width_m, .. } if *width_m < 0.25 => None,
+            OpeningFacts { times_tried: 3.., .. } => None,
+            _ if is_asked => Some(1000.0 - facts.distance_m),
+            OpeningFacts { is_in_sight: true, .. } => Some(500.0 - facts.distance_m),
+            _ => Some(facts.width_m - 0.2 * facts.distance_m),
+        }
+    }
+}
+
 #[expect(clippy::match_same_arms, reason = "an arm is a row of the table")]
 fn row(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
@@ -70,7 +87,7 @@ fn row(facts: &StateFacts) -> (State, Action) {
     let is_there = facts.distance_m <= settings.goal_tolerance_m;
     let is_turned = facts.heading_error <= settings.turning_resolution;
     let state = match facts.state {
-        State::Hold if facts.mode != Mode::Automatic => State::Hold,
+        State::Hold if facts.mode == Mode::Manual => State::Hold,
         State::Hold if !facts.has_way => State::Blocked,
         State::Hold if facts.has_goal => State::Decide,
         State::Hold => State::Hold,
@@ -107,6 +124,7 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
             (State::Blocked, Action::BackOff)
         }
         () if !facts.is_scan_complete => (State::Wait, Action::None),
+        () if facts.mode == Mode::Learn => (State::Hold, Action::NoWay),
         () if !facts.has_way && is_early => (State::Decide, Action::Retry),
         () if !facts.has_way => (State::Hold, Action::NoWay),
         () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
@@ -134,7 +152,7 @@ fn segment(facts: &SegmentFacts) -> Transition {
     Transition {
         confidence,
         source: facts.source,
-        is_kept: confidence > 0 && (is_recalled || facts.distance_m <= 15.0),
+        is_kept: confidence > 0 && (is_recalled || facts.is_learning || facts.distance_m <= 15.0),
         counts_for_pose: (!facts.is_moving || confidence > 2) && confidence >= 2,
         is_anchored: is_recalled,
         is_cut: !is_recalled && facts.free_m > 0.2,

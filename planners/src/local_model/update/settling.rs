@@ -41,7 +41,7 @@ impl LocalModel {
                 beams_on: evidence.on,
                 beams_through: evidence.through,
                 free_m: evidence.free_m(),
-                ..segment.facts(at)
+                ..segment.facts(at, settings.is_learning)
             };
             let transition = decide(&facts);
             segment.follow(transition);

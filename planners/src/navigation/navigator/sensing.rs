@@ -74,6 +74,10 @@ impl Navigator<'_> {
         let update = self.model.update(&part, self.time_s(), |facts| judge.segment(facts));
         self.memory.note(&self.model, &self.building.walls, &self.settings);
         self.gather();
+        if let (Some(seen), Some(sensed)) = (&mut self.seen, self.sensed) {
+            let pose = self.model.estimate().pose;
+            seen.look(&part, &pose, &sensed.odometry, self.radius_m, &self.barriers);
+        }
         if !(update.entered.is_empty() && update.removed.is_empty()) {
             self.tell(Happening::Segments { entered: update.entered, removed: update.removed });
         }

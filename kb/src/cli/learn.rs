@@ -1,0 +1,165 @@
+//! `adit simulate --learn` and `--drive`: a robot that learns a building, and one that is driven by hand in it.
+
+use std::io::Read;
+use std::path::Path;
+use std::sync::Arc;
+
+use adit_db::Store;
+use adit_db::learned::Learned as Record;
+use adit_engine::RuleBase;
+use adit_planners::navigation::learn::Exploration;
+use adit_planners::navigation::{Outfit, drive as drive_by};
+use adit_planners::pose::Pose;
+use adit_planners::segment::Segment;
+use serde_json::json;
+
+use super::SimulateArgs;
+use super::output::{json as print, line, remark, table};
+use super::simulate::heading;
+use crate::error::{Error, Result};
+use crate::navigation::drive::parse;
+use crate::navigation::floor::Floor;
+use crate::navigation::keep;
+use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
+use crate::number::number;
+
+/// Learns a world, keeps and prints what came of it; `false` where that is not as it should be.
+pub fn run(
+    args: &SimulateArgs,
+    start: &str,
+    world: &str,
+    (floor, rules_name): (&Floor, &str),
+    rules: &Arc<RuleBase>,
+) -> Result<bool> {
+    let start = Pose { at: floor.point(start)?, heading: heading(args)? };
+    let towards = args.towards.as_ref().map(|towards| floor.point(towards)).transpose()?;
+    if args.film.is_some() && !(args.speed.is_finite() && args.speed > 0.0) {
+        let message =
+            format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
+        return Err(Error::said("simulate/speed", message, None));
+    }
+    let exploration = Exploration { start, towards, seed: args.seed };
+    let mut made = None;
+    let film = args.film.as_ref().map(|_| &mut made);
+    let (row, record) = explore((world, rules_name), floor, rules, &exploration, film)?;
+    if let (Some(file), Some(made)) = (&args.film, &made) {
+        std::fs::write(file, made.svg(args.speed)).map_err(|error| Error::io("write", file, &error))?;
+        remark(&format!("{}: how it was learned", file.display()));
+    }
+    if let Some(db) = &args.db {
+        keep_learned(db, &record, floor, rules)?;
+    }
+    if args.json {
+        print(&row)?
+    } else {
+        show(&row)
+    }
+    Ok(row.is_right())
+}
+
+/// Keeps what was learned, and the network of places over it.
+fn keep_learned(db: &Path, record: &Record, floor: &Floor, rules: &Arc<RuleBase>) -> Result<()> {
+    let known = known(record, floor)?;
+    let mut judge = known.judge(rules)?;
+    let [x, y] = record.start;
+    let start = adit_planners::geometry::Point::new(x, y);
+    let walked = known.plan(start, start, &mut judge)?;
+    let network = keep::record(&record.learned, &record.rules, &known, &mut judge, &walked);
+    Store::open_or_create(db)?.transaction(|tx| {
+        tx.keep_learned(record)?;
+        tx.keep_floor_plan(&network)
+    })?;
+    Ok(())
+}
+
+fn show(row: &Row) {
+    let of = |[median, most, worst]: [f64; 3]| format!("{median:.3}, {most:.3}, {worst:.3}");
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let rows = [
+        ("ending", row.ending.to_owned()),
+        ("metres driven", number(row.length)),
+        ("seconds", format!("{:.0}", row.seconds)),
+        ("looks around", row.looks.to_string()),
+        ("touches", row.touches.to_string()),
+        ("worst error of position", format!("{:.3}", row.worst_error)),
+        ("free space learned", percent(row.share)),
+        ("square metres beyond walls", format!("{:.3}", row.outside_area)),
+        ("deepest beyond walls", format!("{:.3}", row.outside)),
+        ("learned walls off true ones", of(row.walls_off)),
+        ("true walls off learned ones", of(row.walls_missed)),
+        ("walls", row.walls.to_string()),
+        ("regions", row.regions.to_string()),
+    ];
+    table(&["", ""], rows.map(|(what, value)| vec![what.to_owned(), value]));
+    if row.collided {
+        line("COLLIDED");
+    }
+    if let Some(trouble) = &row.trouble {
+        remark(trouble);
+    }
+}
+
+/// Drives by hand in a learned building, and keeps the places that are named; `false` where an order could not be done.
+pub fn drive(
+    args: &SimulateArgs,
+    script: &Path,
+    (mut stored, truth, learned): (Record, &Floor, &Floor),
+    rules: &Arc<RuleBase>,
+) -> Result<bool> {
+    let text = if script == Path::new("-") {
+        let mut text = String::new();
+        std::io::stdin().read_to_string(&mut text).map(|_| text)
+    } else {
+        std::fs::read_to_string(script)
+    };
+    let text = text.map_err(|error| Error::io("read", script, &error))?;
+    let script = parse(&script.display().to_string(), &text, learned)?;
+    let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
+    let mut outfit = Outfit { navigation: truth.settings, start_sigma_m: START_SIGMA_M, ..Outfit::default() };
+    outfit.robot.radius_m = truth.network.disc.radius;
+    let mut judge = learned.judge(rules)?;
+    let building = learned.building();
+    let from = (script.start, args.seed);
+    let driven = drive_by(&script.orders, from, &walls, &building, &outfit, &mut judge, |_| {})
+        .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+    if let Some(trouble) = judge.trouble() {
+        return Err(Error::said("simulate/rules", trouble.to_owned(), None));
+    }
+    for place in &driven.places {
+        stored.places.retain(|(name, _)| *name != place.name);
+        stored.places.push((place.name.clone(), [place.at.x, place.at.y]));
+    }
+    if let Some(db) = args.db.as_ref().filter(|_| !driven.places.is_empty()) {
+        keep_learned(db, &stored, truth, rules)?;
+    }
+    let pose = |pose: &Pose| [pose.at.x, pose.at.y, pose.heading.to_degrees()];
+    if args.json {
+        let places: Vec<_> = driven
+            .places
+            .iter()
+            .map(|place| json!({"place": place.name, "at": [place.at.x, place.at.y]}))
+            .collect();
+        print(&json!({
+            "estimate": pose(&driven.estimate), "truth": pose(&driven.truth), "length": driven.path_m,
+            "touches": driven.touches, "places": places,
+            "in_vain": driven.in_vain.iter().map(|(index, _)| index + 1).collect::<Vec<_>>(),
+        }))?;
+    } else {
+        for place in &driven.places {
+            line(&format!("place {} at ({}, {})", place.name, number(place.at.x), number(place.at.y)));
+        }
+        let [x, y, heading] = pose(&driven.estimate);
+        line(&format!(
+            "{} m driven, {} touches; at ({}, {}), heading {}",
+            number(driven.path_m),
+            driven.touches,
+            number(x),
+            number(y),
+            number(heading)
+        ));
+        for (index, _) in &driven.in_vain {
+            line(&format!("order {}: there is no way", index + 1));
+        }
+    }
+    Ok(driven.in_vain.is_empty())
+}

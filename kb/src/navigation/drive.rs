@@ -1,0 +1,158 @@
+//! Orders of a user who drives a robot by hand, as a text: one a line.
+//!
+//! ```text
+//! start 1.5,1.5 90      # a place or x,y; degrees
+//! forward 2             # metres; `back 0.5`
+//! turn -90              # degrees, counter-clockwise above 0
+//! look                  # all around
+//! place desk            # the rest of the line is the name
+//! go desk               # by itself: a place or x,y
+//! ```
+
+use std::ops::Range;
+
+use adit_planners::geometry::Point;
+use adit_planners::navigation::Order;
+use adit_planners::pose::Pose;
+use adit_planners::read::{Code, Problem, Text};
+
+use super::floor::Floor;
+use crate::error::{Error, Result};
+
+/// The words that a line begins with.
+const WORDS: &str = "start, forward, back, turn, look, place, go";
+/// No way is longer, metres, and no turn larger, degrees.
+const FARTHEST_M: f64 = 1000.0;
+const LARGEST_TURN: f64 = 3600.0;
+
+/// Where a drive begins, and what the robot is told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Script {
+    /// Where the robot stands.
+    pub start: Pose,
+    /// One a line.
+    pub orders: Vec<Order>,
+}
+
+/// Reads orders; places are those of the floor, and those that were named before.
+///
+/// # Returns
+/// All lines that are wrong, each with what was expected.
+pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
+    let mut reader = Reader { text: Text::new(name, text), floor, named: Vec::new(), problems: Vec::new() };
+    let (mut start, mut orders) = (None, Vec::new());
+    let mut from = 0;
+    for line in text.split('\n') {
+        let until = from + line.len();
+        let told = line.split('#').next().unwrap_or_default();
+        let begin = from + told.len() - told.trim_start().len();
+        let (words, span) = (told.trim(), begin..begin + told.trim().len());
+        from = until + 1;
+        if words.is_empty() {
+            continue;
+        }
+        let (word, rest) = words.split_once(char::is_whitespace).unwrap_or((words, ""));
+        let rest = rest.trim();
+        match (word, start) {
+            ("start", None) => start = reader.start(rest, &span).or(Some(Pose::default())),
+            ("start", Some(_)) => {
+                reader.wrong(&span, "`start` stands in the first line, and once".to_owned())
+            }
+            (_, None) => {
+                reader.wrong(&span, format!("found `{words}`, expected `start` with a place or x,y first"));
+                start = Some(Pose::default());
+            }
+            _ => orders.extend(reader.order(word, rest, &span)),
+        }
+    }
+    if start.is_none() {
+        reader.wrong(&(0..0), "found no order, expected `start` with a place or x,y".to_owned());
+    }
+    match start {
+        Some(start) if reader.problems.is_empty() => Ok(Script { start, orders }),
+        _ => Err(Error::all(reader.problems)),
+    }
+}
+
+struct Reader<'f> {
+    text: Text,
+    floor: &'f Floor,
+    /// Places that were named by orders before; where, only the drive will tell.
+    named: Vec<String>,
+    problems: Vec<Problem>,
+}
+
+impl Reader<'_> {
+    fn wrong(&mut self, span: &Range<usize>, message: String) {
+        self.problems.push(self.text.problem(Code::Syntax, span, message));
+    }
+
+    fn start(&mut self, rest: &str, span: &Range<usize>) -> Option<Pose> {
+        let point = self.floor.point(rest).ok().map(|at| (at, 0.0));
+        let with_heading = || {
+            let (place, degrees) = rest.rsplit_once(char::is_whitespace)?;
+            let degrees: f64 = degrees.parse().ok().filter(|degrees: &f64| degrees.abs() <= LARGEST_TURN)?;
+            Some((self.floor.point(place.trim()).ok()?, degrees))
+        };
+        match point.or_else(with_heading) {
+            Some((at, degrees)) => Some(Pose { at, heading: degrees.to_radians() }),
+            None => {
+                let places = self.floor.names().join(", ");
+                self.wrong(
+                    span,
+                    format!("found `{rest}`, expected a place ({places}) or x,y, and degrees if need be"),
+                );
+                None
+            }
+        }
+    }
+
+    fn order(&mut self, word: &str, rest: &str, span: &Range<usize>) -> Option<Order> {
+        match word {
+            "forward" => self.number(rest, "metres", FARTHEST_M, span).map(Order::Forward),
+            "back" => self.number(rest, "metres", FARTHEST_M, span).map(|metres| Order::Forward(-metres)),
+            "turn" => self
+                .number(rest, "degrees", LARGEST_TURN, span)
+                .map(|degrees| Order::Turn(degrees.to_radians())),
+            "look" if rest.is_empty() => Some(Order::Look),
+            "look" => {
+                self.wrong(span, format!("found `{rest}` after `look`, expected nothing"));
+                None
+            }
+            "place" if rest.is_empty() => {
+                self.wrong(span, "found no name, expected one after `place`".to_owned());
+                None
+            }
+            "place" => {
+                self.named.push(rest.to_owned());
+                Some(Order::Name(rest.to_owned()))
+            }
+            "go" => self.goal(rest, span).map(Order::Go),
+            other => {
+                self.wrong(span, format!("found `{other}`, expected one of {WORDS}"));
+                None
+            }
+        }
+    }
+
+    fn number(&mut self, rest: &str, unit: &str, most: f64, span: &Range<usize>) -> Option<f64> {
+        let number = rest.parse().ok().filter(|number: &f64| number.abs() <= most);
+        if number.is_none() {
+            self.wrong(span, format!("found `{rest}`, expected {unit}: a number up to {most}"));
+        }
+        number
+    }
+
+    fn goal(&mut self, rest: &str, span: &Range<usize>) -> Option<Point> {
+        let found = self.floor.point(rest).ok();
+        if found.is_none() {
+            let message = if self.named.iter().any(|name| name == rest) {
+                format!("`{rest}` is named in this drive; where it is is known to the next one")
+            } else {
+                format!("found `{rest}`, expected a place ({}) or x,y", self.floor.names().join(", "))
+            };
+            self.wrong(span, message);
+        }
+        found
+    }
+}

@@ -1,0 +1,279 @@
+//! What is known of the building at one moment: where there is free space, where it ends without a wall, and where the robot
+//! can go.
+
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, VecDeque};
+
+use super::grid::{Cell, Cells, GRAIN_M, SIDES, cell_of, middle_of, touched};
+use crate::geometry::Point;
+use crate::navigation::highway::{is_clear, straightened};
+use crate::segment::Segment;
+
+/// Beside what was seen free so many cells count as free, too: beams end before a wall, and leave out what lies between them.
+const BESIDE: u32 = 3;
+
+/// The robot may stand so far from the next cell of the ground, metres.
+const NEAR_M: f64 = 0.5;
+
+/// Steps to the eight neighbours, and what they cost.
+const STEPS: [(i32, i32, u32); 8] =
+    [(1, 0, 10), (0, 1, 10), (-1, 0, 10), (0, -1, 10), (1, 1, 14), (-1, 1, 14), (-1, -1, 14), (1, -1, 14)];
+
+/// Cells where free space ends without a wall, side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Rim {
+    /// The cell nearest to the middle of all.
+    pub middle: Point,
+    /// From one end to the other, metres.
+    pub width_m: f64,
+}
+
+/// Where the robot can go to look into an opening.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LookOut {
+    index: usize,
+    /// Metres from the robot.
+    pub distance_m: f64,
+}
+
+/// Free space as it is known, walls without thickness between.
+#[derive(Clone, Debug)]
+pub(super) struct Ground {
+    /// Cells that a wall passes.
+    pub walls: Cells,
+    /// Cells that are free and joined with where the robot is.
+    pub free: Cells,
+    /// Where the middle of the robot can be.
+    standing: Cells,
+    /// What the way there costs, and the cell before.
+    cost: Vec<u32>,
+    before: Vec<usize>,
+}
+
+impl Ground {
+    /// Free space that is joined with a place.
+    ///
+    /// # Arguments
+    /// `reach_m` is how far the robot's middle keeps from walls and from what is not known.
+    pub fn new(seen: &Cells, walls: &[Segment], robot: Point, reach_m: f64) -> Self {
+        let window = seen.window;
+        let mut drawn = Cells::none(window);
+        for wall in walls {
+            drawn.draw(wall);
+        }
+        let free = spread(seen, &drawn, robot);
+        let standing = standing(&free, &drawn, reach_m);
+        let mut ground = Self { walls: drawn, free, standing, cost: Vec::new(), before: Vec::new() };
+        ground.walk(robot);
+        ground
+    }
+
+    /// Where free space ends without a wall, from the first cell on.
+    pub fn rims(&self) -> Vec<Rim> {
+        let window = self.free.window;
+        let mut left = Cells::none(window);
+        for cell in self.free.iter().filter(|cell| self.is_rim(*cell)) {
+            left.take(cell);
+        }
+        let mut done = Cells::none(window);
+        let mut rims = Vec::new();
+        for first in left.iter() {
+            if !done.take(first) {
+                continue;
+            }
+            let mut cells = vec![first];
+            let mut next = 0;
+            while let Some(&(column, row)) = cells.get(next) {
+                next += 1;
+                let around = STEPS.iter().map(|(dx, dy, _)| (column + dx, row + dy));
+                cells.extend(around.filter(|cell| left.has(*cell) && done.take(*cell)));
+            }
+            rims.push(Rim::new(&cells));
+        }
+        rims
+    }
+
+    /// Cells beyond the rims, two deep, with the walls that they meet.
+    pub fn beyond(&self) -> Cells {
+        let mut beyond = Cells::none(self.free.window);
+        let mut layer: Vec<Cell> = self.free.iter().filter(|cell| self.is_rim(*cell)).collect();
+        for _ in 0..2 {
+            let mut next = Vec::new();
+            for (column, row) in layer {
+                for (dx, dy, _) in STEPS {
+                    let cell = (column + dx, row + dy);
+                    if !self.free.has(cell) && beyond.take(cell) && !self.walls.has(cell) {
+                        next.push(cell);
+                    }
+                }
+            }
+            layer = next;
+        }
+        beyond
+    }
+
+    /// From where to look into an opening: near to it and to the robot, with nothing between; `None` where no such place
+    /// can be reached.
+    ///
+    /// # Arguments
+    /// `far_m` is how near it has to be.
+    pub fn look_out(&self, towards: Point, far_m: f64) -> Option<LookOut> {
+        let far = (far_m / GRAIN_M).ceil() as i32;
+        let (column, row) = cell_of(towards);
+        let mut found: Vec<(u64, usize)> = Vec::new();
+        for dy in -far..=far {
+            for dx in -far..=far {
+                let cell = (column + dx, row + dy);
+                let Some(index) = self.free.window.index(cell) else { continue };
+                let left_m = middle_of(cell).distance(towards);
+                if self.cost[index] < u32::MAX && left_m <= far_m {
+                    // nearer to the opening is worth a way that is longer by as much
+                    let left = (left_m / GRAIN_M * 20.0) as u64;
+                    found.push((u64::from(self.cost[index]) + left, index));
+                }
+            }
+        }
+        found.sort_unstable();
+        let is_seen = |index: &usize| self.is_open(middle_of(self.free.window.cell(*index)), towards);
+        let (_, index) = found.into_iter().find(|(_, index)| is_seen(index))?;
+        Some(LookOut { index, distance_m: f64::from(self.cost[index]) * GRAIN_M / 10.0 })
+    }
+
+    /// The way to a look-out from where the robot is, straight from point to point; without its begin.
+    ///
+    /// # Arguments
+    /// `reach_m` is what the robot's middle keeps from `walls` at the least.
+    pub fn way(&self, robot: Point, to: LookOut, walls: &[Segment], reach_m: f64) -> Vec<Point> {
+        let steps = std::iter::successors(Some(to.index), |&index| {
+            let before = self.before[index];
+            (before != usize::MAX).then_some(before)
+        });
+        let mut points: Vec<Point> = steps.map(|index| middle_of(self.free.window.cell(index))).collect();
+        points.push(robot);
+        points.reverse();
+        // Where the robot is may be no ground, and the way from there to it is short.
+        let is_ground = |a: Point, b: Point| touched(a, b).all(|cell| a == robot || self.standing.has(cell));
+        let is_open = |a: Point, b: Point| a != robot || self.is_open(a, b);
+        let straight =
+            straightened(&points, |a, b| is_ground(a, b) && is_open(a, b) && is_clear(a, b, reach_m, walls));
+        straight[1..].to_vec()
+    }
+
+    /// Whether free space, and nothing else, lies between two points; the last cell may be anything.
+    pub fn is_open(&self, from: Point, to: Point) -> bool {
+        let last = cell_of(to);
+        touched(from, to).all(|cell| cell == last || (self.free.has(cell) && !self.walls.has(cell)))
+    }
+
+    fn is_rim(&self, (column, row): Cell) -> bool {
+        let is_open = |cell: Cell| !self.free.has(cell) && !self.walls.has(cell);
+        !self.walls.has((column, row)) && SIDES.iter().any(|(dx, dy)| is_open((column + dx, row + dy)))
+    }
+
+    /// Finds the shortest ways from where the robot is (Dijkstra).
+    fn walk(&mut self, robot: Point) {
+        let window = self.free.window;
+        (self.cost, self.before) = (vec![u32::MAX; window.len()], vec![usize::MAX; window.len()]);
+        let Some(first) = nearest(robot, |cell| self.standing.has(cell)).and_then(|cell| window.index(cell))
+        else {
+            return;
+        };
+        self.cost[first] = 0;
+        let mut open = BinaryHeap::from([Reverse((0, first))]);
+        while let Some(Reverse((so_far, index))) = open.pop() {
+            if so_far > self.cost[index] {
+                continue;
+            }
+            let (column, row) = window.cell(index);
+            for (dx, dy, step) in STEPS {
+                let cell = (column + dx, row + dy);
+                let Some(next) = window.index(cell).filter(|_| self.standing.has(cell)) else { continue };
+                if so_far + step < self.cost[next] {
+                    (self.cost[next], self.before[next]) = (so_far + step, index);
+                    open.push(Reverse((so_far + step, next)));
+                }
+            }
+        }
+    }
+}
+
+impl Rim {
+    fn new(cells: &[Cell]) -> Self {
+        let points: Vec<Point> = cells.iter().map(|cell| middle_of(*cell)).collect();
+        let count = points.len().max(1) as f64;
+        let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.x, y + p.y));
+        let centre = Point::new(x / count, y / count);
+        let near = |a: &&Point, b: &&Point| a.distance(centre).total_cmp(&b.distance(centre));
+        let middle = points.iter().min_by(near).copied().unwrap_or(centre);
+        let extent = |of: fn(&Point) -> f64| {
+            let values = points.iter().map(of);
+            values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
+        };
+        Self { middle, width_m: extent(|p| p.x).hypot(extent(|p| p.y)) + GRAIN_M }
+    }
+}
+
+/// The cell nearest to a point that passes a test, up to half a metre away.
+fn nearest(p: Point, passes: impl Fn(Cell) -> bool) -> Option<Cell> {
+    let far = (NEAR_M / GRAIN_M) as i32;
+    let (column, row) = cell_of(p);
+    let around = (-far..=far).flat_map(|dy| (-far..=far).map(move |dx| (column + dx, row + dy)));
+    around
+        .filter(|cell| passes(*cell))
+        .min_by(|a, b| p.distance(middle_of(*a)).total_cmp(&p.distance(middle_of(*b))))
+}
+
+/// What was seen free and is joined with a place, and a little beside it; walls end it.
+fn spread(seen: &Cells, walls: &Cells, from: Point) -> Cells {
+    let window = seen.window;
+    let mut free = Cells::none(window);
+    let Some(first) = nearest(from, |cell| seen.has(cell) && !walls.has(cell)) else { return free };
+    // how many cells lie between each cell and what was seen
+    let mut gap = vec![u32::MAX; window.len()];
+    let mut open = VecDeque::from([first]);
+    if let Some(index) = window.index(first) {
+        gap[index] = 0;
+    }
+    while let Some((column, row)) = open.pop_front() {
+        let Some(so_far) = window.index((column, row)).map(|index| gap[index]) else { continue };
+        free.take((column, row));
+        for (dx, dy) in SIDES {
+            let cell = (column + dx, row + dy);
+            let Some(index) = window.index(cell).filter(|_| !walls.has(cell)) else { continue };
+            let next = if seen.has(cell) { 0 } else { so_far + 1 };
+            if next <= BESIDE && next < gap[index] {
+                gap[index] = next;
+                open.push_back(cell);
+            }
+        }
+    }
+    free
+}
+
+/// Free cells that are far enough from walls and from what is not known.
+fn standing(free: &Cells, walls: &Cells, reach_m: f64) -> Cells {
+    let window = free.window;
+    let far = (reach_m / GRAIN_M).ceil() as i32;
+    let is_within = |dx: i32, dy: i32| f64::from(dx).hypot(f64::from(dy)) * GRAIN_M < reach_m;
+    let disc: Vec<Cell> = (-far..=far)
+        .flat_map(|dy| (-far..=far).map(move |dx| (dx, dy)))
+        .filter(|(dx, dy)| is_within(*dx, *dy))
+        .collect();
+    let is_known = |cell: Cell| free.has(cell) && !walls.has(cell);
+    let (mut edges, mut taken) = (Cells::none(window), Cells::none(window));
+    for (column, row) in free.iter() {
+        let around = STEPS.iter().map(|(dx, dy, _)| (column + dx, row + dy));
+        for edge in around.filter(|edge| !is_known(*edge)) {
+            if edges.take(edge) {
+                for (dx, dy) in &disc {
+                    taken.take((edge.0 + dx, edge.1 + dy));
+                }
+            }
+        }
+    }
+    let mut standing = Cells::none(window);
+    for cell in free.iter().filter(|cell| !taken.has(*cell)) {
+        standing.take(cell);
+    }
+    standing
+}

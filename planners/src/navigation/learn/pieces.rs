@@ -1,0 +1,142 @@
+//! Walls cut where they cross, so that they meet at ends only.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::geometry::Point;
+use crate::segment::Segment;
+
+/// Ends lie on a lattice of this grain, so that what nearly meets does meet, metres.
+const LATTICE_M: f64 = 0.001;
+
+/// An end that runs past another wall by no more than this is left out, metres.
+const STUB_M: f64 = 0.2;
+
+/// Cutting moves ends by less than the lattice's grain, and may make walls cross anew; after so many rounds none do.
+const ROUNDS: usize = 50;
+
+type Knot = [i64; 2];
+/// A piece by its ends, the smaller one first.
+type Piece = [Knot; 2];
+
+/// The same walls in pieces that meet at ends only, each once, without the stubs that run past others.
+pub(super) fn pieces(walls: &[Segment]) -> Vec<Segment> {
+    let mut pieces: BTreeSet<Piece> =
+        walls.iter().filter_map(|wall| piece(knot(wall.a), knot(wall.b))).collect();
+    for _ in 0..ROUNDS {
+        let cut = cut(&pieces);
+        if cut == pieces {
+            break;
+        }
+        pieces = cut;
+    }
+    without_stubs(&mut pieces);
+    pieces.iter().map(segment).collect()
+}
+
+fn knot(p: Point) -> Knot {
+    [p.x, p.y].map(|value| (value / LATTICE_M).round() as i64)
+}
+
+fn point(knot: Knot) -> Point {
+    let [x, y] = knot.map(|value| value as f64 * LATTICE_M);
+    Point::new(x, y)
+}
+
+fn piece(a: Knot, b: Knot) -> Option<Piece> {
+    (a != b).then(|| [a.min(b), a.max(b)])
+}
+
+fn segment(piece: &Piece) -> Segment {
+    Segment::new(point(piece[0]), point(piece[1]))
+}
+
+fn cut(pieces: &BTreeSet<Piece>) -> BTreeSet<Piece> {
+    let mut cut = BTreeSet::new();
+    for one in pieces {
+        let wall = segment(one);
+        let mut stops = vec![one[0], one[1]];
+        for other in pieces.iter().filter(|other| *other != one && are_near(one, other)) {
+            stops.extend(other.iter().filter(|end| is_on(point(**end), &wall)));
+            stops.extend(crossing(one.min(other), one.max(other)));
+        }
+        let far = |stop: &Knot| wall.a.distance(point(*stop));
+        stops.sort_by(|a, b| far(a).total_cmp(&far(b)));
+        cut.extend(stops.windows(2).filter_map(|ends| piece(ends[0], ends[1])));
+    }
+    cut
+}
+
+/// Where two pieces cross; for both of them it has to be the same to the bit.
+fn crossing(one: &Piece, other: &Piece) -> Option<Knot> {
+    if one.iter().any(|end| other.contains(end)) {
+        return None;
+    }
+    let (wall, across) = (segment(one), segment(other));
+    let along = wall.direction();
+    let (far, _) = across.hit(wall.a, along).filter(|(far, _)| *far < wall.length())?;
+    Some(knot(Point::new(wall.a.x + far * along.x, wall.a.y + far * along.y)))
+}
+
+/// Whether a point lies on a wall, up to the grain, and beside none of its ends.
+fn is_on(p: Point, wall: &Segment) -> bool {
+    let (along, length) = (wall.direction(), wall.length());
+    let place = (p.x - wall.a.x) * along.x + (p.y - wall.a.y) * along.y;
+    (0.0..length).contains(&place) && wall.distance(p) <= 0.75 * LATTICE_M
+}
+
+fn are_near(one: &Piece, other: &Piece) -> bool {
+    (0..2).all(|axis| {
+        let span = |piece: &Piece| (piece[0][axis].min(piece[1][axis]), piece[0][axis].max(piece[1][axis]));
+        let ((a, b), (c, d)) = (span(one), span(other));
+        a <= d + 1 && c <= b + 1
+    })
+}
+
+/// Takes out short pieces that end free at one end and on more than one other piece at the other.
+fn without_stubs(pieces: &mut BTreeSet<Piece>) {
+    let mut meeting: BTreeMap<Knot, usize> = BTreeMap::new();
+    for end in pieces.iter().flatten() {
+        *meeting.entry(*end).or_default() += 1;
+    }
+    pieces.retain(|piece| {
+        let [least, most] =
+            [meeting[&piece[0]].min(meeting[&piece[1]]), meeting[&piece[0]].max(meeting[&piece[1]])];
+        segment(piece).length() > STUB_M || least > 1 || most < 3
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+        Segment::new(Point::new(x0, y0), Point::new(x1, y1))
+    }
+
+    #[test]
+    fn what_runs_a_little_past_a_wall_is_left_out_and_what_ends_free_stays() {
+        // A wall across, one that runs past it by 10 cm, and one that ends 1 m beyond.
+        let walls = [wall(0.0, 0.0, 4.0, 0.0), wall(1.0, -0.1, 1.0, 2.0), wall(3.0, -1.0, 3.0, 2.0)];
+        let lengths: f64 = pieces(&walls).iter().map(Segment::length).sum();
+        assert!((lengths - 9.0).abs() < 1e-6, "{lengths}");
+    }
+
+    proptest! {
+        #[test]
+        fn pieces_meet_at_ends_only(ends in prop::collection::vec([0.0..3.0_f64, 0.0..3.0, 0.0..3.0, 0.0..3.0], 1..12)) {
+            let walls: Vec<Segment> = ends.iter().map(|[x0, y0, x1, y1]| wall(*x0, *y0, *x1, *y1)).collect();
+            let pieces = pieces(&walls);
+            for (index, one) in pieces.iter().enumerate() {
+                for other in &pieces[index + 1..] {
+                    let hit = other.hit(one.a, one.direction());
+                    let is_inside = |(far, share): (f64, f64)| {
+                        let (end, end_of_other) = (2.0 * LATTICE_M, 2.0 * LATTICE_M / other.length());
+                        (end..one.length() - end).contains(&far) && (end_of_other..1.0 - end_of_other).contains(&share)
+                    };
+                    prop_assert!(!hit.is_some_and(is_inside), "{one:?} crosses {other:?}");
+                }
+            }
+        }
+    }
+}
