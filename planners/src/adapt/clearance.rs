@@ -1,0 +1,86 @@
+//! What evaluations taught about an object: room that it leaves free, and places that it takes.
+//!
+//! All of it lies in the frame of the object, so it holds wherever the object is moved or turned, until its shape changes.
+
+use super::robot::Link;
+use super::shape::Distance;
+use crate::geometry::Point;
+use crate::segment::Segment;
+
+/// One thing learned, in the frame of the object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clearance {
+    /// Everything nearer to this segment than so many metres is free of the object.
+    Free {
+        /// Where the axis of a link lay.
+        axis: Segment,
+        /// Metres.
+        within_m: f64,
+    },
+    /// Everything nearer to this point than so many metres belongs to the object; 0 for a point of its outline.
+    Taken {
+        /// A point of the object.
+        at: Point,
+        /// Metres.
+        within_m: f64,
+    },
+}
+
+/// What is known of one object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Known {
+    free: Vec<(Segment, f64)>,
+    taken: Vec<(Point, f64)>,
+}
+
+impl Known {
+    /// By how many metres the known free room exceeds a link there; negative or `-INFINITY` where it is not known to be free.
+    pub fn slack(&self, link: &Link) -> f64 {
+        let slack = |(axis, within_m): &(Segment, f64)| {
+            within_m - squared(axis, link.axis.a).max(squared(axis, link.axis.b)).sqrt()
+        };
+        self.free.iter().map(slack).fold(f64::NEG_INFINITY, f64::max) - link.radius
+    }
+
+    /// Whether a link there is known to come nearer than `touching_m` to the object.
+    pub fn takes(&self, link: &Link, touching_m: f64) -> bool {
+        let near = link.radius + touching_m;
+        self.taken.iter().any(|(at, within_m)| squared(&link.axis, *at) < (within_m + near).powi(2))
+    }
+
+    /// Keeps what an evaluation found, where it says more than what is known; gives what was kept.
+    pub fn learn(&mut self, link: &Link, distance: &Distance) -> Vec<Clearance> {
+        let mut kept = Vec::new();
+        let within_m = distance.metres;
+        if within_m > 0.0 && self.slack(&Link { axis: link.axis, radius: within_m }) < 0.0 {
+            kept.push(Clearance::Free { axis: link.axis, within_m });
+        }
+        let depth_m = (-within_m).max(0.0);
+        let is_news = |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > *within_m;
+        if distance.metres.is_finite() && self.taken.iter().all(is_news) {
+            kept.push(Clearance::Taken { at: distance.witness, within_m: depth_m });
+        }
+        for clearance in &kept {
+            self.put(clearance);
+        }
+        kept
+    }
+
+    pub fn put(&mut self, clearance: &Clearance) {
+        match *clearance {
+            Clearance::Free { axis, within_m } => self.free.push((axis, within_m)),
+            Clearance::Taken { at, within_m } => self.taken.push((at, within_m)),
+        }
+    }
+
+    pub fn clearances(&self) -> impl Iterator<Item = Clearance> + '_ {
+        let free = self.free.iter().map(|&(axis, within_m)| Clearance::Free { axis, within_m });
+        free.chain(self.taken.iter().map(|&(at, within_m)| Clearance::Taken { at, within_m }))
+    }
+}
+
+/// Square of the distance from a segment to a point.
+fn squared(segment: &Segment, p: Point) -> f64 {
+    let near = p.nearest_on(segment.a, segment.b);
+    (near.x - p.x).powi(2) + (near.y - p.y).powi(2)
+}

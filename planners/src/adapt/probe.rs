@@ -1,0 +1,139 @@
+//! Asking whether the robot is free: what is known costs nothing, all else is evaluated, and counted.
+
+use super::robot::{Link, Robot, between};
+use super::workcell::{Placed, Workcell};
+
+/// What plug-ins see of a cell. It does not show the objects, so nothing goes round the count.
+#[derive(Debug)]
+pub struct Probe<'c>(&'c mut Workcell);
+
+/// Shares of a motion that are not known to be free.
+type Gap = (f64, f64);
+
+/// A motion under test against one object.
+struct Motion<'m> {
+    robot: &'m dyn Robot,
+    from: &'m [f64],
+    to: &'m [f64],
+    travel: Vec<f64>,
+}
+
+impl Motion<'_> {
+    fn links(&self, share: f64) -> Vec<Link> {
+        self.robot.links(&between(self.from, self.to, share))
+    }
+
+    /// How far, as a share, the motion is known to be free of an object when it goes on from there; never less than 0.
+    fn free_from(&self, placed: &Placed, share: f64) -> f64 {
+        let links = self.links(share);
+        let by_link = placed.slack(&links).zip(&self.travel);
+        let free = by_link.map(|(slack, travel)| if slack < 0.0 { 0.0 } else { slack / travel.max(1e-12) });
+        free.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Cuts from a gap what is known at its two ends.
+    fn shrunk(&self, placed: &Placed, (mut low, mut high): Gap) -> Option<Gap> {
+        const FINE: f64 = 1e-3;
+        loop {
+            let ahead = self.free_from(placed, low);
+            low += ahead;
+            if low >= high {
+                return None;
+            }
+            if ahead < FINE {
+                break;
+            }
+        }
+        loop {
+            let back = self.free_from(placed, high);
+            high -= back;
+            if high <= low {
+                return None;
+            }
+            if back < FINE {
+                return Some((low, high));
+            }
+        }
+    }
+
+    /// A few shares in a gap, close enough that what is known to be touched there is hardly missed.
+    fn shares(&self, gap: Gap) -> impl Iterator<Item = f64> + use<> {
+        const STEP_M: f64 = 0.03;
+        let metres = self.travel.iter().copied().fold(0.0, f64::max) * (gap.1 - gap.0);
+        let steps = (metres / STEP_M).ceil().max(1.0);
+        (0..=steps as u32).map(move |step| gap.0 + (gap.1 - gap.0) * f64::from(step) / steps)
+    }
+}
+
+impl<'c> Probe<'c> {
+    pub(super) fn new(cell: &'c mut Workcell) -> Self {
+        Self(cell)
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &dyn Robot {
+        self.0.robot().as_ref()
+    }
+
+    /// How many configurations were evaluated against one object so far.
+    pub fn evaluations(&self) -> u64 {
+        self.0.evaluations()
+    }
+
+    /// Whether the robot is free of all objects at a configuration.
+    pub fn is_free(&mut self, at: &[f64]) -> bool {
+        if !self.robot().admits(at) {
+            return false;
+        }
+        let links = self.robot().links(at);
+        let objects = self.0.placed.len();
+        if (0..objects).any(|index| self.0.is_known_to_touch(index, &links)) {
+            return false;
+        }
+        (0..objects).all(|index| {
+            self.0.placed[index].slack(&links).all(|slack| slack >= 0.0) || self.0.evaluate(index, &links)
+        })
+    }
+
+    /// Whether the robot stays free of all objects on the straight motion between two configurations.
+    ///
+    /// An evaluation tells how far each link is from the object; the motion is free as long as the links stay in the room
+    /// that is known to be free. What is not known is evaluated in the middle of the widest gap, so that a motion which
+    /// is not free is refused early.
+    pub fn is_motion_free(&mut self, from: &[f64], to: &[f64]) -> bool {
+        if !self.robot().admits(from) || !self.robot().admits(to) {
+            return false;
+        }
+        let robot = self.0.robot().clone();
+        let motion = Motion { robot: robot.as_ref(), from, to, travel: robot.travel(from, to) };
+        let mut gaps: Vec<(usize, Gap)> = Vec::new();
+        for index in 0..self.0.placed.len() {
+            let Some(gap) = motion.shrunk(&self.0.placed[index], (0.0, 1.0)) else { continue };
+            if motion.shares(gap).any(|share| self.0.is_known_to_touch(index, &motion.links(share))) {
+                return false;
+            }
+            gaps.push((index, gap));
+        }
+        while let Some(widest) = widest(&gaps) {
+            let (index, (low, high)) = gaps.swap_remove(widest);
+            let middle = f64::midpoint(low, high);
+            let links = motion.links(middle);
+            if self.0.is_known_to_touch(index, &links) {
+                return false;
+            }
+            let is_known = self.0.placed[index].slack(&links).all(|slack| slack >= 0.0);
+            if !is_known && !self.0.evaluate(index, &links) {
+                return false;
+            }
+            let placed = &self.0.placed[index];
+            let rest = [(low, middle), (middle, high)].map(|half| motion.shrunk(placed, half));
+            gaps.extend(rest.into_iter().flatten().map(|gap| (index, gap)));
+        }
+        true
+    }
+}
+
+fn widest(gaps: &[(usize, Gap)]) -> Option<usize> {
+    let width = |gap: &Gap| gap.1 - gap.0;
+    (0..gaps.len()).max_by(|&a, &b| width(&gaps[a].1).total_cmp(&width(&gaps[b].1)).then(b.cmp(&a)))
+}
