@@ -103,6 +103,8 @@ pub struct Edge {
     pub ends: [i64; 2],
     /// The path between them, without both ends.
     pub via: Vec<Vec<f64>>,
+    /// Whether nothing is known of it since an end of it moved.
+    pub loose: bool,
     /// By the distance of configurations.
     pub length: f64,
     /// The task in which it was made.

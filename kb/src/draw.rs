@@ -3,7 +3,9 @@
 //!
 //! What is seen is told by width, dash, number or name as well as by colour, so a print in black and white reads.
 
+mod cell;
 mod channels;
+mod curves;
 mod doors;
 mod frame;
 mod graph;
@@ -30,7 +32,9 @@ mod tests;
 mod text;
 mod view;
 
+pub use cell::{CellPicture, SpacePicture, render_cell};
 pub use channels::{ChannelPanel, render_channels};
+pub use curves::{Curve, CurvePanel, render_curves};
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};
 pub use scene::{Door, DoorKind, PrimeArea, Room, Route, Scene, Step, StepKind};

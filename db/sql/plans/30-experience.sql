@@ -58,13 +58,15 @@ CREATE TABLE IF NOT EXISTS subgoals (
   PRIMARY KEY (cell, subgoal)
 ) STRICT;
 
--- What Reach connects, or did: `via` are the configurations between the two subgoals where it does not go straight.
+-- What Reach connects, or did: `via` are the configurations between the two subgoals where it does not go straight;
+-- `loose`: nothing is known of it since a subgoal at its end moved along with an object.
 CREATE TABLE IF NOT EXISTS edges (
   cell              TEXT NOT NULL REFERENCES cells ON DELETE CASCADE,
   edge              INTEGER NOT NULL,
   subgoal1          INTEGER NOT NULL,
   subgoal2          INTEGER NOT NULL,
   via               TEXT NOT NULL,
+  loose             INTEGER NOT NULL CHECK (loose IN (0, 1)),
   length            REAL NOT NULL,
   made_task         INTEGER NOT NULL,
   verified_task     INTEGER NOT NULL,
@@ -79,6 +81,10 @@ CREATE TABLE IF NOT EXISTS edges (
   FOREIGN KEY (cell, subgoal2) REFERENCES subgoals
 ) STRICT;
 CREATE UNIQUE INDEX IF NOT EXISTS edges_between ON edges (cell, subgoal1, subgoal2) WHERE removed_task IS NULL;
+CREATE TRIGGER IF NOT EXISTS edges_replaced BEFORE INSERT ON edges BEGIN
+  UPDATE edges SET removed_task = new.made_task, because = 'replaced'
+  WHERE cell = new.cell AND subgoal1 = new.subgoal1 AND subgoal2 = new.subgoal2 AND removed_task IS NULL;
+END;
 
 -- Shortcuts that were tried and are not free in that state of the cell.
 CREATE TABLE IF NOT EXISTS refused_cuts (

@@ -23,7 +23,10 @@ pub(super) async fn step(connection: &mut SqliteConnection, step: &Step) -> Resu
     }
     insert(connection, step.subgoals.iter().map(|subgoal| Of(cell, subgoal))).await?;
     update::<2, _>(connection, step.moved.iter().map(|moved| Moved(cell, moved))).await?;
-    insert_edges(connection, step).await?;
+    // A new edge takes the place of one that stood between the same subgoals: a trigger sees to that.
+    insert(connection, step.edges.iter().map(|edge| Of(cell, edge))).await?;
+    update::<2, _>(connection, step.edges_changed.iter().map(|edge| Of(cell, edge))).await?;
+    update::<2, _>(connection, step.edges_removed.iter().map(|gone| GoneEdge(cell, gone))).await?;
     update::<2, _>(connection, step.subgoals_removed.iter().map(|gone| GoneSubgoal(cell, gone))).await?;
     cuts(connection, cell, &step.refused_cuts).await?;
     for object in &step.clearances_forgotten {
@@ -36,22 +39,6 @@ pub(super) async fn step(connection: &mut SqliteConnection, step: &Step) -> Resu
     insert(connection, step.clearances.iter().map(|clearance| Of(cell, clearance))).await?;
     insert(connection, step.tasks.iter().map(|task| Of(cell, task))).await?;
     insert(connection, step.strategies.iter().map(|chosen| Of(cell, chosen))).await?;
-    Ok(())
-}
-
-/// Edges that were there are taken out first: another one may stand between the same two subgoals now.
-async fn insert_edges(connection: &mut SqliteConnection, step: &Step) -> Result<()> {
-    let cell = step.cell.cell.as_str();
-    let is_new = |number: i64| step.edges.iter().any(|edge| edge.edge == number);
-    let (of_new, of_old): (Vec<_>, Vec<_>) = step.edges_removed.iter().partition(|gone| is_new(gone.number));
-    update::<2, _>(connection, step.edges_changed.iter().map(|edge| Of(cell, edge))).await?;
-    update::<2, _>(connection, of_old.into_iter().map(|gone| GoneEdge(cell, gone))).await?;
-    for edge in &step.edges {
-        // One by one with its removal, since a new edge may be replaced by another new one.
-        insert(connection, [Of(cell, edge)]).await?;
-        let gone = of_new.iter().filter(|gone| gone.number == edge.edge);
-        update::<2, _>(connection, gone.map(|gone| GoneEdge(cell, gone))).await?;
-    }
     Ok(())
 }
 

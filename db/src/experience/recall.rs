@@ -97,7 +97,7 @@ async fn subgoals(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<S
 }
 
 async fn edges(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Edge>> {
-    let sql = "SELECT edge, subgoal1, subgoal2, via, length, made_task, verified_task, verified_revision, times_verified
+    let sql = "SELECT edge, subgoal1, subgoal2, via, length, made_task, verified_task, verified_revision, times_verified, loose
                FROM edges WHERE cell = ? AND removed_task IS NULL ORDER BY edge";
     let rows = sqlx::query(sql).bind(cell).fetch_all(connection).await?;
     let edge = |(number, row): (usize, &SqliteRow)| {
@@ -110,6 +110,7 @@ async fn edges(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Edge
             verified_task: row.try_get(6)?,
             verified_revision: row.try_get(7)?,
             times_verified: row.try_get(8)?,
+            loose: row.try_get::<i64, _>(9)? != 0,
         })
     };
     (1..).zip(&rows).map(edge).collect()

@@ -150,6 +150,7 @@ impl Record for Of<'_, &Edge> {
         "subgoal1",
         "subgoal2",
         "via",
+        "loose",
         "length",
         "made_task",
         "verified_task",
@@ -164,6 +165,7 @@ impl Record for Of<'_, &Edge> {
         values.integer(edge.ends[0]);
         values.integer(edge.ends[1]);
         values.text(rows_text(edge.via.iter().map(Vec::as_slice)).as_str());
+        values.truth(edge.loose);
         values.real(edge.length);
         values.integer(edge.made_task);
         values.integer(edge.verified_task);

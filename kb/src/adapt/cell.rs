@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_planners::adapt::{Arm, Configuration, Limit, Object, PointRobot, Robot};
+use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario};
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 
@@ -18,6 +18,8 @@ pub struct Cell {
     pub name: String,
     /// Its robot.
     pub robot: RobotKind,
+    /// The robot in words and numbers; experience of a robot of which another text is said is none of this one.
+    pub robot_text: String,
     /// What stands in it.
     pub objects: Vec<Object>,
     /// Where the robot is before its first task.
@@ -73,33 +75,22 @@ pub struct Change {
     pub goals: Vec<Goal>,
 }
 
+impl Goal {
+    /// Its configuration, where it is given as one.
+    pub const fn configuration(&self) -> Option<&Configuration> {
+        match &self.target {
+            Target::Configuration(at) => Some(at),
+            Target::Tool { .. } => None,
+        }
+    }
+}
+
 impl RobotKind {
     /// As planners see it.
     pub fn robot(&self) -> Arc<dyn Robot> {
         match self {
             Self::Arm(arm) => Arc::clone(arm) as Arc<dyn Robot>,
             Self::Point(point) => Arc::clone(point) as Arc<dyn Robot>,
-        }
-    }
-
-    /// In a text that differs wherever experience of the one is none of the other.
-    pub fn text(&self) -> String {
-        let limits = |limits: &[Limit]| {
-            limits.iter().map(|limit| format!("{} to {}", limit.low, limit.high)).collect::<Vec<_>>().join(", ")
-        };
-        match self {
-            Self::Arm(arm) => {
-                let lengths: Vec<String> = arm.lengths().iter().map(f64::to_string).collect();
-                format!(
-                    "arm at ({}, {}), links {}, radius {}, joints {}",
-                    arm.base().x,
-                    arm.base().y,
-                    lengths.join(", "),
-                    arm.radius(),
-                    limits(arm.limits())
-                )
-            }
-            Self::Point(point) => format!("disc, radius {}, {}", point.radius(), limits(point.limits())),
         }
     }
 
@@ -128,7 +119,8 @@ impl Cell {
         if let Some(goal) = self.goals.iter().find(|goal| goal.name == text) {
             return Ok(goal.clone());
         }
-        let named = |configuration| Goal { name: text.to_owned(), target: Target::Configuration(configuration) };
+        let named =
+            |configuration| Goal { name: text.to_owned(), target: Target::Configuration(configuration) };
         if text == "home" {
             return Ok(named(self.home.clone()));
         }
@@ -163,6 +155,23 @@ impl Cell {
     /// The object of this name.
     pub fn object(&self, name: &str) -> Option<&Object> {
         self.objects.iter().find(|object| object.name == name)
+    }
+
+    /// As an experiment has it; its goals are configurations.
+    pub fn scenario(&self) -> Scenario {
+        let at = |goals: &[Goal]| goals.iter().filter_map(Goal::configuration).cloned().collect();
+        let changed = self.after(usize::MAX);
+        Scenario {
+            name: self.name.clone(),
+            robot: self.robot.robot(),
+            objects: self.objects.clone(),
+            changed: changed.objects,
+            change_after_task: self.change.as_ref().map_or(self.tasks, |change| change.after_task) as u32,
+            tasks: self.tasks as u32,
+            home: self.home.clone(),
+            goals: at(&self.goals),
+            added_goals: self.change.as_ref().map_or_else(Vec::new, |change| at(&change.goals)),
+        }
     }
 }
 

@@ -24,17 +24,26 @@ pub(super) struct ArmDraft {
     pub limits: Located<Vec<[f64; 2]>>,
 }
 
+impl ArmDraft {
+    fn text(&self) -> String {
+        format!(
+            "arm at {:?} with links {:?} of radius {} and joints {:?}",
+            self.base.value, self.lengths.value, self.radius.value, self.limits.value
+        )
+    }
+}
+
 impl Draft<'_> {
     pub fn refuse(&mut self, code: Code, span: &Range<usize>, message: impl Into<String>) {
         self.problems.push(self.text.problem(code, span, message));
     }
 
     /// An arm, if it can be one.
-    pub fn arm(&mut self, draft: &ArmDraft) -> Option<RobotKind> {
+    pub fn arm(&mut self, draft: &ArmDraft) -> Option<(RobotKind, String)> {
         let limits = draft.limits.value.iter().map(|&[low, high]| Limit { low, high }).collect();
         let [x, y] = draft.base.value;
         match Arm::new(Point::new(x, y), draft.lengths.value.clone(), draft.radius.value, limits) {
-            Ok(arm) => Some(RobotKind::Arm(Arc::new(arm))),
+            Ok(arm) => Some((RobotKind::Arm(Arc::new(arm)), draft.text())),
             Err(error) => {
                 let (code, span) = match error {
                     ArmError::Radius(_) => (Code::NotPositive, &draft.radius.span),
@@ -48,7 +57,10 @@ impl Draft<'_> {
                         format!("link {} is {length} m long, and must be longer than 0", link + 1)
                     }
                     ArmError::Limit(joint, low, high) => {
-                        format!("joint {} goes from {low} to {high}, and must go from a lower to a higher angle", joint + 1)
+                        format!(
+                            "joint {} goes from {low} to {high}, and must go from a lower to a higher angle",
+                            joint + 1
+                        )
                     }
                     other => other.to_string(),
                 };
@@ -59,7 +71,7 @@ impl Draft<'_> {
     }
 
     /// A disc in a box.
-    pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<RobotKind> {
+    pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<(RobotKind, String)> {
         let [x0, y0, x1, y1] = bounds.value;
         if !(x0 < x1 && y0 < y1) {
             self.refuse(
@@ -70,16 +82,22 @@ impl Draft<'_> {
             return None;
         }
         if radius.value < 0.0 {
-            self.refuse(Code::NotPositive, &radius.span, format!("`radius` is {}, and must be 0 at least", radius.value));
+            self.refuse(
+                Code::NotPositive,
+                &radius.span,
+                format!("`radius` is {}, and must be 0 at least", radius.value),
+            );
             return None;
         }
         let limits = [Limit { low: x0, high: x1 }, Limit { low: y0, high: y1 }];
-        Some(RobotKind::Point(Arc::new(PointRobot::new(limits, radius.value))))
+        let text = format!("disc of radius {} in {:?}", radius.value, bounds.value);
+        Some((RobotKind::Point(Arc::new(PointRobot::new(limits, radius.value))), text))
     }
 
     /// An outline, if it is a simple polygon.
     pub fn shape(&mut self, name: &str, corners: &Located<Vec<Located<[f64; 2]>>>) -> Option<Shape> {
-        let points = corners.value.iter().map(|corner| Point::new(corner.value[0], corner.value[1])).collect();
+        let points =
+            corners.value.iter().map(|corner| Point::new(corner.value[0], corner.value[1])).collect();
         let error = match Shape::new(points) {
             Ok(shape) => return Some(shape),
             Err(error) => error,
@@ -100,7 +118,8 @@ impl Draft<'_> {
                 self.text.problem(Code::NotFinite, at(corner), message)
             }
             ShapeError::SameCorner(one, other) => {
-                let message = format!("corners {} and {} of {name} are at the same place", one + 1, other + 1);
+                let message =
+                    format!("corners {} and {} of {name} are at the same place", one + 1, other + 1);
                 self.text.problem(Code::Degenerate, at(other), message)
             }
             ShapeError::SelfCrossing(one, other) => {
@@ -133,11 +152,15 @@ impl Draft<'_> {
         }
         let limits = robot.limits();
         let message = if at.value.len() == limits.len() {
-            let outside = (1..).zip(at.value.iter().zip(limits)).find(|(_, (q, l))| !(l.low <= **q && **q <= l.high));
+            let outside =
+                (1..).zip(at.value.iter().zip(limits)).find(|(_, (q, l))| !(l.low <= **q && **q <= l.high));
             outside.map_or_else(
                 || format!("{what} is no configuration"),
                 |(joint, (q, limit))| {
-                    format!("{what} has joint {joint} at {q}, outside of its limits {} to {}", limit.low, limit.high)
+                    format!(
+                        "{what} has joint {joint} at {q}, outside of its limits {} to {}",
+                        limit.low, limit.high
+                    )
                 },
             )
         } else {

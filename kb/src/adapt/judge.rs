@@ -6,6 +6,7 @@ use std::sync::Arc;
 use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
 use adit_planners::adapt::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 
+use super::explain::Explained;
 use crate::plan::rules::place;
 
 /// What rules are told of a change of a cell.
@@ -76,12 +77,14 @@ pub struct RuleJudge {
     /// Taken whatever rules say: the strategy that an experiment or the command line asks for.
     fixed: Option<Strategy>,
     considered: Vec<Considered>,
+    /// `None` where nobody wants to know which rules decided.
+    explained: Option<Explained>,
     trouble: Option<String>,
 }
 
 impl RuleJudge {
-    /// Makes ready; a `fixed` strategy is taken whatever rules say.
-    pub fn new(rules: &Arc<RuleBase>, fixed: Option<Strategy>) -> Result<Self, ClassError> {
+    /// Makes ready; a `fixed` strategy is taken whatever rules say. Which rules decided is kept if it `explains`.
+    pub fn new(rules: &Arc<RuleBase>, fixed: Option<Strategy>, explains: bool) -> Result<Self, ClassError> {
         let rules = || Arc::clone(rules);
         Ok(Self {
             changes: Consultation::new(rules(), "CELL_CHANGES", CELL_CHANGES, &["strategy"])?,
@@ -89,6 +92,7 @@ impl RuleJudge {
             edges: Consultation::new(rules(), "EDGES", EDGES, &["trust"])?,
             fixed,
             considered: Vec::new(),
+            explained: explains.then(Explained::default),
             trouble: None,
         })
     }
@@ -101,6 +105,11 @@ impl RuleJudge {
     /// Which rules spoke of the strategy when it was last asked for, and why the others did not; empties the list.
     pub fn take_considered(&mut self) -> Vec<Considered> {
         std::mem::take(&mut self.considered)
+    }
+
+    /// Which rules decided since this was last asked, if that is kept.
+    pub fn take_explained(&mut self) -> Explained {
+        self.explained.as_mut().map(std::mem::take).unwrap_or_default()
     }
 
     fn missing(&mut self, what: &str, found: Option<String>, wanted: &str) {
@@ -117,7 +126,12 @@ impl Judge for RuleJudge {
         self.changes.consult(&change(facts));
         self.considered = self.changes.considered("strategy");
         match meant(&self.changes, &STRATEGIES) {
-            Ok(strategy) => strategy,
+            Ok(strategy) => {
+                if let Some(explained) = &mut self.explained {
+                    explained.add("strategy", strategy_word(strategy), &self.considered);
+                }
+                strategy
+            }
             Err(found) => {
                 self.missing("the strategy after a change", found, "\"a0\", \"a1\", \"a2\" or \"a3\"");
                 Strategy::OnDemand
@@ -127,6 +141,14 @@ impl Judge for RuleJudge {
 
     fn landmark(&mut self, facts: &LandmarkFacts<'_>) -> Option<f64> {
         self.landmarks.consult(&landmark(facts));
+        if let Some(explained) = &mut self.explained {
+            let answer = self
+                .landmarks
+                .truth(1)
+                .map_or("unknown", |serves| if serves { "serves" } else { "does not" });
+            let answer = format!("{} {answer}", facts.object);
+            explained.add("landmark", &answer, &self.landmarks.considered("serves"));
+        }
         match (self.landmarks.truth(1), self.landmarks.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() => Some(weight),
@@ -141,7 +163,13 @@ impl Judge for RuleJudge {
     fn trust(&mut self, facts: &EdgeFacts) -> Trust {
         self.edges.consult(&edge(facts));
         match meant(&self.edges, &TRUSTS) {
-            Ok(trust) => trust,
+            Ok(trust) => {
+                if let Some(explained) = &mut self.explained {
+                    let word = TRUSTS.iter().find(|(_, known)| *known == trust).map_or("", |(word, _)| word);
+                    explained.add("trust", word, &self.edges.considered("trust"));
+                }
+                trust
+            }
             Err(found) => {
                 self.missing("whether an edge is trusted", found, "\"use\", \"verify\" or \"give up\"");
                 Trust::Verify
@@ -184,7 +212,11 @@ fn change(facts: &ChangeFacts) -> [Datum<'static>; CELL_CHANGES.len()] {
 pub fn told(facts: &ChangeFacts) -> serde_json::Value {
     let values = change(facts);
     let number = |value: &Datum<'_>| if let Datum::Number(number) = value { Some(*number) } else { None };
-    CELL_CHANGES.iter().zip(&values).map(|((name, _), value)| ((*name).to_owned(), number(value).into())).collect()
+    CELL_CHANGES
+        .iter()
+        .zip(&values)
+        .map(|((name, _), value)| ((*name).to_owned(), serde_json::json!(number(value))))
+        .collect()
 }
 
 fn landmark<'f>(facts: &LandmarkFacts<'f>) -> [Datum<'f>; LANDMARKS.len()] {

@@ -81,6 +81,24 @@ pub fn read(path: &Path) -> Result<Vec<Cell>> {
     parse(&name, &text, &name_of(path))
 }
 
+/// Reads the scenario of this name, or the only one.
+pub fn one(path: &Path, name: Option<&str>) -> Result<Cell> {
+    let mut cells = read(path)?;
+    let at = match name {
+        None if cells.len() == 1 => Some(0),
+        None => None,
+        Some(name) => cells.iter().position(|cell| cell.name == name),
+    };
+    at.map(|at| cells.swap_remove(at)).ok_or_else(|| {
+        let names: Vec<&str> = cells.iter().map(|cell| cell.name.as_str()).collect();
+        let message = match name {
+            None => format!("{} has {} scenarios; name one with --scenario", path.display(), names.len()),
+            Some(name) => format!("{} has no scenario {name}", path.display()),
+        };
+        Error::said("plan/scenario", message, Some(format!("scenarios: {}", names.join(", "))))
+    })
+}
+
 /// Reads a text; `file` is how messages call it, `name` what a scenario is called that has no name.
 fn parse(file: &str, text: &str, name: &str) -> Result<Vec<Cell>> {
     let source = Text::new(file, text);
@@ -103,10 +121,13 @@ fn parse(file: &str, text: &str, name: &str) -> Result<Vec<Cell>> {
         return Err(Error::said("map/impossible", format!("{file} has no scenario in `scenarios`"), None));
     }
     let mut draft = Draft { text: &source, problems: Vec::new() };
-    let names: Vec<(String, Range<usize>)> = written.iter().map(|scenario| match &scenario.name {
-        Some(name) => (name.value.clone(), span_of(name.referenced)),
-        None => (name.to_owned(), span_of(scenario.links.referenced)),
-    }).collect();
+    let names: Vec<(String, Range<usize>)> = written
+        .iter()
+        .map(|scenario| match &scenario.name {
+            Some(name) => (name.value.clone(), span_of(name.referenced)),
+            None => (name.to_owned(), span_of(scenario.links.referenced)),
+        })
+        .collect();
     draft.names("scenario", names.iter().map(|(name, span)| (name.as_str(), span.clone())));
     let cells: Vec<Cell> = written
         .into_iter()
@@ -120,10 +141,15 @@ impl Written {
     fn cell(self, name: String, draft: &mut Draft<'_>) -> Option<Cell> {
         if let Some(wrap) = self.wrap.filter(|wrap| wrap.value) {
             let span = span_of(wrap.referenced);
-            draft.refuse(Code::Impossible, &span, "`wrap` is true, and joints that turn on for ever are not planned for");
+            draft.refuse(
+                Code::Impossible,
+                &span,
+                "`wrap` is true, and joints that turn on for ever are not planned for",
+            );
         }
         let tasks = count(draft, "tasks", &self.tasks, 1);
-        let after = self.change_after_task.as_ref().and_then(|after| count(draft, "change_after_task", after, 0));
+        let after =
+            self.change_after_task.as_ref().and_then(|after| count(draft, "change_after_task", after, 0));
         let base = self.base.map_or(Located { value: [0.0; 2], span: 0..0 }, located);
         let arm = ArmDraft {
             lengths: located(self.links),
@@ -131,7 +157,7 @@ impl Written {
             base,
             limits: located(self.joint_limits),
         };
-        let robot = draft.arm(&arm);
+        let (robot, robot_text) = draft.arm(&arm).unzip();
         let mut objects = |corners: Vec<Corners>, first: usize| -> Vec<Object> {
             let object = |(index, corners): (usize, Corners)| {
                 let name = format!("obstacle {}", first + index);
@@ -143,7 +169,8 @@ impl Written {
         };
         let before = self.obstacles.len();
         let there = objects(self.obstacles, 1);
-        let added = objects(self.added_obstacle.into_iter().chain(self.added_obstacles).collect(), before + 1);
+        let added =
+            objects(self.added_obstacle.into_iter().chain(self.added_obstacles).collect(), before + 1);
         let home = draft.configuration("`home`", robot.as_ref(), &located(self.home));
         let mut goals = |goals: Vec<Spanned<Vec<f64>>>, first: usize| -> Vec<Goal> {
             let goal = |(index, at): (usize, Spanned<Vec<f64>>)| {
@@ -156,9 +183,17 @@ impl Written {
         let known = self.goals.len();
         let goals_there = goals(self.goals, 1);
         let goals_added = goals(self.added_goal.into_iter().chain(self.added_goals).collect(), known + 1);
-        let change =
-            after.map(|after_task| Change { after_task, objects: added, goals: goals_added });
-        Some(Cell { name, robot: robot?, objects: there, home: home?, goals: goals_there, change, tasks: tasks? })
+        let change = after.map(|after_task| Change { after_task, objects: added, goals: goals_added });
+        Some(Cell {
+            name,
+            robot: robot?,
+            robot_text: robot_text?,
+            objects: there,
+            home: home?,
+            goals: goals_there,
+            change,
+            tasks: tasks?,
+        })
     }
 }
 
@@ -184,17 +219,17 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
         serde_saphyr::Error::SerdeUnknownField { field, .. } => {
             source.problem(Code::UnknownKey, &span, format!("`{field}` is not a key of a scenario"))
         }
-        other => source.problem(Code::Syntax, &span, format!("not a scenario: {other}")).with_help(
-            "a polygon is [[x, y], ...] in metres, a configuration one number a joint in radians",
-        ),
+        other => source
+            .problem(Code::Syntax, &span, format!("not a scenario: {other}"))
+            .with_help("a polygon is [[x, y], ...] in metres, a configuration one number a joint in radians"),
     }
 }
 
-fn located<T>(spanned: Spanned<T>) -> Located<T> {
+pub(super) fn located<T>(spanned: Spanned<T>) -> Located<T> {
     Located { span: span_of(spanned.referenced), value: spanned.value }
 }
 
-fn span_of(location: Location) -> Range<usize> {
+pub(super) fn span_of(location: Location) -> Range<usize> {
     let span = location.span();
     let start = span.byte_offset().unwrap_or(0) as usize;
     start..start + span.byte_len().unwrap_or(0) as usize

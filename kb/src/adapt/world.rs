@@ -17,6 +17,7 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     fields.refuse_unknown(if is_disc { &DISC } else { &ARM }, problems);
     let mut draft = Draft { text: fields.text, problems: Vec::new() };
     let robot = if is_disc { disc(fields, &mut draft, problems) } else { arm(fields, &mut draft, problems) };
+    let (robot, robot_text) = robot.unzip();
     let objects = objects(fields, &mut draft, problems);
     let home = list(fields, "home", problems);
     let home = home.and_then(|home| draft.configuration("`home`", robot.as_ref(), &home));
@@ -28,11 +29,24 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     let is_well = draft.problems.is_empty() && problems.is_empty();
     problems.append(&mut draft.problems);
     let goals = goals.into_iter().map(|(goal, _)| goal).collect();
-    let cell = Cell { name: name.to_owned(), robot: robot?, objects, home: home?, goals, change: None, tasks: 0 };
+    let cell = Cell {
+        name: name.to_owned(),
+        robot: robot?,
+        robot_text: robot_text?,
+        objects,
+        home: home?,
+        goals,
+        change: None,
+        tasks: 0,
+    };
     is_well.then_some(cell)
 }
 
-fn arm(fields: &Fields<'_, '_>, draft: &mut Draft<'_>, problems: &mut Vec<Problem>) -> Option<RobotKind> {
+fn arm(
+    fields: &Fields<'_, '_>,
+    draft: &mut Draft<'_>,
+    problems: &mut Vec<Problem>,
+) -> Option<(RobotKind, String)> {
     let lengths = list(fields, "links", problems);
     let radius = or(fields, "link_radius", 0.0, problems);
     let base = match fields.get("base") {
@@ -46,7 +60,11 @@ fn arm(fields: &Fields<'_, '_>, draft: &mut Draft<'_>, problems: &mut Vec<Proble
     draft.arm(&ArmDraft { lengths: lengths?, radius: radius?, base: base?, limits: limits? })
 }
 
-fn disc(fields: &Fields<'_, '_>, draft: &mut Draft<'_>, problems: &mut Vec<Problem>) -> Option<RobotKind> {
+fn disc(
+    fields: &Fields<'_, '_>,
+    draft: &mut Draft<'_>,
+    problems: &mut Vec<Problem>,
+) -> Option<(RobotKind, String)> {
     let bounds = fields.numbers("bounds", problems);
     let radius = or(fields, "radius", 0.0, problems);
     draft.disc(&bounds?, &radius?)
@@ -67,8 +85,11 @@ fn objects(
             Some(_) => object.numbers("at", problems).map(|at| at.value),
         };
         let degrees = or(&object, "heading", 0.0, problems);
-        let is_movable = object.get("movable").is_some() && object.truth("movable", problems).unwrap_or(false);
-        let (Some(name), Some(corners), Some(at), Some(degrees)) = (name, corners, at, degrees) else { continue };
+        let is_movable =
+            object.get("movable").is_some() && object.truth("movable", problems).unwrap_or(false);
+        let (Some(name), Some(corners), Some(at), Some(degrees)) = (name, corners, at, degrees) else {
+            continue;
+        };
         if let Some(shape) = draft.shape(&name.value, &corners) {
             let pose = pose(at, degrees.value);
             objects.push((Object { name: name.value, shape, pose, is_movable }, name.span));

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use adit_engine::{RuleBase, Schema, Severity, Type};
 
+use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS};
 use crate::error::{Error, Result};
 use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
 use crate::rules::{self, Rules};
@@ -16,6 +17,8 @@ pub enum Kind {
     Channels,
     /// Robots on floor plans.
     Navigation,
+    /// Robots that learn in cells.
+    Adapt,
 }
 
 impl Kind {
@@ -24,13 +27,14 @@ impl Kind {
         match self {
             Self::Channels => &["corrected", "printed"],
             Self::Navigation => &["navigation"],
+            Self::Adapt => &["adapt"],
         }
     }
 
     fn folder(self, name: &str) -> String {
         match self {
             Self::Channels => format!("channels/{name}"),
-            Self::Navigation => name.to_owned(),
+            Self::Navigation | Self::Adapt => name.to_owned(),
         }
     }
 
@@ -44,6 +48,10 @@ impl Kind {
                 .class("SITUATIONS", SITUATIONS)
                 .class("SEGMENTS", SEGMENTS)
                 .class("WAYS", WAYS),
+            Self::Adapt => Schema::default()
+                .class("CELL_CHANGES", CELL_CHANGES)
+                .class("LANDMARKS", LANDMARKS)
+                .class("EDGES", EDGES),
         }
     }
 }
