@@ -67,6 +67,9 @@ impl Room {
     }
 }
 
+/// Places that are taken are kept no closer than this: what lies between them is met on the way from one to the next.
+const SPACING_M: f64 = 0.03;
+
 impl Known {
     /// By how many metres the known free room exceeds a link there, and which room that is; the slack is negative or
     /// `-INFINITY` where the link is not known to be free.
@@ -103,7 +106,8 @@ impl Known {
             kept.push(Clearance::Free { axis: link.axis, within_m });
         }
         let depth_m = (-within_m).max(0.0);
-        let is_news = |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > *within_m;
+        let is_news =
+            |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > within_m + SPACING_M;
         if distance.metres.is_finite() && self.taken.iter().all(is_news) {
             kept.push(Clearance::Taken { at: distance.witness, within_m: depth_m });
         }
