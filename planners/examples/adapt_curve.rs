@@ -50,6 +50,7 @@ fn main() {
             heuristic: if env("H", 0.0) > 0.0 { Heuristic::ShortestWay } else { Heuristic::NearestToGoal },
             tries: env("TRIES", 1e9) as usize,
             chain_step: env("CHAIN", 0.1),
+            tightens: env("TIGHT", 1.0) > 0.0,
             cuts_corners: env("CUT", 1.0) > 0.0,
             keeps_goals: env("KEEP", 1.0) > 0.0,
             ..Settings::default()

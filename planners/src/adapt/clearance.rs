@@ -29,17 +29,67 @@ pub enum Clearance {
 /// What is known of one object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
-    free: Vec<(Segment, f64)>,
+    free: Vec<Room>,
     taken: Vec<(Point, f64)>,
 }
 
+/// Free room about a segment, made ready for many questions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Room {
+    axis: Segment,
+    within_m: f64,
+    along: Point,
+    /// One over the square of the segment's length; 0 where it is a point.
+    per_square: f64,
+}
+
+impl Room {
+    fn new(axis: Segment, within_m: f64) -> Self {
+        let along = Point::new(axis.b.x - axis.a.x, axis.b.y - axis.a.y);
+        let square = along.x * along.x + along.y * along.y;
+        Self { axis, within_m, along, per_square: if square > 0.0 { 1.0 / square } else { 0.0 } }
+    }
+
+    fn squared(&self, p: Point) -> f64 {
+        let (dx, dy) = (p.x - self.axis.a.x, p.y - self.axis.a.y);
+        let share = ((dx * self.along.x + dy * self.along.y) * self.per_square).clamp(0.0, 1.0);
+        let (x, y) = (dx - share * self.along.x, dy - share * self.along.y);
+        x * x + y * y
+    }
+
+    /// Square of the distance to the farther end of an axis. The room is convex, so what holds both ends holds the axis.
+    fn farther_squared(&self, axis: &Segment) -> f64 {
+        self.squared(axis.a).max(self.squared(axis.b))
+    }
+
+    fn slack(&self, link: &Link) -> f64 {
+        self.within_m - link.radius - self.farther_squared(&link.axis).sqrt()
+    }
+}
+
+/// Places that are taken are kept no closer than this: what lies between them is met on the way from one to the next.
+const SPACING_M: f64 = 0.03;
+
 impl Known {
-    /// By how many metres the known free room exceeds a link there; negative or `-INFINITY` where it is not known to be free.
-    pub fn slack(&self, link: &Link) -> f64 {
-        let slack = |(axis, within_m): &(Segment, f64)| {
-            within_m - squared(axis, link.axis.a).max(squared(axis, link.axis.b)).sqrt()
-        };
-        self.free.iter().map(slack).fold(f64::NEG_INFINITY, f64::max) - link.radius
+    /// By how many metres the known free room exceeds a link there, and which room that is; the slack is negative or
+    /// `-INFINITY` where the link is not known to be free.
+    pub fn slack(&self, link: &Link) -> (f64, usize) {
+        let mut best = (f64::NEG_INFINITY, 0);
+        for (index, room) in self.free.iter().enumerate() {
+            let left = room.within_m - best.0;
+            if left > 0.0 {
+                let squared = room.farther_squared(&link.axis);
+                if squared < left * left {
+                    best = (room.within_m - squared.sqrt(), index);
+                }
+            }
+        }
+        (best.0 - link.radius, best.1)
+    }
+
+    /// The same by one room alone; less than what all of them give.
+    pub fn slack_in(&self, room: usize, link: &Link) -> f64 {
+        self.free.get(room).map_or(f64::NEG_INFINITY, |room| room.slack(link))
     }
 
     /// Whether a link there is known to come nearer than `touching_m` to the object.
@@ -52,11 +102,12 @@ impl Known {
     pub fn learn(&mut self, link: &Link, distance: &Distance) -> Vec<Clearance> {
         let mut kept = Vec::new();
         let within_m = distance.metres;
-        if within_m > 0.0 && self.slack(&Link { axis: link.axis, radius: within_m }) < 0.0 {
+        if within_m > 0.0 && self.slack(&Link { axis: link.axis, radius: within_m }).0 < 0.0 {
             kept.push(Clearance::Free { axis: link.axis, within_m });
         }
         let depth_m = (-within_m).max(0.0);
-        let is_news = |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > *within_m;
+        let is_news =
+            |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > within_m + SPACING_M;
         if distance.metres.is_finite() && self.taken.iter().all(is_news) {
             kept.push(Clearance::Taken { at: distance.witness, within_m: depth_m });
         }
@@ -68,13 +119,13 @@ impl Known {
 
     pub fn put(&mut self, clearance: &Clearance) {
         match *clearance {
-            Clearance::Free { axis, within_m } => self.free.push((axis, within_m)),
+            Clearance::Free { axis, within_m } => self.free.push(Room::new(axis, within_m)),
             Clearance::Taken { at, within_m } => self.taken.push((at, within_m)),
         }
     }
 
     pub fn clearances(&self) -> impl Iterator<Item = Clearance> + '_ {
-        let free = self.free.iter().map(|&(axis, within_m)| Clearance::Free { axis, within_m });
+        let free = self.free.iter().map(|room| Clearance::Free { axis: room.axis, within_m: room.within_m });
         free.chain(self.taken.iter().map(|&(at, within_m)| Clearance::Taken { at, within_m }))
     }
 }

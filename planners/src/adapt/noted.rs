@@ -54,6 +54,13 @@ pub enum Noted {
         /// In which state of the cell.
         revision: Revision,
     },
+    /// The path between two vertices was tightened, and is not again in this state of the cell.
+    Tightened {
+        /// Its ends, the lower number first.
+        ends: (VertexId, VertexId),
+        /// In which state of the cell.
+        revision: Revision,
+    },
     /// An evaluation taught something about an object.
     Learned {
         /// Its name.

@@ -9,6 +9,7 @@ mod repair;
 mod report;
 mod settings;
 mod task;
+mod tighten;
 mod trace;
 
 use std::collections::BTreeSet;
@@ -50,6 +51,8 @@ pub struct Progress {
     pub tally: Tally,
     /// Shortcuts that are not free, and in which state of the cell that was found.
     pub refused: Vec<((VertexId, VertexId), Revision)>,
+    /// Pairs of vertices the path between which was tightened, and in which state of the cell.
+    pub tightened: Vec<((VertexId, VertexId), Revision)>,
 }
 
 /// A planner that learns: a cell, the experience with it, and where the robot is.
@@ -61,6 +64,7 @@ pub struct Adapt {
     settings: Settings,
     progress: Progress,
     refused: BTreeSet<EdgeEnds>,
+    tightened: BTreeSet<EdgeEnds>,
     noted: Vec<Noted>,
 }
 
@@ -82,8 +86,11 @@ impl Adapt {
         progress: Progress,
     ) -> Self {
         let now = cell.revision();
-        let refused = progress.refused.iter().filter(|(_, at)| *at == now).map(|(ends, _)| *ends).collect();
-        Self { cell, experience, plugins, settings, progress, refused, noted: Vec::new() }
+        let of_now = |pairs: &[(EdgeEnds, Revision)]| -> BTreeSet<EdgeEnds> {
+            pairs.iter().filter(|(_, at)| *at == now).map(|(ends, _)| *ends).collect()
+        };
+        let (refused, tightened) = (of_now(&progress.refused), of_now(&progress.tightened));
+        Self { cell, experience, plugins, settings, progress, refused, tightened, noted: Vec::new() }
     }
 
     /// The cell as the planner knows it.
@@ -99,7 +106,9 @@ impl Adapt {
     /// Where it is in its life.
     pub fn progress(&self) -> Progress {
         let now = self.cell.revision();
-        Progress { refused: self.refused.iter().map(|ends| (*ends, now)).collect(), ..self.progress.clone() }
+        let with_now = |pairs: &BTreeSet<EdgeEnds>| pairs.iter().map(|ends| (*ends, now)).collect();
+        let (refused, tightened) = (with_now(&self.refused), with_now(&self.tightened));
+        Progress { refused, tightened, ..self.progress.clone() }
     }
 
     /// What changed since this was last asked, in order.

@@ -23,45 +23,59 @@ impl Motion<'_> {
         self.robot.links(&between(self.from, self.to, share))
     }
 
-    /// How far, as a share, the motion is known to be free of an object when it goes on from there; never less than 0.
-    fn free_from(&self, placed: &Placed, share: f64) -> f64 {
-        let links = self.links(share);
-        let by_link = placed.slack(&links).zip(&self.travel);
-        let free = by_link.map(|(slack, travel)| if slack < 0.0 { 0.0 } else { slack / travel.max(1e-12) });
-        free.fold(f64::INFINITY, f64::min)
+    /// Cuts from a gap what is known at its two ends.
+    fn shrunk(&self, placed: &Placed, gap: Gap) -> Option<Gap> {
+        let low = self.march(placed, gap, 1.0)?;
+        let high = self.march(placed, (low, gap.1), -1.0)?;
+        Some((low, high))
     }
 
-    /// Cuts from a gap what is known at its two ends.
-    fn shrunk(&self, placed: &Placed, (mut low, mut high): Gap) -> Option<Gap> {
+    /// Goes from one end of a gap towards the other as far as the motion is known to be free of an object, forward
+    /// (`sense` 1) or backward (-1); `None` where that closes the gap.
+    fn march(&self, placed: &Placed, (low, high): Gap, sense: f64) -> Option<f64> {
         const FINE: f64 = 1e-3;
+        let mut rooms = vec![usize::MAX; self.travel.len()];
+        let mut share = if sense > 0.0 { low } else { high };
         loop {
-            let ahead = self.free_from(placed, low);
-            low += ahead;
-            if low >= high {
+            let links = self.links(share);
+            // A link mostly stays in one room for some steps; all rooms are searched when that one ends.
+            let mut step = self.step(placed, &links, |index, link| placed.known.slack_in(rooms[index], link));
+            if step < FINE {
+                step = self.step(placed, &links, |index, link| {
+                    let (slack, room) = placed.known.slack(link);
+                    rooms[index] = room;
+                    slack
+                });
+            }
+            share += sense * step;
+            if (sense > 0.0 && share >= high) || (sense < 0.0 && share <= low) {
                 return None;
             }
-            if ahead < FINE {
+            if step < FINE {
+                return Some(share);
+            }
+        }
+    }
+
+    /// By which share the motion may go on, either way, until a link leaves the room that it has; 0 where it has none.
+    fn step(&self, placed: &Placed, links: &[Link], mut slack: impl FnMut(usize, &Link) -> f64) -> f64 {
+        let mut step = f64::INFINITY;
+        for (index, (link, travel)) in links.iter().zip(&self.travel).enumerate() {
+            let slack = slack(index, &placed.inward(link));
+            step = step.min(if slack < 0.0 { 0.0 } else { slack / travel.max(1e-12) });
+            if step <= 0.0 {
                 break;
             }
         }
-        loop {
-            let back = self.free_from(placed, high);
-            high -= back;
-            if high <= low {
-                return None;
-            }
-            if back < FINE {
-                return Some((low, high));
-            }
-        }
+        step
     }
 
-    /// A few shares in a gap, close enough that what is known to be touched there is hardly missed.
-    fn shares(&self, gap: Gap) -> impl Iterator<Item = f64> + use<> {
-        const STEP_M: f64 = 0.03;
-        let metres = self.travel.iter().copied().fold(0.0, f64::max) * (gap.1 - gap.0);
+    /// A few shares, close enough that what is known to be touched on the way is hardly missed.
+    fn shares(&self) -> impl Iterator<Item = f64> + use<> {
+        const STEP_M: f64 = 0.05;
+        let metres = self.travel.iter().copied().fold(0.0, f64::max);
         let steps = (metres / STEP_M).ceil().max(1.0);
-        (0..=steps as u32).map(move |step| gap.0 + (gap.1 - gap.0) * f64::from(step) / steps)
+        (0..=steps as u32).map(move |step| f64::from(step) / steps)
     }
 }
 
@@ -107,12 +121,14 @@ impl<'c> Probe<'c> {
         let robot = self.0.robot().clone();
         let motion = Motion { robot: robot.as_ref(), from, to, travel: robot.travel(from, to) };
         let mut gaps: Vec<(usize, Gap)> = Vec::new();
-        for index in 0..self.0.placed.len() {
-            let Some(gap) = motion.shrunk(&self.0.placed[index], (0.0, 1.0)) else { continue };
-            if motion.shares(gap).any(|share| self.0.is_known_to_touch(index, &motion.links(share))) {
+        for share in motion.shares() {
+            let links = motion.links(share);
+            if (0..self.0.placed.len()).any(|index| self.0.is_known_to_touch(index, &links)) {
                 return false;
             }
-            gaps.push((index, gap));
+        }
+        for (index, placed) in self.0.placed.iter().enumerate() {
+            gaps.extend(motion.shrunk(placed, (0.0, 1.0)).map(|gap| (index, gap)));
         }
         while let Some(widest) = widest(&gaps) {
             let (index, (low, high)) = gaps.swap_remove(widest);

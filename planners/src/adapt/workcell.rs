@@ -149,7 +149,7 @@ impl Workcell {
         let placed = &mut self.placed[index];
         let mut is_free = true;
         for link in links {
-            let inward = Link { axis: placed.frame.inward(&link.axis), radius: link.radius };
+            let inward = placed.inward(link);
             let distance = placed.object.shape.distance(&inward.axis);
             is_free &= distance.metres - link.radius >= self.touching_m;
             let kept = placed.known.learn(&inward, &distance);
@@ -170,15 +170,15 @@ impl Placed {
 
     /// By how much the known free room exceeds each of the links; negative where it is not known to be free.
     pub(super) fn slack<'l>(&'l self, links: &'l [Link]) -> impl Iterator<Item = f64> + 'l {
-        links
-            .iter()
-            .map(|link| self.known.slack(&Link { axis: self.frame.inward(&link.axis), radius: link.radius }))
+        links.iter().map(|link| self.known.slack(&self.inward(link)).0)
+    }
+
+    pub(super) fn inward(&self, link: &Link) -> Link {
+        Link { axis: self.frame.inward(&link.axis), radius: link.radius }
     }
 
     pub(super) fn is_known_to_touch(&self, links: &[Link], touching_m: f64) -> bool {
-        links.iter().any(|link| {
-            self.known.takes(&Link { axis: self.frame.inward(&link.axis), radius: link.radius }, touching_m)
-        })
+        links.iter().any(|link| self.known.takes(&self.inward(link), touching_m))
     }
 }
 

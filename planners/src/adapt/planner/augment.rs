@@ -94,6 +94,7 @@ impl Adapt {
         }
         if self.experience.remove_vertex(id).is_some() {
             self.refused.retain(|ends| ends.0 != id && ends.1 != id);
+            self.tightened.retain(|ends| ends.0 != id && ends.1 != id);
             self.progress.vertex = self.progress.vertex.filter(|(vertex, _)| *vertex != id);
             self.noted.push(Noted::VertexRemoved { id, why });
         }

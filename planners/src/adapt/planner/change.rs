@@ -52,6 +52,7 @@ impl Adapt {
         }
         self.cell.revision = revision;
         self.refused.clear();
+        self.tightened.clear();
         for (object, how) in changes {
             if matches!(how, ObjectChange::Gone | ObjectChange::Reshaped) {
                 self.noted.push(Noted::ClearancesForgotten { object: object.clone() });

@@ -22,6 +22,7 @@ impl Adapt {
         self.experience = Experience::from_rows(Vec::new(), Vec::new(), next).unwrap_or_default();
         self.cell.forget_clearances();
         self.refused.clear();
+        self.tightened.clear();
         self.noted.push(Noted::Forgotten);
         self.begin_at_here();
     }

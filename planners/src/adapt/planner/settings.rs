@@ -25,6 +25,8 @@ pub struct Settings {
     pub chain_step: f64,
     /// Whether corners are cut (section 2.6).
     pub cuts_corners: bool,
+    /// Whether paths are tightened between their corners, too.
+    pub tightens: bool,
     /// Whether a goal that was reached without Solve becomes a vertex, too.
     pub keeps_goals: bool,
 }
@@ -38,6 +40,7 @@ impl Default for Settings {
             max_chain: 64,
             chain_step: 0.1,
             cuts_corners: true,
+            tightens: true,
             keeps_goals: true,
         }
     }

@@ -54,6 +54,9 @@ impl Adapt {
             if self.settings.cuts_corners {
                 sequence = self.cut_corners(&sequence);
             }
+            if self.settings.tightens {
+                sequence = self.tighten(&sequence, judge);
+            }
             let mut parts = vec![Part { path: out, edge: None }];
             for pair in sequence.windows(2) {
                 let path = self.experience.path(pair[0], pair[1]).unwrap_or_default();
