@@ -16,7 +16,7 @@
 //! # Ok::<(), adit::Error>(())
 //! ```
 
-mod adapt;
+pub mod adapt;
 pub mod answer;
 mod classes;
 pub mod cli;
