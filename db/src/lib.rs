@@ -14,6 +14,7 @@ pub mod door;
 mod dynamic;
 pub mod edit;
 mod error;
+pub mod experience;
 pub mod floor_plan;
 mod guard;
 pub mod history;

@@ -178,6 +178,16 @@ impl Store {
         })
     }
 
+    /// Whether each transaction is on the disk before it is done. Without that, and in WAL mode ([`Store::share`]), a crash
+    /// of the program loses nothing, and a power cut the last transactions; the database stays whole in either case.
+    pub fn sync_each(&mut self, on: bool) -> Result<()> {
+        let sql = if on { "PRAGMA synchronous = FULL" } else { "PRAGMA synchronous = NORMAL" };
+        self.run(async |connection| {
+            sqlx::query(sql).execute(connection).await?;
+            Ok(())
+        })
+    }
+
     /// Writes a compact copy of the database to `to`, which must not exist.
     pub fn backup(&mut self, to: impl AsRef<Path>) -> Result<()> {
         self.run(async |connection| backup::copy(connection, to.as_ref()).await)

@@ -1,9 +1,11 @@
 //! The command line `adit`: its verbs, and what they print.
 
 mod build;
+mod cell;
 mod curve;
 mod demo;
 mod doctor;
+mod experiment;
 mod firm;
 mod fit;
 mod learn;
@@ -71,10 +73,12 @@ pub enum Verb {
     Sql(SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(DrawArgs),
-    /// The way of a part out of another, or of a robot through corridors, in a world of its own
+    /// The way of a part, a robot through corridors or over a floor plan, or of one that learns in a cell: a world of its own
     Plan(PlanArgs),
     /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
     Simulate(SimulateArgs),
+    /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
+    Experiment(ExperimentArgs),
     /// Who changed what, when and why
     History(HistoryArgs),
     /// Take back the last edit, or edit N of the history
@@ -403,14 +407,20 @@ pub struct DrawArgs {
 /// `adit plan`.
 #[derive(Args, Debug)]
 pub struct PlanArgs {
-    /// The world: a TOML file with [assembly] or [corridor]
+    /// The world: a TOML file with [assembly], [corridor], [floor_plan] or [cell], or a scenario (.json)
     pub world: PathBuf,
-    /// Where to start instead of where the world says, `x,y` in metres (corridors)
-    #[arg(allow_hyphen_values = true, requires = "goal")]
+    /// Where to start instead of where the world says, `x,y` in metres (corridors, floor plans); in a cell, the first goal
+    #[arg(allow_hyphen_values = true)]
     pub start: Option<String>,
-    /// Where to go, likewise
+    /// Where to go, likewise; in a cell, the second goal
     #[arg(allow_hyphen_values = true)]
     pub goal: Option<String>,
+    /// In a cell, the goals after that
+    #[arg(allow_hyphen_values = true, value_name = "GOAL")]
+    pub more: Vec<String>,
+    /// What is for cells only
+    #[command(flatten)]
+    pub learning: LearningArgs,
     /// The rule base instead of the world's: `corrected`, `printed` or a folder
     #[arg(long, value_name = "RULES")]
     pub rules: Option<String>,
@@ -427,6 +437,64 @@ pub struct PlanArgs {
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `adit plan` takes for a robot that learns in a cell.
+#[derive(Args, Debug)]
+pub struct LearningArgs {
+    /// After the goals, so many tasks with goals by chance (cells)
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub tasks: u32,
+    /// Of chance (cells); a database goes on with the seed that it was begun with
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// A path that is tried before any other is looked for, `[[a, b], ...]` (cells)
+    #[arg(long, value_name = "PATH.json")]
+    pub teach: Vec<PathBuf>,
+    /// Begin with a copy of the experience of another cell (cells)
+    #[arg(long, value_name = "CELL", requires = "db")]
+    pub from: Option<String>,
+    /// The database of that other cell, if not the same
+    #[arg(long, value_name = "FILE", requires = "from")]
+    pub from_db: Option<PathBuf>,
+    /// What becomes of experience after a change, whatever rules say (cells)
+    #[arg(long, value_parser = ["a0", "a1", "a2", "a3"])]
+    pub strategy: Option<String>,
+    /// Which scenario of a file with several (cells)
+    #[arg(long, value_name = "NAME")]
+    pub scenario: Option<String>,
+}
+
+/// `adit experiment`.
+#[derive(Args, Debug)]
+pub struct ExperimentArgs {
+    /// A scenario, or several (.json)
+    pub scenario: PathBuf,
+    /// How often each scenario is run
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub runs: u32,
+    /// Of chance: the first run has this seed, each next one the next
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// What is compared, by commas
+    #[arg(long, value_delimiter = ',', value_name = "STRATEGIES", default_value = "a0,a1,a2,a3,solve",
+          value_parser = ["a0", "a1", "a2", "a3", "solve"])]
+    pub strategy: Vec<String>,
+    /// Only the scenario of this name
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// The rule base: `adapt` or a folder
+    #[arg(long, value_name = "RULES", default_value = "adapt")]
+    pub rules: String,
+    /// Write a row for each scenario, strategy and task
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw the curves (the paper's Figure 5): .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
+    /// Print the rows as JSON
     #[arg(long)]
     pub json: bool,
 }
@@ -616,6 +684,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Draw(args) => picture::run(args).map(|()| 0),
         Verb::Plan(args) => plan::run(args).map(|found| u8::from(!found)),
         Verb::Simulate(args) => simulate::run(args).map(|right| u8::from(!right)),
+        Verb::Experiment(args) => experiment::run(args).map(|found| u8::from(!found)),
         Verb::History(args) => tune::history(args).map(|()| 0),
         Verb::Undo(args) => tune::undo(args).map(|()| 0),
         Verb::Serve(args) => serve::run(args).map(|()| 0),
@@ -661,6 +730,7 @@ impl Verb {
             Self::Draw(args) => args.site.json,
             Self::Plan(args) => args.json,
             Self::Simulate(args) => args.json,
+            Self::Experiment(args) => args.json,
             Self::History(args) => args.site.json,
             Self::Undo(args) => args.site.json,
             Self::Serve(args) => args.site.json,

@@ -3,8 +3,9 @@
 //!
 //! What is seen is told by width, dash, number or name as well as by colour, so a print in black and white reads.
 
+mod cell;
 mod channels;
-mod curve;
+mod curves;
 mod doors;
 mod floor;
 mod frame;
@@ -32,8 +33,9 @@ mod tests;
 mod text;
 mod view;
 
+pub use cell::{CellPicture, SpacePicture, render_cell};
 pub use channels::{ChannelPanel, render_channels};
-pub use curve::{CurvePanel, render_curves};
+pub use curves::{Curve, CurvePanel, Scale, render_curves};
 pub use floor::render_floor;
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};

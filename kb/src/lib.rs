@@ -16,6 +16,7 @@
 //! # Ok::<(), adit::Error>(())
 //! ```
 
+pub mod adapt;
 pub mod answer;
 mod classes;
 pub mod cli;

@@ -1,6 +1,7 @@
 //! Geometry and search for Adit: pure functions from a world to typed records (rooms, doors), and from
 //! weighted records to routes. No SQL, no rules.
 
+pub mod adapt;
 pub mod body;
 pub mod bridges;
 pub mod channels;

@@ -32,7 +32,7 @@ pub fn run(
         return Err(Error::said("simulate/metres", message, None));
     }
     let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;
-    picture::save(draw(world, args.metres, &drives), output, PNG_WIDTH)?;
+    picture::save(draw(world, &drives), output, PNG_WIDTH)?;
     if args.json {
         json(&drives)?;
     } else {

@@ -24,7 +24,10 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
     if let Some(output) = &args.output {
         picture::check(output)?;
     }
-    let world = World::read(&args.world)?;
+    let world = World::read_one(&args.world, args.learning.scenario.as_deref())?;
+    if !matches!(world.task, Task::Cell(_)) {
+        two_ends(args)?;
+    }
     let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
     let name = name.as_str();
     if args.explain && !world.task.kind().shipped().contains(&name) {
@@ -43,6 +46,31 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
             drive(args, &world, name, &between(args, corridor)?, &mut turns)
         }
         Task::FloorPlan(floor) => walk(args, &world.name, name, floor, &rules),
+        Task::Cell(cell) => super::cell::run(args, cell, &rules),
+    }
+}
+
+/// Refuses ends and settings that only a cell has.
+fn two_ends(args: &PlanArgs) -> Result<()> {
+    let learning = &args.learning;
+    if let Some(one) = args.more.first() {
+        let message = format!("`{one}` is one too many: this world takes START and GOAL");
+        return Err(Error::said("plan/ends", message, None));
+    }
+    if args.start.is_some() != args.goal.is_some() {
+        return Err(Error::said("plan/ends", "START needs a GOAL", None));
+    }
+    let of_cells = [
+        (learning.tasks > 0, "--tasks"),
+        (!learning.teach.is_empty(), "--teach"),
+        (learning.from.is_some(), "--from"),
+        (learning.strategy.is_some(), "--strategy"),
+    ];
+    match of_cells.into_iter().find(|(is_given, _)| *is_given) {
+        Some((_, flag)) => {
+            Err(Error::said("plan/no-cell", format!("{flag} is for worlds with [cell]"), None))
+        }
+        None => Ok(()),
     }
 }
 

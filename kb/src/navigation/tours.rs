@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
-use crate::draw::{CurvePanel, render_curves};
+use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Error, Result};
 
 /// Stops of a drive.
@@ -118,30 +118,34 @@ fn median(wrong: &[Wrong], of: &impl Fn(&Wrong) -> f64) -> f64 {
 }
 
 /// The errors of drives over the distance, as a standalone SVG text.
-pub fn draw(world: &str, far_m: f64, drives: &[Driven]) -> String {
-    let mut panels = Vec::new();
-    for (is_known, said) in [(true, "walls known"), (false, "model built on the way")] {
-        let of: Vec<&Driven> = drives.iter().filter(|driven| driven.is_known == is_known).collect();
-        let curves = |error: &dyn Fn(&Wrong) -> f64| of.iter().map(|driven| driven.curve(error)).collect();
-        panels.push(CurvePanel {
-            heading: format!("position, {said}"),
-            unit: "m",
-            scale: [0.001, 10.0],
-            limit: KEPT_M,
-            far_m,
-            bold: curves(&|wrong| wrong.place_m),
-            faint: curves(&|wrong| wrong.reckoned_m),
-        });
-        panels.push(CurvePanel {
-            heading: format!("heading, {said}"),
-            unit: "°",
-            scale: [0.01, 100.0],
-            limit: KEPT_DEGREES,
-            far_m,
-            bold: curves(&|wrong| wrong.heading.to_degrees()),
-            faint: curves(&|wrong| wrong.reckoned_heading.to_degrees()),
-        });
-    }
-    let title = format!("{world}: errors of the estimated pose, the median of each metre");
-    render_curves(&title, ["estimated pose", "dead reckoning"], &panels)
+pub fn draw(world: &str, drives: &[Driven]) -> String {
+    let panel = |what: &str, scale, level, (is_known, said): (bool, &str), curves: [fn(&Wrong) -> f64; 2]| {
+        let of = || drives.iter().filter(move |driven| driven.is_known == is_known);
+        let named = |name: &str, error: fn(&Wrong) -> f64| -> Vec<Curve> {
+            of().map(|driven| Curve { name: name.to_owned(), points: driven.curve(error) }).collect()
+        };
+        CurvePanel {
+            title: format!("{what}, {said}"),
+            across: "metres driven".to_owned(),
+            scale,
+            curves: [named("dead reckoning", curves[0]), named("estimated pose", curves[1])].concat(),
+            event: None,
+            level: Some(level),
+        }
+    };
+    let row = |walls: (bool, &str)| {
+        let (metres, degrees) = (Scale::Decades(0.001, 10.0, "m"), Scale::Decades(0.01, 100.0, "°"));
+        vec![
+            panel("position", metres, KEPT_M, walls, [|wrong| wrong.reckoned_m, |wrong| wrong.place_m]),
+            panel(
+                "heading",
+                degrees,
+                KEPT_DEGREES,
+                walls,
+                [|wrong| wrong.reckoned_heading.to_degrees(), |wrong| wrong.heading.to_degrees()],
+            ),
+        ]
+    };
+    let rows = [row((true, "walls known")), row((false, "model built on the way"))];
+    render_curves(&format!("{world}: errors of the estimated pose, the median of each metre"), &rows)
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use adit_engine::{RuleBase, Schema, Severity, Type};
 
+use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS};
 use crate::error::{Error, Result};
 use crate::navigation::guide::OPENINGS;
 use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
@@ -17,6 +18,8 @@ pub enum Kind {
     Channels,
     /// Robots on floor plans.
     Navigation,
+    /// Robots that learn in cells.
+    Adapt,
 }
 
 impl Kind {
@@ -25,13 +28,14 @@ impl Kind {
         match self {
             Self::Channels => &["corrected", "printed"],
             Self::Navigation => &["navigation"],
+            Self::Adapt => &["adapt"],
         }
     }
 
     fn folder(self, name: &str) -> String {
         match self {
             Self::Channels => format!("channels/{name}"),
-            Self::Navigation => name.to_owned(),
+            Self::Navigation | Self::Adapt => name.to_owned(),
         }
     }
 
@@ -46,6 +50,10 @@ impl Kind {
                 .class("SEGMENTS", SEGMENTS)
                 .class("WAYS", WAYS)
                 .class("OPENINGS", OPENINGS),
+            Self::Adapt => Schema::default()
+                .class("CELL_CHANGES", CELL_CHANGES)
+                .class("LANDMARKS", LANDMARKS)
+                .class("EDGES", EDGES),
         }
     }
 }

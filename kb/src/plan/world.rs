@@ -10,6 +10,7 @@ use adit_planners::read::{Document, Fields, Problem};
 use super::assembly::Assembly;
 use super::corridor::Corridor;
 use super::rules::{self, Kind};
+use crate::adapt::{self, Cell};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::reading;
@@ -38,6 +39,8 @@ pub enum Task {
     Corridor(Corridor),
     /// A robot is to find its way on a floor plan.
     FloorPlan(Box<Floor>),
+    /// A robot is to learn in a cell.
+    Cell(Box<Cell>),
 }
 
 impl Task {
@@ -45,6 +48,7 @@ impl Task {
     pub const fn kind(&self) -> Kind {
         match self {
             Self::FloorPlan(_) => Kind::Navigation,
+            Self::Cell(_) => Kind::Adapt,
             _ => Kind::Channels,
         }
     }
@@ -74,25 +78,43 @@ impl World {
         Ok((rules, found, remarks))
     }
 
+    /// Reads a file of a world, or of scenarios (.json); of several scenarios the one of this name is taken.
+    pub fn read_one(path: &Path, scenario: Option<&str>) -> Result<Self> {
+        if !adapt::is_scenario(path) {
+            return match scenario {
+                None => Self::read(path),
+                Some(_) => {
+                    let message =
+                        format!("{} has no scenarios to choose from: it is no .json", path.display());
+                    Err(Error::said("plan/scenario", message, None))
+                }
+            };
+        }
+        let cell = adapt::scenario::one(path, scenario)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let rules = Kind::Adapt.shipped()[0].to_owned();
+        Ok(Self { name: cell.name.clone(), folder, rules, task: Task::Cell(Box::new(cell)) })
+    }
+
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
         let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let (rules, task) = parse(&path.display().to_string(), &text, &folder)?;
+        let (rules, task) = parse(&path.display().to_string(), &text, &name, &folder)?;
         let rules = rules.unwrap_or_else(|| task.kind().shipped()[0].to_owned());
         Ok(Self { name, folder, rules, task })
     }
 }
 
-const KINDS: [&str; 3] = ["assembly", "corridor", "floor_plan"];
+const KINDS: [&str; 4] = ["assembly", "corridor", "floor_plan", "cell"];
 
-/// Reads a text; `name` is how messages call the file, `folder` where it lies.
-fn parse(name: &str, text: &str, folder: &Path) -> Result<(Option<String>, Task)> {
+/// Reads a text; `name` is how messages call the file, `world` what it is called, `folder` where it lies.
+fn parse(name: &str, text: &str, world: &str, folder: &Path) -> Result<(Option<String>, Task)> {
     let document = Document::parse(name, text).map_err(|error| Error::all(error.problems))?;
     let fields = document.fields("the world");
     let mut problems: Vec<Problem> = Vec::new();
-    let mut keys = vec!["rules", "assembly", "corridor", "floor_plan"];
+    let mut keys = vec!["rules", "assembly", "corridor", "floor_plan", "cell"];
     if fields.get("floor_plan").is_some() {
         keys.extend(reading::keys());
     }
@@ -115,6 +137,10 @@ fn parse(name: &str, text: &str, folder: &Path) -> Result<(Option<String>, Task)
                 .map(|floor| Task::FloorPlan(Box::new(floor))),
             None => None,
         },
+        ["cell"] => fields
+            .table("cell", "[cell]", &mut problems)
+            .and_then(|fields| adapt::world::read(world, &fields, &mut problems))
+            .map(|cell| Task::Cell(Box::new(cell))),
         [] => {
             let message = format!("{name} is no world of a planner");
             let help = format!("it needs a table [{}]", KINDS.join("] or ["));

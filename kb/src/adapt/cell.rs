@@ -1,0 +1,186 @@
+//! A cell as its file describes it: a robot, the objects about it, goals, and what changes.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario};
+use adit_planners::geometry::Point;
+use adit_planners::pose::Pose;
+
+use crate::error::{Error, Result};
+use crate::number::number;
+use crate::suggest::did_you_mean;
+
+/// A cell that can be planned in.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Under which its experience is kept.
+    pub name: String,
+    /// Its robot.
+    pub robot: RobotKind,
+    /// The robot in words and numbers; experience of a robot of which another text is said is none of this one.
+    pub robot_text: String,
+    /// What stands in it.
+    pub objects: Vec<Object>,
+    /// Where the robot is before its first task.
+    pub home: Configuration,
+    /// Where it may be sent.
+    pub goals: Vec<Goal>,
+    /// What changes while tasks are done; a cell of a TOML file changes when the file is edited.
+    pub change: Option<Change>,
+    /// How many tasks an experiment has.
+    pub tasks: usize,
+}
+
+/// The robot of a cell.
+#[derive(Clone, Debug)]
+pub enum RobotKind {
+    /// An arm in the plane.
+    Arm(Arc<Arm>),
+    /// A disc, or a point, in the plane.
+    Point(Arc<PointRobot>),
+}
+
+/// Where the robot may be sent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub target: Target,
+}
+
+/// Where a goal is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// At a configuration.
+    Configuration(Configuration),
+    /// Where the tool is at a pose in the frame of an object, so that the goal goes along with it.
+    Tool {
+        /// The object.
+        object: String,
+        /// In its frame.
+        pose: Pose,
+    },
+}
+
+/// What changes after a task: objects and goals that are new.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// After how many tasks.
+    pub after_task: usize,
+    /// New objects.
+    pub objects: Vec<Object>,
+    /// New goals.
+    pub goals: Vec<Goal>,
+}
+
+impl Goal {
+    /// Its configuration, where it is given as one.
+    pub const fn configuration(&self) -> Option<&Configuration> {
+        match &self.target {
+            Target::Configuration(at) => Some(at),
+            Target::Tool { .. } => None,
+        }
+    }
+}
+
+impl RobotKind {
+    /// As planners see it.
+    pub fn robot(&self) -> Arc<dyn Robot> {
+        match self {
+            Self::Arm(arm) => Arc::clone(arm) as Arc<dyn Robot>,
+            Self::Point(point) => Arc::clone(point) as Arc<dyn Robot>,
+        }
+    }
+
+    /// Base and joints of an arm, or the one place of a disc.
+    pub fn joints(&self, at: &[f64]) -> Vec<Point> {
+        match self {
+            Self::Arm(arm) => arm.joints(at),
+            Self::Point(_) => vec![Point::new(at[0], at[1])],
+        }
+    }
+}
+
+impl Cell {
+    /// The cell once `tasks` are done: changed, if its change is due by then.
+    pub fn after(&self, tasks: usize) -> Self {
+        let mut cell = self.clone();
+        if let Some(change) = cell.change.take_if(|change| tasks >= change.after_task) {
+            cell.objects.extend(change.objects);
+            cell.goals.extend(change.goals);
+        }
+        cell
+    }
+
+    /// A goal by its name, `home`, or a configuration `a,b,...`.
+    pub fn goal(&self, text: &str) -> Result<Goal> {
+        if let Some(goal) = self.goals.iter().find(|goal| goal.name == text) {
+            return Ok(goal.clone());
+        }
+        let named =
+            |configuration| Goal { name: text.to_owned(), target: Target::Configuration(configuration) };
+        if text == "home" {
+            return Ok(named(self.home.clone()));
+        }
+        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+        let robot = self.robot.robot();
+        match numbers {
+            Some(numbers) if robot.admits(&numbers) => Ok(named(numbers)),
+            Some(numbers) => {
+                let limits: Vec<String> = robot
+                    .limits()
+                    .iter()
+                    .map(|limit| format!("{} to {}", number(limit.low), number(limit.high)))
+                    .collect();
+                let message = format!(
+                    "`{text}` has {} numbers and is no configuration; expected {} within {}",
+                    numbers.len(),
+                    limits.len(),
+                    limits.join(" and ")
+                );
+                Err(Error::said("plan/configuration", message, None))
+            }
+            None => {
+                let names: Vec<&str> = self.goals.iter().map(|goal| goal.name.as_str()).collect();
+                let message = format!("`{text}` is no goal of {}, and no configuration `a,b`", self.name);
+                let help = did_you_mean(text, names.iter().copied())
+                    .or_else(|| Some(format!("goals: {}, home", names.join(", "))));
+                Err(Error::said("plan/unknown-goal", message, help))
+            }
+        }
+    }
+
+    /// The object of this name.
+    pub fn object(&self, name: &str) -> Option<&Object> {
+        self.objects.iter().find(|object| object.name == name)
+    }
+
+    /// As an experiment has it; its goals are configurations.
+    pub fn scenario(&self) -> Scenario {
+        let at = |goals: &[Goal]| goals.iter().filter_map(Goal::configuration).cloned().collect();
+        let changed = self.after(usize::MAX);
+        Scenario {
+            name: self.name.clone(),
+            robot: self.robot.robot(),
+            objects: self.objects.clone(),
+            changed: changed.objects,
+            change_after_task: self.change.as_ref().map_or(self.tasks, |change| change.after_task) as u32,
+            tasks: self.tasks as u32,
+            home: self.home.clone(),
+            goals: at(&self.goals),
+            added_goals: self.change.as_ref().map_or_else(Vec::new, |change| at(&change.goals)),
+        }
+    }
+}
+
+/// Whether a file is a scenario, and not a world.
+pub fn is_scenario(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+}
+
+/// The name of a cell that its file does not name.
+pub(super) fn name_of(path: &Path) -> String {
+    PathBuf::from(path).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+}

@@ -1,0 +1,279 @@
+//! A robot that learns in a cell, task by task, and keeps what it learns.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use adit_db::Store;
+use adit_engine::RuleBase;
+use adit_planners::adapt::{
+    Adapt, Chance, Changed, Configuration, Outcome, Report, Strategy, Workcell, distance,
+};
+
+use super::cell::{Cell, Goal, Target};
+use super::explain::Explained;
+use super::judge::RuleJudge;
+use super::plugins::{self, TOUCHING_M};
+use super::{keep, recall};
+use crate::error::{Error, Result};
+
+/// How a session begins.
+#[derive(Clone, Debug, Default)]
+pub struct Beginning<'b> {
+    /// Where experience is kept; nothing is kept without.
+    pub db: Option<&'b Path>,
+    /// Of chance, where there is no experience yet.
+    pub seed: u64,
+    /// The cell whose experience a new one begins with, and the database that it lies in, where that is another one.
+    pub from: Option<(&'b str, Option<&'b Path>)>,
+    /// A strategy of repair that counts instead of what rules say.
+    pub strategy: Option<Strategy>,
+    /// Paths that were taught.
+    pub taught: Vec<Vec<Configuration>>,
+    /// Whether it is asked of every decision which rules made it.
+    pub explains: bool,
+}
+
+/// A robot at work.
+pub struct Session {
+    cell: Cell,
+    /// The cell as its file has it, its change not yet due.
+    described: Cell,
+    adapt: Adapt,
+    judge: RuleJudge,
+    store: Option<Store>,
+    seed: u64,
+    copied_from: Option<String>,
+}
+
+/// A task that was done, or tried.
+#[derive(Clone, Debug)]
+pub struct Done {
+    /// Where it led.
+    pub goal: Goal,
+    /// The goal's configuration; `None` where there is none.
+    pub at: Option<Configuration>,
+    /// What came of it; `None` where the goal has no configuration.
+    pub report: Option<Report>,
+    /// Why there is no path; `None` where there is one.
+    pub reason: Option<String>,
+    /// What the cell's change before it did.
+    pub changed: Option<Changed>,
+    /// Planning and keeping.
+    pub took: Duration,
+}
+
+impl Session {
+    /// Begins, with what is kept of the cell, and takes in how it changed since then.
+    ///
+    /// # Returns
+    /// The session, and what the change did; `None` where nothing changed.
+    pub fn begin(
+        described: &Cell,
+        rules: &Arc<RuleBase>,
+        beginning: Beginning<'_>,
+    ) -> Result<(Self, Option<Changed>)> {
+        let judge = RuleJudge::new(rules, beginning.strategy, beginning.explains)
+            .map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+        let mut store = beginning.db.map(open).transpose()?;
+        let kept = match &mut store {
+            None => None,
+            Some(store) => experience(store, &described.name, beginning.from)?,
+        };
+        let plugins = plugins::with_taught(beginning.taught);
+        let settings = plugins::settings(beginning.seed);
+        let (adapt, seed, copied_from) = match &kept {
+            Some(kept) => {
+                let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
+                (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
+            }
+            None => {
+                let now = described.after(0);
+                let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
+                    .map_err(|error| Error::said("plan/cell", error.to_string(), None))?;
+                (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
+            }
+        };
+        let cell = described.after(adapt.progress().tasks as usize);
+        let described = described.clone();
+        let mut session = Self { cell, described, adapt, judge, store, seed, copied_from };
+        let changed = session.take_in()?;
+        session.keep(kept.is_none(), None)?;
+        Ok((session, changed))
+    }
+
+    /// The cell as it is now.
+    pub const fn cell(&self) -> &Cell {
+        &self.cell
+    }
+
+    /// The planner.
+    pub const fn adapt(&self) -> &Adapt {
+        &self.adapt
+    }
+
+    /// What rules decided since this was last asked; nothing unless it was wanted from the beginning.
+    pub fn explained(&mut self) -> Explained {
+        self.judge.take_explained()
+    }
+
+    /// Compares the cell with what the planner knows of it.
+    fn take_in(&mut self) -> Result<Option<Changed>> {
+        self.adapt
+            .change(self.cell.objects.clone(), &mut self.judge)
+            .map_err(|error| Error::said("plan/cell", error.to_string(), None))
+    }
+
+    /// Goes to a goal. Of the configurations in which the tool is there, the one nearest to home is tried first.
+    pub fn go(&mut self, goal: &Goal) -> Result<Done> {
+        let began = Instant::now();
+        let tasks = self.adapt.progress().tasks as usize;
+        let mut changed = None;
+        if self.described.change.as_ref().is_some_and(|change| change.after_task == tasks) {
+            self.cell = self.described.after(tasks);
+            changed = self.take_in()?;
+        }
+        let mut done = Done {
+            goal: goal.clone(),
+            at: None,
+            report: None,
+            reason: Some(format!(
+                "the tool cannot get to goal {}: it is out of reach, or beyond the joints' limits",
+                goal.name
+            )),
+            changed,
+            took: Duration::ZERO,
+        };
+        for at in self.configurations(goal) {
+            let report = self.adapt.task(&at, &mut self.judge);
+            let reason = self.reason(goal, &report);
+            let is_elsewhere = report.outcome == Outcome::GoalInCollision;
+            self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
+            (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
+            if !is_elsewhere {
+                break;
+            }
+        }
+        if let Some(trouble) = self.judge.trouble() {
+            return Err(Error::said("plan/rules", trouble.to_owned(), None));
+        }
+        done.took = began.elapsed();
+        Ok(done)
+    }
+
+    /// A goal by chance, none at which the robot is; the same seed and number of tasks give the same.
+    pub fn draw(&self, seed: u64) -> Option<Goal> {
+        const FAR_APART: u64 = 0x9E37_79B9_7F4A_7C15;
+        let progress = self.adapt.progress();
+        let cell = self.described.after(progress.tasks as usize);
+        let is_elsewhere =
+            |goal: &&Goal| self.configurations(goal).iter().all(|at| distance(at, &progress.here) > 1e-9);
+        let goals: Vec<&Goal> = cell.goals.iter().filter(is_elsewhere).collect();
+        let drawn = seed.wrapping_add(u64::from(progress.tasks).wrapping_mul(FAR_APART));
+        goals.get(Chance::new(drawn).below(goals.len())).map(|goal| (*goal).clone())
+    }
+
+    fn configurations(&self, goal: &Goal) -> Vec<Configuration> {
+        let (object, pose) = match &goal.target {
+            Target::Configuration(at) => return vec![at.clone()],
+            Target::Tool { object, pose } => (object, pose),
+        };
+        let Some(object) = self.cell.object(object) else { return Vec::new() };
+        let tool = object.pose.then(pose);
+        let robot = self.cell.robot.robot();
+        let mut found: Vec<Configuration> = Vec::new();
+        for at in [0, 1].into_iter().filter_map(|branch| robot.inverse(&tool, branch, &self.cell.home)) {
+            if found.iter().all(|known| distance(known, &at) > 1e-9) {
+                found.push(at);
+            }
+        }
+        found.sort_by(|a, b| distance(a, &self.cell.home).total_cmp(&distance(b, &self.cell.home)));
+        found
+    }
+
+    fn reason(&self, goal: &Goal, report: &Report) -> Option<String> {
+        let name = &goal.name;
+        match &report.outcome {
+            Outcome::Found => None,
+            Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),
+            Outcome::GoalInCollision => Some(format!("the robot would touch something at goal {name}")),
+            Outcome::StartInCollision => Some("the robot touches something where it is".to_owned()),
+            Outcome::NotFound => Some(format!("no path to goal {name} was found from where the robot is")),
+            other => Some(format!("{other:?}")),
+        }
+    }
+
+    /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
+    fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
+        let considered = self.judge.take_considered();
+        let mut step =
+            keep::step(&self.cell, self.seed, self.copied_from.as_deref(), &mut self.adapt, &considered);
+        let Some(store) = &mut self.store else { return Ok(()) };
+        if is_new {
+            step.objects = Some(keep::objects(&self.adapt));
+        }
+        let has_changed = is_new || task.is_some() || !step.object_changes.is_empty();
+        step.tasks.extend(task);
+        if has_changed {
+            store.transaction(|tx| tx.keep_step(&step))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Session {
+    /// One file again, unless another program reads it.
+    fn drop(&mut self) {
+        if let Some(store) = &mut self.store {
+            store.share(false).ok();
+        }
+    }
+}
+
+/// A database to which each task is written: others may read meanwhile, and no task waits for the disk.
+fn open(db: &Path) -> Result<Store> {
+    let mut store = Store::open_or_create(db)?;
+    store.share(true)?;
+    store.sync_each(false)?;
+    store.transaction(|tx| tx.make_experience())?;
+    Ok(store)
+}
+
+/// What is kept of a cell, or what it begins with.
+fn experience(
+    store: &mut Store,
+    cell: &str,
+    from: Option<(&str, Option<&Path>)>,
+) -> Result<Option<adit_db::experience::Experience>> {
+    let kept = store.snapshot(|tx| tx.experience(cell))?;
+    let Some((other, file)) = from else { return Ok(kept) };
+    if let Some(kept) = kept {
+        let message = format!(
+            "there is experience of {cell} already, of {} tasks; --from is for a cell that has none",
+            kept.cell.tasks
+        );
+        let help = format!("`DELETE FROM cells WHERE cell = '{cell}'` forgets it");
+        return Err(Error::said("plan/has-experience", message, Some(help)));
+    }
+    let read = |store: &mut Store| store.snapshot(|tx| Ok::<_, Error>((tx.experience(other)?, tx.cells()?)));
+    let (copy, cells) = match file {
+        None => read(store)?,
+        Some(file) => read(&mut Store::open_read_only(file)?)?,
+    };
+    let Some(mut copy) = copy else {
+        let message = format!("there is no experience of {other}");
+        let help = if cells.is_empty() {
+            "there is none of any cell".to_owned()
+        } else {
+            format!("there is of: {}", cells.join(", "))
+        };
+        return Err(Error::said("plan/no-experience", message, Some(help)));
+    };
+    copy.cell.copied_from = Some(match file {
+        None => other.to_owned(),
+        Some(file) => format!("{other} in {}", file.display()),
+    });
+    cell.clone_into(&mut copy.cell.cell);
+    store.transaction(|tx| tx.keep_experience(&copy))?;
+    Ok(Some(copy))
+}

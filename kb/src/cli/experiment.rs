@@ -1,0 +1,116 @@
+//! `adit experiment`: scenarios over many seeds, as a table, CSV and a picture.
+
+use std::fs::File;
+use std::path::Path;
+
+use super::ExperimentArgs;
+use super::output::{json, line, remark, table};
+use super::picture;
+use crate::adapt::{ExperimentOutcome, Row, experiment, is_scenario, method_of, scenario, write_csv};
+use crate::draw::{Curve, CurvePanel, Scale, render_curves};
+use crate::error::{Error, Result};
+use crate::number::number;
+use crate::plan::rules::{self, Kind};
+use crate::progress::Bar;
+
+/// Runs the scenarios; `false` where a task found no path.
+pub fn run(args: &ExperimentArgs) -> Result<bool> {
+    if let Some(output) = &args.picture {
+        picture::check(output)?;
+    }
+    if !is_scenario(&args.scenario) {
+        let message = format!("{} is no scenario; expected a .json file", args.scenario.display());
+        let help = "a world of your own (.toml) is planned in by `adit plan`".to_owned();
+        return Err(Error::said("experiment/format", message, Some(help)));
+    }
+    let cells = match &args.only {
+        Some(name) => vec![scenario::one(&args.scenario, Some(name))?],
+        None => scenario::read(&args.scenario)?,
+    };
+    let (rules, _) = rules::load(Kind::Adapt, &args.rules, Path::new(""))?;
+    let mut methods: Vec<_> = args.strategy.iter().filter_map(|word| method_of(word)).collect();
+    methods.sort_by_key(|method| (crate::adapt::method_word(*method) == "solve", *method));
+    methods.dedup();
+    // A file that cannot be written is found before the work.
+    let csv =
+        args.csv.as_deref().map(|path| File::create(path).map_err(|error| Error::io("write", path, &error)));
+    let csv = csv.transpose()?;
+    let alone = usize::from(!args.strategy.iter().any(|word| word == "solve"));
+    let bar = Bar::new("runs", (cells.len() * (methods.len() + alone)) as u64 * u64::from(args.runs));
+    let mut outcomes = Vec::with_capacity(cells.len());
+    for cell in &cells {
+        outcomes.push(experiment(cell, &rules, &methods, (args.runs, args.seed), &|| bar.step())?);
+    }
+    drop(bar);
+    let rows: Vec<Row> = outcomes.iter().flat_map(|outcome| outcome.rows.iter().cloned()).collect();
+    if let (Some(path), Some(file)) = (&args.csv, csv) {
+        write_csv(&rows, file)
+            .map_err(|error| Error::said("experiment/csv", format!("{}: {error}", path.display()), None))?;
+    }
+    if let Some(output) = &args.picture {
+        let title = format!("{} runs of each, seed {}", args.runs, args.seed);
+        let panels: Vec<Vec<CurvePanel>> = outcomes.iter().map(panels).collect();
+        picture::save(render_curves(&title, &panels), output, PNG_WIDTH)?;
+    }
+    if args.json {
+        json(&rows)?;
+    } else {
+        outcomes.iter().for_each(show);
+    }
+    let failures: u64 = outcomes.iter().map(|outcome| outcome.failures).sum();
+    if failures > 0 {
+        remark(&format!("{failures} tasks found no path"));
+    }
+    Ok(failures == 0)
+}
+
+/// The three panels of a scenario: ratio, evaluations, time.
+fn panels(outcome: &ExperimentOutcome) -> Vec<CurvePanel> {
+    let of = |title: &str, level, value: fn(&Row) -> f64| {
+        let mut curves: Vec<Curve> = Vec::new();
+        for row in &outcome.rows {
+            if curves.last().is_none_or(|curve| curve.name != row.strategy) {
+                curves.push(Curve { name: row.strategy.to_owned(), points: Vec::new() });
+            }
+            if let Some(curve) = curves.last_mut() {
+                curve.points.push((f64::from(row.task), value(row)));
+            }
+        }
+        CurvePanel {
+            title: format!("{}: {title}", outcome.scenario),
+            across: "task".to_owned(),
+            scale: Scale::Linear,
+            curves,
+            event: outcome.change_after.map(|after| (after as f64, "change".to_owned())),
+            level,
+        }
+    };
+    vec![
+        of("evaluations over Solve alone", Some(1.0), |row| row.ratio),
+        of("evaluations, cumulative", None, |row| row.evaluations),
+        of("milliseconds, cumulative", None, |row| row.seconds * 1e3),
+    ]
+}
+
+/// Some tasks of each strategy: the paper's 1, 16 and 40, the one after the change, some after it, the last.
+fn show(outcome: &ExperimentOutcome) {
+    let last = outcome.rows.iter().map(|row| row.task).max().unwrap_or(0);
+    let after = outcome.change_after.map_or(0, |after| after as u32 + 1);
+    let shown = |row: &&Row| [1, 16, 40, 60, 80, last, after].contains(&row.task);
+    line(&outcome.scenario);
+    let cells = outcome.rows.iter().filter(shown).map(|row| {
+        vec![
+            row.strategy.to_owned(),
+            row.task.to_string(),
+            format!("{:.1}", row.evaluations),
+            format!("{:.1}", row.evaluations_sd),
+            format!("{:.3}", row.ratio),
+            number(row.path_length),
+            format!("{:.3}", row.seconds * 1e3),
+        ]
+    });
+    table(&["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds"], cells);
+}
+
+/// Width of a PNG in pixels.
+const PNG_WIDTH: u32 = 1600;

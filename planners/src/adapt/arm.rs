@@ -1,0 +1,139 @@
+//! A planar arm (Chen 1994, section 4, has one of two links).
+
+mod inverse;
+
+use super::robot::{Configuration, Limit, Link, Robot};
+use crate::geometry::Point;
+use crate::pose::{Pose, wrapped};
+use crate::segment::Segment;
+
+/// An arm of n links in the plane. Joint i turns link i against link i - 1, the first one against the x axis of the cell;
+/// radians, counter-clockwise. The tool is at the end of the last link and looks along it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arm {
+    base: Point,
+    lengths: Vec<f64>,
+    radius: f64,
+    limits: Vec<Limit>,
+}
+
+/// Why numbers are no arm. Links are numbered from 0.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ArmError {
+    /// There is nothing to move.
+    #[error("an arm needs a link at least")]
+    NoLinks,
+    /// A link is a point, or runs backwards.
+    #[error("link {0} is {1} m long, and must be longer than 0")]
+    LinkLength(usize, f64),
+    /// A link cannot be thinner than its axis.
+    #[error("the radius of the links is {0} m, and must be 0 at least")]
+    Radius(f64),
+    /// The base is at no finite place.
+    #[error("the base of the arm is not at a finite place")]
+    Base,
+    /// A joint has a low and a high limit.
+    #[error("there are {limits} joint limits for {links} links")]
+    Limits {
+        /// How many were given.
+        limits: usize,
+        /// How many are needed.
+        links: usize,
+    },
+    /// A joint's limits leave it nothing.
+    #[error("joint {0} goes from {1} to {2} rad, and must go from a lower to a higher angle")]
+    Limit(usize, f64, f64),
+}
+
+impl Arm {
+    /// An arm from its base, the lengths of its links and their common radius (metres) and a limit for each joint.
+    pub fn new(base: Point, lengths: Vec<f64>, radius: f64, limits: Vec<Limit>) -> Result<Self, ArmError> {
+        if lengths.is_empty() {
+            return Err(ArmError::NoLinks);
+        }
+        if let Some((link, &length)) = (0..).zip(&lengths).find(|(_, l)| !(l.is_finite() && **l > 0.0)) {
+            return Err(ArmError::LinkLength(link, length));
+        }
+        if !(radius.is_finite() && radius >= 0.0) {
+            return Err(ArmError::Radius(radius));
+        }
+        if !(base.x.is_finite() && base.y.is_finite()) {
+            return Err(ArmError::Base);
+        }
+        if limits.len() != lengths.len() {
+            return Err(ArmError::Limits { limits: limits.len(), links: lengths.len() });
+        }
+        let is_wrong = |l: &Limit| !(l.low.is_finite() && l.high.is_finite() && l.low < l.high);
+        if let Some((joint, limit)) = (0..).zip(&limits).find(|(_, l)| is_wrong(l)) {
+            return Err(ArmError::Limit(joint, limit.low, limit.high));
+        }
+        Ok(Self { base, lengths, radius, limits })
+    }
+
+    /// The base, and the end of each link; metres in the frame of the cell.
+    pub fn joints(&self, at: &[f64]) -> Vec<Point> {
+        let mut joints = Vec::with_capacity(self.lengths.len() + 1);
+        let (mut place, mut heading) = (self.base, 0.0_f64);
+        joints.push(place);
+        for (angle, length) in at.iter().zip(&self.lengths) {
+            heading += angle;
+            let (sin, cos) = heading.sin_cos();
+            place = Point::new(place.x + length * cos, place.y + length * sin);
+            joints.push(place);
+        }
+        joints
+    }
+
+    fn is_at(&self, at: &[f64], place: Point) -> bool {
+        self.tool(at).at.distance(place) <= inverse::TOLERANCE_M
+    }
+}
+
+impl Robot for Arm {
+    fn limits(&self) -> &[Limit] {
+        &self.limits
+    }
+
+    fn links(&self, at: &[f64]) -> Vec<Link> {
+        let joints = self.joints(at);
+        joints
+            .windows(2)
+            .map(|ends| Link { axis: Segment::new(ends[0], ends[1]), radius: self.radius })
+            .collect()
+    }
+
+    fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        let turns = || from.iter().zip(to).map(|(a, b)| (b - a).abs()).zip(&self.lengths);
+        // The end of a link moves at most by each turn below it times the stretched length from that joint on.
+        let mut travel = Vec::with_capacity(self.lengths.len());
+        let (mut sum, mut turned) = (0.0, 0.0);
+        for (turn, length) in turns() {
+            turned += turn;
+            sum += turned * length;
+            travel.push(sum);
+        }
+        travel
+    }
+
+    fn tool(&self, at: &[f64]) -> Pose {
+        let joints = self.joints(at);
+        let end = joints[joints.len() - 1];
+        Pose::new(end.x, end.y, wrapped(at.iter().sum()))
+    }
+
+    fn branch(&self, at: &[f64]) -> u8 {
+        u8::from(at.get(1).is_some_and(|elbow| *elbow < 0.0))
+    }
+
+    fn inverse(&self, tool: &Pose, branch: u8, near: &[f64]) -> Option<Configuration> {
+        match self.lengths.len() {
+            1 => inverse::one_link(self, tool, near),
+            2 => inverse::two_links(self, tool, branch, near),
+            _ => inverse::many_links(self, tool, near),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! Which configuration brings the tool somewhere.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Arm;
+use crate::adapt::robot::{Configuration, Robot};
+use crate::pose::{Pose, wrapped};
+
+/// How near the tool has to come.
+pub(super) const TOLERANCE_M: f64 = 1e-6;
+
+/// The configuration turned by whole turns into the limits, as near as may be.
+fn unwound(arm: &Arm, at: Configuration, near: &[f64]) -> Option<Configuration> {
+    let turned = at.into_iter().zip(near).zip(&arm.limits).map(|((angle, near), limit)| {
+        let nearest = near + wrapped(angle - near);
+        let within = |a: &f64| limit.low <= *a && *a <= limit.high;
+        [nearest, nearest - TAU, nearest + TAU].into_iter().find(within)
+    });
+    turned.collect()
+}
+
+pub(super) fn one_link(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configuration> {
+    let angle = (tool.at.y - arm.base.y).atan2(tool.at.x - arm.base.x);
+    unwound(arm, vec![angle], near).filter(|at| arm.is_at(at, tool.at))
+}
+
+/// The law of cosines (Craig 1989, section 4.4); branch 0 has the elbow's angle positive, branch 1 negative.
+pub(super) fn two_links(arm: &Arm, tool: &Pose, branch: u8, near: &[f64]) -> Option<Configuration> {
+    let (first, second) = (arm.lengths[0], arm.lengths[1]);
+    let (x, y) = (tool.at.x - arm.base.x, tool.at.y - arm.base.y);
+    let cos = (x * x + y * y - first * first - second * second) / (2.0 * first * second);
+    // A stretched arm's cosine may lie beside 1 by rounding alone.
+    let stretched = if (1.0..1.0 + 1e-9).contains(&cos.abs()) { cos.signum() } else { cos };
+    if stretched.abs() > 1.0 {
+        return None;
+    }
+    let elbow = if branch == 0 { stretched.acos() } else { -stretched.acos() };
+    let shoulder = y.atan2(x) - (second * elbow.sin()).atan2(first + second * elbow.cos());
+    unwound(arm, vec![shoulder, elbow], near).filter(|at| arm.is_at(at, tool.at))
+}
+
+/// Damped least squares (Wampler 1986) from a configuration, place and heading of the tool, inside the limits.
+pub(super) fn many_links(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configuration> {
+    const ROUNDS: usize = 200;
+    let mut at = near.to_vec();
+    let mut damping = 1e-2;
+    let mut left = residual(arm, tool, &at);
+    for _ in 0..ROUNDS {
+        if left.norm() < TOLERANCE_M {
+            return Some(at);
+        }
+        let jacobian = jacobian(arm, &at);
+        let square = jacobian.transpose() * &jacobian + DMatrix::identity(at.len(), at.len()) * damping;
+        let step = square.cholesky()?.solve(&(jacobian.transpose() * &left));
+        let moved: Configuration = (at.iter().zip(step.iter()).zip(&arm.limits))
+            .map(|((angle, step), limit)| (angle + step).clamp(limit.low, limit.high))
+            .collect();
+        let after = residual(arm, tool, &moved);
+        if after.norm() < left.norm() {
+            (at, left, damping) = (moved, after, (damping * 0.3).max(1e-9));
+        } else {
+            damping *= 4.0;
+        }
+    }
+    None
+}
+
+/// What the tool lacks of its pose: metres, metres, radians.
+fn residual(arm: &Arm, tool: &Pose, at: &[f64]) -> DVector<f64> {
+    let now = arm.tool(at);
+    DVector::from_vec(vec![tool.at.x - now.at.x, tool.at.y - now.at.y, wrapped(tool.heading - now.heading)])
+}
+
+fn jacobian(arm: &Arm, at: &[f64]) -> DMatrix<f64> {
+    let joints = arm.joints(at);
+    let end = joints[joints.len() - 1];
+    DMatrix::from_fn(3, at.len(), |row, joint| match row {
+        0 => joints[joint].y - end.y,
+        1 => end.x - joints[joint].x,
+        _ => 1.0,
+    })
+}

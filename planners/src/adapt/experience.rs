@@ -1,0 +1,251 @@
+//! The experience graph (Chen 1994, section 2): subgoals, and which of them Reach connects.
+
+use std::collections::BTreeMap;
+
+use super::nearest::Nearest;
+use super::robot::{Configuration, length};
+use super::workcell::Revision;
+use crate::pose::Pose;
+
+/// Number of a vertex; never given twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct VertexId(pub u32);
+
+/// Number of an edge; never given twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EdgeId(pub u32);
+
+/// Where a subgoal hangs (section 2.3).
+#[derive(Clone, Debug, PartialEq)]
+pub struct TagPoint {
+    /// Name of the object that serves as landmark.
+    pub object: String,
+    /// The tool's pose in the object's frame.
+    pub tool: Pose,
+    /// The branch of the inverse kinematics on which the robot is there.
+    pub branch: u8,
+}
+
+/// A subgoal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vertex {
+    /// Its number.
+    pub id: VertexId,
+    /// The robot's configuration there, in the cell as it is now.
+    pub at: Configuration,
+    /// The object with which it moves along; `None` where no object serves.
+    pub tag: Option<TagPoint>,
+    /// The task in which it was made.
+    pub made_task: u32,
+}
+
+/// A connection that Reach can follow, or could when it was verified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    /// Its number.
+    pub id: EdgeId,
+    /// The vertices that it connects, the lower number first.
+    pub ends: (VertexId, VertexId),
+    /// The path of Reach from the first to the second, without both ends; empty where it goes straight.
+    pub via: Vec<Configuration>,
+    /// Length of the path, by the distance of configurations.
+    pub length: f64,
+    /// The task in which it was made.
+    pub made_task: u32,
+    /// The task in which it was last verified.
+    pub verified_task: u32,
+    /// The state of the cell in which it was last verified: it is free of all objects that have not changed since.
+    pub verified_revision: Revision,
+    /// How often it was verified, when it was made included.
+    pub times_verified: u32,
+    /// Whether an end of it moved since, so that it has to be verified against all objects.
+    pub is_loose: bool,
+}
+
+/// The graph, and the numbers that go on from where they were.
+#[derive(Clone, Debug, Default)]
+pub struct Experience {
+    vertices: BTreeMap<VertexId, Vertex>,
+    edges: BTreeMap<(VertexId, VertexId), Edge>,
+    next_vertex: u32,
+    next_edge: u32,
+    index: Nearest,
+    is_index_stale: bool,
+}
+
+impl Edge {
+    /// It goes straight from now on, over such a length, and nothing is known of it.
+    pub(super) fn loosen(&mut self, length: f64) {
+        self.via.clear();
+        self.length = length;
+        self.is_loose = true;
+    }
+}
+
+impl PartialEq for Experience {
+    /// The index says nothing of its own.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.vertices, &self.edges, self.next_vertex, self.next_edge)
+            == (&other.vertices, &other.edges, other.next_vertex, other.next_edge)
+    }
+}
+
+/// Rows that are no graph.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExperienceError {
+    /// A number is used twice, or not below the next one.
+    #[error("vertex {} stands twice, or is not below the next number", .0.0)]
+    Vertex(VertexId),
+    /// An edge is wrong.
+    #[error("edge {} has a vertex that is not there, stands twice, or is not below the next number", .0.0)]
+    Edge(EdgeId),
+}
+
+impl Experience {
+    /// A graph from its rows, in any order; `next` are the numbers that the next vertex and the next edge get.
+    pub fn from_rows(
+        vertices: Vec<Vertex>,
+        edges: Vec<Edge>,
+        next: (u32, u32),
+    ) -> Result<Self, ExperienceError> {
+        let mut graph = Self { next_vertex: next.0, next_edge: next.1, ..Self::default() };
+        for vertex in vertices {
+            let id = vertex.id;
+            if id.0 >= next.0 || graph.vertices.insert(id, vertex).is_some() {
+                return Err(ExperienceError::Vertex(id));
+            }
+        }
+        for edge in edges {
+            let (id, ends) = (edge.id, edge.ends);
+            let is_there = |end| graph.vertices.contains_key(&end);
+            let is_wrong = id.0 >= next.1 || ends.0 >= ends.1 || !is_there(ends.0) || !is_there(ends.1);
+            if is_wrong || graph.edges.insert(ends, edge).is_some() {
+                return Err(ExperienceError::Edge(id));
+            }
+        }
+        graph.is_index_stale = true;
+        Ok(graph)
+    }
+
+    /// The vertices, by number.
+    pub fn vertices(&self) -> impl Iterator<Item = &Vertex> {
+        self.vertices.values()
+    }
+
+    /// The edges, by their ends.
+    pub fn edges(&self) -> impl Iterator<Item = &Edge> {
+        self.edges.values()
+    }
+
+    /// The numbers that the next vertex and the next edge get.
+    pub fn next_numbers(&self) -> (u32, u32) {
+        (self.next_vertex, self.next_edge)
+    }
+
+    /// A vertex by its number.
+    pub fn vertex(&self, id: VertexId) -> Option<&Vertex> {
+        self.vertices.get(&id)
+    }
+
+    /// The edge between two vertices.
+    pub fn edge(&self, a: VertexId, b: VertexId) -> Option<&Edge> {
+        self.edges.get(&ends(a, b))
+    }
+
+    /// The path of Reach along an edge from one of its ends to the other, both included.
+    pub fn path(&self, from: VertexId, to: VertexId) -> Option<Vec<Configuration>> {
+        let edge = self.edge(from, to)?;
+        let mut path = vec![self.vertices.get(&edge.ends.0)?.at.clone()];
+        path.extend(edge.via.iter().cloned());
+        path.push(self.vertices.get(&edge.ends.1)?.at.clone());
+        if edge.ends.0 != from {
+            path.reverse();
+        }
+        Some(path)
+    }
+
+    /// The vertices in order of their distance to a configuration (the paper's heuristic h1).
+    pub fn by_distance(&mut self, to: &[f64]) -> Vec<VertexId> {
+        if self.is_index_stale {
+            self.index = Nearest::default();
+            for vertex in self.vertices.values() {
+                self.index.insert(&vertex.at, vertex.id.0);
+            }
+            self.is_index_stale = false;
+        }
+        self.index.from(to).map(|(number, _)| VertexId(number)).collect()
+    }
+
+    pub(super) fn add_vertex(&mut self, at: Configuration, tag: Option<TagPoint>, made_task: u32) -> &Vertex {
+        let id = VertexId(self.next_vertex);
+        self.next_vertex += 1;
+        if !self.is_index_stale {
+            self.index.insert(&at, id.0);
+        }
+        self.vertices.entry(id).or_insert(Vertex { id, at, tag, made_task })
+    }
+
+    /// Connects two vertices by a path of Reach from one to the other, both ends included; an edge between them is replaced.
+    pub(super) fn add_edge(
+        &mut self,
+        from: VertexId,
+        to: VertexId,
+        mut path: Vec<Configuration>,
+        when: (u32, Revision),
+    ) -> &Edge {
+        let id = EdgeId(self.next_edge);
+        self.next_edge += 1;
+        if from > to {
+            path.reverse();
+        }
+        let length = length(&path);
+        let via = path.split_off(1).into_iter().rev().skip(1).rev().collect();
+        let edge = Edge {
+            id,
+            ends: ends(from, to),
+            via,
+            length,
+            made_task: when.0,
+            verified_task: when.0,
+            verified_revision: when.1,
+            times_verified: 1,
+            is_loose: false,
+        };
+        self.edges.insert(ends(from, to), edge);
+        &self.edges[&ends(from, to)]
+    }
+
+    pub(super) fn edge_mut(&mut self, a: VertexId, b: VertexId) -> Option<&mut Edge> {
+        self.edges.get_mut(&ends(a, b))
+    }
+
+    pub(super) fn remove_edge(&mut self, a: VertexId, b: VertexId) -> Option<Edge> {
+        self.edges.remove(&ends(a, b))
+    }
+
+    /// Takes a vertex out; its edges have to be out before.
+    pub(super) fn remove_vertex(&mut self, id: VertexId) -> Option<Vertex> {
+        self.is_index_stale = true;
+        self.vertices.remove(&id)
+    }
+
+    pub(super) fn edges_of(&self, id: VertexId) -> Vec<EdgeEnds> {
+        self.edges.keys().filter(|ends| ends.0 == id || ends.1 == id).copied().collect()
+    }
+
+    /// Moves a vertex; nothing is known any more of its edges, which go straight from now on.
+    pub(super) fn move_vertex(&mut self, id: VertexId, at: Configuration) {
+        self.is_index_stale = true;
+        if let Some(vertex) = self.vertices.get_mut(&id) {
+            vertex.at = at;
+        }
+    }
+}
+
+/// The two vertices of an edge, the lower number first.
+pub(super) type EdgeEnds = (VertexId, VertexId);
+
+pub(super) fn ends(a: VertexId, b: VertexId) -> EdgeEnds {
+    (a.min(b), a.max(b))
+}

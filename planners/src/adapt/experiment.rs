@@ -1,0 +1,216 @@
+//! A scenario over many seeds (Chen 1994, section 4 and Figure 5).
+
+use rayon::prelude::*;
+
+use super::chance::Chance;
+use super::judge::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
+use super::planner::{Adapt, Outcome, Plugins, Settings};
+use super::probe::Probe;
+use super::robot::{Configuration, length};
+use super::scenario::Scenario;
+use super::workcell::{Workcell, WorkcellError};
+
+/// What an experiment is made with.
+pub struct Experiment<'e> {
+    /// The tasks.
+    pub scenario: &'e Scenario,
+    /// The two planners that are joined.
+    pub plugins: &'e Plugins,
+    /// The parameters; the seed of each run is told from [`seed`](Self::seed).
+    pub settings: &'e Settings,
+    /// How near an object counts as touched, metres.
+    pub touching_m: f64,
+    /// How often the scenario is run.
+    pub runs: u32,
+    /// The seed of the first run; each next run has the next one.
+    pub seed: u64,
+    /// A judge for a run. Which strategy follows the change is not asked: the method says it.
+    pub judge: &'e (dyn Fn() -> Box<dyn Judge> + Sync),
+    /// The seconds that went by since some time, since this crate has no clock.
+    pub clock: &'e (dyn Fn() -> f64 + Sync),
+    /// Told after each run.
+    pub progress: &'e (dyn Fn() + Sync),
+}
+
+/// Who does the tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Method {
+    /// Solve alone, which learns nothing.
+    Solve,
+    /// Adapt, with one strategy after the change.
+    Adapt(Strategy),
+}
+
+/// A task, over all runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Its number, from 1.
+    pub task: u32,
+    /// Evaluations up to its end, mean.
+    pub evaluations: f64,
+    /// Their standard deviation over the runs.
+    pub evaluations_sd: f64,
+    /// Length of the task's path, mean over the runs that found one, by the distance of configurations.
+    pub path_length: f64,
+    /// Seconds up to its end, mean.
+    pub seconds: f64,
+    /// Calls of Solve up to its end, mean.
+    pub solves: f64,
+    /// Runs in which it found no path.
+    pub failures: u32,
+}
+
+/// What came out, task by task.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Curve {
+    /// The tasks in order.
+    pub rows: Vec<Row>,
+    /// Evaluations up to the end of each task, run by run: to compare methods on the same tasks.
+    pub evaluations: Vec<Vec<u64>>,
+    /// Calls of Solve up to the end of each task, run by run.
+    pub solves: Vec<Vec<u64>>,
+}
+
+/// One task of one run.
+struct Sample {
+    evaluations: u64,
+    solves: u64,
+    length: Option<f64>,
+    seconds: f64,
+}
+
+impl Experiment<'_> {
+    /// Runs a method over all seeds, in parallel. Equal arguments give equal curves, but for the seconds.
+    pub fn run(&self, method: Method) -> Result<Curve, WorkcellError> {
+        let runs: Result<Vec<Vec<Sample>>, WorkcellError> = (0..self.runs)
+            .into_par_iter()
+            .map(|run| {
+                let samples = self.one_run(method, self.seed + u64::from(run));
+                (self.progress)();
+                samples
+            })
+            .collect();
+        Ok(curve(&runs?))
+    }
+
+    /// The goals of a run: each differs from the one before.
+    fn goals(&self, seed: u64) -> Vec<&Configuration> {
+        let scenario = self.scenario;
+        let mut chance = Chance::new(seed);
+        let all: Vec<&Configuration> = scenario.goals.iter().chain(&scenario.added_goals).collect();
+        let mut here = &scenario.home;
+        let mut goals = Vec::new();
+        for task in 0..scenario.tasks {
+            let has_changed = task >= scenario.change_after_task;
+            let known = if has_changed { &all[..] } else { &all[..scenario.goals.len()] };
+            let others: Vec<&Configuration> = known.iter().copied().filter(|goal| *goal != here).collect();
+            let Some(goal) = others.get(chance.below(others.len())) else { break };
+            here = goal;
+            goals.push(here);
+        }
+        goals
+    }
+
+    fn one_run(&self, method: Method, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
+        match method {
+            Method::Solve => self.solve_alone(seed),
+            Method::Adapt(strategy) => self.learn(strategy, seed),
+        }
+    }
+
+    fn learn(&self, strategy: Strategy, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
+        let scenario = self.scenario;
+        let began = (self.clock)();
+        let mut judge = Fixed { strategy, judge: (self.judge)() };
+        let cell = Workcell::new(scenario.robot.clone(), scenario.objects.clone(), self.touching_m)?;
+        let settings = Settings { seed, ..self.settings.clone() };
+        let mut adapt = Adapt::new(cell, self.plugins.clone(), settings, scenario.home.clone());
+        let mut samples = Vec::new();
+        for (task, goal) in (0..).zip(self.goals(seed)) {
+            if task == scenario.change_after_task {
+                adapt.change(scenario.changed.clone(), &mut judge)?;
+            }
+            let report = adapt.task(goal, &mut judge);
+            if report.outcome != Outcome::Found {
+                adapt.put(goal.clone());
+            }
+            adapt.take_noted();
+            samples.push(Sample {
+                evaluations: adapt.cell().evaluations(),
+                solves: adapt.progress().tally.solves,
+                length: (report.outcome == Outcome::Found).then_some(report.length),
+                seconds: (self.clock)() - began,
+            });
+        }
+        Ok(samples)
+    }
+
+    fn solve_alone(&self, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
+        let scenario = self.scenario;
+        let began = (self.clock)();
+        let mut chance = Chance::new(seed ^ 0x5eed);
+        let mut here = &scenario.home;
+        let (mut evaluations, mut samples) = (0, Vec::new());
+        for (task, goal) in (0..).zip(self.goals(seed)) {
+            let objects =
+                if task < scenario.change_after_task { &scenario.objects } else { &scenario.changed };
+            let mut cell = Workcell::new(scenario.robot.clone(), objects.clone(), self.touching_m)?;
+            let path = self.plugins.solve.solve(&mut Probe::new(&mut cell), here, goal, &mut chance);
+            evaluations += cell.evaluations();
+            here = goal;
+            samples.push(Sample {
+                evaluations,
+                solves: u64::from(task) + 1,
+                length: path.map(|path| length(&path)),
+                seconds: (self.clock)() - began,
+            });
+        }
+        Ok(samples)
+    }
+}
+
+fn curve(runs: &[Vec<Sample>]) -> Curve {
+    let tasks = runs.iter().map(Vec::len).min().unwrap_or(0);
+    let row = |task: usize| {
+        let samples = || runs.iter().map(|run| &run[task]);
+        let mean = |of: &dyn Fn(&Sample) -> f64| samples().map(of).sum::<f64>() / runs.len() as f64;
+        let evaluations = mean(&|sample| sample.evaluations as f64);
+        let squares: f64 = samples().map(|s| (s.evaluations as f64 - evaluations).powi(2)).sum();
+        let lengths: Vec<f64> = samples().filter_map(|sample| sample.length).collect();
+        Row {
+            task: task as u32 + 1,
+            evaluations,
+            evaluations_sd: (squares / (runs.len().max(2) - 1) as f64).sqrt(),
+            path_length: lengths.iter().sum::<f64>() / lengths.len().max(1) as f64,
+            seconds: mean(&|sample| sample.seconds),
+            solves: mean(&|sample| sample.solves as f64),
+            failures: (runs.len() - lengths.len()) as u32,
+        }
+    };
+    let of_runs = |of: &dyn Fn(&Sample) -> u64| runs.iter().map(|run| run.iter().map(of).collect()).collect();
+    Curve {
+        rows: (0..tasks).map(row).collect(),
+        evaluations: of_runs(&|sample| sample.evaluations),
+        solves: of_runs(&|sample| sample.solves),
+    }
+}
+
+/// A judge whose strategy is given.
+struct Fixed {
+    strategy: Strategy,
+    judge: Box<dyn Judge>,
+}
+
+impl Judge for Fixed {
+    fn strategy(&mut self, _facts: &ChangeFacts) -> Strategy {
+        self.strategy
+    }
+
+    fn landmark(&mut self, facts: &LandmarkFacts<'_>) -> Option<f64> {
+        self.judge.landmark(facts)
+    }
+
+    fn trust(&mut self, facts: &EdgeFacts) -> Trust {
+        self.judge.trust(facts)
+    }
+}

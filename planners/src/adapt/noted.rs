@@ -1,0 +1,134 @@
+//! What changed in the experience, in order, so that whoever keeps it writes just that.
+
+use super::clearance::Clearance;
+use super::experience::{Edge, EdgeId, Vertex, VertexId};
+use super::judge::{ChangeFacts, Strategy};
+use super::robot::Configuration;
+use super::workcell::Revision;
+
+/// One change of the experience or of what it is about.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Noted {
+    /// A subgoal was added.
+    VertexAdded(Vertex),
+    /// A subgoal went along with its object.
+    VertexMoved {
+        /// Which one.
+        id: VertexId,
+        /// The configuration there now.
+        at: Configuration,
+    },
+    /// A subgoal was taken out, after its edges.
+    VertexRemoved {
+        /// Which one.
+        id: VertexId,
+        /// Why.
+        why: Removal,
+    },
+    /// A connection was added.
+    EdgeAdded(Edge),
+    /// A connection was verified again, or found another path: it is now as told.
+    EdgeVerified(Edge),
+    /// Nothing is known any more of a connection, since an end of it moved: it is now as told.
+    EdgeLoosened(Edge),
+    /// A connection was taken out.
+    EdgeRemoved {
+        /// Which one.
+        id: EdgeId,
+        /// Its ends.
+        ends: (VertexId, VertexId),
+        /// Why.
+        why: Removal,
+        /// In which task.
+        task: u32,
+        /// In which state of the cell.
+        revision: Revision,
+        /// The object that is in its way, where that is known.
+        object: Option<String>,
+    },
+    /// A shortcut was tried between two vertices and is not free in this state of the cell.
+    CutRefused {
+        /// Its ends, the lower number first.
+        ends: (VertexId, VertexId),
+        /// In which state of the cell.
+        revision: Revision,
+    },
+    /// The path between two vertices was tightened, and is not again in this state of the cell.
+    Tightened {
+        /// Its ends, the lower number first.
+        ends: (VertexId, VertexId),
+        /// In which state of the cell.
+        revision: Revision,
+    },
+    /// An evaluation taught something about an object.
+    Learned {
+        /// Its name.
+        object: String,
+        /// What.
+        clearance: Clearance,
+    },
+    /// Nothing is known any more of an object, since it has another shape or is gone.
+    ClearancesForgotten {
+        /// Its name.
+        object: String,
+    },
+    /// An object came, went or changed.
+    ObjectChanged {
+        /// Its name.
+        object: String,
+        /// How.
+        how: ObjectChange,
+        /// The state of the cell from now on.
+        revision: Revision,
+    },
+    /// The judge was asked what becomes of the experience.
+    StrategyChosen {
+        /// What was asked.
+        facts: Box<ChangeFacts>,
+        /// What was answered.
+        strategy: Strategy,
+    },
+    /// All experience was forgotten: vertices, edges, clearances. Each of them is out; no other note says so.
+    Forgotten,
+    /// The robot is somewhere else, next to a vertex where one is told.
+    Stands {
+        /// Its configuration.
+        at: Configuration,
+        /// A vertex that Reach connects with it (the paper's u with a hat).
+        vertex: Option<VertexId>,
+    },
+}
+
+/// How an object changed. One that has another shape and was moved, too, counts as reshaped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObjectChange {
+    /// It came.
+    Appeared,
+    /// It went.
+    Gone,
+    /// It was moved or turned.
+    Moved,
+    /// It has another shape.
+    Reshaped,
+}
+
+/// Why something was taken out of the graph.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Removal {
+    /// Reach cannot follow it any more.
+    Broken,
+    /// The judge gave it up.
+    GivenUp,
+    /// The check before execution found it in collision.
+    Refused,
+    /// It hangs on nothing that the robot reaches (A1's home component; step 3 of T).
+    CutOff,
+    /// Its object went.
+    LandmarkGone,
+    /// Its object was moved to where the robot cannot follow.
+    OutOfReach,
+    /// The vertex at its end was taken out.
+    VertexRemoved,
+}

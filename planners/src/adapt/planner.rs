@@ -1,0 +1,160 @@
+//! The learning planner Adapt (Chen 1994, Figure 1).
+
+mod abstracted;
+mod augment;
+mod change;
+mod corners;
+mod find;
+mod repair;
+mod report;
+mod settings;
+mod task;
+mod tighten;
+mod trace;
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+pub use change::Changed;
+pub use report::{Outcome, Report, Tally};
+pub use settings::{Heuristic, Settings};
+
+use super::experience::{EdgeEnds, Experience, VertexId};
+use super::noted::Noted;
+use super::probe::Probe;
+use super::reach::Reach;
+use super::robot::Configuration;
+use super::solve::Solve;
+use super::workcell::{Revision, Workcell};
+
+/// The two planners that Adapt joins.
+#[derive(Clone, Debug)]
+pub struct Plugins {
+    /// The fast local one.
+    pub reach: Arc<dyn Reach>,
+    /// The slow global one.
+    pub solve: Arc<dyn Solve>,
+}
+
+/// Where a planner is in its life; with the cell, its clearances and the experience that is all there is to keep.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Tasks that were given so far.
+    pub tasks: u32,
+    /// Tasks that were given before the last change of the cell.
+    pub tasks_before_change: u32,
+    /// Where the robot is.
+    pub here: Configuration,
+    /// The vertex that Reach connected with it, and in which state of the cell (the paper's u with a hat).
+    pub vertex: Option<(VertexId, Revision)>,
+    /// What was called so far, and what it cost.
+    pub tally: Tally,
+    /// Shortcuts that are not free, and in which state of the cell that was found.
+    pub refused: Vec<((VertexId, VertexId), Revision)>,
+    /// Pairs of vertices the path between which was tightened, and in which state of the cell.
+    pub tightened: Vec<((VertexId, VertexId), Revision)>,
+}
+
+/// A planner that learns: a cell, the experience with it, and where the robot is.
+#[derive(Clone, Debug)]
+pub struct Adapt {
+    cell: Workcell,
+    experience: Experience,
+    plugins: Plugins,
+    settings: Settings,
+    progress: Progress,
+    refused: BTreeSet<EdgeEnds>,
+    tightened: BTreeSet<EdgeEnds>,
+    noted: Vec<Noted>,
+}
+
+impl Adapt {
+    /// A planner without experience, its robot at a configuration; that is its first vertex.
+    pub fn new(cell: Workcell, plugins: Plugins, settings: Settings, start: Configuration) -> Self {
+        let progress = Progress { here: start.clone(), ..Progress::default() };
+        let mut adapt = Self::resume(cell, Experience::default(), plugins, settings, progress);
+        adapt.begin_at_here();
+        adapt
+    }
+
+    /// A planner that goes on where another one was.
+    pub fn resume(
+        cell: Workcell,
+        experience: Experience,
+        plugins: Plugins,
+        settings: Settings,
+        progress: Progress,
+    ) -> Self {
+        let now = cell.revision();
+        let of_now = |pairs: &[(EdgeEnds, Revision)]| -> BTreeSet<EdgeEnds> {
+            pairs.iter().filter(|(_, at)| *at == now).map(|(ends, _)| *ends).collect()
+        };
+        let (refused, tightened) = (of_now(&progress.refused), of_now(&progress.tightened));
+        Self { cell, experience, plugins, settings, progress, refused, tightened, noted: Vec::new() }
+    }
+
+    /// The cell as the planner knows it.
+    pub fn cell(&self) -> &Workcell {
+        &self.cell
+    }
+
+    /// The experience.
+    pub fn experience(&self) -> &Experience {
+        &self.experience
+    }
+
+    /// Where it is in its life.
+    pub fn progress(&self) -> Progress {
+        let now = self.cell.revision();
+        let with_now = |pairs: &BTreeSet<EdgeEnds>| pairs.iter().map(|ends| (*ends, now)).collect();
+        let (refused, tightened) = (with_now(&self.refused), with_now(&self.tightened));
+        Progress { refused, tightened, ..self.progress.clone() }
+    }
+
+    /// What changed since this was last asked, in order.
+    pub fn take_noted(&mut self) -> Vec<Noted> {
+        let learned = self.cell.take_learned().into_iter();
+        let mut noted: Vec<Noted> = std::mem::take(&mut self.noted);
+        noted.extend(learned.map(|(object, clearance)| Noted::Learned { object, clearance }));
+        noted
+    }
+
+    /// Says that the robot was brought somewhere else, not by a task.
+    pub fn put(&mut self, at: Configuration) {
+        self.stand(at, None);
+    }
+
+    fn stand(&mut self, at: Configuration, vertex: Option<VertexId>) {
+        self.progress.here = at;
+        self.progress.vertex = vertex.map(|id| (id, self.cell.revision()));
+        self.noted.push(Noted::Stands { at: self.progress.here.clone(), vertex });
+    }
+
+    /// Adds the first vertex, where the robot is; nothing serves as its landmark.
+    fn begin_at_here(&mut self) {
+        let here = self.progress.here.clone();
+        let vertex = self.experience.add_vertex(here.clone(), None, self.progress.tasks).clone();
+        let id = vertex.id;
+        self.noted.push(Noted::VertexAdded(vertex));
+        self.stand(here, Some(id));
+    }
+
+    /// Calls Reach, and counts it.
+    fn reach(&mut self, from: &[f64], to: &[f64]) -> Option<Vec<Configuration>> {
+        let before = self.cell.evaluations();
+        let path = self.plugins.reach.reach(&mut Probe::new(&mut self.cell), from, to);
+        self.progress.tally.reaches += 1;
+        self.progress.tally.reach_evaluations += self.cell.evaluations() - before;
+        path
+    }
+
+    /// The configuration of a vertex.
+    fn at(&self, id: VertexId) -> Configuration {
+        self.experience.vertex(id).map_or_else(Vec::new, |vertex| vertex.at.clone())
+    }
+
+    /// The task, and the state of the cell, that are written to what is made or verified now.
+    fn now(&self) -> (u32, Revision) {
+        (self.progress.tasks, self.cell.revision())
+    }
+}

@@ -1,0 +1,48 @@
+//! A point in the plane (Chen 1994, section 3).
+
+use super::robot::{Configuration, Limit, Link, Robot};
+use crate::geometry::Point;
+use crate::pose::Pose;
+use crate::segment::Segment;
+
+/// A robot that is a disc, or a point where its radius is 0; its configuration is `[x, y]`, metres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointRobot {
+    limits: [Limit; 2],
+    radius: f64,
+}
+
+impl PointRobot {
+    /// A robot in a box; `radius` in metres.
+    pub const fn new(limits: [Limit; 2], radius: f64) -> Self {
+        Self { limits, radius }
+    }
+}
+
+impl Robot for PointRobot {
+    fn limits(&self) -> &[Limit] {
+        &self.limits
+    }
+
+    fn links(&self, at: &[f64]) -> Vec<Link> {
+        let place = Point::new(at[0], at[1]);
+        vec![Link { axis: Segment::new(place, place), radius: self.radius }]
+    }
+
+    fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        vec![super::robot::distance(from, to)]
+    }
+
+    fn tool(&self, at: &[f64]) -> Pose {
+        Pose::new(at[0], at[1], 0.0)
+    }
+
+    fn branch(&self, _at: &[f64]) -> u8 {
+        0
+    }
+
+    fn inverse(&self, tool: &Pose, _branch: u8, _near: &[f64]) -> Option<Configuration> {
+        let at = vec![tool.at.x, tool.at.y];
+        self.admits(&at).then_some(at)
+    }
+}

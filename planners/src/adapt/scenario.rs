@@ -1,0 +1,139 @@
+//! A sequence of tasks with a change in the middle (Chen 1994, section 4 and Figure 4).
+
+use std::sync::Arc;
+
+use serde::Deserialize;
+
+use super::arm::{Arm, ArmError};
+use super::object::Object;
+use super::robot::{Configuration, Limit, Robot};
+use super::shape::{Shape, ShapeError};
+use crate::geometry::Point;
+
+/// Tasks with goals that recur, and a change of the cell after some of them.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// What it is called.
+    pub name: String,
+    /// The robot.
+    pub robot: Arc<dyn Robot>,
+    /// The objects before the change.
+    pub objects: Vec<Object>,
+    /// The objects after it.
+    pub changed: Vec<Object>,
+    /// How many tasks come before it.
+    pub change_after_task: u32,
+    /// How many tasks there are.
+    pub tasks: u32,
+    /// Where the robot is at first.
+    pub home: Configuration,
+    /// The goals among which each task chooses.
+    pub goals: Vec<Configuration>,
+    /// The goals that join them after the change.
+    pub added_goals: Vec<Configuration>,
+}
+
+/// A scenario of an arm as its file has it; lengths in metres, angles in radians. Other fields are left to others.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+pub struct ArmScenario {
+    /// What it is called.
+    pub name: String,
+    /// Lengths of the links.
+    pub links: Vec<f64>,
+    /// Their common radius.
+    pub link_radius: f64,
+    /// The base of the arm.
+    pub base: [f64; 2],
+    /// Low and high limit of each joint.
+    pub joint_limits: Vec<[f64; 2]>,
+    /// Whether angles wrap: not supported, so it has to be false.
+    pub wrap: bool,
+    /// Corners of the objects.
+    pub obstacles: Vec<Vec<[f64; 2]>>,
+    /// Corners of the object that comes with the change.
+    pub added_obstacle: Vec<[f64; 2]>,
+    /// How many tasks come before the change.
+    pub change_after_task: u32,
+    /// How many tasks there are.
+    pub tasks: u32,
+    /// Where the robot is at first.
+    pub home: Configuration,
+    /// The goals.
+    pub goals: Vec<Configuration>,
+    /// The goal that comes with the change.
+    pub added_goal: Configuration,
+}
+
+/// What is wrong with a scenario. Obstacles and goals are numbered from 0.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ScenarioError {
+    /// The arm is none.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
+    /// An obstacle has no outline.
+    #[error("obstacles[{0}]: {1}")]
+    Obstacle(usize, ShapeError),
+    /// The obstacle that is added has no outline.
+    #[error("added_obstacle: {0}")]
+    AddedObstacle(ShapeError),
+    /// Angles that wrap are another configuration space.
+    #[error("wrap is true, and only joints that do not wrap are known")]
+    Wrap,
+    /// A place to be is beyond the limits of the joints, or has another number of them.
+    #[error("{0} is {1:?}, which is no configuration of the arm: {2}")]
+    Configuration(String, Configuration, &'static str),
+    /// A task needs another goal than the one where the robot is.
+    #[error("there are {0} goals, and two are needed at least")]
+    Goals(usize),
+}
+
+impl TryFrom<&ArmScenario> for Scenario {
+    type Error = ScenarioError;
+
+    fn try_from(file: &ArmScenario) -> Result<Self, ScenarioError> {
+        if file.wrap {
+            return Err(ScenarioError::Wrap);
+        }
+        let limits = file.joint_limits.iter().map(|&[low, high]| Limit { low, high }).collect();
+        let arm =
+            Arm::new(Point::new(file.base[0], file.base[1]), file.links.clone(), file.link_radius, limits)?;
+        let goals =
+            (0..).zip(&file.goals).map(|(number, goal): (usize, _)| (format!("goals[{number}]"), goal));
+        let others = [("home".to_owned(), &file.home), ("added_goal".to_owned(), &file.added_goal)];
+        for (name, at) in goals.chain(others) {
+            let why = match at.len() == file.links.len() {
+                true if arm.admits(at) => continue,
+                true => "a joint is beyond its limits",
+                false => "it needs an angle for each joint",
+            };
+            return Err(ScenarioError::Configuration(name, at.clone(), why));
+        }
+        if file.goals.len() < 2 {
+            return Err(ScenarioError::Goals(file.goals.len()));
+        }
+        let mut objects = Vec::new();
+        for (number, corners) in file.obstacles.iter().enumerate() {
+            let shape = shape(corners).map_err(|error| ScenarioError::Obstacle(number, error))?;
+            objects.push(Object::fixed(format!("obstacle {number}"), shape));
+        }
+        let mut changed = objects.clone();
+        let added = shape(&file.added_obstacle).map_err(ScenarioError::AddedObstacle)?;
+        changed.push(Object::fixed("added obstacle", added));
+        Ok(Self {
+            name: file.name.clone(),
+            robot: Arc::new(arm),
+            objects,
+            changed,
+            change_after_task: file.change_after_task,
+            tasks: file.tasks,
+            home: file.home.clone(),
+            goals: file.goals.clone(),
+            added_goals: vec![file.added_goal.clone()],
+        })
+    }
+}
+
+fn shape(corners: &[[f64; 2]]) -> Result<Shape, ShapeError> {
+    Shape::new(corners.iter().map(|&[x, y]| Point::new(x, y)).collect())
+}

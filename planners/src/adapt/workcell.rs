@@ -1,0 +1,199 @@
+//! The robot among its objects, what is known of them, and the count of what that cost.
+
+use std::sync::Arc;
+
+use super::clearance::{Clearance, Known};
+use super::object::{Frame, Object};
+use super::robot::{Link, Robot};
+
+/// Number of the state of a cell: 0 at first, one more with each change.
+pub type Revision = u32;
+
+/// An object as the cell has it now.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The object.
+    pub object: Object,
+    /// Since when it is where it is, and as it is.
+    pub since: Revision,
+    /// How often it was moved or turned.
+    pub times_moved: u32,
+    pub(super) frame: Frame,
+    pub(super) known: Known,
+}
+
+/// A robot and the objects about it. Plug-ins see it through a [`Probe`](super::Probe) only.
+#[derive(Clone, Debug)]
+pub struct Workcell {
+    robot: Arc<dyn Robot>,
+    pub(super) placed: Vec<Placed>,
+    pub(super) revision: Revision,
+    touching_m: f64,
+    evaluations: u64,
+    learned: Vec<(String, Clearance)>,
+    last_touched: Option<usize>,
+}
+
+/// Why objects are no cell.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum WorkcellError {
+    /// What is attached to a name has to find one object.
+    #[error("two objects are called {0}")]
+    SameName(String),
+    /// An object is at no finite place.
+    #[error("object {0} is not at a finite pose")]
+    NotFinite(String),
+}
+
+impl Workcell {
+    /// A cell of which nothing is known yet. What comes nearer to an object than `touching_m` metres counts as touching it.
+    pub fn new(robot: Arc<dyn Robot>, objects: Vec<Object>, touching_m: f64) -> Result<Self, WorkcellError> {
+        check(&objects)?;
+        let placed = objects.into_iter().map(|object| Placed::new(object, 0)).collect();
+        Ok(Self {
+            robot,
+            placed,
+            revision: 0,
+            touching_m,
+            evaluations: 0,
+            learned: Vec::new(),
+            last_touched: None,
+        })
+    }
+
+    /// A cell as it was: each object with the state of the cell since which it is as it is, and how often it was moved.
+    pub fn resume(
+        robot: Arc<dyn Robot>,
+        objects: Vec<(Object, Revision, u32)>,
+        revision: Revision,
+        touching_m: f64,
+    ) -> Result<Self, WorkcellError> {
+        let mut cell = Self::new(robot, objects.iter().map(|(object, ..)| object.clone()).collect(), touching_m)?;
+        cell.revision = revision;
+        for (placed, (_, since, times_moved)) in cell.placed.iter_mut().zip(objects) {
+            (placed.since, placed.times_moved) = (since, times_moved);
+        }
+        Ok(cell)
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> &Arc<dyn Robot> {
+        &self.robot
+    }
+
+    /// The objects as they are now, in the order in which they were given.
+    pub fn placed(&self) -> &[Placed] {
+        &self.placed
+    }
+
+    /// Number of its state.
+    pub fn revision(&self) -> Revision {
+        self.revision
+    }
+
+    /// How near an object counts as touched, metres.
+    pub fn touching_m(&self) -> f64 {
+        self.touching_m
+    }
+
+    /// How many configurations were evaluated against one object so far.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// What is known of the objects, by their names.
+    pub fn clearances(&self) -> impl Iterator<Item = (&str, Clearance)> {
+        let of = |placed: &'_ Placed| placed.known.clearances().collect::<Vec<_>>();
+        self.placed.iter().flat_map(move |placed| {
+            of(placed).into_iter().map(|clearance| (placed.object.name.as_str(), clearance))
+        })
+    }
+
+    /// Takes in what was known of an object; whether there is one of that name.
+    pub fn recall(&mut self, object: &str, clearance: &Clearance) -> bool {
+        let found = self.placed.iter_mut().find(|placed| placed.object.name == object);
+        found.map(|placed| placed.known.put(clearance)).is_some()
+    }
+
+    pub(super) fn forget_clearances(&mut self) {
+        for placed in &mut self.placed {
+            placed.known = Known::default();
+        }
+        self.learned.clear();
+    }
+
+    /// The object that was last found to be touched.
+    pub(super) fn last_touched(&self) -> Option<&str> {
+        self.placed.get(self.last_touched?).map(|placed| placed.object.name.as_str())
+    }
+
+    /// Whether the robot, with these links, is known to touch an object.
+    pub(super) fn is_known_to_touch(&mut self, index: usize, links: &[Link]) -> bool {
+        let touches = self.placed[index].is_known_to_touch(links, self.touching_m);
+        if touches {
+            self.last_touched = Some(index);
+        }
+        touches
+    }
+
+    /// What was learned since this was last asked.
+    pub(super) fn take_learned(&mut self) -> Vec<(String, Clearance)> {
+        std::mem::take(&mut self.learned)
+    }
+
+    /// Whether the robot, with these links, is free of an object. This is the one place where a planner reads the shape of
+    /// an object, and each call is one evaluation: one configuration against one object.
+    pub(super) fn evaluate(&mut self, index: usize, links: &[Link]) -> bool {
+        self.evaluations += 1;
+        let placed = &mut self.placed[index];
+        let mut is_free = true;
+        for link in links {
+            let inward = placed.inward(link);
+            let distance = placed.object.shape.distance(&inward.axis);
+            is_free &= distance.metres - link.radius >= self.touching_m;
+            let kept = placed.known.learn(&inward, &distance);
+            self.learned.extend(kept.into_iter().map(|clearance| (placed.object.name.clone(), clearance)));
+        }
+        if !is_free {
+            self.last_touched = Some(index);
+        }
+        is_free
+    }
+}
+
+impl Placed {
+    pub(super) fn new(object: Object, since: Revision) -> Self {
+        let frame = Frame::new(&object.pose);
+        Self { object, since, times_moved: 0, frame, known: Known::default() }
+    }
+
+    /// By how much the known free room exceeds each of the links; negative where it is not known to be free.
+    pub(super) fn slack<'l>(&'l self, links: &'l [Link]) -> impl Iterator<Item = f64> + 'l {
+        links.iter().map(|link| self.known.slack(&self.inward(link)).0)
+    }
+
+    pub(super) fn inward(&self, link: &Link) -> Link {
+        Link { axis: self.frame.inward(&link.axis), radius: link.radius }
+    }
+
+    pub(super) fn is_known_to_touch(&self, links: &[Link], touching_m: f64) -> bool {
+        links.iter().any(|link| self.known.takes(&self.inward(link), touching_m))
+    }
+}
+
+/// Refuses objects that are no cell.
+pub(super) fn check(objects: &[Object]) -> Result<(), WorkcellError> {
+    let mut names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
+    names.sort_unstable();
+    if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(WorkcellError::SameName(pair[0].to_owned()));
+    }
+    let is_finite = |object: &Object| {
+        object.pose.at.x.is_finite() && object.pose.at.y.is_finite() && object.pose.heading.is_finite()
+    };
+    match objects.iter().find(|object| !is_finite(object)) {
+        Some(lost) => Err(WorkcellError::NotFinite(lost.name.clone())),
+        None => Ok(()),
+    }
+}
