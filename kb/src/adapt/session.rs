@@ -132,6 +132,7 @@ impl Session {
         if self.described.change.as_ref().is_some_and(|change| change.after_task == tasks) {
             self.cell = self.described.after(tasks);
             changed = self.take_in()?;
+            self.keep(false, None)?;
         }
         let mut done = Done {
             goal: goal.clone(),
