@@ -7,13 +7,14 @@ use std::time::{Duration, Instant};
 use adit_db::Store;
 use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Chance, Changed, Configuration, Outcome, Report, Strategy, Workcell, distance,
+    Adapt, Chance, Changed, Configuration, Outcome, Report, Settings, Strategy, TOUCHING_M, Workcell,
+    distance,
 };
 
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
-use super::plugins::{self, TOUCHING_M};
+use super::plugins::with_taught;
 use super::{keep, recall};
 use crate::error::{Error, Result};
 
@@ -80,8 +81,8 @@ impl Session {
             None => None,
             Some(store) => experience(store, &described.name, beginning.from)?,
         };
-        let plugins = plugins::with_taught(beginning.taught);
-        let settings = plugins::settings(beginning.seed);
+        let plugins = with_taught(beginning.taught);
+        let settings = Settings { seed: beginning.seed, ..Settings::default() };
         let (adapt, seed, copied_from) = match &kept {
             Some(kept) => {
                 let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
@@ -148,7 +149,7 @@ impl Session {
         for at in self.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
             let reason = self.reason(goal, &report);
-            let is_elsewhere = report.outcome == Outcome::GoalInCollision;
+            let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
             self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
             (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
             if !is_elsewhere {
@@ -197,8 +198,10 @@ impl Session {
         match &report.outcome {
             Outcome::Found => None,
             Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),
-            Outcome::GoalInCollision => Some(format!("the robot would touch something at goal {name}")),
-            Outcome::StartInCollision => Some("the robot touches something where it is".to_owned()),
+            Outcome::GoalInCollision(object) => {
+                Some(format!("the robot would touch {object} at goal {name}"))
+            }
+            Outcome::StartInCollision(object) => Some(format!("the robot touches {object} where it is")),
             Outcome::NotFound => Some(format!("no path to goal {name} was found from where the robot is")),
             other => Some(format!("{other:?}")),
         }

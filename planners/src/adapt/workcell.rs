@@ -77,21 +77,6 @@ impl Workcell {
         })
     }
 
-    /// A cell as it was: each object with the state of the cell since which it is as it is, and how often it was moved.
-    pub fn resume(
-        robot: Arc<dyn Robot>,
-        objects: Vec<(Object, Revision, u32)>,
-        revision: Revision,
-        touching_m: f64,
-    ) -> Result<Self, WorkcellError> {
-        let mut cell = Self::new(robot, objects.iter().map(|(object, ..)| object.clone()).collect(), touching_m)?;
-        cell.revision = revision;
-        for (placed, (_, since, times_moved)) in cell.placed.iter_mut().zip(objects) {
-            (placed.since, placed.times_moved) = (since, times_moved);
-        }
-        Ok(cell)
-    }
-
     /// The robot.
     pub fn robot(&self) -> &Arc<dyn Robot> {
         &self.robot
