@@ -156,9 +156,6 @@ impl Session {
                 break;
             }
         }
-        if let Some(trouble) = self.judge.trouble() {
-            return Err(Error::said("plan/rules", trouble.to_owned(), None));
-        }
         done.took = began.elapsed();
         Ok(done)
     }
@@ -209,6 +206,10 @@ impl Session {
 
     /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
     fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
+        // What the planner did then rests on no rule.
+        if let Some(trouble) = self.judge.trouble() {
+            return Err(Error::said("plan/rules", trouble.to_owned(), None));
+        }
         let considered = self.judge.take_considered();
         let mut step =
             keep::step(&self.cell, self.seed, self.copied_from.as_deref(), &mut self.adapt, &considered);
