@@ -47,4 +47,4 @@ pub use robot::{Configuration, Limit, Link, Robot, between, distance, length};
 pub use scenario::{ArmScenario, Scenario, ScenarioError};
 pub use shape::{Shape, ShapeError};
 pub use solve::{RrtConnect, Solve, Taught, TwoStep};
-pub use workcell::{Placed, Revision, Workcell, WorkcellError};
+pub use workcell::{Placed, Revision, TOUCHING_M, Workcell, WorkcellError};

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use adit_engine::RuleBase;
-use adit_planners::adapt::{Curve, Experiment, Judge, Method};
+use adit_planners::adapt::{Curve, Experiment, Judge, Method, Plugins, Settings, TOUCHING_M};
 use serde::Serialize;
 
 use super::cell::Cell;
 use super::judge::{RuleJudge, strategy_of, strategy_word};
-use super::plugins::{self, TOUCHING_M};
 use crate::error::{Error, Result};
 
 /// A row of the table: a task of a method, over all runs.
@@ -77,8 +76,7 @@ pub fn run(
         Box::new(RuleJudge::new(rules, None, false).expect("another one was made of these rules"))
     };
     let began = Instant::now();
-    let plugins = plugins::plugins();
-    let settings = plugins::settings(seed);
+    let (plugins, settings) = (Plugins::standard(), Settings::default());
     let experiment = Experiment {
         scenario: &scenario,
         plugins: &plugins,

@@ -2,8 +2,8 @@
 
 use adit_db::experience as rows;
 use adit_planners::adapt::{
-    Adapt, Clearance, Edge, EdgeId, Experience, Object, Plugins, Progress, Settings, Shape, TagPoint, Vertex,
-    VertexId, Workcell,
+    Adapt, Clearance, Edge, EdgeId, Experience, Object, Placed, Plugins, Progress, Settings, Shape, TagPoint,
+    Vertex, VertexId, Workcell,
 };
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
@@ -35,16 +35,14 @@ pub(super) fn planner(
         let shape =
             Shape::new(corners).map_err(|error| damaged(kept, &format!("{}: {error}", object.object)))?;
         let [x, y, heading] = object.pose;
-        objects.push((
-            Object {
-                name: object.object.clone(),
-                shape,
-                pose: Pose::new(x, y, heading),
-                is_movable: object.movable,
-            },
-            small(kept, object.revision)?,
-            small(kept, object.times_moved)?,
-        ));
+        let (since, times_moved) = (small(kept, object.revision)?, small(kept, object.times_moved)?);
+        let object = Object {
+            name: object.object.clone(),
+            shape,
+            pose: Pose::new(x, y, heading),
+            is_movable: object.movable,
+        };
+        objects.push(Placed::with(object, since, times_moved));
     }
     let revision = small(kept, kept.cell.revision)?;
     let mut workcell = Workcell::resume(cell.robot.robot(), objects, revision, touching_m)

@@ -65,7 +65,7 @@ struct Written {
     change_after_task: Option<Spanned<f64>>,
     tasks: Spanned<f64>,
     home: Spanned<Vec<f64>>,
-    goals: Vec<Spanned<Vec<f64>>>,
+    goals: Spanned<Vec<Spanned<Vec<f64>>>>,
     added_goal: Option<Spanned<Vec<f64>>>,
     #[serde(default)]
     added_goals: Vec<Spanned<Vec<f64>>>,
@@ -180,9 +180,16 @@ impl Written {
             };
             goals.into_iter().enumerate().filter_map(goal).collect()
         };
-        let known = self.goals.len();
-        let goals_there = goals(self.goals, 1);
+        let known = self.goals.value.len();
+        let span = span_of(self.goals.referenced);
+        let goals_there = goals(self.goals.value, 1);
         let goals_added = goals(self.added_goal.into_iter().chain(self.added_goals).collect(), known + 1);
+        if known < 2 {
+            let message = format!(
+                "`goals` has {known}; a task needs another goal than where the robot is, so two at least"
+            );
+            draft.refuse(Code::Impossible, &span, message);
+        }
         let change = after.map(|after_task| Change { after_task, objects: added, goals: goals_added });
         Some(Cell {
             name,

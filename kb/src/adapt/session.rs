@@ -7,13 +7,14 @@ use std::time::{Duration, Instant};
 use adit_db::Store;
 use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Chance, Changed, Configuration, Outcome, Report, Strategy, Workcell, distance,
+    Adapt, Chance, Changed, Configuration, Outcome, Report, Settings, Strategy, TOUCHING_M, Workcell,
+    distance,
 };
 
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
-use super::plugins::{self, TOUCHING_M};
+use super::plugins::with_taught;
 use super::{keep, recall};
 use crate::error::{Error, Result};
 
@@ -80,8 +81,8 @@ impl Session {
             None => None,
             Some(store) => experience(store, &described.name, beginning.from)?,
         };
-        let plugins = plugins::with_taught(beginning.taught);
-        let settings = plugins::settings(beginning.seed);
+        let plugins = with_taught(beginning.taught);
+        let settings = Settings { seed: beginning.seed, ..Settings::default() };
         let (adapt, seed, copied_from) = match &kept {
             Some(kept) => {
                 let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
@@ -132,6 +133,7 @@ impl Session {
         if self.described.change.as_ref().is_some_and(|change| change.after_task == tasks) {
             self.cell = self.described.after(tasks);
             changed = self.take_in()?;
+            self.keep(false, None)?;
         }
         let mut done = Done {
             goal: goal.clone(),
@@ -147,15 +149,12 @@ impl Session {
         for at in self.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
             let reason = self.reason(goal, &report);
-            let is_elsewhere = report.outcome == Outcome::GoalInCollision;
+            let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
             self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
             (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
             if !is_elsewhere {
                 break;
             }
-        }
-        if let Some(trouble) = self.judge.trouble() {
-            return Err(Error::said("plan/rules", trouble.to_owned(), None));
         }
         done.took = began.elapsed();
         Ok(done)
@@ -196,8 +195,10 @@ impl Session {
         match &report.outcome {
             Outcome::Found => None,
             Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),
-            Outcome::GoalInCollision => Some(format!("the robot would touch something at goal {name}")),
-            Outcome::StartInCollision => Some("the robot touches something where it is".to_owned()),
+            Outcome::GoalInCollision(object) => {
+                Some(format!("the robot would touch {object} at goal {name}"))
+            }
+            Outcome::StartInCollision(object) => Some(format!("the robot touches {object} where it is")),
             Outcome::NotFound => Some(format!("no path to goal {name} was found from where the robot is")),
             other => Some(format!("{other:?}")),
         }
@@ -205,6 +206,10 @@ impl Session {
 
     /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
     fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
+        // What the planner did then rests on no rule.
+        if let Some(trouble) = self.judge.trouble() {
+            return Err(Error::said("plan/rules", trouble.to_owned(), None));
+        }
         let considered = self.judge.take_considered();
         let mut step =
             keep::step(&self.cell, self.seed, self.copied_from.as_deref(), &mut self.adapt, &considered);

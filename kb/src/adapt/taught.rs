@@ -26,7 +26,7 @@ pub fn read(path: &Path, robot: &RobotKind) -> Result<Vec<Configuration>> {
     if corners.len() < 2 {
         let message =
             format!("a taught path has two configurations at least, and this one {}", corners.len());
-        draft.refuse(Code::FewCorners, &span, message);
+        draft.refuse(Code::Impossible, &span, message);
     }
     let configuration = |(number, at): (usize, Spanned<Vec<f64>>)| {
         draft.configuration(&format!("configuration {number} of the path"), Some(robot), &located(at))

@@ -71,6 +71,21 @@ impl Arm {
         Ok(Self { base, lengths, radius, limits })
     }
 
+    /// Where the first joint is, metres.
+    pub fn base(&self) -> Point {
+        self.base
+    }
+
+    /// Lengths of the links, metres.
+    pub fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    /// Radius of the links, metres.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// The base, and the end of each link; metres in the frame of the cell.
     pub fn joints(&self, at: &[f64]) -> Vec<Point> {
         let mut joints = Vec::with_capacity(self.lengths.len() + 1);

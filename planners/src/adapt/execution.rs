@@ -19,6 +19,9 @@ pub struct Collision {
 /// The resolution, metres: what touches by less than this between two points of the check may pass.
 const FINE_M: f64 = 1e-4;
 
+/// What touches overlaps by no more than this in floating point.
+const ROUNDING_M: f64 = 1e-9;
+
 /// The first collision on a path of straight motions, by conservative advancement (Mirtich 1996): from each configuration
 /// on, the path is free for as far as no point of the robot can come to the object. Touching is no collision.
 pub fn collision<'o>(
@@ -47,7 +50,7 @@ fn hit(robot: &dyn Robot, from: &[f64], to: &[f64], travel: f64, outline: &[Poin
     loop {
         let links = robot.links(&between(from, to, share));
         let gap = links.iter().map(|link| gap(link, outline)).fold(f64::INFINITY, f64::min);
-        if gap < 0.0 {
+        if gap < -ROUNDING_M {
             return Some(share);
         }
         if share >= 1.0 {

@@ -22,9 +22,9 @@ pub use settings::{Heuristic, Settings};
 use super::experience::{EdgeEnds, Experience, VertexId};
 use super::noted::Noted;
 use super::probe::Probe;
-use super::reach::Reach;
+use super::reach::{Reach, Straight};
 use super::robot::Configuration;
-use super::solve::Solve;
+use super::solve::{RrtConnect, Solve};
 use super::workcell::{Revision, Workcell};
 
 /// The two planners that Adapt joins.
@@ -34,6 +34,13 @@ pub struct Plugins {
     pub reach: Arc<dyn Reach>,
     /// The slow global one.
     pub solve: Arc<dyn Solve>,
+}
+
+impl Plugins {
+    /// A Reach that goes straight, and RRT-Connect as Solve.
+    pub fn standard() -> Self {
+        Self { reach: Arc::new(Straight), solve: Arc::new(RrtConnect::default()) }
+    }
 }
 
 /// Where a planner is in its life; with the cell, its clearances and the experience that is all there is to keep.

@@ -17,6 +17,11 @@ impl PointRobot {
     pub const fn new(limits: [Limit; 2], radius: f64) -> Self {
         Self { limits, radius }
     }
+
+    /// Its radius, metres.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
 }
 
 impl Robot for PointRobot {

@@ -137,7 +137,9 @@ impl<'c> Probe<'c> {
             if self.0.is_known_to_touch(index, &links) {
                 return false;
             }
-            let is_known = self.0.placed[index].slack(&links).all(|slack| slack >= 0.0);
+            // Room that hardly holds the links would hardly narrow the gap, so it is evaluated, too.
+            let ample_m = self.0.touching_m() / 2.0;
+            let is_known = self.0.placed[index].slack(&links).all(|slack| slack >= ample_m);
             if !is_known && !self.0.evaluate(index, &links) {
                 return false;
             }

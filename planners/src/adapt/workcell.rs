@@ -1,5 +1,6 @@
 //! The robot among its objects, what is known of them, and the count of what that cost.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::clearance::{Clearance, Known};
@@ -21,6 +22,9 @@ pub struct Placed {
     pub(super) frame: Frame,
     pub(super) known: Known,
 }
+
+/// How near an object counts as touched, metres, where nothing else is said.
+pub const TOUCHING_M: f64 = 0.005;
 
 /// A robot and the objects about it. Plug-ins see it through a [`Probe`](super::Probe) only.
 #[derive(Clone, Debug)]
@@ -47,34 +51,30 @@ pub enum WorkcellError {
 }
 
 impl Workcell {
-    /// A cell of which nothing is known yet. What comes nearer to an object than `touching_m` metres counts as touching it.
+    /// A cell of which nothing is known yet. What comes nearer to an object than `touching_m` metres counts as touching it; that is at least a micrometre.
     pub fn new(robot: Arc<dyn Robot>, objects: Vec<Object>, touching_m: f64) -> Result<Self, WorkcellError> {
-        check(&objects)?;
         let placed = objects.into_iter().map(|object| Placed::new(object, 0)).collect();
+        Self::resume(robot, placed, 0, touching_m)
+    }
+
+    /// A cell that goes on where another one was; what was known of its objects is to be [recalled](Self::recall).
+    pub fn resume(
+        robot: Arc<dyn Robot>,
+        placed: Vec<Placed>,
+        revision: Revision,
+        touching_m: f64,
+    ) -> Result<Self, WorkcellError> {
+        check(placed.iter().map(|placed| &placed.object))?;
+        let touching_m = touching_m.max(1e-6);
         Ok(Self {
             robot,
             placed,
-            revision: 0,
+            revision,
             touching_m,
             evaluations: 0,
             learned: Vec::new(),
             last_touched: None,
         })
-    }
-
-    /// A cell as it was: each object with the state of the cell since which it is as it is, and how often it was moved.
-    pub fn resume(
-        robot: Arc<dyn Robot>,
-        objects: Vec<(Object, Revision, u32)>,
-        revision: Revision,
-        touching_m: f64,
-    ) -> Result<Self, WorkcellError> {
-        let mut cell = Self::new(robot, objects.iter().map(|(object, ..)| object.clone()).collect(), touching_m)?;
-        cell.revision = revision;
-        for (placed, (_, since, times_moved)) in cell.placed.iter_mut().zip(objects) {
-            (placed.since, placed.times_moved) = (since, times_moved);
-        }
-        Ok(cell)
     }
 
     /// The robot.
@@ -164,8 +164,13 @@ impl Workcell {
 
 impl Placed {
     pub(super) fn new(object: Object, since: Revision) -> Self {
+        Self::with(object, since, 0)
+    }
+
+    /// An object that has been as it is since a state of the cell, and was moved so often.
+    pub fn with(object: Object, since: Revision, times_moved: u32) -> Self {
         let frame = Frame::new(&object.pose);
-        Self { object, since, times_moved: 0, frame, known: Known::default() }
+        Self { object, since, times_moved, frame, known: Known::default() }
     }
 
     /// By how much the known free room exceeds each of the links; negative where it is not known to be free.
@@ -183,17 +188,16 @@ impl Placed {
 }
 
 /// Refuses objects that are no cell.
-pub(super) fn check(objects: &[Object]) -> Result<(), WorkcellError> {
-    let mut names: Vec<&str> = objects.iter().map(|object| object.name.as_str()).collect();
-    names.sort_unstable();
-    if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(WorkcellError::SameName(pair[0].to_owned()));
+pub(super) fn check<'o>(objects: impl IntoIterator<Item = &'o Object>) -> Result<(), WorkcellError> {
+    let mut names = BTreeSet::new();
+    for object in objects {
+        let pose = &object.pose;
+        if !(pose.at.x.is_finite() && pose.at.y.is_finite() && pose.heading.is_finite()) {
+            return Err(WorkcellError::NotFinite(object.name.clone()));
+        }
+        if !names.insert(&object.name) {
+            return Err(WorkcellError::SameName(object.name.clone()));
+        }
     }
-    let is_finite = |object: &Object| {
-        object.pose.at.x.is_finite() && object.pose.at.y.is_finite() && object.pose.heading.is_finite()
-    };
-    match objects.iter().find(|object| !is_finite(object)) {
-        Some(lost) => Err(WorkcellError::NotFinite(lost.name.clone())),
-        None => Ok(()),
-    }
+    Ok(())
 }

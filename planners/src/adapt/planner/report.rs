@@ -10,10 +10,10 @@ pub enum Outcome {
     Found,
     /// The goal is no configuration of the robot: beyond a limit, or of another dimension.
     GoalBeyondLimits,
-    /// The robot would touch something at the goal.
-    GoalInCollision,
-    /// The robot touches something where it is.
-    StartInCollision,
+    /// The robot would touch this object at the goal.
+    GoalInCollision(String),
+    /// The robot touches this object where it is.
+    StartInCollision(String),
     /// Solve found no way.
     NotFound,
 }

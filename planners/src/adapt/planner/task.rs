@@ -9,6 +9,9 @@ use crate::adapt::object::Object;
 use crate::adapt::probe::Probe;
 use crate::adapt::robot::{Configuration, length};
 
+/// After so many refused paths a task is given up.
+const REFUSALS: u64 = 8;
+
 /// A part of a path, and the edge that it follows, if it follows one.
 struct Part {
     path: Vec<Configuration>,
@@ -41,13 +44,14 @@ impl Adapt {
             return Err(Outcome::GoalBeyondLimits);
         }
         let here = self.progress.here.clone();
-        if !Probe::new(&mut self.cell).is_free(&here) {
-            return Err(Outcome::StartInCollision);
+        if let Some(object) = self.touched(&here) {
+            return Err(Outcome::StartInCollision(object));
         }
-        if !Probe::new(&mut self.cell).is_free(goal) {
-            return Err(Outcome::GoalInCollision);
+        if let Some(object) = self.touched(goal) {
+            return Err(Outcome::GoalInCollision(object));
         }
-        loop {
+        let refusals = self.progress.tally.refusals;
+        while self.progress.tally.refusals < refusals + REFUSALS {
             let (from, out) = self.stand_in(&here, judge);
             let (to, home) = self.goal_vertex(goal, from, judge).ok_or(Outcome::NotFound)?;
             let Some(mut sequence) = self.trace(from, to, judge) else { continue };
@@ -68,6 +72,13 @@ impl Adapt {
                 return Ok(joined(parts));
             }
         }
+        Err(Outcome::NotFound)
+    }
+
+    /// The name of an object that the robot touches at a configuration.
+    fn touched(&mut self, at: &[f64]) -> Option<String> {
+        let is_free = Probe::new(&mut self.cell).is_free(at);
+        if is_free { None } else { self.cell.last_touched().map(str::to_owned) }
     }
 
     /// The vertex that stands for the robot, and the path of Reach to it; a new one where none is reached.

@@ -13,6 +13,13 @@ pub struct RrtConnect {
     pub samples: u32,
 }
 
+impl Default for RrtConnect {
+    /// A step of 0.6 and at most 2,000 samples.
+    fn default() -> Self {
+        Self { step: 0.6, samples: 2_000 }
+    }
+}
+
 struct Tree {
     nodes: Vec<(Configuration, usize)>,
     nearest: Nearest,

@@ -1,0 +1,13 @@
+//! Adapt (Chen 1994): the figures of the paper, and what must hold whatever the cell.
+
+mod adapt {
+    mod bad_input;
+    mod changes;
+    mod figure_3;
+    mod figure_5;
+    mod free_paths;
+    mod own_scenario;
+    mod restart;
+    mod strategies;
+    pub mod support;
+}
