@@ -6,7 +6,6 @@ mod adapt {
     mod figure_3;
     mod figure_5;
     mod free_paths;
-    mod own_scenario;
     mod restart;
     mod strategies;
     pub mod support;
