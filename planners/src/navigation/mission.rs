@@ -179,7 +179,7 @@ fn overlap(body: &Simulator) -> f64 {
     body.settings().radius_m - nearest
 }
 
-fn state_caption(decision: &StateDecision) -> String {
+fn state_caption(decision: StateDecision) -> String {
     let state = format!("{:?}", decision.state).to_lowercase();
     match decision.action {
         Action::None => state,
@@ -194,7 +194,7 @@ fn state_caption(decision: &StateDecision) -> String {
 
 fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
     let caption = match &event.what {
-        Happening::State { decision, .. } => state_caption(decision),
+        Happening::State { decision, .. } => state_caption(*decision),
         Happening::Detour { length_m, .. } => format!("detour of {length_m:.1} m"),
         Happening::WayClosed { doorway: Some(doorway), .. } => format!("doorway {doorway} closed"),
         Happening::WayClosed { region: Some(region), .. } => format!("region {region} closed"),
