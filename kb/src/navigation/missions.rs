@@ -64,10 +64,6 @@ pub struct Row {
 /// Deeper than that is a collision, metres.
 const TOUCH_M: f64 = 1e-6;
 
-/// A robot that says that it has arrived is at most so far from its goal, metres: its tolerance, and what it may be wrong
-/// about where it is.
-const ARRIVED_M: f64 = 0.20;
-
 /// The missions of a seed.
 pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
     let of = |number: usize| {
@@ -173,7 +169,7 @@ fn judged(
         ending: ending(outcome.ending),
         possible: possible.map(|possible| possible.is_for_radius),
         possible_with_room: possible.map(|possible| possible.is_with_room),
-        right: possible.map(|possible| is_right(&outcome, &possible)),
+        right: possible.map(|possible| is_right(&outcome, &possible, radius)),
         length: outcome.path_m,
         optimum: possible.and_then(|possible| possible.optimum_m),
         replans: outcome.replans,
@@ -196,9 +192,10 @@ pub(super) const fn ending(ending: Ending) -> &'static str {
     }
 }
 
-fn is_right(outcome: &Outcome, possible: &Possible) -> bool {
+/// A robot that says that it has arrived stands over its goal.
+fn is_right(outcome: &Outcome, possible: &Possible, radius: f64) -> bool {
     match outcome.ending {
-        Ending::Arrived => possible.is_for_radius && outcome.miss_m <= ARRIVED_M,
+        Ending::Arrived => possible.is_for_radius && outcome.miss_m <= radius,
         Ending::NoWay => !possible.is_with_room,
         Ending::OutOfPatience => false,
     }

@@ -1,6 +1,6 @@
 //! Missions in a simulated building, and how they went.
 
-use super::judge::Judge;
+use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
@@ -133,7 +133,7 @@ impl Mission {
         let start = outfit.estimate(self.start);
         let mut navigator = Navigator::new(building, outfit.model, outfit.navigation, start);
         if let Some(film) = &mut film {
-            **film = Some(Film::new(&body));
+            **film = Some(Film::new(&body).to(self.goal));
         }
         navigator.go(self.goal, judge);
         let mut outcome = Outcome {
@@ -212,16 +212,33 @@ pub(super) fn overlap(body: &Simulator) -> f64 {
     body.settings().radius_m - nearest
 }
 
+fn state_caption(decision: StateDecision) -> String {
+    let state = format!("{:?}", decision.state).to_lowercase();
+    match decision.action {
+        Action::None => state,
+        Action::BackOff => format!("{state}, withdraws"),
+        Action::Left => format!("{state}, to the left"),
+        Action::Right => format!("{state}, to the right"),
+        Action::Close => format!("{state}, another way"),
+        Action::Retry => format!("{state}, begins anew"),
+        Action::NoWay => format!("{state}, no way"),
+    }
+}
+
 fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
     let caption = match &event.what {
-        Happening::State { decision, .. } => format!("{:?} {:?}", decision.state, decision.action),
+        Happening::State { decision, .. } => state_caption(*decision),
         Happening::Detour { length_m, .. } => format!("detour of {length_m:.1} m"),
-        Happening::WayClosed { doorway, region, .. } => format!("closed: {doorway:?} {region:?}"),
+        Happening::WayClosed { doorway: Some(doorway), .. } => format!("doorway {doorway} closed"),
+        Happening::WayClosed { region: Some(region), .. } => format!("region {region} closed"),
+        Happening::WayClosed { .. } => "way closed".to_owned(),
         Happening::Planned { length_m, is_off_network, .. } => {
             format!("planned: {length_m:.1} m{}", if *is_off_network { " off the network" } else { "" })
         }
         Happening::Contact { .. } => "contact".to_owned(),
-        Happening::Ended(ending) => format!("{ending:?}"),
+        Happening::Ended(Ending::Arrived) => "arrived".to_owned(),
+        Happening::Ended(Ending::NoWay) => "no way".to_owned(),
+        Happening::Ended(Ending::OutOfPatience) => "given up".to_owned(),
         _ => return,
     };
     let mut frame = body.frame();

@@ -32,6 +32,7 @@ pub struct Film {
     obstacles: Vec<Vec<Point>>,
     radius_m: f64,
     frames: Vec<Frame>,
+    goal: Option<Point>,
 }
 
 /// Pixels a metre.
@@ -58,13 +59,24 @@ impl Film {
             obstacles: simulator.movers.iter().map(|mover| mover.obstacle.corners.clone()).collect(),
             radius_m: simulator.settings.radius_m,
             frames: Vec::new(),
+            goal: None,
         }
     }
 
-    /// Appends a frame; one that is not later than the last is left out.
+    /// The same film with a goal that is marked.
+    #[must_use]
+    pub fn to(self, goal: Point) -> Self {
+        Self { goal: Some(goal), ..self }
+    }
+
+    /// Appends a frame. Of one that is not later than the last only the caption is taken, and said after that one's.
     pub fn push(&mut self, frame: Frame) {
-        if self.frames.last().is_none_or(|last| last.time_s < frame.time_s) {
-            self.frames.push(frame);
+        match self.frames.last_mut() {
+            Some(last) if last.time_s >= frame.time_s => match (&mut last.caption, frame.caption) {
+                (Some(before), Some(caption)) => *before = format!("{before}; {caption}"),
+                (before, caption) => *before = before.take().or(caption),
+            },
+            _ => self.frames.push(frame),
         }
     }
 
@@ -91,6 +103,15 @@ impl Film {
         self.trail(&mut out, "#9ab", ".03", |frame| Some(frame.robot));
         self.trail(&mut out, "#c33\" stroke-dasharray=\".1 .1", ".03", |frame| frame.estimate);
         lines(&mut out, "stroke=\"#222\"", &self.walls);
+        if let Some(at) = self.goal {
+            let _ = writeln!(
+                out,
+                "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"#2e9d66\" fill-opacity=\".35\" stroke=\"#2e9d66\"/>",
+                at.x,
+                at.y,
+                self.radius_m / 2.0
+            );
+        }
         let clock = Clock::new(&self.frames, speed);
         self.surfaces(&mut out, &clock);
         self.movers(&mut out, &clock);
@@ -201,6 +222,7 @@ impl Film {
                 "<text x=\".3\" y=\"{at:.2}\" font-size=\".4\" font-family=\"sans-serif\" visibility=\"hidden\">"
             );
             clock.show(out, *from, until);
+            let _ = write!(out, "{:.1} s: ", self.frames[*from].time_s);
             for c in caption.chars().filter(|c| !c.is_control()) {
                 match c {
                     '<' => out.push_str("&lt;"),

@@ -79,4 +79,7 @@ fn maps_of_other_people_are_floor_plans() {
 }
 
 /// Maps, and two points that are joined on them.
-const MAPS: [(&str, &str, &str); 0] = [];
+const MAPS: [(&str, &str, &str); 2] = [
+    ("data/stage/lse_arena.yaml", "1.4,1.52", "2.05,2.65"),
+    ("data/mir_robot/maze.yaml", "8.23,18.81", "18.79,7.33"),
+];
