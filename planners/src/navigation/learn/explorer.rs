@@ -192,8 +192,7 @@ impl<'b> Explorer<'b> {
     }
 
     fn look_out(&self, ground: &Ground, rim: &Rim) -> Option<LookOut> {
-        let far = LOOK_M[usize::from(self.times_tried(rim) > 0)];
-        ground.look_out(rim.middle, far).or_else(|| ground.look_out(rim.middle, LOOK_M[0]))
+        ground.look_out(rim, LOOK_M[usize::from(self.times_tried(rim) > 0)])
     }
 
     fn times_tried(&self, rim: &Rim) -> u32 {

@@ -15,6 +15,12 @@ const BESIDE: u32 = 3;
 /// The robot may stand so far from the next cell of the ground, metres.
 const NEAR_M: f64 = 0.5;
 
+/// An opening that lets no one come near is looked at from so far, metres.
+const FAR_M: f64 = 4.0;
+
+/// So many cells of an opening are looked at.
+const LOOKED_AT: usize = 12;
+
 /// Steps to the eight neighbours, and what they cost.
 const STEPS: [(i32, i32, u32); 8] =
     [(1, 0, 10), (0, 1, 10), (-1, 0, 10), (0, -1, 10), (1, 1, 14), (-1, 1, 14), (-1, -1, 14), (1, -1, 14)];
@@ -24,6 +30,8 @@ const STEPS: [(i32, i32, u32); 8] =
 pub(super) struct Rim {
     /// The cell nearest to the middle of all.
     pub middle: Point,
+    /// Some of its cells.
+    points: Vec<Point>,
     /// From one end to the other, metres.
     pub width_m: f64,
 }
@@ -116,8 +124,16 @@ impl Ground {
     /// can be reached.
     ///
     /// # Arguments
-    /// `far_m` is how near it has to be.
-    pub fn look_out(&self, towards: Point, far_m: f64) -> Option<LookOut> {
+    /// `far_m` is how near it has to be, if that can be; the middle of the opening is looked at, if that can be.
+    pub fn look_out(&self, rim: &Rim, far_m: f64) -> Option<LookOut> {
+        let nearest = |far_m: f64| {
+            let found = rim.points.iter().filter_map(|point| self.look_at(*point, far_m));
+            found.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
+        };
+        self.look_at(rim.middle, far_m).or_else(|| nearest(far_m)).or_else(|| nearest(FAR_M))
+    }
+
+    fn look_at(&self, towards: Point, far_m: f64) -> Option<LookOut> {
         let far = (far_m / GRAIN_M).ceil() as i32;
         let (column, row) = cell_of(towards);
         let mut found: Vec<(u64, usize)> = Vec::new();
@@ -209,7 +225,9 @@ impl Rim {
             let values = points.iter().map(of);
             values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min)
         };
-        Self { middle, width_m: extent(|p| p.x).hypot(extent(|p| p.y)) + GRAIN_M }
+        let each = points.len().div_ceil(LOOKED_AT).max(1);
+        let looked_at = points.iter().step_by(each).copied().collect();
+        Self { middle, points: looked_at, width_m: extent(|p| p.x).hypot(extent(|p| p.y)) + GRAIN_M }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::segment::Segment;
 use crate::world::Place;
 
 /// A wall belongs to the model where there is free space so near to it, in cells.
-const BESIDE: i32 = 2;
+const BESIDE: i32 = 8;
 
 /// A building as a robot has learned it, in the frame of the pose where it began.
 #[derive(Clone, Debug, Default, PartialEq)]
