@@ -7,6 +7,9 @@ use super::workcell::{Placed, Workcell};
 #[derive(Debug)]
 pub struct Probe<'c>(&'c mut Workcell);
 
+/// A gap in what is known between two places as near as this is none, metres.
+const NO_GAP_M: f64 = 1e-6;
+
 /// Shares of a motion that are not known to be free.
 type Gap = (f64, f64);
 
@@ -70,11 +73,15 @@ impl Motion<'_> {
         step
     }
 
+    /// How far a point of the robot goes at most.
+    fn metres(&self) -> f64 {
+        self.travel.iter().copied().fold(0.0, f64::max)
+    }
+
     /// A few shares, close enough that what is known to be touched on the way is hardly missed.
     fn shares(&self) -> impl Iterator<Item = f64> + use<> {
         const STEP_M: f64 = 0.05;
-        let metres = self.travel.iter().copied().fold(0.0, f64::max);
-        let steps = (metres / STEP_M).ceil().max(1.0);
+        let steps = (self.metres() / STEP_M).ceil().max(1.0);
         (0..=steps as u32).map(move |step| f64::from(step) / steps)
     }
 }
@@ -137,10 +144,13 @@ impl<'c> Probe<'c> {
             if self.0.is_known_to_touch(index, &links) {
                 return false;
             }
-            // Room that hardly holds the links would hardly narrow the gap, so it is evaluated, too.
-            let ample_m = self.0.touching_m() / 2.0;
-            let is_known = self.0.placed[index].slack(&links).all(|slack| slack >= ample_m);
-            if !is_known && !self.0.evaluate(index, &links) {
+            let slack = self.0.placed[index].slack(&links).fold(f64::INFINITY, f64::min);
+            if slack >= 0.0 && (high - low) * motion.metres() < NO_GAP_M {
+                continue;
+            }
+            // Room that hardly holds the links hardly narrows the gap, so it is evaluated, too.
+            let is_ample = slack >= self.0.touching_m() / 2.0;
+            if !is_ample && !self.0.evaluate(index, &links) && slack < 0.0 {
                 return false;
             }
             let placed = &self.0.placed[index];

@@ -52,10 +52,14 @@ impl Adapt {
         let best = order.into_iter().find(|id| {
             let at = self.at(*id);
             Probe::new(&mut self.cell).is_free(&at)
-        })?;
-        let start = self.at(best);
-        let chain = self.solved(&start, goal)?;
-        Some(self.augment(best, chain, None, judge))
+        });
+        // The best vertex may be cut off from the goal, and from the robot; then it is tried from the robot.
+        let tried = [best, from.filter(|from| best != Some(*from))];
+        tried.into_iter().flatten().find_map(|id| {
+            let start = self.at(id);
+            let chain = self.solved(&start, goal)?;
+            Some(self.augment(id, chain, None, judge))
+        })
     }
 
     /// Calls Solve, counts it, and abstracts what it found.
@@ -66,6 +70,7 @@ impl Adapt {
         tally.solves += 1;
         let path = self.plugins.solve.solve(&mut Probe::new(&mut self.cell), from, to, &mut chance);
         self.progress.tally.solve_evaluations += self.cell.evaluations() - before;
+        self.progress.tally.failed_solves += u64::from(path.is_none());
         self.abstracted(&path?)
     }
 }

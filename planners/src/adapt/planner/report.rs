@@ -23,6 +23,8 @@ pub enum Outcome {
 pub struct Tally {
     /// Calls of Solve.
     pub solves: u64,
+    /// Those of them that found nothing.
+    pub failed_solves: u64,
     /// Evaluations in them.
     pub solve_evaluations: u64,
     /// Calls of Reach.
@@ -45,6 +47,7 @@ impl Tally {
     pub fn since(&self, earlier: &Self) -> Self {
         Self {
             solves: self.solves - earlier.solves,
+            failed_solves: self.failed_solves - earlier.failed_solves,
             solve_evaluations: self.solve_evaluations - earlier.solve_evaluations,
             reaches: self.reaches - earlier.reaches,
             reach_evaluations: self.reach_evaluations - earlier.reach_evaluations,
