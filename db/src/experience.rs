@@ -1,5 +1,5 @@
 //! What robots learned in cells: the tables `cells`, `cell_objects`, `object_changes`, `subgoals`, `edges`,
-//! `refused_cuts`, `clearances`, `tasks` and `strategies`.
+//! `subgoal_pairs`, `clearances`, `tasks` and `strategies`.
 //!
 //! Experience is written step by step: [`Tx::keep_step`] takes what one task changed. What was taken out keeps its row.
 
@@ -132,11 +132,13 @@ pub struct Removed {
     pub object: Option<String>,
 }
 
-/// A shortcut that is not free.
+/// A pair of subgoals that was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RefusedCut {
-    /// The subgoals at its ends.
+pub struct Pair {
+    /// The subgoals.
     pub ends: [i64; 2],
+    /// Whether the path between them was tightened; otherwise a shortcut between them is not free.
+    pub tightened: bool,
     /// In which state of the cell.
     pub revision: i64,
 }
@@ -203,8 +205,8 @@ pub struct Experience {
     pub subgoals: Vec<Subgoal>,
     /// The edges that are there, by number.
     pub edges: Vec<Edge>,
-    /// Shortcuts that are not free.
-    pub refused_cuts: Vec<RefusedCut>,
+    /// Pairs of subgoals that were looked at.
+    pub subgoal_pairs: Vec<Pair>,
     /// What is known of objects, in the order in which it was learned.
     pub clearances: Vec<Clearance>,
 }
@@ -232,8 +234,8 @@ pub struct Step {
     pub edges_changed: Vec<Edge>,
     /// Edges that were taken out.
     pub edges_removed: Vec<Removed>,
-    /// Shortcuts that are not free.
-    pub refused_cuts: Vec<RefusedCut>,
+    /// Pairs of subgoals that were looked at.
+    pub subgoal_pairs: Vec<Pair>,
     /// Objects of which nothing is known any more.
     pub clearances_forgotten: Vec<String>,
     /// What was learned of objects.

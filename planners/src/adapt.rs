@@ -42,7 +42,7 @@ pub use object::Object;
 pub use planner::{Adapt, Changed, Heuristic, Outcome, Plugins, Progress, Report, Settings, Tally};
 pub use point_robot::PointRobot;
 pub use probe::Probe;
-pub use reach::{Reach, Straight};
+pub use reach::{Reach, Sliding, Straight};
 pub use robot::{Configuration, Limit, Link, Robot, between, distance, length};
 pub use scenario::{ArmScenario, Scenario, ScenarioError};
 pub use shape::{Shape, ShapeError};

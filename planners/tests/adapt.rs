@@ -1,4 +1,5 @@
 //! Adapt (Chen 1994): the figures of the paper, and what must hold whatever the cell.
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod adapt {
     mod bad_input;
@@ -6,6 +7,7 @@ mod adapt {
     mod figure_3;
     mod figure_5;
     mod free_paths;
+    mod plugins;
     mod restart;
     mod strategies;
     pub mod support;

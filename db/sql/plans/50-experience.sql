@@ -84,15 +84,19 @@ CREATE UNIQUE INDEX IF NOT EXISTS edges_between ON edges (cell, subgoal1, subgoa
 CREATE TRIGGER IF NOT EXISTS edges_replaced BEFORE INSERT ON edges BEGIN
   UPDATE edges SET removed_task = new.made_task, because = 'replaced'
   WHERE cell = new.cell AND subgoal1 = new.subgoal1 AND subgoal2 = new.subgoal2 AND removed_task IS NULL;
+  DELETE FROM subgoal_pairs
+  WHERE cell = new.cell AND subgoal1 = new.subgoal1 AND subgoal2 = new.subgoal2 AND kind = 'refused';
 END;
 
--- Shortcuts that were tried and are not free in that state of the cell.
-CREATE TABLE IF NOT EXISTS refused_cuts (
+-- Pairs of subgoals that were looked at in that state of the cell: a shortcut between them is not free, or the path
+-- between them was tightened.
+CREATE TABLE IF NOT EXISTS subgoal_pairs (
   cell     TEXT NOT NULL REFERENCES cells ON DELETE CASCADE,
   subgoal1 INTEGER NOT NULL,
   subgoal2 INTEGER NOT NULL,
+  kind     TEXT NOT NULL CHECK (kind IN ('refused', 'tightened')),
   revision INTEGER NOT NULL,
-  PRIMARY KEY (cell, subgoal1, subgoal2)
+  PRIMARY KEY (cell, subgoal1, subgoal2, kind)
 ) STRICT, WITHOUT ROWID;
 
 -- What evaluations taught about objects, in the frame of each: within so many metres of a segment all is free of it, or of

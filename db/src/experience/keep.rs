@@ -2,8 +2,8 @@
 
 use sqlx::SqliteConnection;
 
-use super::records::{GoneEdge, GoneSubgoal, Moved, Of};
-use super::{Cell, Experience, Object, RefusedCut, Step};
+use super::records::{GoneEdge, GoneSubgoal, Moved, Of, kind};
+use super::{Cell, Experience, Object, Pair, Step};
 use crate::bulk::{insert, update};
 use crate::error::Result;
 
@@ -28,7 +28,7 @@ pub(super) async fn step(connection: &mut SqliteConnection, step: &Step) -> Resu
     update::<2, _>(connection, step.edges_changed.iter().map(|edge| Of(cell, edge))).await?;
     update::<2, _>(connection, step.edges_removed.iter().map(|gone| GoneEdge(cell, gone))).await?;
     update::<2, _>(connection, step.subgoals_removed.iter().map(|gone| GoneSubgoal(cell, gone))).await?;
-    cuts(connection, cell, &step.refused_cuts).await?;
+    pairs(connection, cell, &step.subgoal_pairs).await?;
     for object in &step.clearances_forgotten {
         sqlx::query("DELETE FROM clearances WHERE cell = ? AND object = ?")
             .bind(cell)
@@ -63,25 +63,26 @@ async fn forget_graph(connection: &mut SqliteConnection, cell: &str, task: i64) 
     ] {
         sqlx::query(sql).bind(cell).bind(task).execute(&mut *connection).await?;
     }
-    for sql in ["DELETE FROM refused_cuts WHERE cell = ?", "DELETE FROM clearances WHERE cell = ?"] {
+    for sql in ["DELETE FROM subgoal_pairs WHERE cell = ?", "DELETE FROM clearances WHERE cell = ?"] {
         sqlx::query(sql).bind(cell).execute(&mut *connection).await?;
     }
     Ok(())
 }
 
-/// A shortcut may have been refused before, in another state of the cell.
-async fn cuts(connection: &mut SqliteConnection, cell: &str, cuts: &[RefusedCut]) -> Result<()> {
-    for cut in cuts {
-        let sql = "INSERT INTO refused_cuts (cell, subgoal1, subgoal2, revision) VALUES (?, ?, ?, ?)
-                   ON CONFLICT DO UPDATE SET revision = excluded.revision";
-        sqlx::query(sql)
-            .bind(cell)
-            .bind(cut.ends[0])
-            .bind(cut.ends[1])
-            .bind(cut.revision)
-            .execute(&mut *connection)
-            .await?;
+/// A pair may have been looked at before, in another state of the cell.
+async fn pairs(connection: &mut SqliteConnection, cell: &str, pairs: &[Pair]) -> Result<()> {
+    for pair in pairs {
+        sqlx::query(
+            "DELETE FROM subgoal_pairs WHERE cell = ? AND subgoal1 = ? AND subgoal2 = ? AND kind = ?",
+        )
+        .bind(cell)
+        .bind(pair.ends[0])
+        .bind(pair.ends[1])
+        .bind(kind(pair))
+        .execute(&mut *connection)
+        .await?;
     }
+    insert(connection, pairs.iter().map(|pair| Of(cell, pair))).await?;
     Ok(())
 }
 
@@ -94,7 +95,7 @@ pub(super) async fn whole(connection: &mut SqliteConnection, experience: &Experi
         objects: Some(experience.objects.clone()),
         subgoals: experience.subgoals.clone(),
         edges: experience.edges.clone(),
-        refused_cuts: experience.refused_cuts.clone(),
+        subgoal_pairs: experience.subgoal_pairs.clone(),
         clearances: experience.clearances.clone(),
         ..Step::default()
     };

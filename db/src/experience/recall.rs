@@ -4,7 +4,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
 use super::numbers::{read as read_numbers, read_rows};
-use super::{Cell, Clearance, Edge, Experience, Object, RefusedCut, Subgoal, Tag};
+use super::{Cell, Clearance, Edge, Experience, Object, Pair, Subgoal, Tag};
 use crate::error::{Error, Result};
 
 pub(super) async fn cells(connection: &mut SqliteConnection) -> Result<Vec<String>> {
@@ -43,7 +43,7 @@ pub(super) async fn read(connection: &mut SqliteConnection, cell: &str) -> Resul
         objects: objects(connection, cell).await?,
         subgoals: subgoals(connection, cell).await?,
         edges: edges(connection, cell).await?,
-        refused_cuts: refused_cuts(connection, cell).await?,
+        subgoal_pairs: subgoal_pairs(connection, cell).await?,
         clearances: clearances(connection, cell).await?,
     }))
 }
@@ -116,14 +116,15 @@ async fn edges(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Edge
     (1..).zip(&rows).map(edge).collect()
 }
 
-async fn refused_cuts(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<RefusedCut>> {
-    let sql =
-        "SELECT subgoal1, subgoal2, revision FROM refused_cuts WHERE cell = ? ORDER BY subgoal1, subgoal2";
+async fn subgoal_pairs(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Pair>> {
+    let sql = "SELECT subgoal1, subgoal2, revision, kind FROM subgoal_pairs WHERE cell = ?
+               ORDER BY subgoal1, subgoal2, kind";
     let rows = sqlx::query(sql).bind(cell).fetch_all(connection).await?;
-    let cut = |row: &SqliteRow| {
-        Ok(RefusedCut { ends: [row.try_get(0)?, row.try_get(1)?], revision: row.try_get(2)? })
+    let pair = |row: &SqliteRow| {
+        let tightened = row.try_get::<&str, _>(3)? == "tightened";
+        Ok(Pair { ends: [row.try_get(0)?, row.try_get(1)?], tightened, revision: row.try_get(2)? })
     };
-    rows.iter().map(cut).collect()
+    rows.iter().map(pair).collect()
 }
 
 async fn clearances(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Clearance>> {

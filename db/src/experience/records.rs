@@ -1,7 +1,7 @@
 //! How each thing is bound to the columns of its table.
 
 use super::numbers::{rows_text, text};
-use super::{Cell, Clearance, Edge, Object, ObjectChange, RefusedCut, Removed, Strategy, Subgoal, Task};
+use super::{Cell, Clearance, Edge, Object, ObjectChange, Pair, Removed, Strategy, Subgoal, Task};
 use crate::bulk::{Record, Values};
 
 /// Something of a cell.
@@ -193,16 +193,22 @@ impl Record for GoneEdge<'_> {
     }
 }
 
-impl Record for Of<'_, &RefusedCut> {
-    const TABLE: &'static str = "refused_cuts";
-    const COLUMNS: &'static [&'static str] = &["cell", "subgoal1", "subgoal2", "revision"];
+/// What is said of a pair.
+pub(super) const fn kind(pair: &Pair) -> &'static str {
+    if pair.tightened { "tightened" } else { "refused" }
+}
+
+impl Record for Of<'_, &Pair> {
+    const TABLE: &'static str = "subgoal_pairs";
+    const COLUMNS: &'static [&'static str] = &["cell", "subgoal1", "subgoal2", "kind", "revision"];
 
     fn bind(&self, values: &mut Values) {
-        let Self(cell, cut) = self;
+        let Self(cell, pair) = self;
         values.text(*cell);
-        values.integer(cut.ends[0]);
-        values.integer(cut.ends[1]);
-        values.integer(cut.revision);
+        values.integer(pair.ends[0]);
+        values.integer(pair.ends[1]);
+        values.text(kind(pair));
+        values.integer(pair.revision);
     }
 }
 

@@ -8,6 +8,7 @@ struct Figures {
     tasks_before_change: u32,
     stands_since_revision: Option<u32>,
     solves: u64,
+    failed_solves: u64,
     solve_evaluations: u64,
     reaches: u64,
     reach_evaluations: u64,
@@ -24,6 +25,7 @@ pub(super) fn text(progress: &Progress) -> String {
         tasks_before_change: progress.tasks_before_change,
         stands_since_revision: progress.vertex.map(|(_, revision)| revision),
         solves: tally.solves,
+        failed_solves: tally.failed_solves,
         solve_evaluations: tally.solve_evaluations,
         reaches: tally.reaches,
         reach_evaluations: tally.reach_evaluations,
@@ -41,6 +43,7 @@ pub(super) fn read(text: &str) -> Option<(u32, Option<u32>, Tally)> {
     let figures: Figures = serde_json::from_str(text).ok()?;
     let tally = Tally {
         solves: figures.solves,
+        failed_solves: figures.failed_solves,
         solve_evaluations: figures.solve_evaluations,
         reaches: figures.reaches,
         reach_evaluations: figures.reach_evaluations,

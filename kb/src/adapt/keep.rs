@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use adit_db::experience as rows;
 use adit_db::mission::Decided;
 use adit_engine::Considered;
-use adit_planners::adapt::{Adapt, Clearance, Edge, Noted, ObjectChange, Outcome, Removal, Report, Vertex};
+use adit_planners::adapt::{Adapt, Clearance, Edge, Noted, ObjectChange, Outcome, Removal, Report, Vertex, VertexId};
 
 use super::cell::Cell;
 use super::judge::{strategy_word, told};
@@ -24,6 +24,7 @@ pub(super) fn step(
     let mut moved = BTreeMap::new();
     let mut changed = BTreeMap::new();
     let mut refused = BTreeMap::new();
+    let mut tightened = BTreeMap::new();
     let mut objects_changed = false;
     for note in noted {
         match note {
@@ -38,7 +39,10 @@ pub(super) fn step(
                 revision: None,
                 object: None,
             }),
-            Noted::EdgeAdded(edge) => step.edges.push(edge_row(&edge)),
+            Noted::EdgeAdded(edge) => {
+                refused.remove(&pair(edge.ends));
+                step.edges.push(edge_row(&edge));
+            }
             Noted::EdgeVerified(edge) | Noted::EdgeLoosened(edge) => {
                 changed.insert(edge.id, edge_row(&edge));
             }
@@ -52,8 +56,10 @@ pub(super) fn step(
                 });
             }
             Noted::CutRefused { ends, revision } => {
-                let ends = [i64::from(ends.0.0), i64::from(ends.1.0)];
-                refused.insert(ends, i64::from(revision));
+                refused.insert(pair(ends), i64::from(revision));
+            }
+            Noted::Tightened { ends, revision } => {
+                tightened.insert(pair(ends), i64::from(revision));
             }
             Noted::Learned { object, clearance } => step.clearances.push(clearance_row(object, clearance)),
             Noted::ClearancesForgotten { object } => {
@@ -86,6 +92,7 @@ pub(super) fn step(
                 moved.clear();
                 changed.clear();
                 refused.clear();
+                tightened.clear();
             }
             // Where the robot stands is in the row of the cell; what else may be noted some day is not kept.
             _ => {}
@@ -95,9 +102,18 @@ pub(super) fn step(
     step.objects = objects_changed.then(|| objects(adapt));
     step.moved = moved.into_iter().collect();
     step.edges_changed = changed.into_values().collect();
-    step.refused_cuts =
-        refused.into_iter().map(|(ends, revision)| rows::RefusedCut { ends, revision }).collect();
+    let all = [(false, refused), (true, tightened)];
+    step.subgoal_pairs = all
+        .into_iter()
+        .flat_map(|(tightened, pairs)| {
+            pairs.into_iter().map(move |(ends, revision)| rows::Pair { ends, tightened, revision })
+        })
+        .collect();
     step
+}
+
+fn pair(ends: (VertexId, VertexId)) -> [i64; 2] {
+    [i64::from(ends.0.0), i64::from(ends.1.0)]
 }
 
 /// The rule that spoke.

@@ -63,10 +63,11 @@ pub(super) fn planner(
         Some(number) => Some((VertexId(small(kept, number)?), stands_since.unwrap_or(revision))),
         None => None,
     };
-    let mut refused = Vec::new();
-    for cut in &kept.refused_cuts {
-        let ends = (VertexId(small(kept, cut.ends[0])?), VertexId(small(kept, cut.ends[1])?));
-        refused.push((ends, small(kept, cut.revision)?));
+    let (mut refused, mut tightened) = (Vec::new(), Vec::new());
+    for pair in &kept.subgoal_pairs {
+        let ends = (VertexId(small(kept, pair.ends[0])?), VertexId(small(kept, pair.ends[1])?));
+        let list = if pair.tightened { &mut tightened } else { &mut refused };
+        list.push((ends, small(kept, pair.revision)?));
     }
     let progress = Progress {
         tasks: small(kept, kept.cell.tasks)?,
@@ -75,7 +76,7 @@ pub(super) fn planner(
         vertex,
         tally,
         refused,
-        tightened: Vec::new(),
+        tightened,
     };
     if !cell.robot.robot().admits(&progress.here) {
         return Err(damaged(kept, "its `configuration` is none of the robot"));

@@ -70,6 +70,8 @@ impl Room {
 /// Places that are taken are kept no closer than this: what lies between them is met on the way from one to the next.
 const SPACING_M: f64 = 0.03;
 
+const ROUNDING_M: f64 = 1e-9;
+
 impl Known {
     /// By how many metres the known free room exceeds a link there, and which room that is; the slack is negative or
     /// `-INFINITY` where the link is not known to be free.
@@ -92,10 +94,14 @@ impl Known {
         self.free.get(room).map_or(f64::NEG_INFINITY, |room| room.slack(link))
     }
 
-    /// Whether a link there is known to come nearer than `touching_m` to the object.
-    pub fn takes(&self, link: &Link, touching_m: f64) -> bool {
-        let near = link.radius + touching_m;
-        self.taken.iter().any(|(at, within_m)| squared(&link.axis, *at) < (within_m + near).powi(2))
+    /// Whether a link there is known to overlap the object. What only touches it is not: room that is known to be free goes up
+    /// to there, and what was free must not be refused later.
+    pub fn takes(&self, link: &Link) -> bool {
+        let is_taken = |(at, within_m): &(Point, f64)| {
+            let near = within_m + link.radius - ROUNDING_M;
+            near > 0.0 && squared(&link.axis, *at) < near * near
+        };
+        self.taken.iter().any(is_taken)
     }
 
     /// Keeps what an evaluation found, where it says more than what is known; gives what was kept.

@@ -78,7 +78,7 @@ pub struct Adapt {
 impl Adapt {
     /// A planner without experience, its robot at a configuration; that is its first vertex.
     pub fn new(cell: Workcell, plugins: Plugins, settings: Settings, start: Configuration) -> Self {
-        let progress = Progress { here: start.clone(), ..Progress::default() };
+        let progress = Progress { here: start, ..Progress::default() };
         let mut adapt = Self::resume(cell, Experience::default(), plugins, settings, progress);
         adapt.begin_at_here();
         adapt

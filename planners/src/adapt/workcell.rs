@@ -130,7 +130,7 @@ impl Workcell {
 
     /// Whether the robot, with these links, is known to touch an object.
     pub(super) fn is_known_to_touch(&mut self, index: usize, links: &[Link]) -> bool {
-        let touches = self.placed[index].is_known_to_touch(links, self.touching_m);
+        let touches = self.placed[index].is_known_to_touch(links);
         if touches {
             self.last_touched = Some(index);
         }
@@ -182,8 +182,8 @@ impl Placed {
         Link { axis: self.frame.inward(&link.axis), radius: link.radius }
     }
 
-    pub(super) fn is_known_to_touch(&self, links: &[Link], touching_m: f64) -> bool {
-        links.iter().any(|link| self.known.takes(&self.inward(link), touching_m))
+    pub(super) fn is_known_to_touch(&self, links: &[Link]) -> bool {
+        links.iter().any(|link| self.known.takes(&self.inward(link)))
     }
 }
 

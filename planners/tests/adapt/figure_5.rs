@@ -30,10 +30,12 @@ const RUNS: u32 = 4;
 const STRATEGIES: [Strategy; 4] =
     [Strategy::Forget, Strategy::VerifyAll, Strategy::RepairAll, Strategy::OnDemand];
 
-/// What LazyPRM needs at a task, over RRT-Connect from scratch, and how long its paths are.
-const PEER: [(&str, &[(usize, f64)], f64); 2] = [
-    ("two-link-A", &[(16, 0.214), (40, 0.104), (60, 0.114), (100, 0.071)], 4.295),
-    ("two-link-B", &[(16, 0.226), (40, 0.119), (100, 0.082)], 4.684),
+/// What the lazy roadmap of OMPL needs at a task, over RRT-Connect from scratch, and how long its paths are.
+struct Peer(&'static str, &'static [(usize, f64)], f64);
+
+const PEERS: [Peer; 2] = [
+    Peer("two-link-A", &[(16, 0.214), (40, 0.104), (60, 0.114), (100, 0.071)], 4.295),
+    Peer("two-link-B", &[(16, 0.226), (40, 0.119), (100, 0.082)], 4.684),
 ];
 
 #[test]
@@ -45,7 +47,7 @@ fn adapt_learns_faster_than_the_peers_and_finds_shorter_paths() {
         return;
     };
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
-    for (entry, (name, ratios, length)) in json["scenarios"].as_array().unwrap().iter().zip(PEER) {
+    for (entry, Peer(name, ratios, length)) in json["scenarios"].as_array().unwrap().iter().zip(PEERS) {
         let file: ArmScenario = serde_json::from_value(entry.clone()).unwrap();
         assert_eq!(file.name, name);
         let scenario = Scenario::try_from(&file).unwrap();
@@ -60,7 +62,7 @@ fn adapt_learns_faster_than_the_peers_and_finds_shorter_paths() {
             assert_eq!(curve.rows.iter().map(|row| row.failures).sum::<u32>(), 0, "{name} {strategy:?}");
         }
         let curve = run(&scenario, RUNS, Method::Adapt(Strategy::OnDemand));
-        for &(task, ratio) in ratios {
+        for (task, ratio) in ratios.iter().copied() {
             assert!(curve.rows[task - 1].evaluations <= ratio * peer(task), "{name} at {task}");
         }
         let mean = curve.rows.iter().map(|row| row.path_length).sum::<f64>() / curve.rows.len() as f64;
