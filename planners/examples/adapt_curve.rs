@@ -71,20 +71,23 @@ fn print_curves(scenario: &Scenario, runs: u32, peer: &[f64]) {
 }
 
 fn line(curve: &Curve, alone: &Curve, runs: u32, peer: &[f64]) -> String {
-    let mut line = String::new();
-    for (row, solve) in curve.rows.iter().zip(&alone.rows).filter(|(row, _)| is_told(row.task)) {
-        let over_peer = row.evaluations / peer.get(row.task as usize - 1).copied().unwrap_or(f64::NAN);
-        let error = row.evaluations_sd / f64::from(runs).sqrt();
-        line += &format!("{}: {:.0}±{error:.0} {over_peer:.4} ", row.task, row.evaluations);
-        line += &format!("{:.2} | ", row.evaluations / solve.evaluations);
-    }
+    let told = curve.rows.iter().zip(&alone.rows).filter(|(row, _)| is_told(row.task));
+    let told: Vec<String> = told
+        .map(|(row, solve)| {
+            let over_peer = row.evaluations / peer.get(row.task as usize - 1).copied().unwrap_or(f64::NAN);
+            let over_solve = row.evaluations / solve.evaluations;
+            let error = row.evaluations_sd / f64::from(runs).sqrt();
+            format!("{}: {:.0}±{error:.0} {over_peer:.4} {over_solve:.2}", row.task, row.evaluations)
+        })
+        .collect();
     let tasks = curve.rows.len() as f64;
     let length = curve.rows.iter().map(|row| row.path_length).sum::<f64>() / tasks;
     let failures: u32 = curve.rows.iter().map(|row| row.failures).sum();
     let last = curve.rows.last().copied().unwrap_or_default();
     let per_task_ms = last.seconds * 1e3 / tasks;
-    line + &format!(
-        "length {length:.3}, {failures} failures, {:.1} calls of Solve, {per_task_ms:.2} ms a task",
+    format!(
+        "{} | length {length:.3}, {failures} failures, {:.1} calls of Solve, {per_task_ms:.2} ms a task",
+        told.join(" | "),
         last.solves
     )
 }
