@@ -402,7 +402,7 @@ pub struct DrawArgs {
 /// `adit plan`.
 #[derive(Args, Debug)]
 pub struct PlanArgs {
-    /// The world: a TOML file with [assembly] or [corridor]
+    /// The world: a TOML file with [assembly], [corridor] or `[floor_plan]`
     pub world: PathBuf,
     /// Where to start instead of where the world says, `x,y` in metres (corridors)
     #[arg(allow_hyphen_values = true, requires = "goal")]

@@ -99,8 +99,16 @@ fn missions(args: &SimulateArgs, floor: &Floor) -> Result<Vec<Mission>> {
         return drawn(floor, args.missions as usize, args.seed);
     };
     let (start, goal) = (floor.point(start)?, floor.point(goal)?);
+    if !floor.plan.is_free(start) {
+        let message = format!(
+            "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
+            start.x, start.y
+        );
+        return Err(Error::said("simulate/impossible", message, None));
+    }
     if !(-360.0..=360.0).contains(&args.heading) {
-        let message = format!("--heading {} is no heading; expected degrees from -360 to 360", args.heading);
+        let message =
+            format!("--heading {:?} is no heading; expected degrees from -360 to 360", args.heading);
         return Err(Error::said("simulate/heading", message, None));
     }
     let heading = args.heading.to_radians();
