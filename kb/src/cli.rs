@@ -407,7 +407,7 @@ pub struct DrawArgs {
 /// `adit plan`.
 #[derive(Args, Debug)]
 pub struct PlanArgs {
-    /// The world: a TOML file with [assembly], [corridor], [floor_plan] or [cell], or a scenario (.json)
+    /// The world: a TOML file with `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`, or a scenario (.json)
     pub world: PathBuf,
     /// Where to start instead of where the world says, `x,y` in metres (corridors, floor plans); in a cell, the first goal
     #[arg(allow_hyphen_values = true)]

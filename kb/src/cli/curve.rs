@@ -27,8 +27,10 @@ pub fn run(
 ) -> Result<bool> {
     picture::check(output)?;
     if !(args.metres > 0.0 && args.metres <= FARTHEST_M) {
-        let message =
-            format!("--metres {} is no distance; expected more than 0 and at most {FARTHEST_M}", args.metres);
+        let message = format!(
+            "--metres {:?} is no distance; expected more than 0 and at most {FARTHEST_M}",
+            args.metres
+        );
         return Err(Error::said("simulate/metres", message, None));
     }
     let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;

@@ -133,6 +133,13 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
     };
     let point = |text: &str| known.point(text).or_else(|_| floor.point(text));
     let (start, goal) = (point(start)?, point(goal)?);
+    if !floor.plan.is_free(start) {
+        let message = format!(
+            "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
+            start.x, start.y
+        );
+        return Err(Error::said("simulate/impossible", message, None));
+    }
     let heading = heading(args)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())

@@ -46,6 +46,9 @@ pub struct Answer {
     pub considered: Vec<Spoke>,
 }
 
+/// A time that people write may be less than the one of the journal by so much.
+const ROUNDED_S: f64 = 0.005;
+
 /// Asks why a robot stopped.
 ///
 /// # Arguments
@@ -65,7 +68,8 @@ pub fn why(
     if let Some(at) = at.filter(|at| !at.is_finite()) {
         return Err(Error::said("why/time", format!("--at {at} is no time; expected seconds"), None));
     }
-    let which = at.map_or(Which::LastFrom("move"), Which::At);
+    // times are read from tables, where they are rounded
+    let which = at.map_or(Which::LastFrom("move"), |at| Which::At(at + ROUNDED_S));
     let mut store = Store::open_read_only(database)?;
     let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;

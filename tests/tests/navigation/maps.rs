@@ -58,7 +58,7 @@ fn a_drawn_map_is_a_floor_plan_too() {
     let found = on(&folder, "plan", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
     assert!(found["length"].as_f64().expect("a length") > 2.0 * f64::hypot(3.0, 3.7), "{found}");
     folder.edit("map.toml", "[1.0, 1.0]", "[4.1, 1.0]");
-    on(&folder, "plan", "world.toml", &["left", "right"]).expect_status(2).complains(&["map.toml:6", "left"]);
+    on(&folder, "plan", "world.toml", &["left", "right"]).expect_status(2).complains(&["map.toml:7", "left"]);
 }
 
 #[test]
