@@ -140,7 +140,7 @@ impl<'b> Explorer<'b> {
 
     /// The global model so far, with what is free of it.
     pub fn learned(&self) -> Learned {
-        let walls = joined(&self.navigator.surfaces(true));
+        let walls = joined(&self.navigator.surfaces());
         Learned::new(self.start, self.radius_m, &self.ground(&walls), &walls)
     }
 
@@ -167,8 +167,7 @@ impl<'b> Explorer<'b> {
 
     /// The next points to go to; none where nothing is worth a look.
     fn next(&mut self, guide: &mut impl Guide) -> Vec<Point> {
-        // On the way every surface counts, however new.
-        let walls = joined(&self.navigator.surfaces(false));
+        let walls = joined(&self.navigator.surfaces());
         let ground = self.ground(&walls);
         let rims = ground.rims();
         self.openings = rims.iter().map(|rim| rim.middle).collect();
