@@ -2,6 +2,8 @@
 
 #[path = "navigation/journeys.rs"]
 mod journeys;
+#[path = "navigation/learning.rs"]
+mod learning;
 #[path = "navigation/same_as_table.rs"]
 mod same_as_table;
 
