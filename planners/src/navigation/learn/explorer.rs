@@ -51,10 +51,9 @@ pub struct Explorer<'b> {
     towards: Option<f64>,
     target: Option<Target>,
     tried: Vec<(Point, u32)>,
-    is_under_way: bool,
     odometer_m: f64,
     last: Option<Pose>,
-    /// What was worth what when it was last asked, for pictures.
+    /// The middles of the openings when they were last looked for.
     openings: Vec<Point>,
 }
 
@@ -84,7 +83,6 @@ impl<'b> Explorer<'b> {
             towards: None,
             target: None,
             tried: Vec::new(),
-            is_under_way: true,
             odometer_m: 0.0,
             last: None,
             openings: Vec::new(),
@@ -127,14 +125,12 @@ impl<'b> Explorer<'b> {
             return Some(Ending::OutOfPatience);
         }
         let ending = ending?;
-        self.is_under_way = false;
         self.note(ending);
         let legs = self.next(guide);
         if legs.is_empty() {
             return Some(Ending::Arrived);
         }
         self.navigator.go_along(legs);
-        self.is_under_way = true;
         None
     }
 
