@@ -1,5 +1,6 @@
 //! Learns floor plans that the robot does not know, and says how well:
 //! `cargo run --release -p adit-planners --example learn -- SEEDS PLAN.json...`; `film PLAN.json SEED` writes one as SVG.
+//! With `PICTURE` in the environment each result is drawn over the truth.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example shows what it found
 
 #[path = "../tests/navigation/table.rs"]

@@ -8,6 +8,8 @@ mod flat;
 mod journeys;
 #[path = "navigation/kept.rs"]
 mod kept;
+#[path = "navigation/learning.rs"]
+mod learning;
 #[path = "navigation/maps.rs"]
 mod maps;
 #[path = "navigation/position.rs"]

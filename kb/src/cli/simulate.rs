@@ -150,7 +150,7 @@ pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
     if (-360.0..=360.0).contains(&args.heading) {
         return Ok(args.heading.to_radians());
     }
-    let message = format!("--heading {} is no heading; expected degrees from -360 to 360", args.heading);
+    let message = format!("--heading {:?} is no heading; expected degrees from -360 to 360", args.heading);
     Err(Error::said("simulate/heading", message, None))
 }
 

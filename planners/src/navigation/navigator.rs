@@ -308,9 +308,9 @@ impl<'b> Navigator<'b> {
         self.sensed.map_or_else(Pose::default, |sensed| sensed.odometry)
     }
 
-    /// The surfaces that stand: all of them, or those of which the model is sure enough to close a way by them.
-    pub(super) fn surfaces(&self, is_sure: bool) -> Vec<Segment> {
-        self.obstacles(if is_sure { self.settings.least_confidence } else { 1 })
+    /// The surfaces that stand, however new they are.
+    pub(super) fn surfaces(&self) -> Vec<Segment> {
+        self.obstacles(1)
     }
 
     fn pose(&self) -> Pose {

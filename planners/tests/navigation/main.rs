@@ -1,6 +1,7 @@
 //! The navigator: straight legs, detours, closed ways, and missions to judge it by.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
+mod learn;
 mod missions;
 mod scene;
 mod states;

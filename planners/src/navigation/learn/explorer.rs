@@ -51,10 +51,9 @@ pub struct Explorer<'b> {
     towards: Option<f64>,
     target: Option<Target>,
     tried: Vec<(Point, u32)>,
-    is_under_way: bool,
     odometer_m: f64,
     last: Option<Pose>,
-    /// What was worth what when it was last asked, for pictures.
+    /// The middles of the openings when they were last looked for.
     openings: Vec<Point>,
 }
 
@@ -84,7 +83,6 @@ impl<'b> Explorer<'b> {
             towards: None,
             target: None,
             tried: Vec::new(),
-            is_under_way: true,
             odometer_m: 0.0,
             last: None,
             openings: Vec::new(),
@@ -127,20 +125,18 @@ impl<'b> Explorer<'b> {
             return Some(Ending::OutOfPatience);
         }
         let ending = ending?;
-        self.is_under_way = false;
         self.note(ending);
         let legs = self.next(guide);
         if legs.is_empty() {
             return Some(Ending::Arrived);
         }
         self.navigator.go_along(legs);
-        self.is_under_way = true;
         None
     }
 
     /// The global model so far, with what is free of it.
     pub fn learned(&self) -> Learned {
-        let walls = joined(&self.navigator.surfaces(true));
+        let walls = joined(&self.navigator.surfaces());
         Learned::new(self.start, self.radius_m, &self.ground(&walls), &walls)
     }
 
@@ -167,8 +163,7 @@ impl<'b> Explorer<'b> {
 
     /// The next points to go to; none where nothing is worth a look.
     fn next(&mut self, guide: &mut impl Guide) -> Vec<Point> {
-        // On the way every surface counts, however new.
-        let walls = joined(&self.navigator.surfaces(false));
+        let walls = joined(&self.navigator.surfaces());
         let ground = self.ground(&walls);
         let rims = ground.rims();
         self.openings = rims.iter().map(|rim| rim.middle).collect();

@@ -8,6 +8,9 @@ use crate::segment::Segment;
 /// Ends lie on a lattice of this grain, so that what nearly meets does meet, metres.
 const LATTICE_M: f64 = 0.001;
 
+/// An end that is so near to a wall meets it, metres: rounding to the lattice moves walls off the ends on them.
+const REACH_M: f64 = 0.005;
+
 /// An end that runs past another wall by no more than this is left out, metres.
 const STUB_M: f64 = 0.2;
 
@@ -22,15 +25,45 @@ type Piece = [Knot; 2];
 pub(super) fn pieces(walls: &[Segment]) -> Vec<Segment> {
     let mut pieces: BTreeSet<Piece> =
         walls.iter().filter_map(|wall| piece(knot(wall.a), knot(wall.b))).collect();
-    for _ in 0..ROUNDS {
-        let cut = cut(&pieces);
-        if cut == pieces {
-            break;
-        }
-        pieces = cut;
-    }
+    settle(&mut pieces);
+    let links = links(&pieces);
+    pieces.extend(links);
+    settle(&mut pieces);
     without_stubs(&mut pieces);
     pieces.iter().map(segment).collect()
+}
+
+/// Cuts until nothing changes.
+fn settle(pieces: &mut BTreeSet<Piece>) {
+    for _ in 0..ROUNDS {
+        let cut = cut(pieces);
+        if cut == *pieces {
+            break;
+        }
+        *pieces = cut;
+    }
+}
+
+/// From ends that meet nothing to a wall that is all but met.
+fn links(pieces: &BTreeSet<Piece>) -> Vec<Piece> {
+    let meeting = meeting(pieces);
+    let link = |end: &Knot| {
+        let at = point(*end);
+        let walls = pieces.iter().filter(|piece| !piece.contains(end)).map(segment);
+        let near = walls.map(|wall| at.nearest_on(wall.a, wall.b)).filter(|p| p.distance(at) <= REACH_M);
+        let nearest = near.min_by(|a, b| a.distance(at).total_cmp(&b.distance(at)))?;
+        piece(*end, knot(nearest))
+    };
+    meeting.iter().filter(|(_, count)| **count == 1).filter_map(|(end, _)| link(end)).collect()
+}
+
+/// How many pieces meet at each end.
+fn meeting(pieces: &BTreeSet<Piece>) -> BTreeMap<Knot, usize> {
+    let mut meeting = BTreeMap::new();
+    for end in pieces.iter().flatten() {
+        *meeting.entry(*end).or_default() += 1;
+    }
+    meeting
 }
 
 fn knot(p: Point) -> Knot {
@@ -94,10 +127,7 @@ fn are_near(one: &Piece, other: &Piece) -> bool {
 
 /// Takes out short pieces that end free at one end and on more than one other piece at the other.
 fn without_stubs(pieces: &mut BTreeSet<Piece>) {
-    let mut meeting: BTreeMap<Knot, usize> = BTreeMap::new();
-    for end in pieces.iter().flatten() {
-        *meeting.entry(*end).or_default() += 1;
-    }
+    let meeting = meeting(pieces);
     pieces.retain(|piece| {
         let [least, most] =
             [meeting[&piece[0]].min(meeting[&piece[1]]), meeting[&piece[0]].max(meeting[&piece[1]])];
