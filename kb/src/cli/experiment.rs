@@ -64,13 +64,17 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     Ok(failures == 0)
 }
 
+/// What is drawn by which pen; the full line is for repair on demand.
+const PENS: [&str; 5] = ["a3", "a0", "a1", "a2", "solve"];
+
 /// The three panels of a scenario: ratio, evaluations, time.
 fn panels(outcome: &ExperimentOutcome) -> Vec<CurvePanel> {
     let of = |title: &str, level, value: fn(&Row) -> f64| {
         let mut curves: Vec<Curve> = Vec::new();
         for row in &outcome.rows {
             if curves.last().is_none_or(|curve| curve.name != row.strategy) {
-                curves.push(Curve { name: row.strategy.to_owned(), points: Vec::new() });
+                let pen = PENS.iter().position(|strategy| *strategy == row.strategy).unwrap_or(PENS.len());
+                curves.push(Curve { name: row.strategy.to_owned(), pen, points: Vec::new() });
             }
             if let Some(curve) = curves.last_mut() {
                 curve.points.push((f64::from(row.task), value(row)));

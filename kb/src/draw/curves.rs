@@ -35,11 +35,13 @@ pub enum Scale {
     Decades(f64, f64, &'static str),
 }
 
-/// A curve with its name. Curves of one name look alike, and the legend has them once.
+/// A curve with its name. The legend has a name once.
 #[derive(Clone, Debug)]
 pub struct Curve {
     /// Its name.
     pub name: String,
+    /// Which of the pens draws it; 0 is a full line, for what matters most.
+    pub pen: usize,
     /// Its points, from left to right.
     pub points: Vec<(f64, f64)>,
 }
@@ -52,14 +54,8 @@ const KEY: u32 = 24;
 const FONT: &str = "sans-serif";
 
 /// Colour, length of dashes and of gaps: none is told by colour alone.
-const LOOKS: [(&str, u32, u32); 6] = [
-    ("#2e9d66", 7, 3),
-    ("#3f8fd2", 2, 2),
-    ("#d0342c", 9, 3),
-    ("#17365d", 0, 0),
-    ("#8a9099", 4, 4),
-    ("#8e5ab5", 12, 3),
-];
+const PENS: [(&str, u32, u32); 5] =
+    [("#17365d", 0, 0), ("#2e9d66", 7, 3), ("#3f8fd2", 2, 2), ("#d0342c", 9, 3), ("#8a9099", 4, 4)];
 
 type Area<'s> = DrawingArea<SVGBackend<'s>, Shift>;
 type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
@@ -163,9 +159,7 @@ impl CurvePanel {
         }
         let mut names: Vec<&str> = Vec::new();
         for curve in &self.curves {
-            let known = names.iter().position(|name| *name == curve.name);
-            let look = known.unwrap_or(names.len());
-            let (hue, dash, gap) = LOOKS[look % LOOKS.len()];
+            let (hue, dash, gap) = PENS[curve.pen % PENS.len()];
             let style = colour(hue).stroke_width(2);
             let points = curve.points.iter().map(|&(x, y)| (x, y.clamp(least, most)));
             let drawn = if dash == 0 {
@@ -173,7 +167,7 @@ impl CurvePanel {
             } else {
                 chart.draw_series(DashedLineSeries::new(points, dash, gap, style))?
             };
-            if known.is_none() {
+            if !names.contains(&curve.name.as_str()) {
                 names.push(&curve.name);
                 let (dash, gap) = if dash == 0 { (KEY, 0) } else { (dash, gap) };
                 drawn.label(&curve.name).legend(move |(x, y)| {

@@ -121,14 +121,14 @@ fn median(wrong: &[Wrong], of: &impl Fn(&Wrong) -> f64) -> f64 {
 pub fn draw(world: &str, drives: &[Driven]) -> String {
     let panel = |what: &str, scale, level, (is_known, said): (bool, &str), curves: [fn(&Wrong) -> f64; 2]| {
         let of = || drives.iter().filter(move |driven| driven.is_known == is_known);
-        let named = |name: &str, error: fn(&Wrong) -> f64| -> Vec<Curve> {
-            of().map(|driven| Curve { name: name.to_owned(), points: driven.curve(error) }).collect()
+        let named = |name: &str, pen, error: fn(&Wrong) -> f64| -> Vec<Curve> {
+            of().map(|driven| Curve { name: name.to_owned(), pen, points: driven.curve(error) }).collect()
         };
         CurvePanel {
             title: format!("{what}, {said}"),
             across: "metres driven".to_owned(),
             scale,
-            curves: [named("dead reckoning", curves[0]), named("estimated pose", curves[1])].concat(),
+            curves: [named("dead reckoning", 1, curves[0]), named("estimated pose", 0, curves[1])].concat(),
             event: None,
             level: Some(level),
         }

@@ -21,7 +21,8 @@ fn simulate(folder: &TestSite, args: &[&str]) -> Ran {
 
 fn sql(folder: &TestSite, query: &str) -> String {
     let mut command = Command::new("sqlite3");
-    let output = command.args(["-readonly", "flat.db", query]).current_dir(folder.path()).output().expect("runs");
+    let output =
+        command.args(["-readonly", "flat.db", query]).current_dir(folder.path()).output().expect("runs");
     String::from_utf8_lossy(&output.stdout).trim().to_owned()
 }
 
@@ -41,14 +42,18 @@ fn a_flat_is_learned_kept_and_driven_in() {
 
     // Another process, and every place of the flat, named by where it is.
     for goal in ["desk", "store", "hall", "kitchen", "living room", "bath"] {
-        let rows = simulate(&folder, &["bed", goal, "--learned", "--db", "flat.db", "--json"]).expect_status(0).json();
+        let rows = simulate(&folder, &["bed", goal, "--learned", "--db", "flat.db", "--json"])
+            .expect_status(0)
+            .json();
         assert_eq!(rows[0]["ending"], "arrived", "{goal}: {rows}");
     }
 
     folder.write("orders.txt", "start bed 90 # looks north\nturn -90\nforward 1\nplace by the wall\n");
     simulate(&folder, &["--learned", "--db", "flat.db", "--drive", "orders.txt"]).expect_status(0);
     assert_eq!(sql(&folder, "SELECT place, abs(x - 2.5) < 0.2 FROM learned_places"), "by the wall|1");
-    let rows = simulate(&folder, &["desk", "by the wall", "--learned", "--db", "flat.db", "--json"]).expect_status(0).json();
+    let rows = simulate(&folder, &["desk", "by the wall", "--learned", "--db", "flat.db", "--json"])
+        .expect_status(0)
+        .json();
     assert_eq!(rows[0]["ending"], "arrived", "{rows}");
 }
 
@@ -57,13 +62,15 @@ fn orders_that_are_wrong_are_shown_with_what_was_expected() {
     let folder = flat();
     simulate(&folder, &["--learn", "bed", "--db", "flat.db"]).expect_status(0);
     folder.write("orders.txt", "start 1.5,1.5\nforward far\nfly 2\ngo nowhere\nplace\n");
-    simulate(&folder, &["--learned", "--db", "flat.db", "--drive", "orders.txt"]).expect_status(2).complains(&[
-        "found `far`, expected metres",
-        "found `fly`, expected one of start",
-        "found `nowhere`, expected a place",
-        "found no name",
-        "orders.txt:2",
-    ]);
+    simulate(&folder, &["--learned", "--db", "flat.db", "--drive", "orders.txt"]).expect_status(2).complains(
+        &[
+            "found `far`, expected metres",
+            "found `fly`, expected one of start",
+            "found `nowhere`, expected a place",
+            "found no name",
+            "orders.txt:2",
+        ],
+    );
 }
 
 #[test]
