@@ -92,7 +92,7 @@ impl Exploration {
             if let Some(ending) = ending {
                 let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
                 let (learned, simulated_s) = (explorer.learned(), body.time_s());
-                return Ok(Explored { ending, learned, touches, simulated_s, ..explored });
+                return Ok(Explored { ending, learned, simulated_s, touches, ..explored });
             }
         }
     }
