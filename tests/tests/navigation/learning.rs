@@ -48,7 +48,7 @@ fn a_flat_is_learned_kept_and_driven_in() {
         assert_eq!(rows[0]["ending"], "arrived", "{goal}: {rows}");
     }
 
-    folder.write("orders.txt", "start bed 90 # looks north\nturn -90\nforward 1\nplace by the wall\n");
+    folder.write("orders.txt", "start 1.5,1.5 90 # looks north\nturn -90\nforward 1\nplace by the wall\n");
     simulate(&folder, &["--learned", "--db", "flat.db", "--drive", "orders.txt"]).expect_status(0);
     assert_eq!(sql(&folder, "SELECT place, abs(x - 2.5) < 0.2 FROM learned_places"), "by the wall|1");
     let rows = simulate(&folder, &["desk", "by the wall", "--learned", "--db", "flat.db", "--json"])
