@@ -1,11 +1,22 @@
-//! The curve of a scenario file, as figures at a few tasks.
+//! The curves of Chen's Figure 5 on the scenarios of a file, at a few tasks: evaluations with their standard error, over the
+//! peer's of the file where it tells them, and over Solve alone.
 //! `cargo run --release -p adit-planners --example adapt_curve -- FILE.json [RUNS] [NAME]`
 #![allow(clippy::print_stdout, missing_docs)]
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use adit_planners::adapt::*;
+use adit_planners::adapt::{
+    ArmScenario, ChangeFacts, Curve, EdgeFacts, Experiment, Judge, LandmarkFacts, Method, Plugins, Scenario,
+    Settings, Strategy, TOUCHING_M, Trust,
+};
+
+const METHODS: [Method; 5] = [
+    Method::Solve,
+    Method::Adapt(Strategy::Forget),
+    Method::Adapt(Strategy::VerifyAll),
+    Method::Adapt(Strategy::RepairAll),
+    Method::Adapt(Strategy::OnDemand),
+];
 
 struct Table;
 
@@ -15,7 +26,7 @@ impl Judge for Table {
     }
 
     fn landmark(&mut self, facts: &LandmarkFacts<'_>) -> Option<f64> {
-        Some(facts.clearance_m)
+        Some(facts.distance_m)
     }
 
     fn trust(&mut self, _: &EdgeFacts) -> Trust {
@@ -23,82 +34,64 @@ impl Judge for Table {
     }
 }
 
-fn env(name: &str, otherwise: f64) -> f64 {
-    std::env::var(name).ok().and_then(|v| v.parse().ok()).unwrap_or(otherwise)
-}
-
 fn main() {
     let args: Vec<String> = std::env::args().collect();
-    let text = std::fs::read_to_string(&args[1]).expect("the file can be read");
+    let text = std::fs::read_to_string(args.get(1).expect("FILE is told")).expect("the file can be read");
     let json: serde_json::Value = serde_json::from_str(&text).expect("the file is JSON");
-    let runs = args.get(2).map_or(100, |n| n.parse().expect("a number of runs"));
-    for entry in json["scenarios"].as_array().expect("scenarios") {
-        let file: ArmScenario = serde_json::from_value(entry.clone()).expect("a scenario");
-        if args.get(3).is_some_and(|name| *name != file.name) {
-            continue;
-        }
-        let scenario = Scenario::try_from(&file).expect("a scenario");
-        let base: Vec<f64> = entry["reference"]["baseline_cumulative"]
-            .as_array()
-            .map(|a| a.iter().filter_map(serde_json::Value::as_f64).collect())
-            .unwrap_or_default();
-        let plugins = Plugins {
-            reach: Arc::new(Straight),
-            solve: Arc::new(RrtConnect { step: env("STEP", 0.6), samples: 20_000 }),
-        };
-        let settings = Settings {
-            heuristic: if env("H", 0.0) > 0.0 { Heuristic::ShortestWay } else { Heuristic::NearestToGoal },
-            tries: env("TRIES", 1e9) as usize,
-            chain_step: env("CHAIN", 0.1),
-            tightens: env("TIGHT", 1.0) > 0.0,
-            cuts_corners: env("CUT", 1.0) > 0.0,
-            keeps_goals: env("KEEP", 1.0) > 0.0,
-            ..Settings::default()
-        };
-        let began = Instant::now();
-        let experiment = Experiment {
-            scenario: &scenario,
-            plugins: &plugins,
-            settings: &settings,
-            touching_m: env("TOUCH", 0.005),
-            runs,
-            seed: env("SEED", 1000.0) as u64,
-            judge: &|| Box::new(Table),
-            clock: &|| began.elapsed().as_secs_f64(),
-            progress: &|| (),
-        };
-        let methods = [
-            Method::Solve,
-            Method::Adapt(Strategy::Forget),
-            Method::Adapt(Strategy::VerifyAll),
-            Method::Adapt(Strategy::RepairAll),
-            Method::Adapt(Strategy::OnDemand),
-        ];
-        let mut alone = Curve::default();
-        for method in methods {
-            let curve = experiment.run(method).expect("a cell");
-            if method == Method::Solve {
-                alone = curve.clone();
-            }
-            let length = curve.rows.iter().map(|row| row.path_length).sum::<f64>() / curve.rows.len() as f64;
-            let failures: u32 = curve.rows.iter().map(|row| row.failures).sum();
-            print!("{} {:18}", file.name, format!("{method:?}"));
-            for task in [1, 16, 40, 41, 60, 80, 100] {
-                let (row, solve) = (&curve.rows[task - 1], &alone.rows[task - 1]);
-                print!(
-                    " | {task}: {:.0}±{:.0} {:.3} {:.2}",
-                    row.evaluations,
-                    row.evaluations_sd / f64::from(runs).sqrt(),
-                    row.evaluations / base.get(task - 1).copied().unwrap_or(f64::NAN),
-                    row.evaluations / solve.evaluations
-                );
-            }
-            let last = curve.rows.last().expect("rows");
-            println!(
-                " | len {length:.3} fail {failures} solves {:.2} ms/task {:.3}",
-                last.solves,
-                last.seconds * 1e3 / curve.rows.len() as f64
-            );
+    let runs = args.get(2).map_or(100, |count| count.parse().expect("RUNS is a number"));
+    for entry in json["scenarios"].as_array().expect("the file has scenarios") {
+        let file: ArmScenario = serde_json::from_value(entry.clone()).expect("it is a scenario of an arm");
+        if args.get(3).is_none_or(|name| *name == file.name) {
+            let scenario = Scenario::try_from(&file).expect("the scenario is sound");
+            let peer = entry["reference"]["baseline_cumulative"].as_array();
+            let peer: Vec<f64> = peer.into_iter().flatten().filter_map(serde_json::Value::as_f64).collect();
+            print_curves(&scenario, runs, &peer);
         }
     }
+}
+
+fn print_curves(scenario: &Scenario, runs: u32, peer: &[f64]) {
+    let began = Instant::now();
+    let experiment = Experiment {
+        scenario,
+        plugins: &Plugins::standard(),
+        settings: &Settings::default(),
+        touching_m: TOUCHING_M,
+        runs,
+        seed: 1000,
+        judge: &|| Box::new(Table),
+        clock: &|| began.elapsed().as_secs_f64(),
+        progress: &|| (),
+    };
+    let alone = experiment.run(Method::Solve).expect("names differ");
+    for method in METHODS {
+        let curve = experiment.run(method).expect("names differ");
+        println!("{} {method:?}: {}", scenario.name, line(&curve, &alone, runs, peer));
+    }
+}
+
+fn line(curve: &Curve, alone: &Curve, runs: u32, peer: &[f64]) -> String {
+    let told = curve.rows.iter().zip(&alone.rows).filter(|(row, _)| is_told(row.task));
+    let told: Vec<String> = told
+        .map(|(row, solve)| {
+            let over_peer = row.evaluations / peer.get(row.task as usize - 1).copied().unwrap_or(f64::NAN);
+            let over_solve = row.evaluations / solve.evaluations;
+            let error = row.evaluations_sd / f64::from(runs).sqrt();
+            format!("{}: {:.0}±{error:.0} {over_peer:.4} {over_solve:.2}", row.task, row.evaluations)
+        })
+        .collect();
+    let tasks = curve.rows.len() as f64;
+    let length = curve.rows.iter().map(|row| row.path_length).sum::<f64>() / tasks;
+    let failures: u32 = curve.rows.iter().map(|row| row.failures).sum();
+    let last = curve.rows.last().copied().unwrap_or_default();
+    let per_task_ms = last.seconds * 1e3 / tasks;
+    format!(
+        "{} | length {length:.3}, {failures} failures, {:.1} calls of Solve, {per_task_ms:.2} ms a task",
+        told.join(" | "),
+        last.solves
+    )
+}
+
+fn is_told(task: u32) -> bool {
+    [1, 16, 40, 41, 60, 80, 100].contains(&task)
 }

@@ -33,7 +33,7 @@ pub struct Sliding {
 impl Reach for Sliding {
     fn reach(&self, probe: &mut Probe<'_>, from: &[f64], to: &[f64]) -> Option<Vec<Configuration>> {
         // Either end may be asked for first: it always slides from the same one.
-        let is_turned = from.iter().zip(to).find(|(a, b)| a != b).is_some_and(|(a, b)| a > b);
+        let is_turned = from > to;
         let (start, end) = if is_turned { (to, from) } else { (from, to) };
         let mut path = self.slide(probe, start, end)?;
         if is_turned {
