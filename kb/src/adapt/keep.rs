@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use adit_db::experience as rows;
 use adit_db::mission::Decided;
 use adit_engine::Considered;
-use adit_planners::adapt::{Adapt, Clearance, Edge, Noted, ObjectChange, Outcome, Removal, Report, Vertex, VertexId};
+use adit_planners::adapt::{
+    Adapt, Clearance, Edge, Noted, ObjectChange, Outcome, Removal, Report, Vertex, VertexId,
+};
 
 use super::cell::Cell;
 use super::judge::{strategy_word, told};

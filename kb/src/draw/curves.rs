@@ -159,10 +159,15 @@ impl Axes {
             end.0 = end.0.max(lowest + APART);
             lowest = end.0;
         }
-        let over = (lowest - (self.top + HIGH)).max(0.0);
+        // Those that were pushed below the axis push the others up again, as far as they have to.
+        let mut highest = self.top + HIGH + APART;
+        for end in ends.iter_mut().rev() {
+            end.0 = end.0.min(highest - APART);
+            highest = end.0;
+        }
         for (y, number, name) in ends {
             let (colour, dash) = LOOKS[number % LOOKS.len()];
-            let (x, y) = (self.left + WIDE + 4.0, y - over);
+            let x = self.left + WIDE + 4.0;
             stroke(svg, (x, y), (x + 16.0, y), colour, 2.0, dash);
             write(svg, (x + 19.0, y + 4.0), 12.0, INK, "start", name);
         }
