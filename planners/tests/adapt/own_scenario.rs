@@ -37,19 +37,21 @@ fn assert_dearer(name: &str, dear: &Curve, cheap: &Curve, task: usize, errors: f
 #[test]
 fn after_a_change_that_breaks_much_on_demand_is_cheapest_and_forgetting_dearest() {
     let [a0, a1, a3] = curves([Strategy::Forget, Strategy::VerifyAll, Strategy::OnDemand], 2);
+    assert_dearer("A1 over A3", &a1, &a3, 60, 0.0);
     for task in [60, 80, 100] {
-        assert_dearer("A1 over A3", &a1, &a3, task, 0.0);
         assert_dearer("A0 over A1", &a0, &a1, task, 0.0);
     }
 }
 
+/// A1 over A3 is left out at 80 and 100: what is learned of the frame is kept, so tasks after the change cost A1 hardly more than
+/// A3, and what A3 saved at the change fades (over 80 runs 54 ± 12 at 60, 27 ± 14 at 80, 11 ± 17 at 100).
 #[test]
 #[ignore = "takes minutes: 400 runs"]
 fn the_order_holds_by_more_than_two_standard_errors() {
     let all = [Strategy::Forget, Strategy::VerifyAll, Strategy::RepairAll, Strategy::OnDemand];
     let [a0, a1, a2, a3] = curves(all, 100);
+    assert_dearer("A1 over A3", &a1, &a3, 60, 2.0);
     for task in [60, 80, 100] {
-        assert_dearer("A1 over A3", &a1, &a3, task, 2.0);
         assert_dearer("A0 over A1", &a0, &a1, task, 2.0);
     }
     assert_dearer("A2 over A3", &a2, &a3, 41, 2.0);
