@@ -7,6 +7,7 @@ mod adapt {
     mod figure_3;
     mod figure_5;
     mod free_paths;
+    mod own_scenario;
     mod plugins;
     mod restart;
     mod strategies;
