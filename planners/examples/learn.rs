@@ -1,5 +1,5 @@
 //! Learns floor plans that the robot does not know, and says how well:
-//! `cargo run --release -p adit-planners --example learn -- SEEDS PLAN.json...`; `film PLAN.json SEED` writes one as SVG.
+//! `cargo run --release -p adit-planners --example learn -- SEEDS PLAN.json...`, with missions on what was learned; `film PLAN.json SEED` writes one as SVG.
 //! With `PICTURE` in the environment each result is drawn over the truth.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example shows what it found
 
@@ -9,10 +9,17 @@ mod table;
 use std::path::Path;
 use std::time::Instant;
 
-use adit_planners::floor_plan::{FloorPlan, read_floor_plan};
-use adit_planners::navigation::Outfit;
-use adit_planners::navigation::learn::{Exploration, score};
+use adit_planners::floor_plan::{Disc, FloorPlan, Network, Rule, read_floor_plan};
+use adit_planners::geometry::Point;
+use adit_planners::navigation::learn::{Exploration, Learned, score};
+use adit_planners::navigation::{Building, Ending, Outfit, ROOM_M, draw};
 use adit_planners::pose::Pose;
+
+/// Missions that are run with the given and with the learned model.
+const MISSIONS: u64 = 20;
+
+/// How sure a robot is of where it begins in a building that it has learned, metres.
+const START_SIGMA_M: f64 = 0.05;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -64,7 +71,10 @@ fn one(plan: &FloorPlan, seed: u64, film: Option<&mut Option<adit_planners::simu
     );
     let before = Instant::now();
     match score(&explored.learned, plan) {
-        Ok(score) => println!("  {score:?}"),
+        Ok(score) => {
+            println!("  {score:?}");
+            missions(plan, &explored.learned, start);
+        }
         Err(errors) => println!("  {errors}"),
     }
     if std::env::var_os("PICTURE").is_some() {
@@ -78,10 +88,56 @@ fn one(plan: &FloorPlan, seed: u64, film: Option<&mut Option<adit_planners::simu
     );
 }
 
-fn picture(plan: &FloorPlan, learned: &adit_planners::navigation::learn::Learned, seed: u64) {
+/// Says which places the learned network reaches, and how the same missions go with the given and with the learned model.
+fn missions(plan: &FloorPlan, learned: &Learned, start: Point) {
+    let outfit = Outfit { start_sigma_m: START_SIGMA_M, ..Outfit::default() };
+    let disc = |margin| Disc { radius: learned.radius_m, margin };
+    let network = |plan: &FloorPlan, margin: f64| {
+        Network::new(plan, disc(margin)).unwrap_or_else(|errors| panic!("{errors}"))
+    };
+    let found = learned.plan("learned").unwrap_or_else(|errors| panic!("{errors}"));
+    let ways = network(&found, 0.0);
+    let is_reached = |at: Point| ways.path(start, at, Rule::Tight, |way| Some(way.length)).is_ok();
+    let lost: Vec<&str> =
+        plan.places().iter().filter(|place| !is_reached(place.at)).map(|place| place.name.as_str()).collect();
+    println!(
+        "  {} of {} places reached, not {lost:?}",
+        plan.places().len() - lost.len(),
+        plan.places().len()
+    );
+    let given = Building::new(plan, network(plan, ROOM_M));
+    let known = Building::new(&found, network(&found, ROOM_M));
+    let (mut arrived, mut lengths, mut collisions) = ([0, 0], [Vec::new(), Vec::new()], 0);
+    for number in 0..MISSIONS {
+        let Some(mission) = draw(plan, &given.network, learned.radius_m, number) else { continue };
+        let outcomes = [&given, &known].map(|building| {
+            mission
+                .run_among(&given.walls, building, &outfit, &mut table::Table, |_| {}, None)
+                .unwrap_or_else(|error| panic!("mission {number}: {error}"))
+        });
+        let has_arrived = outcomes.each_ref().map(|outcome| outcome.ending == Ending::Arrived);
+        for side in 0..2 {
+            arrived[side] += usize::from(has_arrived[side]);
+            if has_arrived == [true, true] {
+                lengths[side].push(outcomes[side].path_m);
+            }
+        }
+        collisions += usize::from(outcomes[1].overlap_m > 1e-6);
+    }
+    let median = lengths.map(|mut lengths| {
+        lengths.sort_by(f64::total_cmp);
+        lengths.get(lengths.len() / 2).copied().unwrap_or(f64::NAN)
+    });
+    println!(
+        "  {MISSIONS} missions on the given and on the learned model: {arrived:?} arrived, {median:.2?} m in the median of those \
+         that did with both, {collisions} collisions"
+    );
+}
+
+fn picture(plan: &FloorPlan, learned: &Learned, seed: u64) {
     use std::fmt::Write as _;
     let mut out = String::new();
-    let path = |points: &[adit_planners::geometry::Point]| {
+    let path = |points: &[Point]| {
         points.iter().map(|p| format!("{:.3},{:.3}", p.x, p.y)).collect::<Vec<_>>().join(" ")
     };
     for [a, b] in plan.barriers() {

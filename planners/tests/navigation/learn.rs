@@ -1,20 +1,65 @@
 //! Learn mode: what a robot has seen becomes a floor plan that is nearly the true one.
 
-use adit_planners::floor_plan::{Disc, FloorPlan, Network, Regions, Rule};
+use std::path::Path;
+
+use adit_planners::floor_plan::{Disc, FloorPlan, Network, Regions, Rule, read_floor_plan};
 use adit_planners::geometry::Point;
 use adit_planners::local_model::{SegmentFacts, Transition};
 use adit_planners::navigation::learn::{Exploration, Explored, Guide, OpeningFacts, score};
 use adit_planners::navigation::{Ending, Judge, Outfit, StateDecision, StateFacts, WayFacts};
 use adit_planners::pose::Pose;
 
-use super::scene::two_rooms;
+use super::scene::{round_a_core, two_rooms};
 use super::table::Table;
 
 const START: Point = Point::new(2.0, 3.0);
 
 fn explore(plan: &FloorPlan, towards: Option<Point>, seed: u64, guide: &mut impl Guide) -> Explored {
-    let exploration = Exploration { start: Pose { at: START, heading: 0.0 }, towards, seed };
+    explore_from(START, plan, towards, seed, guide)
+}
+
+fn explore_from(
+    start: Point,
+    plan: &FloorPlan,
+    towards: Option<Point>,
+    seed: u64,
+    guide: &mut impl Guide,
+) -> Explored {
+    let exploration = Exploration { start: Pose { at: start, heading: 0.0 }, towards, seed };
     exploration.run(plan, &Outfit::default(), guide, |_| {}, None).unwrap()
+}
+
+/// Explores from a place of the plan: nothing is run into, at least 95 % of the area is learned and next to nothing that is
+/// not free, and the robot knows a way to every place.
+fn is_learned_from(name: &str, plan: &FloorPlan, seed: u64) {
+    let start = plan.places().iter().find(|place| place.name == name).unwrap().at;
+    let explored = explore_from(start, plan, None, seed, &mut Table);
+    let told = format!("{} from {name}, seed {seed}", plan.name);
+    assert_eq!(explored.ending, Ending::Arrived, "{told}");
+    assert!(explored.overlap_m <= 1e-6, "{told}: {} m deep in a wall", explored.overlap_m);
+    let score = score(&explored.learned, plan).unwrap();
+    assert!(score.share >= 0.95 && score.outside_m2 < 0.01 * score.true_m2, "{told}: {score:?}");
+    let learned = explored.learned.plan("learned").unwrap();
+    let network = Network::new(&learned, Disc { radius: explored.learned.radius_m, margin: 0.0 }).unwrap();
+    for place in plan.places() {
+        let path = network.path(start, place.at, Rule::Tight, |way| Some(way.length));
+        assert!(path.is_ok(), "{told}: no way to {}, {:?}", place.name, path.err());
+    }
+}
+
+#[test]
+fn golden_plans_are_learned_whole() {
+    for (file, start) in [("house-7.json", "room-1"), ("office-14.json", "room-1")] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/floorplans").join(file);
+        is_learned_from(start, &read_floor_plan(&path).unwrap(), 1);
+    }
+}
+
+#[test]
+fn a_way_round_a_core_closes_where_it_began() {
+    for (start, seed) in [("front", 1), ("room", 2), ("slant", 3)] {
+        is_learned_from(start, &round_a_core(), seed);
+    }
 }
 
 #[test]

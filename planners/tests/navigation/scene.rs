@@ -7,6 +7,7 @@ use adit_planners::navigation::{
 };
 use adit_planners::pose::Pose;
 use adit_planners::simulator::{self, Obstacle};
+use adit_planners::world::Place;
 
 use super::table::Table;
 
@@ -23,6 +24,37 @@ pub fn two_rooms() -> FloorPlan {
         line(5.0, 5.0, 5.0, 6.0),
     ];
     FloorPlan::new(Drawn { walls, ..Drawn::default() }).unwrap()
+}
+
+/// A way round a core of 3 x 2 m, with a pillar in it, a corner cut off by a slanting wall, and a room with a door 1 m wide.
+pub fn round_a_core() -> FloorPlan {
+    let line = |x0: f64, y0: f64, x1: f64, y1: f64| [Point::new(x0, y0), Point::new(x1, y1)];
+    let solid = |x0: f64, y0: f64, x1: f64, y1: f64| {
+        vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)]
+    };
+    let place = |name: &str, x: f64, y: f64| Place { name: name.to_owned(), at: Point::new(x, y) };
+    let drawn = Drawn {
+        name: "round a core".to_owned(),
+        walls: vec![
+            line(0.0, 0.0, 11.0, 0.0),
+            line(11.0, 0.0, 11.0, 6.0),
+            line(11.0, 6.0, 9.0, 8.0),
+            line(9.0, 8.0, 0.0, 8.0),
+            line(0.0, 8.0, 0.0, 0.0),
+            line(8.5, 0.0, 8.5, 1.0),
+            line(8.5, 2.0, 8.5, 2.8),
+            line(8.5, 2.8, 11.0, 2.8),
+        ],
+        solids: vec![solid(4.0, 3.0, 7.0, 5.0), solid(1.8, 5.8, 2.2, 6.2)],
+        places: vec![
+            place("front", 2.0, 1.5),
+            place("pillar", 1.0, 7.2),
+            place("back", 5.5, 6.5),
+            place("slant", 9.0, 6.8),
+            place("room", 9.8, 1.4),
+        ],
+    };
+    FloorPlan::new(drawn).unwrap()
 }
 
 pub fn building(plan: &FloorPlan) -> Building {

@@ -5,6 +5,7 @@ use super::ground::{Ground, LookOut, Rim};
 use super::joints::joined;
 use super::learned::Learned;
 use super::opening::{Guide, OpeningFacts};
+use super::pieces::pieces;
 use super::seen::Seen;
 use crate::body::Body;
 use crate::geometry::Point;
@@ -136,7 +137,7 @@ impl<'b> Explorer<'b> {
 
     /// The global model so far, with what is free of it.
     pub fn learned(&self) -> Learned {
-        let walls = joined(&self.navigator.surfaces());
+        let walls = pieces(&joined(&self.navigator.surfaces()));
         Learned::new(self.start, self.radius_m, &self.ground(&walls), &walls)
     }
 

@@ -2,7 +2,6 @@
 
 use super::grid::{Cell, Cells, GRAIN_M, middle_of};
 use super::ground::Ground;
-use super::pieces::pieces;
 use crate::floor_plan::{Drawn, FloorPlan};
 use crate::geometry::Point;
 use crate::read::MapErrors;
@@ -28,6 +27,10 @@ pub struct Learned {
 }
 
 impl Learned {
+    /// What is free of a building.
+    ///
+    /// # Arguments
+    /// `walls` meet at ends only, and are those that the ground was made with.
     pub(super) fn new(start: Point, radius_m: f64, ground: &Ground, walls: &[Segment]) -> Self {
         let is_beside = |wall: &&Segment| {
             let cells = super::grid::touched(wall.a, wall.b);
@@ -37,9 +40,9 @@ impl Learned {
             };
             cells.into_iter().any(near)
         };
-        let walls: Vec<Segment> = walls.iter().filter(is_beside).copied().collect();
+        let walls = walls.iter().filter(is_beside).copied().collect();
         let unseen = rectangles(&ground.beyond());
-        Self { start, radius_m, walls: pieces(&walls), unseen, places: Vec::new() }
+        Self { start, radius_m, walls, unseen, places: Vec::new() }
     }
 
     /// The floor plan of what is free: one outline, with convex regions and a network as any other has.
