@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                     world.plan(&mut steps).map_err(|no_path| no_path.reason)?.length
                 }
                 Task::FloorPlan(_) => return Err("a floor plan is timed by missions".to_owned()),
+                Task::Cell(_) => return Err("a cell is timed by an experiment".to_owned()),
                 Task::Corridor(world) => {
                     world.plan(&mut turns).map_err(|no_path| no_path.reason)?.drive.length
                 }

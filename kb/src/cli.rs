@@ -416,7 +416,7 @@ pub struct PlanArgs {
     #[arg(allow_hyphen_values = true)]
     pub goal: Option<String>,
     /// In a cell, the goals after that
-    #[arg(allow_hyphen_values = true, value_name = "GOAL")]
+    #[arg(value_name = "GOAL")]
     pub more: Vec<String>,
     /// What is for cells only
     #[command(flatten)]

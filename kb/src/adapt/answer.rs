@@ -62,18 +62,16 @@ pub fn change_line(changed: &Changed) -> String {
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {} {what}", if *count == 1 { "object" } else { "objects" }))
         .collect();
-    let mut line = format!("the cell changed: {}", said.join(", "));
-    if facts.moved > 0 {
-        line += &format!(" (by up to {} m)", number(facts.moved_m));
-    }
+    let far =
+        if facts.moved > 0 { format!(" (by up to {} m)", number(facts.moved_m)) } else { String::new() };
+    let mut parts = vec![format!("the cell changed: {}{far}", said.join(", "))];
     if facts.vertices_moved > 0 {
-        line += &format!("; {} subgoals went along", facts.vertices_moved);
+        parts.push(format!("{} subgoals went along", facts.vertices_moved));
     }
     if facts.vertices_dropped > 0 {
-        line += &format!(
-            "; {} subgoals are dropped, as their object went or they are out of reach",
-            facts.vertices_dropped
-        );
+        let dropped = facts.vertices_dropped;
+        parts.push(format!("{dropped} subgoals are dropped, as their object went or they are out of reach"));
     }
-    format!("{line}; repair {}", strategy_word(changed.strategy))
+    parts.push(format!("repair {}", strategy_word(changed.strategy)));
+    parts.join("; ")
 }

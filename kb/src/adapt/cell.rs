@@ -105,6 +105,7 @@ impl RobotKind {
 
 impl Cell {
     /// The cell once `tasks` are done: changed, if its change is due by then.
+    #[must_use]
     pub fn after(&self, tasks: usize) -> Self {
         let mut cell = self.clone();
         if let Some(change) = cell.change.take_if(|change| tasks >= change.after_task) {

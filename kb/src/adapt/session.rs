@@ -83,17 +83,14 @@ impl Session {
         };
         let plugins = with_taught(beginning.taught);
         let settings = Settings { seed: beginning.seed, ..Settings::default() };
-        let (adapt, seed, copied_from) = match &kept {
-            Some(kept) => {
-                let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
-                (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
-            }
-            None => {
-                let now = described.after(0);
-                let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
-                    .map_err(|error| Error::said("plan/cell", error.to_string(), None))?;
-                (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
-            }
+        let (adapt, seed, copied_from) = if let Some(kept) = &kept {
+            let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
+            (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
+        } else {
+            let now = described.after(0);
+            let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
+                .map_err(|error| Error::said("plan/cell", error.to_string(), None))?;
+            (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
         };
         let cell = described.after(adapt.progress().tasks as usize);
         let described = described.clone();
@@ -148,7 +145,7 @@ impl Session {
         };
         for at in self.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
-            let reason = self.reason(goal, &report);
+            let reason = reason(goal, &report);
             let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
             self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
             (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
@@ -188,20 +185,6 @@ impl Session {
         }
         found.sort_by(|a, b| distance(a, &self.cell.home).total_cmp(&distance(b, &self.cell.home)));
         found
-    }
-
-    fn reason(&self, goal: &Goal, report: &Report) -> Option<String> {
-        let name = &goal.name;
-        match &report.outcome {
-            Outcome::Found => None,
-            Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),
-            Outcome::GoalInCollision(object) => {
-                Some(format!("the robot would touch {object} at goal {name}"))
-            }
-            Outcome::StartInCollision(object) => Some(format!("the robot touches {object} where it is")),
-            Outcome::NotFound => Some(format!("no path to goal {name} was found from where the robot is")),
-            other => Some(format!("{other:?}")),
-        }
     }
 
     /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
@@ -281,4 +264,17 @@ fn experience(
     cell.clone_into(&mut copy.cell.cell);
     store.transaction(|tx| tx.keep_experience(&copy))?;
     Ok(Some(copy))
+}
+
+/// Why a task ended without a path.
+fn reason(goal: &Goal, report: &Report) -> Option<String> {
+    let name = &goal.name;
+    match &report.outcome {
+        Outcome::Found => None,
+        Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),
+        Outcome::GoalInCollision(object) => Some(format!("the robot would touch {object} at goal {name}")),
+        Outcome::StartInCollision(object) => Some(format!("the robot touches {object} where it is")),
+        Outcome::NotFound => Some(format!("no path to goal {name} was found from where the robot is")),
+        other => Some(format!("{other:?}")),
+    }
 }

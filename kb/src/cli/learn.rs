@@ -50,9 +50,9 @@ pub fn run(
         keep_learned(db, &record, floor, rules)?;
     }
     if args.json {
-        print(&row)?
+        print(&row)?;
     } else {
-        show(&row)
+        show(&row);
     }
     Ok(row.is_right())
 }

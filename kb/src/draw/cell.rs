@@ -176,7 +176,11 @@ fn goals(svg: &mut Svg, goals: &[(String, Point)], frame: &Frame) {
             .attr("fill", "#ffffff")
             .attr("stroke", ROUTE)
             .end();
-        write(svg, (x + 8.0, y - 6.0), 13.0, ROUTE, name);
+        // A name that would leave the frame stands on the other side.
+        let wide = text::width(name, 13.0);
+        let is_within = x + 8.0 + wide <= frame.map.x + frame.map.w;
+        let left = if is_within { x + 8.0 } else { x - 8.0 - wide };
+        write(svg, (left, y - 6.0), 13.0, ROUTE, name);
     }
 }
 

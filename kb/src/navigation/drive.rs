@@ -56,7 +56,7 @@ pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
         match (word, start) {
             ("start", None) => start = reader.start(rest, &span).or(Some(Pose::default())),
             ("start", Some(_)) => {
-                reader.wrong(&span, "`start` stands in the first line, and once".to_owned())
+                reader.wrong(&span, "`start` stands in the first line, and once".to_owned());
             }
             (_, None) => {
                 reader.wrong(&span, format!("found `{words}`, expected `start` with a place or x,y first"));
@@ -94,17 +94,13 @@ impl Reader<'_> {
             let degrees: f64 = degrees.parse().ok().filter(|degrees: &f64| degrees.abs() <= LARGEST_TURN)?;
             Some((self.floor.point(place.trim()).ok()?, degrees))
         };
-        match point.or_else(with_heading) {
-            Some((at, degrees)) => Some(Pose { at, heading: degrees.to_radians() }),
-            None => {
-                let places = self.floor.names().join(", ");
-                self.wrong(
-                    span,
-                    format!("found `{rest}`, expected a place ({places}) or x,y, and degrees if need be"),
-                );
-                None
-            }
+        let found = point.or_else(with_heading);
+        if found.is_none() {
+            let places = self.floor.names().join(", ");
+            let expected = format!("expected a place ({places}) or x,y, and degrees if need be");
+            self.wrong(span, format!("found `{rest}`, {expected}"));
         }
+        found.map(|(at, degrees)| Pose { at, heading: degrees.to_radians() })
     }
 
     fn order(&mut self, word: &str, rest: &str, span: &Range<usize>) -> Option<Order> {

@@ -159,7 +159,8 @@ fn judged(
         .run_among(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
-    let possible = mission.possible(&stage.truth.plan, stage.truth.network.disc.radius);
+    let radius = stage.truth.network.disc.radius;
+    let possible = mission.possible(&stage.truth.plan, radius);
     Ok(Row {
         mission: number,
         seed: mission.seed,

@@ -81,14 +81,11 @@ impl World {
     /// Reads a file of a world, or of scenarios (.json); of several scenarios the one of this name is taken.
     pub fn read_one(path: &Path, scenario: Option<&str>) -> Result<Self> {
         if !adapt::is_scenario(path) {
-            return match scenario {
-                None => Self::read(path),
-                Some(_) => {
-                    let message =
-                        format!("{} has no scenarios to choose from: it is no .json", path.display());
-                    Err(Error::said("plan/scenario", message, None))
-                }
-            };
+            if scenario.is_none() {
+                return Self::read(path);
+            }
+            let message = format!("{} has no scenarios to choose from: it is no .json", path.display());
+            return Err(Error::said("plan/scenario", message, None));
         }
         let cell = adapt::scenario::one(path, scenario)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();

@@ -89,9 +89,9 @@ proptest! {
     fn segments(
         source in prop::sample::select(vec![Source::SONAR, Source::CONTACT, Source::RECALLED]),
         confidence in 0_u8..6,
-        [is_matched, is_visible, is_seen_free, is_moving] in prop::array::uniform4(any::<bool>()),
+        [is_matched, is_visible, is_seen_free, is_moving, is_learning] in prop::array::uniform5(any::<bool>()),
         [beams_on, beams_through, age, unseen] in prop::array::uniform4(0_u32..4),
-        [free_m, distance_m] in [near(0.1), near(7.5)],
+        [free_m, distance_m] in [near(0.1), near(15.0)],
     ) {
         let facts = SegmentFacts {
             id: SegmentId(1),
@@ -109,6 +109,7 @@ proptest! {
             distance_m,
             length_m: 1.0,
             sigma_m: 0.01,
+            is_learning,
         };
         let mut judge = judge();
         prop_assert_eq!(judge.segment(&facts), Table.segment(&facts));
