@@ -1,6 +1,6 @@
 //! Straight pieces between two points, in metres in the map's frame.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 
 /// The piece from `a` to `b`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,18 @@ impl Segment {
     /// Metres from a point to the nearest point of the segment.
     pub fn distance(&self, p: Point) -> f64 {
         p.distance(p.nearest_on(self.a, self.b))
+    }
+
+    /// The square of that distance, square metres: without a root, for comparisons.
+    pub fn squared_distance(&self, p: Point) -> f64 {
+        let foot = p.nearest_on(self.a, self.b);
+        (p.x - foot.x).powi(2) + (p.y - foot.y).powi(2)
+    }
+
+    /// The least rectangle about it.
+    pub fn bounds(&self) -> Rect {
+        let (a, b) = (self.a, self.b);
+        Rect::new(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y))
     }
 
     /// How far a ray runs until it meets the segment, and where on it (0 at `a`, 1 at `b`); `None` where it does not.

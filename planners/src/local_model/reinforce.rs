@@ -54,13 +54,7 @@ pub(super) fn across(seen: &Fit, estimate: &Estimate) -> (f64, f64) {
 
 /// Whether two segments of the model show one surface: then `other` as if it had been seen.
 pub(super) fn same_surface(segment: &ModelSegment, other: &ModelSegment, settings: &Settings) -> Option<Fit> {
-    let reach = settings.match_offset_m;
-    let apart = |a: [f64; 2], b: [f64; 2]| {
-        a[0].max(a[1]) + reach < b[0].min(b[1]) || b[0].max(b[1]) + reach < a[0].min(a[1])
-    };
-    let (p, q) = (&segment.line, &other.line);
-    // most are nowhere near one another
-    if apart([p.a.x, p.b.x], [q.a.x, q.b.x]) || apart([p.a.y, p.b.y], [q.a.y, q.b.y]) {
+    if is_certainly_beside(segment, other, settings) {
         return None;
     }
     let line = |s: &ModelSegment| Fit {
@@ -81,6 +75,16 @@ pub(super) fn same_surface(segment: &ModelSegment, other: &ModelSegment, setting
     let is_same =
         sine <= settings.match_angle.sin() && one.offset(two.centre).abs() <= allowed && overlap > 0.0;
     is_same.then_some(two)
+}
+
+/// Whether `other` lies farther aside than any deviation allows, told without roots: most that are near do.
+fn is_certainly_beside(segment: &ModelSegment, other: &ModelSegment, settings: &Settings) -> bool {
+    let (p, q) = (&segment.line, other.line.middle());
+    let (middle, along) = (p.middle(), Point::new(p.b.x - p.a.x, p.b.y - p.a.y));
+    let offset = (q.y - middle.y) * along.x - (q.x - middle.x) * along.y;
+    // rounding never decides: what is a little beyond is left to the exact measure
+    let farthest = 0.5 * settings.match_offset_m * (1.0 + 1e-9);
+    offset * offset > farthest * farthest * (along.x * along.x + along.y * along.y)
 }
 
 fn aligned(along: Point, with: Point) -> Point {

@@ -4,15 +4,17 @@ use super::{ModelSegment, SegmentId, Settings};
 use crate::geometry::Point;
 
 /// Joins the ends of segments that changed to the nearest ends of others, and lets them meet in a corner where both may
-/// be moved. `near` are the places of segments that may be joined to.
+/// be moved. `near` are the places of segments that may be joined to, in ascending order.
 pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usize], settings: &Settings) {
+    // side by side in memory, since all are looked at for each end that changed
+    let mut tips: Vec<[Point; 2]> = near.iter().map(|&place| ends(&segments[place])).collect();
     for &one in changed {
         for end in [0, 1] {
             part(segments, one, end);
             let at = ends(&segments[one])[end];
-            let others = near.iter().copied().filter(|&other| other != one);
-            let others = others.flat_map(|other| [(other, 0), (other, 1)]);
-            let far = others.map(|(other, side)| (squared(ends(&segments[other])[side], at), other, side));
+            let others = near.iter().zip(&tips).filter(|(other, _)| **other != one);
+            let far =
+                others.flat_map(|(&other, tips)| [0, 1].map(|side| (squared(tips[side], at), other, side)));
             let close = far.filter(|(far, ..)| *far <= settings.join_m.powi(2));
             let best = close.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
             if let Some((_, other, side)) = best {
@@ -20,6 +22,11 @@ pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usi
                 segments[one].joins[end] = Some(segments[other].id);
                 segments[other].joins[side] = Some(segments[one].id);
                 meet(segments, (one, end), (other, side), settings);
+                for moved in [one, other] {
+                    if let Ok(index) = near.binary_search(&moved) {
+                        tips[index] = ends(&segments[moved]);
+                    }
+                }
             }
         }
     }

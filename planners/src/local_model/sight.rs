@@ -18,10 +18,10 @@ pub(super) struct Crossing {
 }
 
 impl Crossing {
-    /// Whether the echo may come from the segment, the place of which is as sure as `sigma_m` seen from the robot.
-    pub fn agrees(&self, beam: &Beam, sigma_m: f64, settings: &Settings) -> bool {
+    /// Whether the echo may come from the segment, the place of which has a variance (square metres) seen from the robot.
+    pub fn agrees(&self, beam: &Beam, variance: f64, settings: &Settings) -> bool {
         // without square roots: this is asked of every crossing
-        let allowed = beam.sigma_m * beam.sigma_m + sigma_m * sigma_m / (self.sine * self.sine).max(0.01);
+        let allowed = beam.sigma_m * beam.sigma_m + variance / (self.sine * self.sine).max(0.01);
         let off = |range: f64| (range - self.range_m) * (range - self.range_m);
         beam.range_m
             .is_some_and(|range| off(range) <= settings.match_sigmas * settings.match_sigmas * allowed)
@@ -70,8 +70,9 @@ impl Fan {
     ) {
         found.clear();
         let (a, b, c) = (segment.line.a, segment.line.b, self.centre);
-        let nearest = segment.line.distance(c);
-        if nearest > settings.sonar_range_m + self.spread_m {
+        // It tells only which beams to test, so that its last bit does not matter: without hypot, which is slow.
+        let nearest = segment.line.squared_distance(c).sqrt();
+        if nearest > settings.sonar_range_m + self.spread_m + 1e-9 {
             return;
         }
         let mut test = |&(_, i): &(f64, usize)| {
@@ -101,10 +102,12 @@ impl Fan {
         if to < from {
             to += 4.0;
         }
-        for around in [-4.0, 0.0, 4.0] {
+        // the fan covers one turn, 0 to 4: mostly a segment lies in one of these only
+        for around in [-4.0, 0.0, 4.0].into_iter().filter(|around| from + around <= 4.0 && to + around >= 0.0)
+        {
             let begin = self.order.partition_point(|(at, _)| *at < from + around);
-            let end = self.order.partition_point(|(at, _)| *at <= to + around);
-            self.order.get(begin..end).into_iter().flatten().for_each(&mut test);
+            let covered = self.order[begin..].iter().take_while(|(at, _)| *at <= to + around);
+            covered.for_each(&mut test);
         }
     }
 }
@@ -120,23 +123,23 @@ pub(super) struct Evidence {
 
 impl Evidence {
     /// Judges crossings: a beam ends on the segment, before it (which says nothing), or ran through it.
-    /// `sigma_m` is how sure the place of the segment is as seen from the robot.
+    /// `variance` is that of the place of the segment as seen from the robot, `least_sine` the sine of the grazing angle.
     pub fn new(
         crossings: &mut [Crossing],
         beams: &[Beam],
         length_m: f64,
-        sigma_m: f64,
+        variance: f64,
+        least_sine: f64,
         settings: &Settings,
     ) -> Self {
-        crossings.sort_by(|a, b| a.place_m.total_cmp(&b.place_m).then(a.beam.cmp(&b.beam)));
+        crossings.sort_unstable_by(|a, b| a.place_m.total_cmp(&b.place_m).then(a.beam.cmp(&b.beam)));
         let mut evidence = Self::default();
-        let least_sine = settings.grazing_angle.sin();
         // a run of beams side by side through it: where the first one crosses, how many there are, and the place before
         let (mut run, mut before_m) = (None::<(f64, u32)>, 0.0);
         for crossing in crossings.iter().filter(|crossing| crossing.sine >= least_sine) {
             let beam = &beams[crossing.beam];
             let beyond = beam.range_m.unwrap_or(f64::INFINITY) - crossing.range_m;
-            let agrees = crossing.agrees(beam, sigma_m, settings);
+            let agrees = crossing.agrees(beam, variance, settings);
             if !agrees && beyond > 0.0 {
                 evidence.through += 1;
                 // what is free begins half way from the beam before

@@ -7,6 +7,7 @@ use super::super::sensor_model::Seen;
 use super::super::{LocalModel, SegmentId, Settings};
 use super::Update;
 use super::looking::Look;
+use crate::geometry::Rect;
 
 impl LocalModel {
     /// Reinforces and extends what was seen again.
@@ -88,13 +89,26 @@ impl LocalModel {
         near: &[Near],
         looks: &mut Vec<Look>,
     ) -> Vec<SegmentId> {
-        let mut absorbed: Vec<usize> = Vec::new();
+        let reach = self.settings.match_offset_m;
+        let is_apart = |a: &Rect, b: &Rect| {
+            a.x1 + reach < b.x0 || b.x1 + reach < a.x0 || a.y1 + reach < b.y0 || b.y1 + reach < a.y0
+        };
+        let mut bounds: Vec<Rect> = near.iter().map(|wall| self.segments[wall.model].line.bounds()).collect();
+        let mut is_absorbed = vec![false; self.segments.len()];
         for id in changed {
             let Ok(one) = self.place(*id) else { continue };
-            for other in near.iter().map(|wall| wall.model) {
+            // those near stand in the order of their places
+            let Ok(own) = near.binary_search_by_key(&one, |wall| wall.model) else { continue };
+            if is_absorbed[one] || self.segments[one].is_anchored {
+                continue;
+            }
+            for index in 0..near.len() {
+                let other = near[index].model;
+                if is_apart(&bounds[own], &bounds[index]) || one == other || is_absorbed[other] {
+                    continue;
+                }
                 let (a, b) = (&self.segments[one], &self.segments[other]);
-                let is_loose = !a.is_anchored && !b.is_anchored && a.object == b.object;
-                if one == other || absorbed.contains(&other) || absorbed.contains(&one) || !is_loose {
+                if b.is_anchored || a.object != b.object {
                     continue;
                 }
                 if let Some(line) = same_surface(a, b, &self.settings) {
@@ -104,16 +118,21 @@ impl LocalModel {
                     segment.confidence = segment.confidence.max(other_one.confidence);
                     segment.counts_for_pose |= other_one.counts_for_pose;
                     segment.age = segment.age.max(other_one.age);
-                    absorbed.push(other);
+                    bounds[own] = segment.line.bounds();
+                    is_absorbed[other] = true;
                 }
             }
         }
-        absorbed.sort_unstable();
-        let ids = absorbed.iter().map(|&place| self.segments[place].id).collect();
-        for place in absorbed.into_iter().rev() {
-            self.segments.remove(place);
-            looks.remove(place);
-        }
+        let mut kept = is_absorbed.iter().map(|is_absorbed| !is_absorbed);
+        looks.retain(|_| kept.next().unwrap_or(true));
+        let (mut places, mut ids) = (is_absorbed.into_iter(), Vec::new());
+        self.segments.retain(|segment| {
+            let is_absorbed = places.next().unwrap_or(false);
+            if is_absorbed {
+                ids.push(segment.id);
+            }
+            !is_absorbed
+        });
         ids
     }
 }

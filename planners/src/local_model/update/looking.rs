@@ -60,26 +60,25 @@ impl LocalModel {
         let mut firsts: Vec<First> = vec![None; beams.len()];
         let mut is_explained = vec![false; beams.len()];
         let mut crossings = Vec::new();
-        let at = self.estimate.pose.at;
-        let (sigma_m, sigma_heading) = (self.estimate.sigma_m(), self.estimate.sigma_heading());
+        let (at, least_sine) = (self.estimate.pose.at, self.settings.grazing_angle.sin());
+        let (place, heading) = (self.estimate.sigma_m().powi(2), self.estimate.sigma_heading().powi(2));
         for wall in near {
             let segment = &self.segments[wall.model];
             fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
             if crossings.is_empty() {
                 continue;
             }
-            let far = segment.line.distance(at);
-            let sigma = sigma_m.hypot(segment.sigma_m).hypot(sigma_heading * far);
+            let variance = place + segment.sigma_m.powi(2) + heading * segment.line.squared_distance(at);
             for crossing in &crossings {
                 let first = &mut firsts[crossing.beam];
                 if first.is_none_or(|(_, other)| crossing.range_m < other.range_m) {
                     *first = Some((wall.model, *crossing));
                 }
                 let beam = &beams[crossing.beam];
-                is_explained[crossing.beam] |= crossing.agrees(beam, sigma, &self.settings);
+                is_explained[crossing.beam] |= crossing.agrees(beam, variance, &self.settings);
             }
             looks[wall.model].evidence =
-                Evidence::new(&mut crossings, beams, wall.length_m, sigma, &self.settings);
+                Evidence::new(&mut crossings, beams, wall.length_m, variance, least_sine, &self.settings);
         }
         (looks, firsts, is_explained)
     }
