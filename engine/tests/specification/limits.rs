@@ -42,7 +42,9 @@ fn what_grows_without_end_is_refused() {
         "let a = [1]; loop { a.push(1); }",
         "let s = \"\"; s.pad(100000000000, \"x\");",
     ] {
-        assert_eq!(problems(&action(body)), [Code::Evaluation], "{body}");
+        // On a busy machine the time may be up before the size is.
+        let found = problems(&action(body));
+        assert!(matches!(found[..], [Code::Evaluation | Code::Deadline]), "{body}: {found:?}");
     }
 }
 

@@ -48,10 +48,14 @@ pub(super) fn over_network(
     None
 }
 
-/// The shortest path through free space as it is known.
+/// The shortest path through free space as it is known; none leads out of a building whose walls are known.
 pub(super) fn off_network(building: &Building, ground: Ground, [from, to]: [Point; 2]) -> Option<Route> {
-    let ends = building.walls.iter().flat_map(|wall| [wall.a, wall.b]).chain([from, to]);
-    let field = Field::new(window(ends, ground.grain), &ground);
+    let ends = building.walls.iter().flat_map(|wall| [wall.a, wall.b]);
+    let known = window(ends.clone().chain([from]), ground.grain);
+    if !building.walls.is_empty() && !known.contains(to) {
+        return None;
+    }
+    let field = Field::new(window(ends.chain([from, to]), ground.grain), &ground);
     let points = field.path(from, to)?;
     Some(Route { length_m: length(&points), points, is_off_network: true })
 }
