@@ -59,7 +59,8 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     }
     let failures: u64 = outcomes.iter().map(|outcome| outcome.failures).sum();
     if failures > 0 {
-        remark(&format!("{failures} tasks found no path"));
+        let tasks = if failures == 1 { "task" } else { "tasks" };
+        remark(&format!("{failures} {tasks} found no path"));
     }
     Ok(failures == 0)
 }

@@ -117,6 +117,17 @@ impl CurvePanel {
         }
     }
 
+    /// On the left where curves end high.
+    fn legend_place(&self, last: f64, most: f64) -> SeriesLabelPosition {
+        let points = || self.curves.iter().flat_map(|curve| &curve.points);
+        let ends_high = points().any(|&(x, y)| x > 0.8 * last && y > 0.7 * most);
+        if self.scale == Scale::Linear && ends_high && self.level.is_none() {
+            SeriesLabelPosition::UpperLeft
+        } else {
+            SeriesLabelPosition::UpperRight
+        }
+    }
+
     fn within<Y>(
         &self,
         area: &Area<'_>,
@@ -133,6 +144,7 @@ impl CurvePanel {
         let last = across.end;
         let mut chart = ChartBuilder::on(area)
             .margin(12)
+            .margin_right(24)
             .caption(&self.title, (FONT, 14).into_font().color(&ink))
             .x_label_area_size(38)
             .y_label_area_size(58)
@@ -145,6 +157,7 @@ impl CurvePanel {
             .axis_style(grey)
             .label_style((FONT, 12).into_font().color(&grey))
             .x_desc(self.across.as_str())
+            .x_label_formatter(&|value| figure(*value))
             .y_label_formatter(&|value| format!("{} {unit}", figure(*value)).trim_end().to_owned())
             .draw()?;
         let across = |x: f64, of: f64| [(x, least), (x, of)];
@@ -177,7 +190,7 @@ impl CurvePanel {
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(self.legend_place(last, most))
             .background_style(WHITE.mix(0.85))
             .border_style(colour("#d8dce2"))
             .legend_area_size(KEY + 6)
