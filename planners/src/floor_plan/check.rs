@@ -17,6 +17,8 @@ const LARGEST_M: f64 = 1e6;
 
 /// So many problems of one kind are told.
 const MOST_TOLD: usize = 12;
+/// So many walls of open outlines are told: one gap often opens many.
+const MOST_OPEN: usize = 3;
 
 /// The problems of a plan, while it is looked at.
 pub(super) struct Check<'s> {
@@ -152,16 +154,34 @@ impl<'s> Check<'s> {
             );
             return;
         }
+        let ends = |edge: usize| noded.edges[edge].ends.map(|node| node as usize);
+        let mut met = vec![0_u32; noded.points.len()];
+        for node in (0..noded.edges.len()).flat_map(ends) {
+            met[node] += 1;
+        }
+        let is_lost = |edge: &usize| !space.free_half[2 * edge] && !space.free_half[2 * edge + 1];
+        let mut lost: Vec<usize> =
+            (0..noded.edges.len()).filter(|&edge| noded.wall_of[edge] < ring_from).filter(is_lost).collect();
+        // One gap opens all that hangs together: walls that end at nothing are where it is.
+        lost.sort_by_key(|&edge| ends(edge).into_iter().all(|node| met[node] > 1));
         let mut told_of = BTreeSet::new();
-        for (edge, &wall) in noded.wall_of.iter().enumerate().filter(|&(_, &wall)| wall < ring_from) {
-            let is_lost = !space.free_half[2 * edge] && !space.free_half[2 * edge + 1];
-            let [a, b] = noded.edges[edge].ends.map(|n| noded.points[n as usize]);
+        for edge in lost {
+            let [a, b] = ends(edge).map(|node| noded.points[node]);
             let is_on =
                 |p: Point, wall: [Point; 2]| p.distance(p.nearest_on(wall[0], wall[1])) <= 2.0 * SNAP_M;
-            let drawn = walls.iter().position(|&wall| is_on(a, wall) && is_on(b, wall)).unwrap_or(wall);
-            if is_lost && told_of.len() < MOST_TOLD && told_of.insert(drawn) {
-                let message =
-                    format!("no free space lies beside the wall {}: its outline is open", line([a, b]));
+            let drawn = walls
+                .iter()
+                .position(|&wall| is_on(a, wall) && is_on(b, wall))
+                .unwrap_or(noded.wall_of[edge]);
+            if told_of.len() < MOST_OPEN && told_of.insert(drawn) {
+                let loose = ends(edge).into_iter().find(|&node| met[node] == 1);
+                let loose = loose.map_or_else(String::new, |node| {
+                    format!("; it ends at nothing at {}", told(noded.points[node]))
+                });
+                let message = format!(
+                    "no free space lies beside the wall {}: its outline is open{loose}",
+                    line([a, b])
+                );
                 let help = "close the gap in the outline that this wall belongs to, or leave the wall out";
                 self.tell(source.walls.get(drawn), Code::OpenOutline, message, help);
             }
@@ -170,6 +190,8 @@ impl<'s> Check<'s> {
 
     pub fn places(&mut self, places: &[Place], walls: &[[Point; 2]], solids: &[Vec<Point>], space: &Space) {
         let source = self.source;
+        // Where an outline is open, it is not the places that are wrong.
+        let is_open = self.problems.iter().any(|problem| problem.code == Code::OpenOutline);
         for (index, place) in places.iter().enumerate() {
             let (at, name, span) = (place.at, &place.name, source.places.get(index));
             let wall = walls.iter().find(|[a, b]| at.distance(at.nearest_on(*a, *b)) <= SNAP_M);
@@ -180,7 +202,7 @@ impl<'s> Check<'s> {
             } else if solids.iter().any(|solid| polygon(solid).intersects(&point)) {
                 let message = format!("the place `{name}` at {} lies in something solid", told(at));
                 self.tell(span, Code::PlaceInWall, message, "put it where a robot can stand");
-            } else if !space.is_free(at) {
+            } else if !is_open && !space.is_free(at) {
                 let message =
                     format!("the place `{name}` at {} lies outside of every closed outline", told(at));
                 self.tell(span, Code::PlaceOutside, message, "move it, or close the outline around it");

@@ -66,7 +66,10 @@ fn an_open_outline_is_refused() {
     assert_eq!(message, "none of the 4 walls bound free space: no outline is closed");
     let (code, message, _) = only(&format!("{ROOM}, [[4,3],[8,3]]"), "");
     assert_eq!(code, Code::OpenOutline);
-    assert_eq!(message, "no free space lies beside the wall from (4, 3) to (8, 3): its outline is open");
+    assert_eq!(
+        message,
+        "no free space lies beside the wall from (4, 3) to (8, 3): its outline is open; it ends at nothing at (8, 3)"
+    );
 }
 
 #[test]
