@@ -106,7 +106,11 @@ impl From<bool> for Truth {
 }
 
 /// One value inside the engine: small, copied, perhaps unknown.
+///
+/// With a tag as wide as what is held it is copied as two words. A tag of a byte would be copied apart from the bytes
+/// behind it, and reading those as a word right after they were written in pieces stalls the processor.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(u64)]
 pub(crate) enum Cell {
     Unknown,
     Number(f64),
