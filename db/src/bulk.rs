@@ -1,5 +1,6 @@
-//! Writing many rows: statements of several hundred rows each, prepared once.
+//! Writing many rows: statements of several hundred rows each, prepared once, or several small statements sent at once.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use sqlx::sqlite::SqliteArguments;
@@ -91,6 +92,85 @@ pub(crate) async fn update<const KEYS: usize, R: Record>(
     write(connection, rows, change::<KEYS, R>).await
 }
 
+/// Statements that are sent together, where each alone would be small: going to the other thread and back costs more than
+/// what they do.
+pub(crate) struct Batch {
+    sql: String,
+    values: Values,
+    /// Whose values begin where.
+    parts: Vec<(usize, &'static str, &'static [&'static str])>,
+}
+
+impl Batch {
+    pub(crate) fn new() -> Self {
+        Self { sql: String::new(), values: Values::with_capacity(0), parts: Vec::new() }
+    }
+
+    /// Inserts all rows.
+    pub(crate) fn insert<R: Record>(&mut self, rows: impl IntoIterator<Item = R>) {
+        self.add(rows, insertion::<R>);
+    }
+
+    /// Sets the columns of rows that are there. The first `KEYS` columns say which row it is.
+    pub(crate) fn update<const KEYS: usize, R: Record>(&mut self, rows: impl IntoIterator<Item = R>) {
+        self.add(rows, change::<KEYS, R>);
+    }
+
+    /// Inserts rows, or sets the columns of those that are there. The first `KEYS` columns are the key of the table.
+    pub(crate) fn put<const KEYS: usize, R: Record>(&mut self, rows: impl IntoIterator<Item = R>) {
+        self.add(rows, putting::<KEYS, R>);
+    }
+
+    /// A statement with these texts and numbers bound, in their order.
+    pub(crate) fn run(&mut self, sql: &str, bind: impl FnOnce(&mut Values)) {
+        self.parts.push((self.values.bound, "", &[]));
+        bind(&mut self.values);
+        self.append(sql);
+    }
+
+    fn add<R: Record>(&mut self, rows: impl IntoIterator<Item = R>, statement: fn(usize) -> Arc<str>) {
+        let most = VALUES / R::COLUMNS.len();
+        let mut rows = rows.into_iter();
+        loop {
+            let from = self.values.bound;
+            let count = rows.by_ref().take(most).map(|row| row.bind(&mut self.values)).count();
+            if count == 0 {
+                return;
+            }
+            self.parts.push((from, R::TABLE, R::COLUMNS));
+            self.append(&statement(count));
+        }
+    }
+
+    fn append(&mut self, sql: &str) {
+        self.sql.push_str(sql);
+        self.sql.push_str(";\n");
+    }
+
+    /// Sends all of it. Where it fails, some of the statements may have been carried out.
+    pub(crate) async fn send(self, connection: &mut SqliteConnection) -> Result<()> {
+        if self.sql.is_empty() {
+            return Ok(());
+        }
+        if let Some(at) = self.values.nan
+            && let Some((from, table, columns)) = self.parts.iter().rfind(|(from, ..)| *from <= at)
+            && !columns.is_empty()
+        {
+            return Err(Error::NotANumber { table, column: columns[(at - from) % columns.len()] });
+        }
+        if let Some(failure) = self.values.failure {
+            return Err(sqlx::Error::Encode(failure).into());
+        }
+        // Another number of rows is another text: none is worth being kept ready.
+        let query = sqlx::query_with(AssertSqlSafe(self.sql), self.values.arguments).persistent(false);
+        let tables: BTreeSet<&str> =
+            self.parts.iter().map(|(_, table, _)| *table).filter(|t| !t.is_empty()).collect();
+        let refused = || Vec::from_iter(tables).join(", ");
+        query.execute(connection).await.map_err(|e| Error::from(e).refusing(refused()))?;
+        Ok(())
+    }
+}
+
 async fn write<R: Record>(
     connection: &mut SqliteConnection,
     rows: impl IntoIterator<Item = R>,
@@ -136,6 +216,13 @@ fn change<const KEYS: usize, R: Record>(rows: usize) -> Arc<str> {
     let found: Vec<String> = keys.iter().map(|(at, name)| format!("{table}.{name} = v.column{at}")).collect();
     let (set, found) = (set.join(", "), found.join(" AND "));
     format!("UPDATE {table} SET {set} FROM ({}) AS v WHERE {found}", values::<R>(rows)).into()
+}
+
+fn putting<const KEYS: usize, R: Record>(rows: usize) -> Arc<str> {
+    let (keys, rest) = R::COLUMNS.split_at(KEYS);
+    let set: Vec<String> = rest.iter().map(|name| format!("{name} = excluded.{name}")).collect();
+    format!("{} ON CONFLICT ({}) DO UPDATE SET {}", insertion::<R>(rows), keys.join(","), set.join(", "))
+        .into()
 }
 
 fn values<R: Record>(rows: usize) -> String {

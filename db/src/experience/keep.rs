@@ -2,88 +2,57 @@
 
 use sqlx::SqliteConnection;
 
-use super::records::{GoneEdge, GoneSubgoal, Moved, Of, kind};
-use super::{Cell, Experience, Object, Pair, Step};
-use crate::bulk::{insert, update};
+use super::records::{GoneEdge, GoneSubgoal, Moved, Of};
+use super::{Cell, Experience, Step};
+use crate::bulk::Batch;
 use crate::error::Result;
 
 pub(super) async fn step(connection: &mut SqliteConnection, step: &Step) -> Result<()> {
     let cell = step.cell.cell.as_str();
-    if is_kept(connection, cell).await? {
-        update::<1, _>(connection, [&step.cell]).await?;
-    } else {
-        insert(connection, [&step.cell]).await?;
-    }
+    let mut batch = Batch::new();
+    batch.put::<1, _>([&step.cell]);
     if let Some(all) = &step.objects {
-        objects(connection, cell, all).await?;
+        batch.run("DELETE FROM cell_objects WHERE cell = ?", |values| values.text(cell));
+        batch.insert((1_i64..).zip(all).map(|object| Of(cell, object)));
     }
-    insert(connection, step.object_changes.iter().map(|change| Of(cell, change))).await?;
+    batch.insert(step.object_changes.iter().map(|change| Of(cell, change)));
     if let Some(task) = step.forgotten {
-        forget_graph(connection, cell, task).await?;
+        forget_graph(&mut batch, cell, task);
     }
-    insert(connection, step.subgoals.iter().map(|subgoal| Of(cell, subgoal))).await?;
-    update::<2, _>(connection, step.moved.iter().map(|moved| Moved(cell, moved))).await?;
+    batch.insert(step.subgoals.iter().map(|subgoal| Of(cell, subgoal)));
+    batch.update::<2, _>(step.moved.iter().map(|moved| Moved(cell, moved)));
     // A new edge takes the place of one that stood between the same subgoals: a trigger sees to that.
-    insert(connection, step.edges.iter().map(|edge| Of(cell, edge))).await?;
-    update::<2, _>(connection, step.edges_changed.iter().map(|edge| Of(cell, edge))).await?;
-    update::<2, _>(connection, step.edges_removed.iter().map(|gone| GoneEdge(cell, gone))).await?;
-    update::<2, _>(connection, step.subgoals_removed.iter().map(|gone| GoneSubgoal(cell, gone))).await?;
-    pairs(connection, cell, &step.subgoal_pairs).await?;
+    batch.insert(step.edges.iter().map(|edge| Of(cell, edge)));
+    batch.update::<2, _>(step.edges_changed.iter().map(|edge| Of(cell, edge)));
+    batch.update::<2, _>(step.edges_removed.iter().map(|gone| GoneEdge(cell, gone)));
+    batch.update::<2, _>(step.subgoals_removed.iter().map(|gone| GoneSubgoal(cell, gone)));
+    // A pair may have been looked at before, in another state of the cell.
+    batch.put::<4, _>(step.subgoal_pairs.iter().map(|pair| Of(cell, pair)));
     for object in &step.clearances_forgotten {
-        sqlx::query("DELETE FROM clearances WHERE cell = ? AND object = ?")
-            .bind(cell)
-            .bind(object)
-            .execute(&mut *connection)
-            .await?;
+        batch.run("DELETE FROM clearances WHERE cell = ? AND object = ?", |values| {
+            values.text(cell);
+            values.text(object.as_str());
+        });
     }
-    insert(connection, step.clearances.iter().map(|clearance| Of(cell, clearance))).await?;
-    insert(connection, step.tasks.iter().map(|task| Of(cell, task))).await?;
-    insert(connection, step.strategies.iter().map(|chosen| Of(cell, chosen))).await?;
-    Ok(())
+    batch.insert(step.clearances.iter().map(|clearance| Of(cell, clearance)));
+    batch.insert(step.tasks.iter().map(|task| Of(cell, task)));
+    batch.insert(step.strategies.iter().map(|chosen| Of(cell, chosen)));
+    batch.send(connection).await
 }
 
-async fn is_kept(connection: &mut SqliteConnection, cell: &str) -> Result<bool> {
-    let found: Option<i64> = sqlx::query_scalar("SELECT 1 FROM cells WHERE cell = ?")
-        .bind(cell)
-        .fetch_optional(connection)
-        .await?;
-    Ok(found.is_some())
-}
-
-async fn objects(connection: &mut SqliteConnection, cell: &str, all: &[Object]) -> Result<()> {
-    sqlx::query("DELETE FROM cell_objects WHERE cell = ?").bind(cell).execute(&mut *connection).await?;
-    insert(connection, (1_i64..).zip(all).map(|object| Of(cell, object))).await?;
-    Ok(())
-}
-
-async fn forget_graph(connection: &mut SqliteConnection, cell: &str, task: i64) -> Result<()> {
+fn forget_graph(batch: &mut Batch, cell: &str, task: i64) {
     for sql in [
-        "UPDATE edges SET removed_task = ?2, because = 'forgotten' WHERE cell = ?1 AND removed_task IS NULL",
-        "UPDATE subgoals SET removed_task = ?2, because = 'forgotten' WHERE cell = ?1 AND removed_task IS NULL",
+        "UPDATE edges SET removed_task = ?, because = 'forgotten' WHERE cell = ? AND removed_task IS NULL",
+        "UPDATE subgoals SET removed_task = ?, because = 'forgotten' WHERE cell = ? AND removed_task IS NULL",
     ] {
-        sqlx::query(sql).bind(cell).bind(task).execute(&mut *connection).await?;
+        batch.run(sql, |values| {
+            values.integer(task);
+            values.text(cell);
+        });
     }
     for sql in ["DELETE FROM subgoal_pairs WHERE cell = ?", "DELETE FROM clearances WHERE cell = ?"] {
-        sqlx::query(sql).bind(cell).execute(&mut *connection).await?;
+        batch.run(sql, |values| values.text(cell));
     }
-    Ok(())
-}
-
-/// A pair may have been looked at before, in another state of the cell.
-async fn pairs(connection: &mut SqliteConnection, cell: &str, pairs: &[Pair]) -> Result<()> {
-    for pair in pairs {
-        sqlx::query(
-            "DELETE FROM subgoal_pairs WHERE cell = ? AND subgoal1 = ? AND subgoal2 = ? AND kind = ?",
-        )
-        .bind(cell)
-        .bind(pair.ends[0])
-        .bind(pair.ends[1])
-        .bind(kind(pair))
-        .execute(&mut *connection)
-        .await?;
-    }
-    insert(connection, pairs.iter().map(|pair| Of(cell, pair))).await?;
-    Ok(())
 }
 
 pub(super) async fn whole(connection: &mut SqliteConnection, experience: &Experience) -> Result<()> {
