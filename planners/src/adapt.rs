@@ -43,7 +43,7 @@ pub use planner::{Adapt, Changed, Heuristic, Outcome, Plugins, Progress, Report,
 pub use point_robot::PointRobot;
 pub use probe::Probe;
 pub use reach::{Reach, Sliding, Straight};
-pub use robot::{Configuration, Limit, Link, Robot, between, distance, length};
+pub use robot::{Configuration, Limit, Link, Links, Robot, between, distance, length};
 pub use scenario::{ArmScenario, Scenario, ScenarioError};
 pub use shape::{Shape, ShapeError};
 pub use solve::{RrtConnect, Solve, Taught, TwoStep};

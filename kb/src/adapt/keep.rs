@@ -141,7 +141,7 @@ fn state(cell: &Cell, seed: u64, copied_from: Option<&str>, adapt: &Adapt) -> ro
         next_edge: i64::from(next_edge),
         configuration: progress.here.clone(),
         stands: progress.vertex.map(|(vertex, _)| i64::from(vertex.0)),
-        figures: super::figures::text(&progress),
+        figures: super::figures::text(progress),
         copied_from: copied_from.map(str::to_owned),
     }
 }

@@ -1,5 +1,7 @@
 //! A planner that goes on from what the store kept.
 
+use std::collections::BTreeSet;
+
 use adit_db::experience as rows;
 use adit_planners::adapt::{
     Adapt, Clearance, Edge, EdgeId, Experience, Object, Placed, Plugins, Progress, Settings, Shape, TagPoint,
@@ -63,11 +65,11 @@ pub(super) fn planner(
         Some(number) => Some((VertexId(small(kept, number)?), stands_since.unwrap_or(revision))),
         None => None,
     };
-    let (mut refused, mut tightened) = (Vec::new(), Vec::new());
-    for pair in &kept.subgoal_pairs {
+    let (mut refused, mut tightened) = (BTreeSet::new(), BTreeSet::new());
+    for pair in kept.subgoal_pairs.iter().filter(|pair| pair.revision == kept.cell.revision) {
         let ends = (VertexId(small(kept, pair.ends[0])?), VertexId(small(kept, pair.ends[1])?));
-        let list = if pair.tightened { &mut tightened } else { &mut refused };
-        list.push((ends, small(kept, pair.revision)?));
+        let pairs = if pair.tightened { &mut tightened } else { &mut refused };
+        pairs.insert(ends);
     }
     let progress = Progress {
         tasks: small(kept, kept.cell.tasks)?,

@@ -2,7 +2,7 @@
 
 mod inverse;
 
-use super::robot::{Configuration, Limit, Link, Robot};
+use super::robot::{Configuration, Limit, Link, Links, Robot};
 use crate::geometry::Point;
 use crate::pose::{Pose, wrapped};
 use crate::segment::Segment;
@@ -88,16 +88,17 @@ impl Arm {
 
     /// The base, and the end of each link; metres in the frame of the cell.
     pub fn joints(&self, at: &[f64]) -> Vec<Point> {
-        let mut joints = Vec::with_capacity(self.lengths.len() + 1);
-        let (mut place, mut heading) = (self.base, 0.0_f64);
-        joints.push(place);
-        for (angle, length) in at.iter().zip(&self.lengths) {
-            heading += angle;
+        std::iter::once(self.base).chain(self.ends(at)).collect()
+    }
+
+    /// The end of each link, from the base on.
+    fn ends(&self, at: &[f64]) -> impl Iterator<Item = Point> {
+        at.iter().zip(&self.lengths).scan((self.base, 0.0_f64), |(place, heading), (angle, length)| {
+            *heading += angle;
             let (sin, cos) = heading.sin_cos();
-            place = Point::new(place.x + length * cos, place.y + length * sin);
-            joints.push(place);
-        }
-        joints
+            *place = Point::new(place.x + length * cos, place.y + length * sin);
+            Some(*place)
+        })
     }
 
     fn is_at(&self, at: &[f64], place: Point) -> bool {
@@ -110,12 +111,9 @@ impl Robot for Arm {
         &self.limits
     }
 
-    fn links(&self, at: &[f64]) -> Vec<Link> {
-        let joints = self.joints(at);
-        joints
-            .windows(2)
-            .map(|ends| Link { axis: Segment::new(ends[0], ends[1]), radius: self.radius })
-            .collect()
+    fn links(&self, at: &[f64]) -> Links {
+        let from = |start: &mut Point, end| Some(Segment::new(std::mem::replace(start, end), end));
+        self.ends(at).scan(self.base, from).map(|axis| Link { axis, radius: self.radius }).collect()
     }
 
     fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
@@ -132,8 +130,7 @@ impl Robot for Arm {
     }
 
     fn tool(&self, at: &[f64]) -> Pose {
-        let joints = self.joints(at);
-        let end = joints[joints.len() - 1];
+        let end = self.ends(at).last().unwrap_or(self.base);
         Pose::new(end.x, end.y, wrapped(at.iter().sum()))
     }
 

@@ -1,7 +1,7 @@
 //! The check before execution: an own reading of the objects, of which the planner's count and memory know nothing.
 
 use super::object::Object;
-use super::robot::{Configuration, Link, Robot, between};
+use super::robot::{Configuration, Link, Robot, links_between};
 use crate::geometry::Point;
 use crate::segment::Segment;
 
@@ -48,7 +48,7 @@ pub fn collision<'o>(
 fn hit(robot: &dyn Robot, from: &[f64], to: &[f64], travel: f64, outline: &[Point]) -> Option<f64> {
     let mut share = 0.0;
     loop {
-        let links = robot.links(&between(from, to, share));
+        let links = links_between(robot, from, to, share);
         let gap = links.iter().map(|link| gap(link, outline)).fold(f64::INFINITY, f64::min);
         if gap < -ROUNDING_M {
             return Some(share);
@@ -66,16 +66,16 @@ fn gap(link: &Link, outline: &[Point]) -> f64 {
     if winds_round(outline, a) {
         return -f64::INFINITY;
     }
-    let mut nearest = f64::INFINITY;
+    let mut squared = f64::INFINITY;
     for (index, &c) in outline.iter().enumerate() {
         let d = outline[(index + 1) % outline.len()];
         if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
             return -f64::INFINITY;
         }
         let ends = [apart(a, c, d), apart(b, c, d), apart(c, a, b), apart(d, a, b)];
-        nearest = ends.into_iter().fold(nearest, f64::min);
+        squared = ends.into_iter().fold(squared, f64::min);
     }
-    nearest - link.radius
+    squared.sqrt() - link.radius
 }
 
 /// On which side of the line through `a` and `b` a point is.
@@ -83,12 +83,13 @@ fn side(a: Point, b: Point, p: Point) -> f64 {
     (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)
 }
 
+/// Square of the distance from a point to a segment.
 fn apart(p: Point, a: Point, b: Point) -> f64 {
     let (along, out) = ((b.x - a.x, b.y - a.y), (p.x - a.x, p.y - a.y));
     let squared = along.0 * along.0 + along.1 * along.1;
     let share = if squared > 0.0 { (out.0 * along.0 + out.1 * along.1) / squared } else { 0.0 };
     let share = share.clamp(0.0, 1.0);
-    (out.0 - share * along.0).hypot(out.1 - share * along.1)
+    (out.0 - share * along.0).powi(2) + (out.1 - share * along.1).powi(2)
 }
 
 /// Whether an outline goes round a point, by its winding number (Sunday 2001).

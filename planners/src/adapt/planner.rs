@@ -19,7 +19,7 @@ pub use change::Changed;
 pub use report::{Outcome, Report, Tally};
 pub use settings::{Heuristic, Settings};
 
-use super::experience::{EdgeEnds, Experience, VertexId};
+use super::experience::{Experience, VertexId};
 use super::noted::Noted;
 use super::probe::Probe;
 use super::reach::{Reach, Straight};
@@ -56,10 +56,10 @@ pub struct Progress {
     pub vertex: Option<(VertexId, Revision)>,
     /// What was called so far, and what it cost.
     pub tally: Tally,
-    /// Shortcuts that are not free, and in which state of the cell that was found.
-    pub refused: Vec<((VertexId, VertexId), Revision)>,
-    /// Pairs of vertices the path between which was tightened, and in which state of the cell.
-    pub tightened: Vec<((VertexId, VertexId), Revision)>,
+    /// Shortcuts that are not free in the present state of the cell; the lower number first.
+    pub refused: BTreeSet<(VertexId, VertexId)>,
+    /// Pairs of vertices the path between which was tightened in the present state of the cell; the lower number first.
+    pub tightened: BTreeSet<(VertexId, VertexId)>,
 }
 
 /// A planner that learns: a cell, the experience with it, and where the robot is.
@@ -70,8 +70,6 @@ pub struct Adapt {
     plugins: Plugins,
     settings: Settings,
     progress: Progress,
-    refused: BTreeSet<EdgeEnds>,
-    tightened: BTreeSet<EdgeEnds>,
     noted: Vec<Noted>,
 }
 
@@ -92,12 +90,7 @@ impl Adapt {
         settings: Settings,
         progress: Progress,
     ) -> Self {
-        let now = cell.revision();
-        let of_now = |pairs: &[(EdgeEnds, Revision)]| -> BTreeSet<EdgeEnds> {
-            pairs.iter().filter(|(_, at)| *at == now).map(|(ends, _)| *ends).collect()
-        };
-        let (refused, tightened) = (of_now(&progress.refused), of_now(&progress.tightened));
-        Self { cell, experience, plugins, settings, progress, refused, tightened, noted: Vec::new() }
+        Self { cell, experience, plugins, settings, progress, noted: Vec::new() }
     }
 
     /// The cell as the planner knows it.
@@ -111,11 +104,8 @@ impl Adapt {
     }
 
     /// Where it is in its life.
-    pub fn progress(&self) -> Progress {
-        let now = self.cell.revision();
-        let with_now = |pairs: &BTreeSet<EdgeEnds>| pairs.iter().map(|ends| (*ends, now)).collect();
-        let (refused, tightened) = (with_now(&self.refused), with_now(&self.tightened));
-        Progress { refused, tightened, ..self.progress.clone() }
+    pub fn progress(&self) -> &Progress {
+        &self.progress
     }
 
     /// What changed since this was last asked, in order.

@@ -1,6 +1,8 @@
 //! A point in the plane (Chen 1994, section 3).
 
-use super::robot::{Configuration, Limit, Link, Robot};
+use smallvec::smallvec;
+
+use super::robot::{Configuration, Limit, Link, Links, Robot};
 use crate::geometry::Point;
 use crate::pose::Pose;
 use crate::segment::Segment;
@@ -29,9 +31,9 @@ impl Robot for PointRobot {
         &self.limits
     }
 
-    fn links(&self, at: &[f64]) -> Vec<Link> {
+    fn links(&self, at: &[f64]) -> Links {
         let place = Point::new(at[0], at[1]);
-        vec![Link { axis: Segment::new(place, place), radius: self.radius }]
+        smallvec![Link { axis: Segment::new(place, place), radius: self.radius }]
     }
 
     fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64> {

@@ -1,6 +1,8 @@
 //! Asking whether the robot is free: what is known costs nothing, all else is evaluated, and counted.
 
-use super::robot::{Link, Robot, between};
+use smallvec::{SmallVec, smallvec};
+
+use super::robot::{Link, Links, Robot, links_between};
 use super::workcell::{Placed, Workcell};
 
 /// What plug-ins see of a cell. It does not show the objects, so nothing goes round the count.
@@ -22,8 +24,8 @@ struct Motion<'m> {
 }
 
 impl Motion<'_> {
-    fn links(&self, share: f64) -> Vec<Link> {
-        self.robot.links(&between(self.from, self.to, share))
+    fn links(&self, share: f64) -> Links {
+        links_between(self.robot, self.from, self.to, share)
     }
 
     /// Cuts from a gap what is known at its two ends.
@@ -37,7 +39,7 @@ impl Motion<'_> {
     /// (`sense` 1) or backward (-1); `None` where that closes the gap.
     fn march(&self, placed: &Placed, (low, high): Gap, sense: f64) -> Option<f64> {
         const FINE: f64 = 1e-3;
-        let mut rooms = vec![usize::MAX; self.travel.len()];
+        let mut rooms: SmallVec<[usize; 4]> = smallvec![usize::MAX; self.travel.len()];
         let mut share = if sense > 0.0 { low } else { high };
         loop {
             let links = self.links(share);

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use smallvec::SmallVec;
+
 use crate::pose::Pose;
 use crate::segment::Segment;
 
@@ -16,6 +18,9 @@ pub struct Link {
     /// Metres.
     pub radius: f64,
 }
+
+/// The body of a robot at a configuration; that of a robot of few links lies where it is used, without an allocation.
+pub type Links = SmallVec<[Link; 4]>;
 
 /// How far a joint or axis goes, radians or metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +39,7 @@ pub trait Robot: fmt::Debug + Send + Sync {
     fn limits(&self) -> &[Limit];
 
     /// The body at a configuration; always the same number of links, in the same order.
-    fn links(&self, at: &[f64]) -> Vec<Link>;
+    fn links(&self, at: &[f64]) -> Links;
 
     /// For each link a length, metres, that no point of it exceeds on its way along the straight motion.
     fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64>;
@@ -69,5 +74,14 @@ pub fn length(path: &[Configuration]) -> f64 {
 
 /// The configuration at a share (0 to 1) of a straight motion.
 pub fn between(from: &[f64], to: &[f64], share: f64) -> Configuration {
-    from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect()
+    on_the_way(from, to, share).collect()
+}
+
+fn on_the_way(from: &[f64], to: &[f64], share: f64) -> impl Iterator<Item = f64> {
+    from.iter().zip(to).map(move |(a, b)| a + share * (b - a))
+}
+
+/// The body of a robot at a share (0 to 1) of a straight motion.
+pub(super) fn links_between(robot: &dyn Robot, from: &[f64], to: &[f64], share: f64) -> Links {
+    robot.links(&on_the_way(from, to, share).collect::<SmallVec<[f64; 8]>>())
 }

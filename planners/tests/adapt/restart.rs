@@ -30,7 +30,7 @@ fn reread(adapt: &Adapt) -> Adapt {
     let edges: Vec<Edge> =
         adapt.experience().edges().cloned().collect::<Vec<_>>().into_iter().rev().collect();
     let graph = Experience::from_rows(vertices, edges, adapt.experience().next_numbers()).unwrap();
-    Adapt::resume(cell, graph, plugins(), Settings::default(), adapt.progress())
+    Adapt::resume(cell, graph, plugins(), Settings::default(), adapt.progress().clone())
 }
 
 #[test]

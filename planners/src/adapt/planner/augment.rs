@@ -74,7 +74,7 @@ impl Adapt {
         let now = self.now();
         let edge = self.experience.add_edge(from, to, reached, now).clone();
         self.progress.tally.edges_added += 1;
-        self.refused.remove(&ends(from, to));
+        self.progress.refused.remove(&ends(from, to));
         self.noted.push(Noted::EdgeAdded(edge));
     }
 
@@ -93,8 +93,8 @@ impl Adapt {
             self.remove_edge(a, b, why, None);
         }
         if self.experience.remove_vertex(id).is_some() {
-            self.refused.retain(|ends| ends.0 != id && ends.1 != id);
-            self.tightened.retain(|ends| ends.0 != id && ends.1 != id);
+            self.progress.refused.retain(|ends| ends.0 != id && ends.1 != id);
+            self.progress.tightened.retain(|ends| ends.0 != id && ends.1 != id);
             self.progress.vertex = self.progress.vertex.filter(|(vertex, _)| *vertex != id);
             self.noted.push(Noted::VertexRemoved { id, why });
         }

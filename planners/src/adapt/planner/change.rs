@@ -51,8 +51,8 @@ impl Adapt {
             return Ok(None);
         }
         self.cell.revision = revision;
-        self.refused.clear();
-        self.tightened.clear();
+        self.progress.refused.clear();
+        self.progress.tightened.clear();
         for (object, how) in changes {
             if matches!(how, ObjectChange::Gone | ObjectChange::Reshaped) {
                 self.noted.push(Noted::ClearancesForgotten { object: object.clone() });

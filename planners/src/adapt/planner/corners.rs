@@ -24,7 +24,7 @@ impl Adapt {
         if let Some(edge) = self.experience.edge(from, to) {
             return self.is_verified(edge);
         }
-        if self.refused.contains(&ends(from, to)) {
+        if self.progress.refused.contains(&ends(from, to)) {
             return false;
         }
         let (start, end) = (self.at(from), self.at(to));
@@ -32,7 +32,7 @@ impl Adapt {
             self.add_edge(from, to, path);
             return true;
         }
-        self.refused.insert(ends(from, to));
+        self.progress.refused.insert(ends(from, to));
         self.noted.push(Noted::CutRefused { ends: ends(from, to), revision: self.cell.revision() });
         false
     }

@@ -21,8 +21,8 @@ impl Adapt {
         let next = self.experience.next_numbers();
         self.experience = Experience::from_rows(Vec::new(), Vec::new(), next).unwrap_or_default();
         self.cell.forget_clearances();
-        self.refused.clear();
-        self.tightened.clear();
+        self.progress.refused.clear();
+        self.progress.tightened.clear();
         self.noted.push(Noted::Forgotten);
         self.begin_at_here();
     }

@@ -17,7 +17,7 @@ impl Adapt {
     pub(super) fn tighten(&mut self, sequence: &[VertexId], judge: &mut dyn Judge) -> Vec<VertexId> {
         let (from, to) = (sequence[0], sequence[sequence.len() - 1]);
         let pair = ends(from, to);
-        if sequence.len() < 3 || !self.tightened.insert(pair) {
+        if sequence.len() < 3 || !self.progress.tightened.insert(pair) {
             return sequence.to_vec();
         }
         self.noted.push(Noted::Tightened { ends: pair, revision: self.cell.revision() });
