@@ -36,6 +36,16 @@ impl<B> Clone for Scalar<'_, B> {
 impl<B> Copy for Scalar<'_, B> {}
 
 impl<B: Binding> Scalar<'_, B> {
+    /// [`cell`](Self::cell), with what most nodes are looked at where it is wanted.
+    #[inline]
+    fn operand(self, node: &Node) -> Cell {
+        match node {
+            Node::Local(slot) => self.slots.get(*slot).copied().unwrap_or(Cell::Unknown),
+            Node::Property { variable, column } => self.binding.property(*variable, *column),
+            other => self.cell(other),
+        }
+    }
+
     pub(crate) fn cell(self, node: &Node) -> Cell {
         match node {
             Node::Unknown | Node::Text(Symbol::UNKNOWN) => Cell::Unknown,
@@ -92,7 +102,7 @@ impl<B: Binding> Scalar<'_, B> {
         match node {
             Node::Truth(truth) => *truth,
             Node::Compare(comparison, a, b) => {
-                compare_cells(*comparison, self.cell(a), self.cell(b), self.binding.symbols())
+                compare_cells(*comparison, self.operand(a), self.operand(b), self.binding.symbols())
             }
             Node::And(parts) => self.connect(parts, Truth::False),
             Node::Or(parts) => self.connect(parts, Truth::True),
@@ -140,7 +150,7 @@ impl Written {
         for step in steps {
             let scalar = Scalar { binding, slots: &self.cells };
             match step {
-                Step::Put { slot, value } => self.put(*slot, scalar.cell(value)),
+                Step::Put { slot, value } => self.put(*slot, scalar.operand(value)),
                 Step::If { condition, then, otherwise, changes } => match scalar.truth(condition) {
                     Truth::True => self.act(then, binding),
                     Truth::False => self.act(otherwise, binding),

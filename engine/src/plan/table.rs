@@ -18,12 +18,12 @@ pub(super) fn action(lowering: &mut Lowering, table: &Table) -> ActionPlan {
         let kind = lowering.kinds.declared(&name);
         plan.targets.push(Target { variable: *clause, name, slot: slot(lowering), kind });
     }
-    let matches: Vec<Node> = table
+    let matches: Vec<Vec<Node>> = table
         .rows
         .iter()
         .map(|row| {
-            let cells = row.tests.iter().zip(&inputs);
-            Node::And(cells.map(|((test, at), input)| cell(lowering, test, input, *at)).collect())
+            let cells = row.tests.iter().zip(&inputs).filter(|((test, _), _)| *test != Test::Any);
+            cells.map(|((test, at), input)| cell(lowering, test, input, *at)).collect()
         })
         .collect();
     let outputs = outputs(lowering, table, &mut plan);
@@ -79,19 +79,19 @@ fn outputs(lowering: &mut Lowering, table: &Table, plan: &mut ActionPlan) -> Vec
 fn one(
     lowering: &mut Lowering,
     table: &Table,
-    (matches, outputs): (Vec<Node>, Vec<Vec<Node>>),
+    (matches, outputs): (Vec<Vec<Node>>, Vec<Vec<Node>>),
     plan: &mut ActionPlan,
 ) {
     let open = slot(lowering);
     plan.steps.push(Step::Put { slot: open, value: Node::Truth(Truth::True) });
     let targets: Vec<usize> = plan.targets.iter().map(|target| target.slot).collect();
     let changes: Vec<usize> = targets.iter().copied().chain([open]).collect();
-    let mut rows: Vec<Option<(Node, Vec<Node>)>> = matches.into_iter().zip(outputs).map(Some).collect();
+    let mut rows: Vec<Option<(Vec<Node>, Vec<Node>)>> = matches.into_iter().zip(outputs).map(Some).collect();
     for row in table.heard() {
         let Some((matches, outputs)) = rows[row].take() else { continue };
         let sets = targets.iter().zip(outputs).map(|(&slot, value)| Step::Put { slot, value });
         let then = sets.chain([Step::Put { slot: open, value: Node::Truth(Truth::False) }]).collect();
-        let condition = Node::And(vec![Node::Local(open), matches]);
+        let condition = Node::And(std::iter::once(Node::Local(open)).chain(matches).collect());
         plan.steps.push(Step::If { condition, then, otherwise: vec![], changes: changes.clone() });
     }
 }
@@ -101,7 +101,7 @@ fn collect(
     lowering: &mut Lowering,
     fold: Fold,
     table: &Table,
-    (matches, outputs): (Vec<Node>, Vec<Vec<Node>>),
+    (matches, outputs): (Vec<Vec<Node>>, Vec<Vec<Node>>),
     plan: &mut ActionPlan,
 ) {
     let start = match fold {
@@ -118,7 +118,7 @@ fn collect(
         .into_iter()
         .map(|value| {
             let slot = slot(lowering);
-            plan.steps.push(Step::Put { slot, value });
+            plan.steps.push(Step::Put { slot, value: Node::And(value) });
             slot
         })
         .collect();
@@ -180,7 +180,8 @@ fn node(lowering: &mut Lowering, test: &Test, value: &Node) -> Node {
                 };
                 Node::Compare(Comparison::Equal, Box::new(value.clone()), Box::new(literal))
             };
-            Node::Or(literals.iter().map(equal).collect())
+            let mut equal: Vec<Node> = literals.iter().map(equal).collect();
+            if equal.len() == 1 { equal.remove(0) } else { Node::Or(equal) }
         }
         Test::Not(test) => Node::Not(Box::new(node(lowering, test, value))),
         Test::Below(limit) => compare(Comparison::Less, *limit),
