@@ -11,6 +11,7 @@ mod clients;
 mod conclusions;
 mod editing;
 mod example;
+mod experience;
 mod opening;
 mod paper;
 mod plan;
