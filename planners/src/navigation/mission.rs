@@ -212,7 +212,8 @@ pub(super) fn overlap(body: &Simulator) -> f64 {
     body.settings().radius_m - nearest
 }
 
-fn state_caption(decision: StateDecision) -> String {
+/// A state and an action, as films say them.
+pub(super) fn state_caption(decision: StateDecision) -> String {
     let state = format!("{:?}", decision.state).to_lowercase();
     match decision.action {
         Action::None => state,

@@ -3,7 +3,7 @@
 use super::{Explorer, Guide, Learned};
 use crate::floor_plan::{Disc, FloorPlan};
 use crate::geometry::Point;
-use crate::navigation::mission::overlap;
+use crate::navigation::mission::{overlap, state_caption};
 use crate::navigation::{Building, Ending, Entry, Happening, Outfit};
 use crate::pose::Pose;
 use crate::segment::Segment;
@@ -100,9 +100,10 @@ impl Exploration {
 
 fn film_event(film: &mut Film, body: &Simulator, explorer: &Explorer<'_>, what: &Happening) {
     let caption = match what {
-        Happening::State { decision, .. } => format!("{:?} {:?}", decision.state, decision.action),
+        Happening::State { decision, .. } => state_caption(*decision),
         Happening::SetEstimatedPosition(_) => {
-            format!("looked around: {} openings", explorer.openings().len())
+            let openings = explorer.openings().len();
+            format!("looked around: {openings} {}", if openings == 1 { "opening" } else { "openings" })
         }
         Happening::Contact { .. } => "contact".to_owned(),
         _ => return,
