@@ -50,8 +50,12 @@ pub struct ArmScenario {
     pub wrap: bool,
     /// Corners of the objects.
     pub obstacles: Vec<Vec<[f64; 2]>>,
-    /// Corners of the object that comes with the change.
-    pub added_obstacle: Vec<[f64; 2]>,
+    /// Corners of the object that comes with the change, where only one comes.
+    #[serde(default)]
+    pub added_obstacle: Option<Vec<[f64; 2]>>,
+    /// Corners of the others that come with it.
+    #[serde(default)]
+    pub added_obstacles: Vec<Vec<[f64; 2]>>,
     /// How many tasks come before the change.
     pub change_after_task: u32,
     /// How many tasks there are.
@@ -60,8 +64,12 @@ pub struct ArmScenario {
     pub home: Configuration,
     /// The goals.
     pub goals: Vec<Configuration>,
-    /// The goal that comes with the change.
-    pub added_goal: Configuration,
+    /// The goal that comes with the change, where only one comes.
+    #[serde(default)]
+    pub added_goal: Option<Configuration>,
+    /// The others that come with it.
+    #[serde(default)]
+    pub added_goals: Vec<Configuration>,
 }
 
 /// What is wrong with a scenario. Obstacles and goals are numbered from 0.
@@ -74,9 +82,9 @@ pub enum ScenarioError {
     /// An obstacle has no outline.
     #[error("obstacles[{0}]: {1}")]
     Obstacle(usize, ShapeError),
-    /// The obstacle that is added has no outline.
-    #[error("added_obstacle: {0}")]
-    AddedObstacle(ShapeError),
+    /// An obstacle that is added has no outline; `added_obstacle` counts before `added_obstacles`.
+    #[error("added obstacle {0}: {1}")]
+    AddedObstacle(usize, ShapeError),
     /// Angles that wrap are another configuration space.
     #[error("wrap is true, and only joints that do not wrap are known")]
     Wrap,
@@ -100,8 +108,11 @@ impl TryFrom<&ArmScenario> for Scenario {
             Arm::new(Point::new(file.base[0], file.base[1]), file.links.clone(), file.link_radius, limits)?;
         let goals =
             (0..).zip(&file.goals).map(|(number, goal): (usize, _)| (format!("goals[{number}]"), goal));
-        let others = [("home".to_owned(), &file.home), ("added_goal".to_owned(), &file.added_goal)];
-        for (name, at) in goals.chain(others) {
+        let added_goals: Vec<Configuration> =
+            file.added_goal.iter().chain(&file.added_goals).cloned().collect();
+        let added =
+            (0..).zip(&added_goals).map(|(number, goal): (usize, _)| (format!("added goal {number}"), goal));
+        for (name, at) in [("home".to_owned(), &file.home)].into_iter().chain(goals).chain(added) {
             let why = match at.len() == file.links.len() {
                 true if arm.admits(at) => continue,
                 true => "a joint is beyond its limits",
@@ -118,8 +129,10 @@ impl TryFrom<&ArmScenario> for Scenario {
             objects.push(Object::fixed(format!("obstacle {number}"), shape));
         }
         let mut changed = objects.clone();
-        let added = shape(&file.added_obstacle).map_err(ScenarioError::AddedObstacle)?;
-        changed.push(Object::fixed("added obstacle", added));
+        for (number, corners) in file.added_obstacle.iter().chain(&file.added_obstacles).enumerate() {
+            let shape = shape(corners).map_err(|error| ScenarioError::AddedObstacle(number, error))?;
+            changed.push(Object::fixed(format!("added obstacle {number}"), shape));
+        }
         Ok(Self {
             name: file.name.clone(),
             robot: Arc::new(arm),
@@ -129,7 +142,7 @@ impl TryFrom<&ArmScenario> for Scenario {
             tasks: file.tasks,
             home: file.home.clone(),
             goals: file.goals.clone(),
-            added_goals: vec![file.added_goal.clone()],
+            added_goals,
         })
     }
 }

@@ -78,12 +78,14 @@ fn scenario() -> ArmScenario {
         joint_limits: vec![[-3.0, 3.0], [-2.7, 2.7]],
         wrap: false,
         obstacles: vec![vec![[1.2, -0.2], [1.6, -0.2], [1.4, 0.2]]],
-        added_obstacle: vec![[1.2, 0.8], [1.6, 0.8], [1.4, 1.2]],
+        added_obstacle: Some(vec![[1.2, 0.8], [1.6, 0.8], [1.4, 1.2]]),
+        added_obstacles: Vec::new(),
         change_after_task: 5,
         tasks: 10,
         home: vec![2.5, 0.0],
         goals: vec![vec![1.0, 1.0], vec![-1.0, 1.0]],
-        added_goal: vec![2.0, 0.0],
+        added_goal: Some(vec![2.0, 0.0]),
+        added_goals: Vec::new(),
     }
 }
 
@@ -98,12 +100,21 @@ fn a_scenario_says_what_is_wrong_with_it() {
         ScenarioError::Obstacle(0, crosses.clone())
     );
     assert_eq!(
-        error(&ArmScenario { added_obstacle: crossing, ..scenario() }),
-        ScenarioError::AddedObstacle(crosses)
+        error(&ArmScenario { added_obstacle: Some(crossing.clone()), ..scenario() }),
+        ScenarioError::AddedObstacle(0, crosses.clone())
+    );
+    assert_eq!(
+        error(&ArmScenario { added_obstacles: vec![crossing], ..scenario() }),
+        ScenarioError::AddedObstacle(1, crosses)
     );
     assert_eq!(error(&ArmScenario { wrap: true, ..scenario() }), ScenarioError::Wrap);
     let flat = ArmScenario { links: vec![1.0, 0.0], ..scenario() };
     assert_eq!(error(&flat).to_string(), "link 1 is 0 m long, and must be longer than 0");
+    let far = ArmScenario { added_goals: vec![vec![4.0, 0.0]], ..scenario() };
+    assert_eq!(
+        error(&far).to_string(),
+        "added goal 1 is [4.0, 0.0], which is no configuration of the arm: a joint is beyond its limits"
+    );
     let far = ArmScenario { goals: vec![vec![1.0, 1.0], vec![4.0, 0.0]], ..scenario() };
     assert_eq!(
         error(&far).to_string(),

@@ -1,10 +1,11 @@
-//! The strategies after a change (Chen 1994, section 2.5) on a cell of our own, where a toothed frame comes down over all of it.
+//! The strategies after a change (Chen 1994, section 2.5) on a cell of our own: after task 40 one half of it is
+//! filled with fixtures, and most goals are of a new product in the other half.
 
 use adit_planners::adapt::{ArmScenario, Curve, Method, Scenario, Strategy};
 
 use super::figure_5::run;
 
-const CELL: &str = include_str!("../../../kb/worlds/toothed-frame.json");
+const CELL: &str = include_str!("../../../kb/worlds/new-product.json");
 
 /// Strategies on the same tasks; none of them fails.
 fn curves<const N: usize>(all: [Strategy; N], runs: u32) -> [Curve; N] {
@@ -33,27 +34,31 @@ fn assert_dearer(name: &str, dear: &Curve, cheap: &Curve, task: usize, errors: f
     assert!(mean > errors * error, "{name} at {task}: {mean:.1}, standard error {error:.1}");
 }
 
+const ALL: [Strategy; 4] = [Strategy::Forget, Strategy::VerifyAll, Strategy::RepairAll, Strategy::OnDemand];
+
 /// Too few runs for standard errors: the order of the means.
 #[test]
-fn after_a_change_that_breaks_much_on_demand_is_cheapest_and_forgetting_dearest() {
-    let [a0, a1, a3] = curves([Strategy::Forget, Strategy::VerifyAll, Strategy::OnDemand], 2);
-    assert_dearer("A1 over A3", &a1, &a3, 60, 0.0);
+fn after_the_change_on_demand_is_cheapest_and_forgetting_dearest_and_repairing_all_jumps() {
+    let [a0, a1, a2, a3] = curves(ALL, 4);
+    for (name, other) in [("A2 over A0", &a0), ("A2 over A1", &a1), ("A2 over A3", &a3)] {
+        assert_dearer(name, &a2, other, 41, 0.0);
+    }
     for task in [60, 80, 100] {
         assert_dearer("A0 over A1", &a0, &a1, task, 0.0);
+        assert_dearer("A1 over A3", &a1, &a3, task, 0.0);
     }
 }
 
-/// A1 over A3 is left out at 80 and 100: what is learned of the frame is kept, so tasks after the change cost A1 hardly more than
-/// A3, and what A3 saved at the change fades (over 80 runs 54 ± 12 at 60, 27 ± 14 at 80, 11 ± 17 at 100).
+/// A2 comes down, but not below A1 by task 100 (over 80 runs it is 53 ± 14 above): few tasks need what it repaired.
 #[test]
 #[ignore = "takes minutes: 400 runs"]
 fn the_order_holds_by_more_than_two_standard_errors() {
-    let all = [Strategy::Forget, Strategy::VerifyAll, Strategy::RepairAll, Strategy::OnDemand];
-    let [a0, a1, a2, a3] = curves(all, 100);
-    assert_dearer("A1 over A3", &a1, &a3, 60, 2.0);
+    let [a0, a1, a2, a3] = curves(ALL, 100);
+    for (name, other) in [("A2 over A0", &a0), ("A2 over A1", &a1), ("A2 over A3", &a3)] {
+        assert_dearer(name, &a2, other, 41, 2.0);
+    }
     for task in [60, 80, 100] {
         assert_dearer("A0 over A1", &a0, &a1, task, 2.0);
+        assert_dearer("A1 over A3", &a1, &a3, task, 2.0);
     }
-    assert_dearer("A2 over A3", &a2, &a3, 41, 2.0);
-    assert_dearer("A2 over A0", &a2, &a0, 41, 2.0);
 }
