@@ -62,8 +62,12 @@ pub fn change_line(changed: &Changed) -> String {
         .filter(|(count, _)| *count > 0)
         .map(|(count, what)| format!("{count} {} {what}", if *count == 1 { "object" } else { "objects" }))
         .collect();
-    let far =
-        if facts.moved > 0 { format!(" (by up to {} m)", number(facts.moved_m)) } else { String::new() };
+    let by = [(facts.moved_m, "m"), (facts.turned.to_degrees(), "degrees")];
+    let by = by.iter().filter(|(far, _)| *far > 0.0).map(|(far, unit)| format!("{} {unit}", number(*far)));
+    let far = match by.collect::<Vec<String>>() {
+        far if far.is_empty() => String::new(),
+        far => format!(" (by up to {})", far.join(" and ")),
+    };
     let mut parts = vec![format!("the cell changed: {}{far}", said.join(", "))];
     if facts.vertices_moved > 0 {
         parts.push(format!("{} subgoals went along", facts.vertices_moved));

@@ -10,6 +10,12 @@ use adit_planners::read::{Code, Located, Problem, Text};
 
 use super::cell::{Goal, RobotKind, Target};
 
+/// No cell is larger: metres from the origin of its frame, and across an arm.
+const LARGEST_M: f64 = 1e4;
+
+/// Joints do not turn farther, radians.
+const FARTHEST_RAD: f64 = 1e3;
+
 /// Reads on where something is wrong, and gathers what.
 pub(super) struct Draft<'t> {
     pub text: &'t Text,
@@ -38,8 +44,28 @@ impl Draft<'_> {
         self.problems.push(self.text.problem(code, span, message));
     }
 
+    /// Refuses numbers that no cell has; those that are none are left to others.
+    fn within(&mut self, what: &str, span: &Range<usize>, numbers: &[f64], most: f64) -> bool {
+        let far = numbers.iter().find(|number| number.abs() > most);
+        if let Some(far) = far {
+            self.refuse(Code::Impossible, span, format!("{what} has {far:e}; expected numbers up to {most}"));
+        }
+        far.is_none()
+    }
+
     /// An arm, if it can be one.
     pub fn arm(&mut self, draft: &ArmDraft) -> Option<(RobotKind, String)> {
+        let limits: Vec<f64> = draft.limits.value.iter().flatten().copied().collect();
+        let reach: f64 = draft.lengths.value.iter().sum();
+        let are_sane = [
+            self.within("the sum of the links", &draft.lengths.span, &[reach], LARGEST_M),
+            self.within("the radius of the links", &draft.radius.span, &[draft.radius.value], LARGEST_M),
+            self.within("the base", &draft.base.span, &draft.base.value, LARGEST_M),
+            self.within("`joint_limits`", &draft.limits.span, &limits, FARTHEST_RAD),
+        ];
+        if are_sane.contains(&false) {
+            return None;
+        }
         let limits = draft.limits.value.iter().map(|&[low, high]| Limit { low, high }).collect();
         let [x, y] = draft.base.value;
         match Arm::new(Point::new(x, y), draft.lengths.value.clone(), draft.radius.value, limits) {
@@ -72,6 +98,11 @@ impl Draft<'_> {
 
     /// A disc in a box.
     pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<(RobotKind, String)> {
+        if !self.within("`bounds`", &bounds.span, &bounds.value, LARGEST_M)
+            || !self.within("`radius`", &radius.span, &[radius.value], LARGEST_M)
+        {
+            return None;
+        }
         let [x0, y0, x1, y1] = bounds.value;
         if !(x0 < x1 && y0 < y1) {
             self.refuse(
@@ -96,6 +127,13 @@ impl Draft<'_> {
 
     /// An outline, if it is a simple polygon.
     pub fn shape(&mut self, name: &str, corners: &Located<Vec<Located<[f64; 2]>>>) -> Option<Shape> {
+        let mut are_near = true;
+        for corner in &corners.value {
+            are_near &= self.within(&format!("a corner of {name}"), &corner.span, &corner.value, LARGEST_M);
+        }
+        if !are_near {
+            return None;
+        }
         let points =
             corners.value.iter().map(|corner| Point::new(corner.value[0], corner.value[1])).collect();
         let error = match Shape::new(points) {

@@ -1,11 +1,14 @@
 //! Experiments (Chen 1994, section 4): scenarios over many seeds, and what came out as a table.
 
 use std::io::Write;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use adit_engine::RuleBase;
-use adit_planners::adapt::{Curve, Experiment, Judge, Method, Plugins, Settings, TOUCHING_M};
+use adit_planners::adapt::{
+    ChangeFacts, Curve, EdgeFacts, Experiment, Judge, LandmarkFacts, Method, Plugins, Settings, Strategy,
+    TOUCHING_M, Trust,
+};
 use serde::Serialize;
 
 use super::cell::Cell;
@@ -72,8 +75,10 @@ pub fn run(
     let wrong = |error: &dyn std::fmt::Display| Error::said("experiment/rules", error.to_string(), None);
     // Rules that cannot be asked are found here, so that a judge can be made for each run.
     RuleJudge::new(rules, None, false).map_err(|error| wrong(&error))?;
+    let trouble: Trouble = Arc::default();
     let judge = || -> Box<dyn Judge> {
-        Box::new(RuleJudge::new(rules, None, false).expect("another one was made of these rules"))
+        let rules = RuleJudge::new(rules, None, false).expect("another one was made of these rules");
+        Box::new(Watched { rules, trouble: Arc::clone(&trouble) })
     };
     let began = Instant::now();
     let (plugins, settings) = (Plugins::standard(), Settings::default());
@@ -88,7 +93,11 @@ pub fn run(
         clock: &|| began.elapsed().as_secs_f64(),
         progress: done,
     };
-    let curve = |method| experiment.run(method).map_err(|error| wrong(&error));
+    let curve = |method| {
+        let curve = experiment.run(method).map_err(|error| wrong(&error))?;
+        let trouble = trouble.lock().unwrap_or_else(PoisonError::into_inner);
+        trouble.as_ref().map_or(Ok(curve), |trouble| Err(wrong(trouble)))
+    };
     let alone = curve(Method::Solve)?;
     let mut outcome = Outcome {
         scenario: cell.name.clone(),
@@ -102,6 +111,40 @@ pub fn run(
         outcome.rows.extend(rows(&cell.name, method, &of_method, &alone));
     }
     Ok(outcome)
+}
+
+/// The first thing that rules did not say, in any of the runs.
+type Trouble = Arc<Mutex<Option<String>>>;
+
+/// Rules as a judge of one of many runs; what they do not say is known to all.
+struct Watched {
+    rules: RuleJudge,
+    trouble: Trouble,
+}
+
+impl Watched {
+    fn ask<T>(&mut self, what: impl FnOnce(&mut RuleJudge) -> T) -> T {
+        let answer = what(&mut self.rules);
+        if let Some(trouble) = self.rules.trouble() {
+            let mut first = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
+            first.get_or_insert_with(|| trouble.to_owned());
+        }
+        answer
+    }
+}
+
+impl Judge for Watched {
+    fn strategy(&mut self, facts: &ChangeFacts) -> Strategy {
+        self.ask(|rules| rules.strategy(facts))
+    }
+
+    fn landmark(&mut self, facts: &LandmarkFacts<'_>) -> Option<f64> {
+        self.ask(|rules| rules.landmark(facts))
+    }
+
+    fn trust(&mut self, facts: &EdgeFacts) -> Trust {
+        self.ask(|rules| rules.trust(facts))
+    }
 }
 
 fn rows(scenario: &str, method: Method, curve: &Curve, alone: &Curve) -> Vec<Row> {

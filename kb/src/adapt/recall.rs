@@ -22,14 +22,7 @@ pub(super) fn planner(
     plugins: Plugins,
     mut settings: Settings,
 ) -> Result<Adapt> {
-    if kept.cell.robot != cell.robot_text {
-        let message = format!(
-            "the experience of {} is of another robot: {}, and here it is: {}",
-            kept.cell.cell, kept.cell.robot, cell.robot_text
-        );
-        let help = "keep this one in another database, or under another name of the file".to_owned();
-        return Err(Error::said("plan/other-robot", message, Some(help)));
-    }
+    of_robot(cell, kept)?;
     settings.seed = kept.cell.seed.parse().map_err(|_| damaged(kept, "its seed is no number"))?;
     let mut objects = Vec::new();
     for object in &kept.objects {
@@ -84,6 +77,19 @@ pub(super) fn planner(
         return Err(damaged(kept, "its `configuration` is none of the robot"));
     }
     Ok(Adapt::resume(workcell, experience, plugins, settings, progress))
+}
+
+/// Refuses the experience of another robot than that of the cell.
+pub(super) fn of_robot(cell: &Cell, kept: &rows::Experience) -> Result<()> {
+    if kept.cell.robot == cell.robot_text {
+        return Ok(());
+    }
+    let message = format!(
+        "the experience of {} is of another robot: {}, and here it is: {}",
+        kept.cell.cell, kept.cell.robot, cell.robot_text
+    );
+    let help = "keep this one in another database, or under another name of the file".to_owned();
+    Err(Error::said("plan/other-robot", message, Some(help)))
 }
 
 fn experience(kept: &rows::Experience) -> Result<Experience> {

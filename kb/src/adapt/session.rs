@@ -79,7 +79,7 @@ impl Session {
         let mut store = beginning.db.map(open).transpose()?;
         let kept = match &mut store {
             None => None,
-            Some(store) => experience(store, &described.name, beginning.from)?,
+            Some(store) => experience(store, described, beginning.from)?,
         };
         let plugins = with_taught(beginning.taught);
         let settings = Settings { seed: beginning.seed, ..Settings::default() };
@@ -157,13 +157,15 @@ impl Session {
         Ok(done)
     }
 
-    /// A goal by chance, none at which the robot is; the same seed and number of tasks give the same.
+    /// A goal by chance, none at which the robot is, and none out of its reach; the same seed and number of tasks give the same.
     pub fn draw(&self, seed: u64) -> Option<Goal> {
         const FAR_APART: u64 = 0x9E37_79B9_7F4A_7C15;
         let progress = self.adapt.progress();
         let cell = self.described.after(progress.tasks as usize);
-        let is_elsewhere =
-            |goal: &&Goal| self.configurations(goal).iter().all(|at| distance(at, &progress.here) > 1e-9);
+        let is_elsewhere = |goal: &&Goal| {
+            let all = self.configurations(goal);
+            !all.is_empty() && all.iter().all(|at| distance(at, &progress.here) > 1e-9)
+        };
         let goals: Vec<&Goal> = cell.goals.iter().filter(is_elsewhere).collect();
         let drawn = seed.wrapping_add(u64::from(progress.tasks).wrapping_mul(FAR_APART));
         goals.get(Chance::new(drawn).below(goals.len())).map(|goal| (*goal).clone())
@@ -230,17 +232,18 @@ fn open(db: &Path) -> Result<Store> {
 /// What is kept of a cell, or what it begins with.
 fn experience(
     store: &mut Store,
-    cell: &str,
+    cell: &Cell,
     from: Option<(&str, Option<&Path>)>,
 ) -> Result<Option<adit_db::experience::Experience>> {
-    let kept = store.snapshot(|tx| tx.experience(cell))?;
+    let name = cell.name.as_str();
+    let kept = store.snapshot(|tx| tx.experience(name))?;
     let Some((other, file)) = from else { return Ok(kept) };
     if let Some(kept) = kept {
         let message = format!(
-            "there is experience of {cell} already, of {} tasks; --from is for a cell that has none",
+            "there is experience of {name} already, of {} tasks; --from is for a cell that has none",
             kept.cell.tasks
         );
-        let help = format!("`DELETE FROM cells WHERE cell = '{cell}'` forgets it");
+        let help = format!("`DELETE FROM cells WHERE cell = '{name}'` forgets it");
         return Err(Error::said("plan/has-experience", message, Some(help)));
     }
     let read = |store: &mut Store| store.snapshot(|tx| Ok::<_, Error>((tx.experience(other)?, tx.cells()?)));
@@ -257,11 +260,13 @@ fn experience(
         };
         return Err(Error::said("plan/no-experience", message, Some(help)));
     };
+    // Before anything is written: what is of another robot would stand in the way of this cell's own.
+    recall::of_robot(cell, &copy)?;
     copy.cell.copied_from = Some(match file {
         None => other.to_owned(),
         Some(file) => format!("{other} in {}", file.display()),
     });
-    cell.clone_into(&mut copy.cell.cell);
+    name.clone_into(&mut copy.cell.cell);
     store.transaction(|tx| tx.keep_experience(&copy))?;
     Ok(Some(copy))
 }

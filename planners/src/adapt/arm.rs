@@ -142,6 +142,7 @@ impl Robot for Arm {
         match self.lengths.len() {
             1 => inverse::one_link(self, tool, near),
             2 => inverse::two_links(self, tool, branch, near),
+            3 => inverse::three_links(self, tool, branch, near),
             _ => inverse::many_links(self, tool, near),
         }
     }

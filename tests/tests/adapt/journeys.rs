@@ -125,6 +125,25 @@ fn a_goal_on_an_object_out_of_reach_is_a_clear_no() {
 }
 
 #[test]
+fn goals_by_chance_are_within_reach() {
+    let folder = cell();
+    let far = "\n[[cell.goal]]\nname = \"far\"\nobject = \"bin\"\ntool = [90.0, 0.0]\n";
+    folder.write("cell.toml", format!("{}{far}", folder.read("cell.toml")));
+    let ran = run(&folder, &["plan", "cell.toml", "--tasks", "30", "--seed", "1", "--json"]).expect_status(0);
+    let ran = ran.json();
+    assert_eq!(ran["tasks"].as_array().map(Vec::len), Some(30));
+}
+
+#[test]
+fn an_object_that_is_turned_is_said_to_be() {
+    let folder = cell();
+    learn(&folder, &["load"]).expect_status(0);
+    folder.edit("cell.toml", "at      = [-0.9, 0.6]", "at      = [-0.9, 0.6]\nheading = 20.0");
+    let ran = learn(&folder, &["load"]).expect_status(0);
+    assert!(ran.stdout.contains("1 object moved (by up to 20 degrees)"), "{}", ran.stdout);
+}
+
+#[test]
 fn a_variant_begins_with_a_copy_of_the_experience() {
     let folder = cell();
     learn(&folder, &["load", "unload", "shelf", "home"]).expect_status(0);

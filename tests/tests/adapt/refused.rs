@@ -2,7 +2,7 @@
 
 use adit_tests::TestSite;
 
-use super::support::{cell, learn, run};
+use super::support::{cell, learn, run, sql};
 
 const TWO_LINK: &str = include_str!("two-link.json");
 
@@ -130,6 +130,39 @@ fn experience_of_another_robot() {
     learn(&folder, &["load"])
         .expect_status(2)
         .complains(&["the experience of cell is of another robot", "0.85"]);
+}
+
+#[test]
+fn experience_of_another_robot_is_not_begun_with() {
+    let folder = cell();
+    learn(&folder, &["load"]).expect_status(0);
+    folder.write("other.toml", folder.read("cell.toml").replacen("[0.9, 0.8]", "[0.9, 0.85]", 1));
+    let other =
+        |args: &[&str]| run(&folder, &[&["plan", "other.toml", "load", "--db", "cell.db"], args].concat());
+    other(&["--from", "cell"]).expect_status(2).complains(&["the experience of cell is of another robot"]);
+    // Nothing of it was written, so the cell begins by itself.
+    assert_eq!(sql(&folder, "cell.db", "SELECT cell FROM cells"), ["cell"]);
+    other(&[]).expect_status(0);
+}
+
+#[test]
+fn cells_larger_than_any() {
+    scenario(
+        "[1.0, 0.9]",
+        "[1e300, 0.9]",
+        &[":5:", "the sum of the links has 1e300; expected numbers up to 10000"],
+    );
+    scenario("[-1.3, 0.7]", "[-1.3, 1e6]", &["a corner of obstacle 3 has 1e6"]);
+    world("[0.9, 0.8]", "[1e6, 0.8]", &["the sum of the links has"]);
+    world("[[-3.1, 3.1]", "[[-3.1, 1e9]", &["`joint_limits` has 1e9; expected numbers up to 1000"]);
+}
+
+#[test]
+fn rules_that_say_nothing_end_an_experiment() {
+    let folder = TestSite::empty().with("two-link.json", TWO_LINK);
+    folder.write("rules/empty.rhai", "// nothing\n");
+    let args = ["experiment", "two-link.json", "--only", "two-link-A", "--runs", "1", "--rules", "rules"];
+    run(&folder, &args).expect_status(2).complains(&["rules do not say"]);
 }
 
 #[test]

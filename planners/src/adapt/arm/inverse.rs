@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::Arm;
-use crate::adapt::robot::{Configuration, Robot};
+use crate::adapt::chance::Chance;
+use crate::adapt::robot::{Configuration, Robot, distance};
+use crate::geometry::Point;
 use crate::pose::{Pose, wrapped};
 
 /// How near the tool has to come.
@@ -26,10 +28,25 @@ pub(super) fn one_link(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configura
     unwound(arm, vec![angle], near).filter(|at| arm.is_at(at, tool.at))
 }
 
-/// The law of cosines (Craig 1989, section 4.4); branch 0 has the elbow's angle positive, branch 1 negative.
 pub(super) fn two_links(arm: &Arm, tool: &Pose, branch: u8, near: &[f64]) -> Option<Configuration> {
+    let [shoulder, elbow] = shoulder_and_elbow(arm, tool.at, branch)?;
+    unwound(arm, vec![shoulder, elbow], near).filter(|at| arm.is_at(at, tool.at))
+}
+
+/// The heading of the tool says where the wrist is; the two links below it are as in an arm of two.
+pub(super) fn three_links(arm: &Arm, tool: &Pose, branch: u8, near: &[f64]) -> Option<Configuration> {
+    let (sin, cos) = tool.heading.sin_cos();
+    let wrist = Point::new(tool.at.x - arm.lengths[2] * cos, tool.at.y - arm.lengths[2] * sin);
+    let [shoulder, elbow] = shoulder_and_elbow(arm, wrist, branch)?;
+    unwound(arm, vec![shoulder, elbow, tool.heading - shoulder - elbow], near)
+        .filter(|at| residual(arm, tool, at).norm() <= TOLERANCE_M)
+}
+
+/// The angles of the first two joints that bring the end of the second link to a place, by the law of cosines (Craig 1989,
+/// section 4.4); branch 0 has the elbow's angle positive, branch 1 negative.
+fn shoulder_and_elbow(arm: &Arm, place: Point, branch: u8) -> Option<[f64; 2]> {
     let (first, second) = (arm.lengths[0], arm.lengths[1]);
-    let (x, y) = (tool.at.x - arm.base.x, tool.at.y - arm.base.y);
+    let (x, y) = (place.x - arm.base.x, place.y - arm.base.y);
     let cos = (x * x + y * y - first * first - second * second) / (2.0 * first * second);
     // A stretched arm's cosine may lie beside 1 by rounding alone.
     let stretched = if (1.0..1.0 + 1e-9).contains(&cos.abs()) { cos.signum() } else { cos };
@@ -38,13 +55,27 @@ pub(super) fn two_links(arm: &Arm, tool: &Pose, branch: u8, near: &[f64]) -> Opt
     }
     let elbow = if branch == 0 { stretched.acos() } else { -stretched.acos() };
     let shoulder = y.atan2(x) - (second * elbow.sin()).atan2(first + second * elbow.cos());
-    unwound(arm, vec![shoulder, elbow], near).filter(|at| arm.is_at(at, tool.at))
+    Some([shoulder, elbow])
+}
+
+/// An arm of more links has many ways to bring its tool there: the descent begins near by, and where it ends beside the pose,
+/// or at a limit, anew from elsewhere. Of some that are found the nearest is taken.
+pub(super) fn many_links(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configuration> {
+    const BEGINNINGS: usize = 96;
+    const ENOUGH: usize = 6;
+    if let Some(at) = descent(arm, tool, near.to_vec()) {
+        return Some(at);
+    }
+    // The same beginnings each time: the same question gets the same answer.
+    let mut chance = Chance::new(1);
+    let beginnings = (0..BEGINNINGS).map(|_| chance.configuration(arm));
+    let found = beginnings.filter_map(|from| descent(arm, tool, from)).take(ENOUGH);
+    found.min_by(|a, b| distance(a, near).total_cmp(&distance(b, near)))
 }
 
 /// Damped least squares (Wampler 1986) from a configuration, place and heading of the tool, inside the limits.
-pub(super) fn many_links(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configuration> {
+fn descent(arm: &Arm, tool: &Pose, mut at: Configuration) -> Option<Configuration> {
     const ROUNDS: usize = 200;
-    let mut at = near.to_vec();
     let mut damping = 1e-2;
     let mut left = residual(arm, tool, &at);
     for _ in 0..ROUNDS {

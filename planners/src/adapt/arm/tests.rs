@@ -43,6 +43,35 @@ proptest! {
         }
     }
 
+    /// Whatever the arm can do it is found again, from wherever it is looked for.
+    #[test]
+    fn three_links_find_any_pose_that_one_of_the_branches_reaches(
+        at in prop::collection::vec(-2.9..2.9_f64, 3),
+        near in prop::collection::vec(-2.9..2.9_f64, 3),
+    ) {
+        let arm = arm(&[0.8, 0.6, 0.2]);
+        let tool = arm.tool(&at);
+        let found = arm.inverse(&tool, arm.branch(&at), &near).unwrap();
+        let reached = arm.tool(&found);
+        prop_assert!(arm.admits(&found));
+        prop_assert!(reached.at.distance(tool.at) < 1e-5);
+        prop_assert!(crate::pose::wrapped(reached.heading - tool.heading).abs() < 1e-5);
+    }
+
+    #[test]
+    fn four_links_find_any_pose_that_they_reach(
+        at in prop::collection::vec(-2.8..2.8_f64, 4),
+        near in prop::collection::vec(-2.8..2.8_f64, 4),
+    ) {
+        let arm = arm(&[0.8, 0.6, 0.4, 0.2]);
+        let tool = arm.tool(&at);
+        let found = arm.inverse(&tool, arm.branch(&at), &near).unwrap();
+        let reached = arm.tool(&found);
+        prop_assert!(arm.admits(&found));
+        prop_assert!(reached.at.distance(tool.at) < 1e-5);
+        prop_assert!(crate::pose::wrapped(reached.heading - tool.heading).abs() < 1e-5);
+    }
+
     #[test]
     fn many_links_follow_a_tool_that_moved_a_little(
         at in prop::collection::vec(0.2..0.8_f64, 4),
