@@ -21,7 +21,7 @@ use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;
 use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
-use crate::navigation::missions::refuse;
+use crate::navigation::missions::{ending, refuse};
 use crate::number::number;
 
 /// Learns a world, keeps and prints what came of it; `false` where that is not as it should be.
@@ -107,7 +107,8 @@ pub fn drive(
         std::fs::read_to_string(script)
     };
     let text = text.map_err(|error| Error::io("read", script, &error))?;
-    let script = parse(&script.display().to_string(), &text, learned)?;
+    let name = script.display().to_string();
+    let script = parse(&name, &text, learned)?;
     let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
     let mut outfit = Outfit { navigation: truth.settings, start_sigma_m: START_SIGMA_M, ..Outfit::default() };
     outfit.robot.radius_m = truth.network.disc.radius;
@@ -124,6 +125,7 @@ pub fn drive(
     if let Some(db) = args.db.as_ref().filter(|_| !driven.places.is_empty()) {
         keep_learned(db, &stored, truth, rules)?;
     }
+    let in_vain = driven.in_vain.map(|(index, how)| (script.lines[index], ending(how)));
     let pose = |pose: &Pose| [pose.at.x, pose.at.y, pose.heading.to_degrees()];
     if args.json {
         let places: Vec<_> = driven
@@ -134,7 +136,7 @@ pub fn drive(
         print(&json!({
             "estimate": pose(&driven.estimate), "truth": pose(&driven.truth), "length": driven.path_m,
             "touches": driven.touches, "places": places,
-            "in_vain": driven.in_vain.iter().map(|(index, _)| index + 1).collect::<Vec<_>>(),
+            "in_vain": in_vain.map(|(line, ending)| json!({"line": line, "ending": ending})),
         }))?;
     } else {
         for place in &driven.places {
@@ -149,9 +151,10 @@ pub fn drive(
             number(y),
             number(heading)
         ));
-        for (index, _) in &driven.in_vain {
-            line(&format!("order {}: there is no way", index + 1));
+        if let Some((number, ending)) = in_vain {
+            let how = if ending == "no_way" { "there is no way" } else { "the robot gave up" };
+            line(&format!("{name}:{number}: {how}; the orders after it were not followed"));
         }
     }
-    Ok(driven.in_vain.is_empty())
+    Ok(in_vain.is_none())
 }
