@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use adit_tests::TestSite;
+use adit_tests::{TestSite, repository};
 
-use crate::flat::{copy_rules, flat, run, sql};
+use crate::flat::{copy_rules, flat, on, run, sql};
 
 /// A flat with rules of its own, and one more.
 fn with_rule(rule: &str) -> TestSite {
@@ -76,4 +76,25 @@ fn a_rule_that_fails_while_it_runs_is_named_with_its_file_and_line() {
 fn a_rule_that_is_interpreted_and_does_not_fail_counts() {
     let rule = "rule \"low\" priority 5 each way in WAYS then { let n = 0; while n < 3 { n += 1; } way.weight = n; }\n";
     run(&with_rule(rule), "plan", &["desk", "bath"]).expect_status(0);
+}
+
+#[test]
+fn a_rule_that_fails_in_a_cell_is_named_as_well() {
+    let folder = TestSite::empty();
+    let world = fs::read_to_string(repository().join("kb/worlds/cell-point.toml")).expect("the cell");
+    folder.write("cell.toml", world);
+    for file in ["edges.rhai", "landmarks.rhai", "repair.rhai"] {
+        let text = fs::read(repository().join("rules/adapt").join(file)).expect("the rule base");
+        folder.write(&format!("rules/{file}"), text);
+    }
+    on(&folder, "plan", "cell.toml", &["far", "--rules", "rules"]).expect_status(0);
+    folder.write(
+        "rules/z.rhai",
+        "rule \"low\" priority 5 each o in LANDMARKS then { throw \"a fit\"; o.own = 3.0; }\n",
+    );
+    on(&folder, "plan", "cell.toml", &["far", "--rules", "rules"]).expect_status(2).complains(&[
+        "plan/rules",
+        "z.rhai:1",
+        "a fit",
+    ]);
 }
