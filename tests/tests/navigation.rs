@@ -2,6 +2,8 @@
 
 #[path = "navigation/bad_input.rs"]
 mod bad_input;
+#[path = "navigation/broken_rules.rs"]
+mod broken_rules;
 #[path = "navigation/flat.rs"]
 mod flat;
 #[path = "navigation/journeys.rs"]

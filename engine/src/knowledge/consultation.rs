@@ -205,6 +205,17 @@ impl Consultation {
         self.base.conclude(&self.rules)
     }
 
+    /// What failed when the last object was judged: a rule that was stopped, or a value of another type, with its file
+    /// and line. Rules that run directly leave nothing to the interpreter, and cannot fail.
+    pub fn failure(&self) -> Option<String> {
+        if self.is_direct() {
+            return None;
+        }
+        self.base.problems(&self.rules).first().map(|problem| {
+            format!("{}:{}:{}: {}", problem.file, problem.line, problem.column, problem.message)
+        })
+    }
+
     /// The knowledge base that holds the last object, to ask why.
     pub fn knowledge(&mut self) -> &KnowledgeBase {
         self.infer();

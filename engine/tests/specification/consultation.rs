@@ -161,3 +161,17 @@ fn what_went_wrong_is_reported_for_the_last_object() {
     consultation.consult(&[Datum::Number(-1.0)]);
     assert_eq!((consultation.number(0), consultation.report().conflicts.len()), (Some(1.0), 0));
 }
+
+#[test]
+fn a_rule_that_fails_is_named_until_an_object_is_judged_without_a_failure() {
+    let text = r#"
+        rule "one" each o in OBJECTS then { o.x = 1; }
+        rule "two" priority 5 each o in OBJECTS where o.a > 0 then { throw "a fit"; o.x = 2; }"#;
+    let inputs = [("a", Type::Number)];
+    let mut consultation = Consultation::new(rules(text).into(), "OBJECTS", &inputs, &["x"]).unwrap();
+    consultation.consult(&[Datum::Number(1.0)]);
+    let failure = consultation.failure().unwrap();
+    assert!(failure.contains(":3:") && failure.contains("a fit"), "{failure}");
+    consultation.consult(&[Datum::Number(-1.0)]);
+    assert_eq!((consultation.number(0), consultation.failure()), (Some(1.0), None));
+}

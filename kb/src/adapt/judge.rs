@@ -7,7 +7,7 @@ use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
 use adit_planners::adapt::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 
 use super::explain::Explained;
-use crate::plan::rules::place;
+use crate::plan::rules::{consult, place};
 
 /// What rules are told of a change of a cell.
 pub const CELL_CHANGES: &[(&str, Type)] = &[
@@ -97,7 +97,8 @@ impl RuleJudge {
         })
     }
 
-    /// The first thing that the rules did not say, or said in words that mean nothing.
+    /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they
+    /// are not asked any more.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
     }
@@ -123,7 +124,10 @@ impl Judge for RuleJudge {
         if let Some(fixed) = self.fixed {
             return fixed;
         }
-        self.changes.consult(&change(facts));
+        if self.trouble.is_some() {
+            return Strategy::OnDemand;
+        }
+        consult(&mut self.changes, &change(facts), &mut self.trouble);
         self.considered = self.changes.considered("strategy");
         match meant(&self.changes, &STRATEGIES) {
             Ok(strategy) => {
@@ -140,7 +144,10 @@ impl Judge for RuleJudge {
     }
 
     fn landmark(&mut self, facts: &LandmarkFacts<'_>) -> Option<f64> {
-        self.landmarks.consult(&landmark(facts));
+        if self.trouble.is_some() {
+            return None;
+        }
+        consult(&mut self.landmarks, &landmark(facts), &mut self.trouble);
         if let Some(explained) = &mut self.explained {
             let answer = self
                 .landmarks
@@ -161,7 +168,10 @@ impl Judge for RuleJudge {
     }
 
     fn trust(&mut self, facts: &EdgeFacts) -> Trust {
-        self.edges.consult(&edge(facts));
+        if self.trouble.is_some() {
+            return Trust::Verify;
+        }
+        consult(&mut self.edges, &edge(facts), &mut self.trouble);
         match meant(&self.edges, &TRUSTS) {
             Ok(trust) => {
                 if let Some(explained) = &mut self.explained {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adit_engine::RuleBase;
 
 use super::SimulateArgs;
-use super::output::{json, remark, table};
+use super::output::{json, table};
 use super::picture;
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
@@ -17,14 +17,14 @@ const PNG_WIDTH: u32 = 1600;
 /// A drive is at most so long, metres.
 const FARTHEST_M: f64 = 100_000.0;
 
-/// Drives, draws and prints a row a drive; `false` where rules said nothing.
+/// Drives, draws and prints a row a drive.
 pub fn run(
     args: &SimulateArgs,
     output: &Path,
     world: &str,
     floor: &Floor,
     rules: &Arc<RuleBase>,
-) -> Result<bool> {
+) -> Result<()> {
     picture::check(output)?;
     if !(args.metres > 0.0 && args.metres <= FARTHEST_M) {
         let message = format!(
@@ -40,10 +40,7 @@ pub fn run(
     } else {
         show(&drives);
     }
-    for trouble in drives.iter().filter_map(|driven| driven.trouble.as_ref()).take(1) {
-        remark(trouble);
-    }
-    Ok(drives.iter().all(|driven| driven.trouble.is_none()))
+    Ok(())
 }
 
 fn show(drives: &[Driven]) {

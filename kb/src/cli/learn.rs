@@ -21,6 +21,7 @@ use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;
 use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
+use crate::navigation::missions::{ending, refuse};
 use crate::number::number;
 
 /// Learns a world, keeps and prints what came of it; `false` where that is not as it should be.
@@ -33,11 +34,6 @@ pub fn run(
 ) -> Result<bool> {
     let start = Pose { at: floor.point(start)?, heading: heading(args)? };
     let towards = args.towards.as_ref().map(|towards| floor.point(towards)).transpose()?;
-    if args.film.is_some() && !(args.speed.is_finite() && args.speed > 0.0) {
-        let message =
-            format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
-        return Err(Error::said("simulate/speed", message, None));
-    }
     let exploration = Exploration { start, towards, seed: args.seed };
     let mut made = None;
     let film = args.film.as_ref().map(|_| &mut made);
@@ -65,6 +61,7 @@ fn keep_learned(db: &Path, record: &Record, floor: &Floor, rules: &Arc<RuleBase>
     let start = adit_planners::geometry::Point::new(x, y);
     let walked = known.plan(start, start, &mut judge)?;
     let network = keep::record(&record.learned, &record.rules, &known, &mut judge, &walked);
+    refuse(judge.trouble())?;
     Store::open_or_create(db)?.transaction(|tx| {
         tx.keep_learned(record)?;
         tx.keep_floor_plan(&network)
@@ -94,9 +91,6 @@ fn show(row: &Row) {
     if row.collided {
         line("COLLIDED");
     }
-    if let Some(trouble) = &row.trouble {
-        remark(trouble);
-    }
 }
 
 /// Drives by hand in a learned building, and keeps the places that are named; `false` where an order could not be done.
@@ -113,7 +107,8 @@ pub fn drive(
         std::fs::read_to_string(script)
     };
     let text = text.map_err(|error| Error::io("read", script, &error))?;
-    let script = parse(&script.display().to_string(), &text, learned)?;
+    let name = script.display().to_string();
+    let script = parse(&name, &text, learned)?;
     let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
     let mut outfit = Outfit { navigation: truth.settings, start_sigma_m: START_SIGMA_M, ..Outfit::default() };
     outfit.robot.radius_m = truth.network.disc.radius;
@@ -122,9 +117,7 @@ pub fn drive(
     let from = (script.start, args.seed);
     let driven = drive_by(&script.orders, from, &walls, &building, &outfit, &mut judge, |_| {})
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
-    if let Some(trouble) = judge.trouble() {
-        return Err(Error::said("simulate/rules", trouble.to_owned(), None));
-    }
+    refuse(judge.trouble())?;
     for place in &driven.places {
         stored.places.retain(|(name, _)| *name != place.name);
         stored.places.push((place.name.clone(), [place.at.x, place.at.y]));
@@ -132,6 +125,7 @@ pub fn drive(
     if let Some(db) = args.db.as_ref().filter(|_| !driven.places.is_empty()) {
         keep_learned(db, &stored, truth, rules)?;
     }
+    let in_vain = driven.in_vain.map(|(index, how)| (script.lines[index], ending(how)));
     let pose = |pose: &Pose| [pose.at.x, pose.at.y, pose.heading.to_degrees()];
     if args.json {
         let places: Vec<_> = driven
@@ -142,7 +136,7 @@ pub fn drive(
         print(&json!({
             "estimate": pose(&driven.estimate), "truth": pose(&driven.truth), "length": driven.path_m,
             "touches": driven.touches, "places": places,
-            "in_vain": driven.in_vain.iter().map(|(index, _)| index + 1).collect::<Vec<_>>(),
+            "in_vain": in_vain.map(|(line, ending)| json!({"line": line, "ending": ending})),
         }))?;
     } else {
         for place in &driven.places {
@@ -157,9 +151,10 @@ pub fn drive(
             number(y),
             number(heading)
         ));
-        for (index, _) in &driven.in_vain {
-            line(&format!("order {}: there is no way", index + 1));
+        if let Some((number, ending)) = in_vain {
+            let how = if ending == "no_way" { "there is no way" } else { "the robot gave up" };
+            line(&format!("{name}:{number}: {how}; the orders after it were not followed"));
         }
     }
-    Ok(driven.in_vain.is_empty())
+    Ok(in_vain.is_none())
 }

@@ -44,7 +44,8 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     Ok(())
 }
 
-fn extension(output: &Path) -> String {
+/// What the name of a file ends with, in small letters, without the dot.
+pub fn extension(output: &Path) -> String {
     output.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase()
 }
 

@@ -10,6 +10,7 @@ use adit_planners::pose::Pose;
 
 use super::SimulateArgs;
 use super::output::{json, line, remark, table};
+use super::picture::extension;
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
@@ -26,9 +27,11 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         let message = format!("{} has no [floor_plan]: there is nothing to simulate", args.world.display());
         return Err(Error::said("simulate/no-floor-plan", message, None));
     };
+    check_film(args)?;
     let (rules, name, _) = world.rules(args.rules.as_deref())?;
     if let Some(output) = &args.curve {
-        return super::curve::run(args, output, &world.name, floor, &rules);
+        super::curve::run(args, output, &world.name, floor, &rules)?;
+        return Ok(true);
     }
     if let Some(start) = &args.learn {
         return super::learn::run(args, start, &world.name, (floor, &name), &rules);
@@ -66,18 +69,28 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     } else {
         show(&rows);
     }
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided && row.trouble.is_none()))
+    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+}
+
+/// Refuses a film that cannot be made.
+fn check_film(args: &SimulateArgs) -> Result<()> {
+    let Some(film) = &args.film else { return Ok(()) };
+    if extension(film) != "svg" {
+        let message = format!("{} is no .svg; a film is an SVG that plays", film.display());
+        return Err(Error::said("simulate/film", message, None));
+    }
+    if !(args.speed.is_finite() && args.speed > 0.0) {
+        let message =
+            format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
+        return Err(Error::said("simulate/speed", message, None));
+    }
+    Ok(())
 }
 
 /// The mission of which a film is wanted.
 fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m Mission>> {
     if args.film.is_none() {
         return Ok(None);
-    }
-    if !(args.speed.is_finite() && args.speed > 0.0) {
-        let message =
-            format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
-        return Err(Error::said("simulate/speed", message, None));
     }
     let mission = args.mission.checked_sub(1).and_then(|index| missions.get(index));
     let missing =
@@ -156,7 +169,7 @@ pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
 
 fn show(rows: &[Row]) {
     let cells = rows.iter().map(|row| {
-        let over = row.optimum.map_or_else(String::new, |optimum| format!("{:.3}", row.length / optimum));
+        let over = row.over_optimum().map_or_else(String::new, |over| format!("{over:.3}"));
         let judged = match row.right {
             Some(true) => "",
             Some(false) => "WRONG",
@@ -178,9 +191,6 @@ fn show(rows: &[Row]) {
         &["mission", "ending", "obstacles", "metres", "over optimum", "detours", "replans", "seconds", ""],
         cells,
     );
-    for trouble in rows.iter().filter_map(|row| row.trouble.as_ref()).take(1) {
-        remark(trouble);
-    }
     summary(rows);
 }
 
@@ -212,7 +222,7 @@ fn summary(rows: &[Row]) {
     ));
     let arrived = || rows.iter().filter(|row| row.ending == "arrived");
     let spreads: [(&str, Vec<f64>); 6] = [
-        ("length over optimum", arrived().filter_map(|row| Some(row.length / row.optimum?)).collect()),
+        ("length over optimum", arrived().filter_map(Row::over_optimum).collect()),
         ("replans", rows.iter().map(|row| f64::from(row.replans)).collect()),
         ("detours", rows.iter().map(|row| f64::from(row.detours)).collect()),
         ("seconds by the robot's clock", rows.iter().map(|row| row.seconds).collect()),

@@ -32,6 +32,8 @@ pub struct Script {
     pub start: Pose,
     /// One a line.
     pub orders: Vec<Order>,
+    /// The line of each order, from 1.
+    pub lines: Vec<usize>,
 }
 
 /// Reads orders; places are those of the floor, and those that were named before.
@@ -40,9 +42,9 @@ pub struct Script {
 /// All lines that are wrong, each with what was expected.
 pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
     let mut reader = Reader { text: Text::new(name, text), floor, named: Vec::new(), problems: Vec::new() };
-    let (mut start, mut orders) = (None, Vec::new());
+    let (mut start, mut orders, mut lines) = (None, Vec::new(), Vec::new());
     let mut from = 0;
-    for line in text.split('\n') {
+    for (number, line) in (1..).zip(text.split('\n')) {
         let until = from + line.len();
         let told = line.split('#').next().unwrap_or_default();
         let begin = from + told.len() - told.trim_start().len();
@@ -62,14 +64,19 @@ pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
                 reader.wrong(&span, format!("found `{words}`, expected `start` with a place or x,y first"));
                 start = Some(Pose::default());
             }
-            _ => orders.extend(reader.order(word, rest, &span)),
+            _ => {
+                if let Some(order) = reader.order(word, rest, &span) {
+                    orders.push(order);
+                    lines.push(number);
+                }
+            }
         }
     }
     if start.is_none() {
         reader.wrong(&(0..0), "found no order, expected `start` with a place or x,y".to_owned());
     }
     match start {
-        Some(start) if reader.problems.is_empty() => Ok(Script { start, orders }),
+        Some(start) if reader.problems.is_empty() => Ok(Script { start, orders, lines }),
         _ => Err(Error::all(reader.problems)),
     }
 }

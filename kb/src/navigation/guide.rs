@@ -10,7 +10,7 @@ use adit_planners::navigation::{Judge, StateDecision, StateFacts, WayFacts};
 use super::floor::Floor;
 use super::judge::RuleJudge;
 use crate::error::{Error, Result};
-use crate::plan::rules::place;
+use crate::plan::rules::{consult, place};
 
 /// What rules are told of an opening.
 pub const OPENINGS: &[(&str, Type)] = &[
@@ -42,7 +42,7 @@ impl RuleGuide {
         Ok(Self { judge: floor.judge(rules)?, openings, trouble: None })
     }
 
-    /// The first thing that the rules did not say, or said in words that mean nothing.
+    /// The first thing that failed, or that the rules did not say, or said in words that mean nothing.
     pub fn trouble(&self) -> Option<&str> {
         self.judge.trouble().or(self.trouble.as_deref())
     }
@@ -64,6 +64,9 @@ impl Judge for RuleGuide {
 
 impl Guide for RuleGuide {
     fn opening(&mut self, facts: &OpeningFacts) -> Option<f64> {
+        if self.trouble().is_some() {
+            return None;
+        }
         let mut object = [Datum::Unknown; OPENINGS.len()];
         for (at, number) in [
             (const { place(OPENINGS, "width") }, facts.width_m),
@@ -77,7 +80,7 @@ impl Guide for RuleGuide {
         }
         object[const { place(OPENINGS, "off_asked") }] = facts.off_asked.into();
         object[const { place(OPENINGS, "is_in_sight") }] = Datum::Truth(facts.is_in_sight);
-        self.openings.consult(&object);
+        consult(&mut self.openings, &object, &mut self.trouble);
         match (self.openings.truth(0), self.openings.number(1)) {
             (Some(false), _) => None,
             (Some(true), Some(worth)) if !worth.is_nan() => Some(worth),

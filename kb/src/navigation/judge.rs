@@ -7,7 +7,7 @@ use adit_planners::local_model::{SegmentFacts, Source, Transition};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
 use super::told::Told;
-use crate::plan::rules::place;
+use crate::plan::rules::{consult, place};
 
 /// What rules are told of a situation.
 pub const SITUATIONS: &[(&str, Type)] = &[
@@ -118,7 +118,8 @@ impl RuleJudge {
         self.situations.is_direct() && self.segments.is_direct() && self.ways.is_direct()
     }
 
-    /// The first thing that the rules did not say, or said in words that mean nothing.
+    /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they
+    /// are not asked any more: there is no way, and what comes of it counts for nothing.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
     }
@@ -134,7 +135,7 @@ impl RuleJudge {
     /// The next state and the action as words, and which rules were looked at.
     pub fn consider<'f>(&mut self, told: impl Fn(&str) -> Datum<'f>) -> ([String; 2], Vec<Considered>) {
         let object = SITUATIONS.iter().map(|(name, _)| told(name)).collect::<Vec<_>>();
-        self.situations.consult(&object);
+        consult(&mut self.situations, &object, &mut self.trouble);
         let said =
             [0, 1].map(|output| self.situations.text(output).map_or(String::new(), |text| text.to_string()));
         (said, self.considered())
@@ -187,7 +188,12 @@ fn meant<T: Copy>(
 
 impl Judge for RuleJudge {
     fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
-        self.situations.consult(&situation(facts));
+        if self.trouble.is_none() {
+            consult(&mut self.situations, &situation(facts), &mut self.trouble);
+        }
+        if self.trouble.is_some() {
+            return StateDecision { state: State::Hold, action: Action::NoWay };
+        }
         let state = meant(&self.situations, 0, &STATES);
         let action = meant(&self.situations, 1, &ACTIONS);
         match (state, action) {
@@ -202,18 +208,22 @@ impl Judge for RuleJudge {
     }
 
     fn segment(&mut self, facts: &SegmentFacts) -> Transition {
-        self.segments.consult(&segment(facts));
+        let unchanged = Transition {
+            confidence: facts.confidence,
+            source: facts.source,
+            is_kept: true,
+            counts_for_pose: false,
+            is_anchored: false,
+            is_cut: false,
+        };
+        if self.trouble.is_some() {
+            return unchanged;
+        }
+        consult(&mut self.segments, &segment(facts), &mut self.trouble);
         let of = |output| self.segments.truth(output);
         let (Some(becomes), Some(is_kept)) = (self.segments.number(0), of(2)) else {
             self.missing("what becomes of a segment", None);
-            return Transition {
-                confidence: facts.confidence,
-                source: facts.source,
-                is_kept: true,
-                counts_for_pose: false,
-                is_anchored: false,
-                is_cut: false,
-            };
+            return unchanged;
         };
         Transition {
             confidence: becomes.clamp(0.0, 255.0) as u8,
@@ -226,6 +236,9 @@ impl Judge for RuleJudge {
     }
 
     fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
+        if self.trouble.is_some() {
+            return None;
+        }
         let mut object = vec![Datum::Unknown; self.of_ways.len()];
         object[const { place(WAYS, "length") }] = Datum::Number(facts.way.length);
         object[const { place(WAYS, "clearance") }] = Datum::Number(facts.way.clearance);
@@ -234,7 +247,7 @@ impl Judge for RuleJudge {
         object[const { place(WAYS, "is_cut") }] = Datum::Truth(facts.is_cut);
         object[const { place(WAYS, "times_blocked") }] = Datum::Number(f64::from(facts.times_blocked));
         self.told.of(facts.way, &mut object, |name| self.of_ways.iter().position(|known| known == name));
-        self.ways.consult(&object);
+        consult(&mut self.ways, &object, &mut self.trouble);
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Some(weight),

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use super::floor::Floor;
 use super::guide::RuleGuide;
+use super::missions::refuse;
 use super::told::Told;
 use crate::error::{Error, Result};
 
@@ -57,15 +58,12 @@ pub struct Row {
     pub walls: usize,
     /// Convex regions.
     pub regions: usize,
-    /// What the rules did not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trouble: Option<String>,
 }
 
 impl Row {
     /// Whether it ended as it should.
     pub fn is_right(&self) -> bool {
-        self.ending == "learned" && !self.collided && self.trouble.is_none()
+        self.ending == "learned" && !self.collided
     }
 }
 
@@ -86,6 +84,7 @@ pub fn explore(
     let explored = exploration
         .run(&floor.plan, &outfit, &mut guide, |_| {}, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+    refuse(guide.trouble())?;
     let learned = &explored.learned;
     let score = score(learned, &floor.plan).map_err(|error| Error::all(error.problems))?;
     let row = Row {
@@ -104,7 +103,6 @@ pub fn explore(
         walls_missed: score.walls_missed_m,
         walls: learned.walls.len(),
         regions: score.regions,
-        trouble: guide.trouble().map(str::to_owned),
     };
     let record = Record {
         world: world.to_owned(),

@@ -56,9 +56,14 @@ pub struct Row {
     pub seconds: f64,
     /// Milliseconds that the simulation took.
     pub milliseconds: f64,
-    /// What the rules did not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trouble: Option<String>,
+}
+
+impl Row {
+    /// How many times as far as the shortest path the robot went; `None` where there is no such path, or where the robot
+    /// began at its goal.
+    pub fn over_optimum(&self) -> Option<f64> {
+        self.optimum.filter(|optimum| *optimum > 0.0).map(|optimum| self.length / optimum)
+    }
 }
 
 /// Deeper than that is a collision, metres.
@@ -110,7 +115,7 @@ impl<'f> Stage<'f> {
     }
 }
 
-/// Runs missions on all cores; `done` is told of each.
+/// Runs missions on all cores; `done` is told of each. Rules that fail end it with an error.
 pub fn run(
     stage: &Stage<'_>,
     rules: &Arc<RuleBase>,
@@ -125,11 +130,17 @@ pub fn run(
     missions.par_iter().enumerate().map(run).collect()
 }
 
+/// Refuses what came of rules that failed, or did not say what they were asked.
+pub fn refuse(trouble: Option<&str>) -> Result<()> {
+    trouble.map_or(Ok(()), |trouble| Err(Error::said("simulate/rules", trouble.to_owned(), None)))
+}
+
 /// Runs a mission without a journal.
 fn one(stage: &Stage<'_>, rules: &Arc<RuleBase>, number: usize, mission: &Mission) -> Result<Row> {
     let mut judge = stage.judge(rules)?;
     let row = judged(stage, &mut judge, number, mission, |_| {}, None)?;
-    Ok(Row { trouble: judge.trouble().map(str::to_owned), ..row })
+    refuse(judge.trouble())?;
+    Ok(row)
 }
 
 /// Runs a mission and keeps all that happened; `film` is made where it is wanted.
@@ -142,7 +153,7 @@ pub fn journalled(
     let mut noting = Noting::new(stage.judge(rules)?);
     let mut entries = Vec::new();
     let row = judged(stage, &mut noting, number, mission, |entry| entries.push(entry), film)?;
-    let row = Row { trouble: noting.trouble().map(str::to_owned), ..row };
+    refuse(noting.trouble())?;
     Ok((row, entries, noting))
 }
 
@@ -181,11 +192,11 @@ fn judged(
         worst_error: outcome.worst_error_m,
         seconds: outcome.simulated_s,
         milliseconds,
-        trouble: None,
     })
 }
 
-pub(super) const fn ending(ending: Ending) -> &'static str {
+/// The word for an ending, as rows and the journal have it.
+pub const fn ending(ending: Ending) -> &'static str {
     match ending {
         Ending::Arrived => "arrived",
         Ending::NoWay => "no_way",

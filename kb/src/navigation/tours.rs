@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
+use super::missions::refuse;
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Error, Result};
 
@@ -39,9 +40,6 @@ pub struct Driven {
     pub worst_reckoned_error: f64,
     /// Degrees by the wheels alone.
     pub reckoned_heading_error: f64,
-    /// What the rules did not say.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub trouble: Option<String>,
     #[serde(skip)]
     wrong: Vec<Wrong>,
 }
@@ -76,14 +74,14 @@ pub fn drive(
         let wrong = tour
             .run(&known.walls, of_robot, &outfit, &mut judge)
             .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
-        let trouble = judge.trouble().map(str::to_owned);
-        Ok(Driven::new(seed, is_known, trouble, wrong))
+        refuse(judge.trouble())?;
+        Ok(Driven::new(seed, is_known, wrong))
     };
     drives.par_iter().map(one).collect()
 }
 
 impl Driven {
-    fn new(seed: u64, is_known: bool, trouble: Option<String>, wrong: Vec<Wrong>) -> Self {
+    fn new(seed: u64, is_known: bool, wrong: Vec<Wrong>) -> Self {
         let median = |of: fn(&Wrong) -> f64| median(&wrong, &of);
         let worst = |of: fn(&Wrong) -> f64| wrong.iter().map(of).fold(0.0, f64::max);
         Self {
@@ -96,7 +94,6 @@ impl Driven {
             reckoned_error: median(|wrong| wrong.reckoned_m),
             worst_reckoned_error: worst(|wrong| wrong.reckoned_m),
             reckoned_heading_error: median(|wrong| wrong.reckoned_heading).to_degrees(),
-            trouble,
             wrong,
         }
     }

@@ -6,10 +6,12 @@ use std::sync::Arc;
 use adit_db::Store;
 use adit_db::mission::{Decision, Which};
 use adit_engine::Datum;
+use adit_planners::navigation::Ending;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
+use super::missions::ending as word_of;
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::plan::Spoke;
@@ -23,6 +25,8 @@ pub struct Answer {
     pub world: String,
     /// The number of the mission.
     pub mission: i64,
+    /// How it ended: `arrived`, `no_way` or `gave_up`.
+    pub ending: &'static str,
     /// The entry of the journal.
     pub entry: i64,
     /// Seconds by the robot's clock.
@@ -49,11 +53,11 @@ pub struct Answer {
 /// A time that people write may be less than the one of the journal by so much.
 const ROUNDED_S: f64 = 0.005;
 
-/// Asks why a robot stopped.
+/// Asks why a robot stopped for good.
 ///
 /// # Arguments
 /// `world` may be left out where the database has missions of one only; `at` are seconds: the decision that was in force
-/// then, instead of the last one that ended a move. `rules` stands instead of the rule base that the mission had.
+/// then, instead of the last one of the mission. `rules` stands instead of the rule base that the mission had.
 pub fn why(
     database: &Path,
     mission: &str,
@@ -68,10 +72,8 @@ pub fn why(
     if let Some(at) = at.filter(|at| !at.is_finite()) {
         return Err(Error::said("why/time", format!("--at {at} is no time; expected seconds"), None));
     }
-    // times are read from tables, where they are rounded
-    let which = at.map_or(Which::LastFrom("move"), |at| Which::At(at + ROUNDED_S));
     let mut store = Store::open_read_only(database)?;
-    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<(Decision, &'static str)>)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;
         let (count, first, last) = tx.numbers_of_missions(&world)?;
         if !(first..=last).contains(&number) {
@@ -79,21 +81,23 @@ pub fn why(
                 format!("{world} has no mission {number}; its {count} are numbered {first} to {last}");
             return Err(Error::said("why/no-mission", message, None));
         }
-        let found = tx.decision(&world, number, which)?;
-        Ok((world, found))
-    })?;
-    let Some(decision) = found else {
-        let message = match at {
-            None => format!(
-                "the robot of mission {number} of {world} never moved, so it did not stop; --at SECONDS asks about another moment"
-            ),
-            Some(at) => {
-                format!("mission {number} of {world} had decided nothing yet at {} s", self::number(at))
-            }
+        let Some(last) = tx.decision(&world, number, Which::At(f64::INFINITY))? else {
+            return Ok((world, None));
         };
+        let ending = ending(&last);
+        let asked = match at {
+            // Times are read from tables, where they are rounded.
+            Some(at) => tx.decision(&world, number, Which::At(at + ROUNDED_S))?,
+            None => Some(last),
+        };
+        Ok((world, asked.map(|decision| (decision, ending))))
+    })?;
+    let Some((decision, ending)) = found else {
+        let when = at.map_or_else(String::new, |at| format!(" yet at {} s", self::number(at)));
+        let message = format!("mission {number} of {world} had decided nothing{when}");
         return Err(Error::said("why/no-stop", message, None));
     };
-    explained(world, number, decision, rules)
+    explained((world, number, ending), decision, rules)
 }
 
 fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result<String> {
@@ -125,24 +129,48 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
     }
 }
 
-fn explained(world: String, mission: i64, decision: Decision, rules: Option<&Path>) -> Result<Answer> {
+/// How a mission ended, by its last decision: a robot that holds where its goal is has arrived.
+fn ending(last: &Decision) -> &'static str {
+    let facts = facts(last);
+    let number = |name: &str| facts.get(name).and_then(Value::as_f64);
+    let is_there = number("distance").zip(number("goal_tolerance")).is_some_and(|(far, near)| far <= near);
+    match (last.next.as_str(), last.action.as_str()) {
+        (_, "no way") => word_of(Ending::NoWay),
+        ("hold", _) if is_there => word_of(Ending::Arrived),
+        _ => word_of(Ending::OutOfPatience),
+    }
+}
+
+/// What the rules were told.
+fn facts(decision: &Decision) -> Map<String, Value> {
+    decision.detail.as_deref().and_then(|detail| serde_json::from_str(detail).ok()).unwrap_or_default()
+}
+
+fn explained(
+    (world, mission, ending): (String, i64, &'static str),
+    decision: Decision,
+    rules: Option<&Path>,
+) -> Result<Answer> {
     let instead = rules.map(|rules| rules.display().to_string());
     let name = instead.unwrap_or_else(|| decision.rules.clone());
     let base = Arc::new(rules::found(Kind::Navigation, &name, Path::new(""))?.base);
     let mut judge =
         RuleJudge::new(&base).map_err(|error| Error::said("why/rules", error.to_string(), None))?;
-    let facts: Map<String, Value> =
-        decision.detail.as_deref().and_then(|detail| serde_json::from_str(detail).ok()).unwrap_or_default();
+    let facts = facts(&decision);
     let (said, considered) = judge.consider(|name| match facts.get(name) {
         Some(Value::Number(number)) => number.as_f64().into(),
         Some(Value::String(text)) => Datum::Text(text),
         Some(Value::Bool(truth)) => Datum::Truth(*truth),
         _ => Datum::Unknown,
     });
+    if let Some(trouble) = judge.trouble() {
+        return Err(Error::said("why/rules", trouble.to_owned(), None));
+    }
     let was = [decision.next.clone(), decision.action.clone()];
     Ok(Answer {
         world,
         mission,
+        ending,
         entry: decision.entry,
         time: decision.time,
         at: decision.at,
@@ -164,6 +192,7 @@ impl Answer {
             "mission {} of {}, {:.2} s, at ({:.2}, {:.2}): {} -> {}{action}",
             self.mission, self.world, self.time, self.at[0], self.at[1], self.state, self.next
         )];
+        lines.push(format!("it ended: {}", self.ending.replace('_', " ")));
         if let Some([next, action]) = &self.now {
             lines.push(format!("the rules have changed since: now they say {next}, action {action}"));
         }

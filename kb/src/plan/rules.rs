@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use adit_engine::{RuleBase, Schema, Severity, Type};
+use adit_engine::{Consultation, Datum, RuleBase, Schema, Severity, Type};
 
 use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS};
 use crate::error::{Error, Result};
@@ -55,6 +55,15 @@ impl Kind {
                 .class("LANDMARKS", LANDMARKS)
                 .class("EDGES", EDGES),
         }
+    }
+}
+
+/// Asks rules about an object. A rule that fails says nothing of it, and the one below it would count in its stead: its
+/// failure becomes the `trouble`, where there is none yet.
+pub fn consult(consultation: &mut Consultation, object: &[Datum<'_>], trouble: &mut Option<String>) {
+    consultation.consult(object);
+    if trouble.is_none() {
+        *trouble = consultation.failure();
     }
 }
 

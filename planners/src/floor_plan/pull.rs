@@ -68,7 +68,8 @@ pub(super) fn straightened(way: Vec<Point>) -> Vec<Point> {
 
 /// The length of a way, metres.
 pub(super) fn length(way: &[Point]) -> f64 {
-    way.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
+    // A sum of nothing is -0.0.
+    way.windows(2).map(|leg| leg[0].distance(leg[1])).fold(0.0, |sum, leg| sum + leg)
 }
 
 #[cfg(test)]

@@ -102,7 +102,8 @@ fn lies_left(from: Point, to: Point, path: &[Point]) -> bool {
 
 /// The length of a path, metres.
 pub(super) fn length(points: &[Point]) -> f64 {
-    points.windows(2).map(|leg| leg[0].distance(leg[1])).sum()
+    // A sum of nothing is -0.0.
+    points.windows(2).map(|leg| leg[0].distance(leg[1])).fold(0.0, |sum, leg| sum + leg)
 }
 
 #[cfg(test)]

@@ -41,11 +41,11 @@ pub struct Driven {
     pub touches: usize,
     /// The deepest that anything was within the robot, metres; below 0 where there was always a gap.
     pub overlap_m: f64,
-    /// The orders to go somewhere that ended otherwise than there, by index.
-    pub in_vain: Vec<(usize, Ending)>,
+    /// The order to go somewhere that ended otherwise than there, by index; those after it were not followed.
+    pub in_vain: Option<(usize, Ending)>,
 }
 
-/// Drives a simulated robot from order to order.
+/// Drives a simulated robot from order to order, up to the first one to go somewhere that does not end there.
 ///
 /// # Arguments
 /// `walls` are those of the building, `known` is what the robot knows of it. `journal` gets every event.
@@ -64,6 +64,10 @@ pub fn drive(
     let mut drive = Drive { body, navigator, judge, journal, driven };
     for (index, order) in orders.iter().enumerate() {
         drive.follow(index, order);
+        // What comes next is meant for a robot that is there.
+        if drive.driven.in_vain.is_some() {
+            break;
+        }
     }
     let Drive { body, navigator, driven, .. } = drive;
     let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
@@ -100,7 +104,7 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
                     }
                 };
                 if ending != Ending::Arrived {
-                    self.driven.in_vain.push((index, ending));
+                    self.driven.in_vain = Some((index, ending));
                 }
             }
         }

@@ -182,3 +182,10 @@ fn in_manual_mode_the_user_drives_and_the_position_is_kept() {
     assert_eq!(navigator.run(&mut robot, &mut Table), Ending::Arrived);
     assert!(!robot.sense().is_busy);
 }
+
+#[test]
+fn a_robot_at_its_goal_looks_around_and_is_there() {
+    let run = run(&mission([2.0, 2.0], [2.0, 2.0], Vec::new()));
+    assert!(run.has_arrived(), "{}", run.told());
+    assert!(run.outcome.path_m < 0.01 && run.outcome.simulated_s < 60.0, "{}", run.told());
+}

@@ -81,6 +81,15 @@ fn robots_that_are_none() {
     }
     refused(&world("margin = 0.0", "margin = -0.1"), &["flat.toml:6", "must not be negative"]);
     refused(&told("[floor_plan.navigation]\nspeed = 0"), &["flat.toml:9", "must be more than 0"]);
+    for (times, found) in [("1.5", "is 1.5 and"), ("-1", "is -1 and"), ("1e10", "is 10000000000 and")] {
+        for key in ["most_waits", "most_detours", "most_retries", "most_back_offs"] {
+            refused(
+                &told(&format!("[floor_plan.navigation]\n{key} = {times}")),
+                &["flat.toml:9", key, found, "must be a whole number from 0 on"],
+            );
+        }
+    }
+    refused(&told("[floor_plan.navigation]\nno_way_after = -1"), &["flat.toml:9", "must not be negative"]);
     refused(&told("[floor_plan.navigation]\nspeeed = 1"), &["flat.toml:9", "did you mean `speed`"]);
 }
 

@@ -116,3 +116,43 @@ fn what_cannot_be_is_said() {
     folder.edit("flat.toml", "flat.json", "nowhere.json");
     run(&folder, "simulate", &[]).expect_status(2).complains(&["nowhere.json"]);
 }
+
+#[test]
+fn a_robot_that_is_at_its_goal_arrives_at_once() {
+    let folder = flat();
+    for (start, goal) in [("bed", "bed"), ("6.5,1.5", "desk")] {
+        let rows = run(&folder, "simulate", &[start, goal, "--json"]).expect_status(0).json();
+        let row = &rows[0];
+        assert_eq!((&row["ending"], &row["right"]), (&json!("arrived"), &json!(true)), "{row}");
+        assert!(row["seconds"].as_f64().is_some_and(|seconds| seconds < 60.0), "{row}");
+        assert_eq!(row["optimum"].to_string(), "0.0");
+        let table = run(&folder, "simulate", &[start, goal]).expect_status(0).stdout;
+        assert!(!table.contains("NaN") && !table.contains("inf"), "{table}");
+        let path = run(&folder, "plan", &[start, goal, "--json"]).expect_status(0).json();
+        assert_eq!(path["length"].to_string(), "0.0");
+    }
+}
+
+#[test]
+fn a_film_is_an_svg_or_it_is_refused_before_anything_is_run() {
+    let folder = flat();
+    for args in [&["bed", "bath"][..], &["--learn", "bed"]] {
+        let args = [args, &["--film", "film.png", "--db", "missions.db"]].concat();
+        run(&folder, "simulate", &args).expect_status(2).complains(&["film.png is no .svg"]);
+        for file in ["film.png", "missions.db"] {
+            assert!(!folder.path().join(file).exists(), "{file} was made");
+        }
+    }
+}
+
+#[test]
+fn a_robot_may_be_told_never_to_wait_nor_to_begin_anew() {
+    let folder = flat();
+    let figures = "most_waits = 0\nmost_detours = 0\nmost_retries = 0\nmost_back_offs = 0\nno_way_after = 0";
+    folder.write("flat.toml", format!("{}\n[floor_plan.navigation]\n{figures}\n", folder.read("flat.toml")));
+    run(&folder, "simulate", &["bath", "0,0", "--db", "missions.db"]).expect_status(0);
+    let count = |event: &str| {
+        sql(&folder, "missions.db", &format!("SELECT count(*) FROM journal WHERE event = '{event}'"))
+    };
+    assert_eq!((count("begun anew"), count("ended")), (vec!["0".to_owned()], vec!["1".to_owned()]));
+}

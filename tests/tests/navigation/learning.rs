@@ -58,6 +58,27 @@ fn a_flat_is_learned_kept_and_driven_in() {
 }
 
 #[test]
+fn a_drive_stops_at_the_first_order_that_fails_and_names_its_line() {
+    let folder = flat();
+    simulate(&folder, &["--learn", "bed", "--db", "flat.db"]).expect_status(0);
+    let drive = |orders: &str, args: &[&str]| {
+        folder.write("orders.txt", orders);
+        simulate(&folder, &[&["--learned", "--db", "flat.db", "--drive", "orders.txt"], args].concat())
+    };
+    // A robot that is where it is to go has a way.
+    let there = drive("start 1,1 0\ngo 1,1\n", &["--json"]).expect_status(0).json();
+    assert!(there["in_vain"].is_null(), "{there}");
+
+    let orders = "# by hand\n\nstart 1.5,1.5\nplace before\n\ngo 99,99 # far out\nplace after\n";
+    let ran = drive(orders, &[]).expect_status(1);
+    let said = "orders.txt:6: there is no way; the orders after it were not followed";
+    assert!(ran.stdout.contains(said), "{}", ran.stdout);
+    assert_eq!(sql(&folder, "SELECT group_concat(place) FROM learned_places"), "before");
+    let ran = drive(orders, &["--json"]).expect_status(1).json();
+    assert_eq!((&ran["in_vain"]["line"], &ran["in_vain"]["ending"]), (&6.into(), &"no_way".into()), "{ran}");
+}
+
+#[test]
 fn orders_that_are_wrong_are_shown_with_what_was_expected() {
     let folder = flat();
     simulate(&folder, &["--learn", "bed", "--db", "flat.db"]).expect_status(0);

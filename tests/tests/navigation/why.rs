@@ -9,6 +9,7 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
     let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
     for said in [
         "mission 1 of flat, ",
+        "it ended: arrived",
         ": move -> hold",
         "because of move, row 2 (line ",
         "execution.rhai",
@@ -18,6 +19,26 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
     ] {
         assert!(answer.contains(said), "`{said}` is not in:\n{answer}");
     }
+}
+
+#[test]
+fn a_mission_without_a_way_is_explained_by_what_said_so() {
+    let folder = flat();
+    // The first moves before there is no way any more, the other one has none from the beginning.
+    for args in [&["--missions", "1", "--seed", "2"][..], &["bath", "0,0"]] {
+        let args = [args, &["--db", "missions.db", "--json"]].concat();
+        let rows = run(&folder, "simulate", &args).expect_status(0).json();
+        assert_eq!(rows[0]["ending"], "no_way", "{rows}");
+        let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
+        for said in
+            [": blocked -> hold, no way", "it ended: no way", "because of blocked, row 6", "has_way false"]
+        {
+            assert!(answer.contains(said), "`{said}` is not in:\n{answer}");
+        }
+    }
+    // Another moment of it is another question.
+    let begun = on(&folder, "why", "missions.db", &["1", "--at", "0.5", "--json"]).expect_status(0).json();
+    assert_eq!((&begun["next"], &begun["ending"]), (&"wait".into(), &"no_way".into()), "{begun}");
 }
 
 #[test]

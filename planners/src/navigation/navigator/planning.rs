@@ -135,6 +135,10 @@ impl Navigator<'_> {
         self.legs.clear();
         if let Some(Route { points, length_m, is_off_network }) = route {
             self.legs.extend(points.iter().skip(1));
+            // A robot that stands at its goal has a path of one point, and still has to see that it is there.
+            if self.legs.is_empty() {
+                self.legs.push_back(goal);
+            }
             self.tell(Happening::Planned { points, length_m, is_off_network });
         }
         self.detours = None;
