@@ -2,7 +2,7 @@
 
 mod decision;
 
-pub use decision::{Decision, Which, decision, numbers, worlds};
+pub use decision::{Decision, decision, numbers, worlds};
 
 use sqlx::SqliteConnection;
 

@@ -10,6 +10,8 @@ use crate::transaction::Tx;
 pub struct Decision {
     /// The rule base of the mission.
     pub rules: String,
+    /// How the mission ended: `arrived`, `no_way` or `gave_up`.
+    pub ending: String,
     /// The number of the entry.
     pub entry: i64,
     /// Seconds by the robot's clock.
@@ -24,15 +26,6 @@ pub struct Decision {
     pub at: [f64; 2],
     /// What the rules were told, as JSON.
     pub detail: Option<String>,
-}
-
-/// Which decision.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Which {
-    /// The last one by which the robot left a state for another one.
-    LastFrom(&'static str),
-    /// The one in force so many seconds after the robot was switched on.
-    At(f64),
 }
 
 /// The worlds that have missions, sorted; none where there are no such tables.
@@ -56,28 +49,24 @@ pub async fn numbers(connection: &mut SqliteConnection, world: &str) -> Result<(
     Ok(numbers.bind(world).fetch_one(&mut *connection).await?)
 }
 
-/// A decision of a mission; `None` where its journal has none such.
+/// The decision of a mission that was in force so many seconds after the robot was switched on; `None` where none was yet.
 pub async fn decision(
     connection: &mut SqliteConnection,
     world: &str,
     mission: i64,
-    which: Which,
+    at: f64,
 ) -> Result<Option<Decision>> {
-    let (state, at) = match which {
-        Which::LastFrom(state) => (Some(state), None),
-        Which::At(seconds) => (None, Some(seconds)),
-    };
     let found = sqlx::query_as(
-        "SELECT missions.rules, entry, time, state, next, action, x, y, detail
+        "SELECT missions.rules, ending, entry, time, state, next, action, x, y, detail
          FROM journal JOIN missions USING (world, mission)
-         WHERE world = ? AND mission = ? AND event = 'state'
-           AND (?3 IS NULL OR state = ?3 AND next <> ?3) AND (?4 IS NULL OR time <= ?4)
+         WHERE world = ? AND mission = ? AND event = 'state' AND time <= ?
          ORDER BY entry DESC LIMIT 1",
     );
-    let found = found.bind(world).bind(mission).bind(state).bind(at);
+    let found = found.bind(world).bind(mission).bind(at);
     let found: Option<Columns> = found.fetch_optional(&mut *connection).await?;
-    Ok(found.map(|(rules, entry, time, state, next, action, x, y, detail)| Decision {
+    Ok(found.map(|(rules, ending, entry, time, state, next, action, x, y, detail)| Decision {
         rules,
+        ending,
         entry,
         time,
         state,
@@ -88,7 +77,7 @@ pub async fn decision(
     }))
 }
 
-type Columns = (String, i64, f64, String, String, String, f64, f64, Option<String>);
+type Columns = (String, String, i64, f64, String, String, String, f64, f64, Option<String>);
 
 impl Tx<'_> {
     /// The worlds that have missions.
@@ -101,8 +90,8 @@ impl Tx<'_> {
         self.run(async |connection| numbers(connection, world).await)
     }
 
-    /// A decision of a mission.
-    pub fn decision(&mut self, world: &str, mission: i64, which: Which) -> Result<Option<Decision>> {
-        self.run(async |connection| decision(connection, world, mission, which).await)
+    /// The decision of a mission that was in force so many seconds after the robot was switched on.
+    pub fn decision(&mut self, world: &str, mission: i64, at: f64) -> Result<Option<Decision>> {
+        self.run(async |connection| decision(connection, world, mission, at).await)
     }
 }

@@ -25,7 +25,10 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     draft.names("object", objects.iter().map(|(object, span)| (object.name.as_str(), span.clone())));
     draft.names("goal", goals.iter().map(|(goal, span)| (goal.name.as_str(), span.clone())));
     let objects: Vec<Object> = objects.into_iter().map(|(object, _)| object).collect();
-    draft.goals(&goals, &objects);
+    // An object that could not be read is not missing.
+    if draft.problems.is_empty() && problems.is_empty() {
+        draft.goals(&goals, &objects);
+    }
     let is_well = draft.problems.is_empty() && problems.is_empty();
     problems.append(&mut draft.problems);
     let goals = goals.into_iter().map(|(goal, _)| goal).collect();

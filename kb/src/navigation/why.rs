@@ -4,14 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::Store;
-use adit_db::mission::{Decision, Which};
+use adit_db::mission::Decision;
 use adit_engine::Datum;
-use adit_planners::navigation::Ending;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
-use super::missions::ending as word_of;
 use crate::error::{Error, Result};
 use crate::number::number;
 use crate::plan::Spoke;
@@ -26,7 +24,7 @@ pub struct Answer {
     /// The number of the mission.
     pub mission: i64,
     /// How it ended: `arrived`, `no_way` or `gave_up`.
-    pub ending: &'static str,
+    pub ending: String,
     /// The entry of the journal.
     pub entry: i64,
     /// Seconds by the robot's clock.
@@ -73,7 +71,7 @@ pub fn why(
         return Err(Error::said("why/time", format!("--at {at} is no time; expected seconds"), None));
     }
     let mut store = Store::open_read_only(database)?;
-    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<(Decision, &'static str)>)> {
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;
         let (count, first, last) = tx.numbers_of_missions(&world)?;
         if !(first..=last).contains(&number) {
@@ -81,23 +79,17 @@ pub fn why(
                 format!("{world} has no mission {number}; its {count} are numbered {first} to {last}");
             return Err(Error::said("why/no-mission", message, None));
         }
-        let Some(last) = tx.decision(&world, number, Which::At(f64::INFINITY))? else {
-            return Ok((world, None));
-        };
-        let ending = ending(&last);
-        let asked = match at {
-            // Times are read from tables, where they are rounded.
-            Some(at) => tx.decision(&world, number, Which::At(at + ROUNDED_S))?,
-            None => Some(last),
-        };
-        Ok((world, asked.map(|decision| (decision, ending))))
+        // Times are read from tables, where they are rounded.
+        let until = at.map_or(f64::INFINITY, |at| at + ROUNDED_S);
+        let found = tx.decision(&world, number, until)?;
+        Ok((world, found))
     })?;
-    let Some((decision, ending)) = found else {
+    let Some(decision) = found else {
         let when = at.map_or_else(String::new, |at| format!(" yet at {} s", self::number(at)));
         let message = format!("mission {number} of {world} had decided nothing{when}");
         return Err(Error::said("why/no-stop", message, None));
     };
-    explained((world, number, ending), decision, rules)
+    explained((world, number), decision, rules)
 }
 
 fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result<String> {
@@ -129,28 +121,12 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
     }
 }
 
-/// How a mission ended, by its last decision: a robot that holds where its goal is has arrived.
-fn ending(last: &Decision) -> &'static str {
-    let facts = facts(last);
-    let number = |name: &str| facts.get(name).and_then(Value::as_f64);
-    let is_there = number("distance").zip(number("goal_tolerance")).is_some_and(|(far, near)| far <= near);
-    match (last.next.as_str(), last.action.as_str()) {
-        (_, "no way") => word_of(Ending::NoWay),
-        ("hold", _) if is_there => word_of(Ending::Arrived),
-        _ => word_of(Ending::OutOfPatience),
-    }
-}
-
 /// What the rules were told.
 fn facts(decision: &Decision) -> Map<String, Value> {
     decision.detail.as_deref().and_then(|detail| serde_json::from_str(detail).ok()).unwrap_or_default()
 }
 
-fn explained(
-    (world, mission, ending): (String, i64, &'static str),
-    decision: Decision,
-    rules: Option<&Path>,
-) -> Result<Answer> {
+fn explained((world, mission): (String, i64), decision: Decision, rules: Option<&Path>) -> Result<Answer> {
     let instead = rules.map(|rules| rules.display().to_string());
     let name = instead.unwrap_or_else(|| decision.rules.clone());
     let base = Arc::new(rules::found(Kind::Navigation, &name, Path::new(""))?.base);
@@ -170,7 +146,7 @@ fn explained(
     Ok(Answer {
         world,
         mission,
-        ending,
+        ending: decision.ending,
         entry: decision.entry,
         time: decision.time,
         at: decision.at,
