@@ -104,6 +104,21 @@ impl RobotKind {
 }
 
 impl Cell {
+    /// Why a task is not kept: rows that are there already are another program's.
+    pub(super) fn not_kept(&self, error: adit_db::Error) -> Error {
+        match error {
+            adit_db::Error::Refused { reason, .. } => {
+                let message = format!(
+                    "another program keeps experience of {} in this database, too: {reason}",
+                    self.name
+                );
+                let help = "what it kept stands; run the task again, one program at a time".to_owned();
+                Error::said("plan/two-programs", message, Some(help))
+            }
+            other => other.into(),
+        }
+    }
+
     /// The cell once `tasks` are done: changed, if its change is due by then.
     #[must_use]
     pub fn after(&self, tasks: usize) -> Self {

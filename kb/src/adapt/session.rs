@@ -205,7 +205,7 @@ impl Session {
         let has_changed = is_new || task.is_some() || !step.object_changes.is_empty();
         step.tasks.extend(task);
         if has_changed {
-            store.transaction(|tx| tx.keep_step(&step))?;
+            store.transaction(|tx| tx.keep_step(&step)).map_err(|error| self.cell.not_kept(error))?;
         }
         Ok(())
     }

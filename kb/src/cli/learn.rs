@@ -43,6 +43,12 @@ pub fn run(
         remark(&format!("{}: how it was learned", file.display()));
     }
     if let Some(db) = &args.db {
+        let named = Store::open_or_create(db)?.snapshot(|tx| tx.learned(world))?;
+        if let Some(named) = named.filter(|learned| !learned.places.is_empty()) {
+            let names: Vec<&str> = named.places.iter().map(|(name, _)| name.as_str()).collect();
+            let message = "places that were named in what was learned before are gone";
+            remark(&format!("{}: {message}: {}", db.display(), names.join(", ")));
+        }
         keep_learned(db, &record, floor, rules)?;
     }
     if args.json {

@@ -108,6 +108,14 @@ fn kept(
     db: &Path,
 ) -> Result<Vec<Row>> {
     let mut store = Store::open_or_create(db)?;
+    let written_anew = store.snapshot(|tx| -> Result<i64> {
+        let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
+        Ok(if is_there { tx.numbers_of_missions(world)?.2.min(missions.len() as i64) } else { 0 })
+    })?;
+    if written_anew > 0 {
+        let what = format!("missions of {world} from an earlier run are written anew, 1 to {written_anew}");
+        remark(&format!("{}: {what}", db.display()));
+    }
     let bar = Bar::new("missions", missions.len() as u64);
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {

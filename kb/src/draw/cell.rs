@@ -51,6 +51,8 @@ const LONGEST: f64 = 620.0;
 const TITLE: f64 = 34.0;
 const EDGE: &str = "#3f8fd2";
 const SOLID: &str = "#c9ced6";
+const LEGEND: &str =
+    "objects grey; robot at start and goals; path dark; experience blue: subgoals as dots, edges as lines";
 
 /// The picture as a standalone SVG text. The same picture gives the same text.
 pub fn render_cell(picture: &CellPicture) -> String {
@@ -64,6 +66,8 @@ pub fn render_cell(picture: &CellPicture) -> String {
         below = below.max(frame.map.y + frame.map.h);
         (space, frame)
     });
+    // A narrow cell leaves room for what is written below it.
+    let right = right.max(2.0 * MARGIN + text::width(LEGEND, 12.0));
     page(&picture.title, (right, below + 2.0 * MARGIN), |svg| {
         write(
             svg,
@@ -78,8 +82,7 @@ pub fn render_cell(picture: &CellPicture) -> String {
             write(svg, (frame.map.x, top - 8.0), 13.0, GREY, "configuration space");
             svg.group("configurations", |svg| configurations(svg, space, &frame));
         }
-        let legend = "objects grey; robot at start and goals; path dark; experience blue: subgoals as dots, edges as lines";
-        write(svg, (MARGIN, below + MARGIN), 12.0, GREY, legend);
+        write(svg, (MARGIN, below + MARGIN), 12.0, GREY, LEGEND);
     })
 }
 

@@ -1,9 +1,10 @@
 //! A program that is killed in the middle leaves the experience whole, and learning goes on.
 
+use std::process::Command;
 use std::thread::sleep;
 use std::time::Duration;
 
-use super::support::{cell, command, experience, run, sql};
+use super::support::{cell, command, experience, learn, run, sql};
 
 #[test]
 fn kill_9_loses_no_task_that_was_done() {
@@ -46,4 +47,19 @@ fn kill_9_loses_no_task_that_was_done() {
     run(&folder, &["plan", "cell.toml", "--db", "killed.db", "--tasks", "1", "--seed", "9"]).expect_status(0);
     run(&folder, &["plan", "cell.toml", "--db", "whole.db", "--tasks", &all, "--seed", "9"]).expect_status(0);
     assert_eq!(experience(&folder, "killed.db"), experience(&folder, "whole.db"));
+}
+
+#[test]
+fn a_task_that_another_program_kept_is_not_written_over() {
+    let folder = cell();
+    learn(&folder, &["load"]).expect_status(0);
+    let another = "INSERT INTO tasks (cell, task, goal, found, evaluations, solve_calls, reach_calls)
+                   VALUES ('cell', 2, 'load', 1, 0, 0, 0)";
+    let shell = Command::new("sqlite3").arg(folder.path().join("cell.db")).arg(another).status();
+    assert!(shell.expect("the sqlite3 shell is installed").success());
+    learn(&folder, &["unload"])
+        .expect_status(2)
+        .complains(&["another program keeps experience of cell in this database, too"]);
+    assert_eq!(sql(&folder, "cell.db", "SELECT goal FROM tasks WHERE task = 2"), ["load"]);
+    assert_eq!(sql(&folder, "cell.db", "SELECT tasks FROM cells"), ["1"]);
 }

@@ -18,6 +18,17 @@ fn a_path_leads_from_place_to_place_and_is_pulled_tight() {
 }
 
 #[test]
+fn missions_that_are_written_anew_are_said_to_be() {
+    let folder = flat();
+    let simulate =
+        |count| run(&folder, "simulate", &["--missions", count, "--db", "flat.db"]).expect_status(0);
+    let first = simulate("2");
+    assert!(!first.stderr.contains("written anew"), "{}", first.stderr);
+    simulate("1").complains(&["missions of flat from an earlier run are written anew, 1 to 1"]);
+    assert_eq!(sql(&folder, "flat.db", "SELECT count(*) FROM missions"), ["2"]);
+}
+
+#[test]
 fn missions_are_the_same_from_the_same_seed_and_end_as_they_should() {
     let rows =
         run(&flat(), "simulate", &["--missions", "6", "--seed", "3", "--json"]).expect_status(0).json();

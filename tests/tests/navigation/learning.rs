@@ -55,6 +55,11 @@ fn a_flat_is_learned_kept_and_driven_in() {
         .expect_status(0)
         .json();
     assert_eq!(rows[0]["ending"], "arrived", "{rows}");
+
+    // Learned again, it knows nothing of that name, and says so.
+    simulate(&folder, &["--learn", "bed", "--db", "flat.db"])
+        .expect_status(0)
+        .complains(&["places that were named in what was learned before are gone: by the wall"]);
 }
 
 #[test]
