@@ -29,6 +29,16 @@ fn what_no_arm_reaches_has_no_configuration() {
     assert_eq!(arm(&[1.0, 0.5, 0.5]).inverse(&Pose::new(4.0, 0.0, 0.0), 0, &[0.1, 0.1, 0.1]), None);
 }
 
+/// The pose of the tool at a configuration is reached again, from wherever it is looked for.
+fn is_found_again(arm: &Arm, at: &[f64], near: &[f64]) {
+    let tool = arm.tool(at);
+    let found = arm.inverse(&tool, arm.branch(at), near).expect("a configuration: there is one");
+    let reached = arm.tool(&found);
+    assert!(arm.admits(&found));
+    assert!(reached.at.distance(tool.at) < 1e-5);
+    assert!(crate::pose::wrapped(reached.heading - tool.heading).abs() < 1e-5);
+}
+
 proptest! {
     #[test]
     fn two_links_find_back_on_either_elbow(shoulder in -3.0..3.0_f64, elbow in -3.0..3.0_f64) {
@@ -43,19 +53,12 @@ proptest! {
         }
     }
 
-    /// Whatever the arm can do it is found again, from wherever it is looked for.
     #[test]
     fn three_links_find_any_pose_that_one_of_the_branches_reaches(
         at in prop::collection::vec(-2.9..2.9_f64, 3),
         near in prop::collection::vec(-2.9..2.9_f64, 3),
     ) {
-        let arm = arm(&[0.8, 0.6, 0.2]);
-        let tool = arm.tool(&at);
-        let found = arm.inverse(&tool, arm.branch(&at), &near).unwrap();
-        let reached = arm.tool(&found);
-        prop_assert!(arm.admits(&found));
-        prop_assert!(reached.at.distance(tool.at) < 1e-5);
-        prop_assert!(crate::pose::wrapped(reached.heading - tool.heading).abs() < 1e-5);
+        is_found_again(&arm(&[0.8, 0.6, 0.2]), &at, &near);
     }
 
     #[test]
@@ -63,13 +66,7 @@ proptest! {
         at in prop::collection::vec(-2.8..2.8_f64, 4),
         near in prop::collection::vec(-2.8..2.8_f64, 4),
     ) {
-        let arm = arm(&[0.8, 0.6, 0.4, 0.2]);
-        let tool = arm.tool(&at);
-        let found = arm.inverse(&tool, arm.branch(&at), &near).unwrap();
-        let reached = arm.tool(&found);
-        prop_assert!(arm.admits(&found));
-        prop_assert!(reached.at.distance(tool.at) < 1e-5);
-        prop_assert!(crate::pose::wrapped(reached.heading - tool.heading).abs() < 1e-5);
+        is_found_again(&arm(&[0.8, 0.6, 0.4, 0.2]), &at, &near);
     }
 
     #[test]
