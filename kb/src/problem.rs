@@ -1,5 +1,7 @@
 //! Problems as programs read them.
 
+use std::fmt;
+
 use miette::Severity;
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -25,6 +27,23 @@ pub struct Problem {
     pub end_column: Option<usize>,
     /// What to do about it.
     pub help: Option<String>,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, line, column, message, help, .. } = self;
+        let place =
+            [file.clone(), line.map(|line| line.to_string()), column.map(|column| column.to_string())];
+        for part in place.into_iter().flatten() {
+            write!(f, "{part}:")?;
+        }
+        let space = if file.is_some() { " " } else { "" };
+        write!(f, "{space}{message}")?;
+        match help {
+            Some(help) => write!(f, " ({help})"),
+            None => Ok(()),
+        }
+    }
 }
 
 impl Problem {

@@ -11,6 +11,7 @@ mod http;
 mod listen;
 mod meter;
 mod page;
+mod porter;
 pub(crate) mod role;
 mod routes;
 pub(crate) mod settings;
@@ -38,13 +39,7 @@ const FAREWELL: Duration = Duration::from_secs(10);
 /// # Arguments
 /// `ready` hears the address once requests are answered.
 pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<()> {
-    let tokens = Tokens::read(&token::file(&settings.folder))?;
-    if tokens.tokens.is_empty() && !settings.listen.ip().is_loopback() {
-        let message =
-            format!("{} can be reached from elsewhere, and the site has no tokens", settings.listen);
-        let help = "`adit token SITE add NAME --role tune` makes one".to_owned();
-        return Err(Error::said("serve/no-tokens", message, Some(help)));
-    }
+    let tokens = tokens(&settings)?;
     let mut live = Live::open(settings.open()?)?;
     live.share()?;
     live.prepare();
@@ -53,19 +48,40 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     let desk = desk::start(live, Arc::clone(&shared), waiting)?;
     let watcher = routes::start(Arc::clone(&shared))?;
     let served = listen::serve(&shared, ready);
+    let porter = porter::start(Arc::clone(&shared))?;
     shared.ending.send_replace(true);
     let began = Instant::now();
-    while !(desk.is_finished() && watcher.is_finished()) {
+    while !(desk.is_finished() && watcher.is_finished() && porter.is_finished()) {
         if began.elapsed() > FAREWELL {
             let message = "an edit was still at work and was broken off: nothing of it is kept";
             return Err(Error::said("serve/broken-off", message, None));
         }
         std::thread::sleep(Duration::from_millis(20));
     }
-    let (desk, watcher) = (desk.join(), watcher.join());
+    let (desk, watcher, porter) = (desk.join(), watcher.join(), porter.join());
     served?;
-    match (desk, watcher) {
-        (Ok(live), Ok(())) => live.unshare(),
+    match (desk, watcher, porter) {
+        (Ok(live), Ok(()), Ok(())) => live.unshare(),
         _ => Err(Error::said("serve/ended", "the service ended by a defect of its own", None)),
+    }
+}
+
+/// The tokens to begin with. Without them the service is for those on this machine alone: it neither listens to others,
+/// nor answers by the name that a proxy calls it by.
+fn tokens(settings: &Settings) -> Result<Option<Tokens>> {
+    let file = token::file(&settings.folder);
+    match Tokens::read(&file)? {
+        Some(tokens) if tokens.tokens.is_empty() => Err(token::none(&file)),
+        Some(tokens) => Ok(Some(tokens)),
+        None => {
+            let elsewhere = match settings.hosts.first() {
+                _ if !settings.listen.ip().is_loopback() => settings.listen.to_string(),
+                Some(name) => name.clone(),
+                None => return Ok(None),
+            };
+            let message = format!("{elsewhere} can be reached from elsewhere, and the site has no tokens");
+            let help = "`adit token SITE add NAME --role tune` makes one".to_owned();
+            Err(Error::said("serve/no-tokens", message, Some(help)))
+        }
     }
 }

@@ -3,15 +3,20 @@
 use std::io::{BufRead, BufReader, Lines, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
+use tempfile::NamedTempFile;
 
-use crate::{TestSite, adit};
+use crate::{Ran, TestSite, adit};
+
+/// How long the program may take to refuse to start.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 /// `adit serve` on a site; ends with it.
 pub struct Service {
     child: Child,
+    log: NamedTempFile,
     /// Its address: `127.0.0.1:4711`.
     pub address: String,
 }
@@ -29,12 +34,13 @@ impl Service {
 
     /// Serves the site with these arguments.
     pub fn start_with(site: &TestSite, arguments: &[&str]) -> Self {
+        let log = NamedTempFile::new().expect("a temporary file");
         let mut child = Command::new(adit())
             .arg("serve")
             .arg(site.path())
             .args(arguments)
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
+            .stderr(log.reopen().expect("a temporary file"))
             .spawn()
             .expect("adit starts");
         let mut line = String::new();
@@ -46,7 +52,36 @@ impl Service {
             .unwrap_or_else(|| panic!("`adit serve` said `{line}`"))
             .trim_end_matches('/')
             .to_owned();
-        Self { child, address }
+        Self { child, log, address }
+    }
+
+    /// What is printed where the service does not start.
+    ///
+    /// # Panics
+    /// Where it does.
+    pub fn refused(site: &TestSite, arguments: &[&str]) -> Ran {
+        let mut child = Command::new(adit())
+            .arg("serve")
+            .arg(site.path())
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("adit starts");
+        let began = Instant::now();
+        while child.try_wait().expect("it runs").is_none() {
+            if began.elapsed() > PATIENCE {
+                child.kill().expect("it runs");
+                panic!("`adit serve` {arguments:?} starts, and should not");
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        Ran::new(&child.wait_with_output().expect("it has ended"))
+    }
+
+    /// What it has said so far to whoever runs it.
+    pub fn log(&self) -> String {
+        std::fs::read_to_string(self.log.path()).expect("its log is there")
     }
 
     /// The page's address, with what comes behind: `#sql`.
@@ -76,10 +111,23 @@ impl Service {
 
     /// Live events, from now on.
     pub fn events(&self) -> Events {
+        self.events_as("Accept: text/event-stream")
+    }
+
+    /// Live events for whoever sends this header.
+    pub fn events_as(&self, header: &str) -> Events {
         let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
-        write!(stream, "GET /api/events HTTP/1.1\r\nHost: {}\r\n\r\n", self.address).expect("asked");
+        write!(stream, "GET /api/events HTTP/1.1\r\nHost: {}\r\n{header}\r\n\r\n", self.address)
+            .expect("asked");
         stream.set_read_timeout(Some(Duration::from_secs(15))).expect("a time");
         Events { lines: BufReader::new(stream).lines() }
+    }
+
+    /// Asks, and hangs up after a while without an answer.
+    pub fn hang_up(&self, method: &str, path: &str, body: &Value, after: Duration) {
+        let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
+        send(&mut stream, &self.address, &[], (method, path), Some(body)).expect("asked");
+        std::thread::sleep(after);
     }
 
     /// Asks, and gives the status and the answer's JSON.
@@ -118,6 +166,23 @@ impl Events {
         }
         panic!("the stream ends without an event `{name}`");
     }
+
+    /// Waits until the service ends the stream.
+    ///
+    /// # Panics
+    /// Where it does not for 15 seconds.
+    #[track_caller]
+    pub fn end(&mut self) {
+        let began = Instant::now();
+        for line in self.lines.by_ref() {
+            // a body in chunks ends with an empty one; signs of life come each 15 seconds
+            match line {
+                Ok(line) if line == "0" => return,
+                Ok(_) if began.elapsed() < Duration::from_secs(14) => {}
+                _ => panic!("the stream goes on"),
+            }
+        }
+    }
 }
 
 /// One request over a connection of its own; the status and the answer's JSON, or its text.
@@ -149,6 +214,19 @@ fn exchange_with(
     body: Option<&Value>,
 ) -> std::io::Result<String> {
     let mut stream = TcpStream::connect(address)?;
+    send(&mut stream, address, headers, (method, path), body)?;
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer)?;
+    Ok(answer)
+}
+
+fn send(
+    stream: &mut TcpStream,
+    address: &str,
+    headers: &[&str],
+    (method, path): (&str, &str),
+    body: Option<&Value>,
+) -> std::io::Result<()> {
     let body = match body {
         Some(Value::String(raw)) => raw.clone(),
         body => body.map(Value::to_string).unwrap_or_default(),
@@ -162,8 +240,5 @@ fn exchange_with(
         stream,
         "{method} {path} HTTP/1.1\r\n{headers}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
         body.len()
-    )?;
-    let mut answer = String::new();
-    stream.read_to_string(&mut answer)?;
-    Ok(answer)
+    )
 }

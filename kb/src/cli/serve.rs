@@ -5,6 +5,7 @@ use std::time::Duration;
 use super::output::{json, line, remark, table};
 use super::{ServeArgs, TokenArgs, TokenVerb};
 use crate::error::Result;
+use crate::problem::Problem;
 use crate::serve;
 use crate::serve::settings::Settings;
 use crate::serve::token::{self, Tokens};
@@ -23,6 +24,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         requests: args.requests,
         subscribers: args.subscribers,
     };
+        log: remark,
     let name = Site::open(&settings.folder)?.name;
     serve::run(settings, |address| {
         line(&format!("listening on http://{address}/"));
@@ -34,7 +36,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
 pub fn token(args: &TokenArgs) -> Result<()> {
     let folder = Site::open(&args.site)?.folder;
     let file = token::file(&folder);
-    let mut tokens = Tokens::read(&file)?;
+    let mut tokens = Tokens::read(&file)?.unwrap_or_default();
     match &args.verb {
         TokenVerb::Add { name, roles } => {
             let text = tokens.add(name, roles)?;
@@ -47,6 +49,12 @@ pub fn token(args: &TokenArgs) -> Result<()> {
             tokens.write(&file)?;
             remark(&format!("the token of `{name}` is void"));
         }
+            if tokens.tokens.is_empty() {
+                remark("that was the last token");
+                for problem in Problem::all(token::none(&file).problems()) {
+                    remark(&problem.to_string());
+                }
+            }
         TokenVerb::List if args.json => {
             let of = |token: &token::Token| serde_json::json!({"name": token.name, "roles": token.roles});
             json(&tokens.tokens.iter().map(of).collect::<Vec<_>>())?;

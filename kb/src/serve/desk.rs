@@ -11,9 +11,8 @@ use adit_db::history::Author;
 use adit_db::tree::TreeRow;
 use jiff::Timestamp;
 
-use super::event::{Changed, Event, Problems};
-use super::shared::{Job, Seen, Shared};
-use super::token::{self, Tokens};
+use super::event::{Changed, Event};
+use super::shared::{Job, Seen, Shared, Source};
 use crate::clock::stored;
 use crate::edit::Edit;
 use crate::error::{Error, Result};
@@ -78,9 +77,8 @@ pub fn seen(live: &Live) -> Seen {
 /// Works until the service ends; gives the site back.
 pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thread::JoinHandle<Live>> {
     let work = move || {
-        let eye = Eye::with(vec![token::file(&shared.settings.folder)]);
-        let mut desk =
-            Desk { database: identity(live.site().database()), live, shared, eye, looked: None, taken: None };
+        let database = identity(live.site().database());
+        let mut desk = Desk { database, live, shared, eye: Eye::default(), looked: None, taken: None };
         desk.taken = Some(desk.look());
         desk.work(&jobs);
         desk.live
@@ -203,10 +201,6 @@ impl Desk {
     /// Takes files as they now are. Those that cannot be used are said, and all stays as it was.
     fn take_files(&mut self) {
         let settings = &self.shared.settings;
-        match Tokens::read(&token::file(&settings.folder)) {
-            Ok(tokens) => self.shared.tokens.store(Arc::new(tokens)),
-            Err(error) => return self.report(Err(error), &Cause::itself("files", "")),
-        }
         let outcome = settings.open().and_then(|site| self.live.open_again(site));
         if outcome.is_ok() {
             self.say_problems(Vec::new());
@@ -231,9 +225,6 @@ impl Desk {
     }
 
     fn say_problems(&mut self, problems: Vec<Problem>) {
-        if **self.shared.problems.load() != problems {
-            self.shared.problems.store(Arc::new(problems.clone()));
-            self.shared.say(Event::new("problems", &Problems { problems }));
-        }
+        self.shared.say_problems(Source::Site, problems);
     }
 }

@@ -73,20 +73,20 @@ fn check_origin(headers: &HeaderMap) -> Answered<()> {
     Err(Fault::new(StatusCode::FORBIDDEN, "auth/origin", "a page from elsewhere may not call this service"))
 }
 
-fn caller(shared: &Shared, headers: &HeaderMap) -> Answered<Caller> {
-    let tokens = shared.tokens.load();
+/// Who asks, by the token that is sent.
+pub fn caller(shared: &Shared, headers: &HeaderMap) -> Answered<Caller> {
+    let tokens = shared.tokens.borrow();
     let given = headers.get(header::AUTHORIZATION).map(|value| value.to_str().unwrap_or_default());
     let token = given.map(|value| value.strip_prefix("Bearer ").unwrap_or_default());
     let unauthorized = |code: &str, message: &str| Fault::new(StatusCode::UNAUTHORIZED, code, message);
-    match token {
-        Some(token) => match tokens.holder(token.trim()) {
-            Some(caller) => Ok(caller),
-            // who sends a token wants to be known: nobody is taken for somebody else
-            None => Err(unauthorized("auth/token-unknown", "nobody holds this token")),
-        },
-        None if tokens.tokens.is_empty() => Ok(Caller { name: said(headers), roles: vec![Role::Admin] }),
-        None => Err(unauthorized("auth/token-missing", "this site asks for a token")
+    match (token, tokens.as_ref()) {
+        // who sends a token wants to be known: nobody is taken for somebody else
+        (Some(token), tokens) => tokens
+            .and_then(|tokens| tokens.holder(token.trim()))
+            .ok_or_else(|| unauthorized("auth/token-unknown", "nobody holds this token")),
+        (None, Some(_)) => Err(unauthorized("auth/token-missing", "this site asks for a token")
             .helped("send it as `Authorization: Bearer TOKEN`; `adit token SITE add NAME` makes one")),
+        (None, None) => Ok(Caller { name: said(headers), roles: vec![Role::Admin] }),
     }
 }
 

@@ -30,6 +30,8 @@ pub struct Settings {
     pub subscribers: usize,
 }
 
+    /// Hears what whoever runs the service should know.
+    pub log: fn(&str),
 impl Settings {
     /// The site, opened as its files now are.
     pub fn open(&self) -> Result<KnowledgeBase> {

@@ -1,5 +1,6 @@
 //! What all requests share: the view that they read, the way to the one who writes, and the stream of events.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -11,7 +12,7 @@ use parking::Readers;
 use tokio::sync::{Semaphore, broadcast, oneshot, watch};
 
 use super::desk::Desk;
-use super::event::Event;
+use super::event::{Event, Problems};
 use super::fault::{Answered, Fault};
 use super::settings::Settings;
 use super::token::Tokens;
@@ -30,10 +31,8 @@ pub struct Shared {
     pub settings: Settings,
     /// The site after the last edit.
     pub view: ArcSwap<Seen>,
-    /// Who may do what; none: whoever reaches the service may do all.
-    pub tokens: ArcSwap<Tokens>,
-    /// What is wrong with files that were saved; the site goes on with those of before.
-    pub problems: ArcSwap<Vec<Problem>>,
+    /// Who may do what; `None`: whoever reaches the service may do all.
+    pub tokens: watch::Sender<Option<Tokens>>,
     /// What subscribers hear.
     pub events: broadcast::Sender<Arc<Event>>,
     /// Turns true when the service ends.
@@ -48,6 +47,16 @@ pub struct Shared {
     subscribers: AtomicUsize,
 }
 
+    problems: Mutex<BTreeMap<Source, Vec<Problem>>>,
+}
+
+/// Where problems come from. Those of one source do not wipe out those of another.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Source {
+    /// The file of tokens.
+    Tokens,
+    /// The site: its rules, map, settings, tables.
+    Site,
 /// The site after an edit, and when that was.
 pub struct Seen {
     /// The site.
@@ -66,13 +75,13 @@ const BACKLOG: usize = 256;
 
 impl Shared {
     /// Of a site that was just opened.
-    pub fn new(settings: Settings, seen: Seen, tokens: Tokens, jobs: SyncSender<Job>) -> Self {
+    pub fn new(settings: Settings, seen: Seen, tokens: Option<Tokens>, jobs: SyncSender<Job>) -> Self {
         Self {
             shown: (Mutex::new(seen.view.generation()), Condvar::new()),
             readers: Readers::new(seen.view.site().database()),
             view: ArcSwap::from_pointee(seen),
-            tokens: ArcSwap::from_pointee(tokens),
-            problems: ArcSwap::default(),
+            tokens: watch::channel(tokens).0,
+            problems: Mutex::default(),
             events: broadcast::channel(BACKLOG).0,
             ending: watch::channel(false).0,
             subscribers: AtomicUsize::new(0),
@@ -164,6 +173,28 @@ impl Shared {
         let subscription = Subscription { shared: Arc::clone(self), events: self.events.subscribe() };
         (taken < self.settings.subscribers).then_some(subscription)
     }
+    /// What is wrong with files that were saved; the service goes on with those of before.
+    pub fn problems(&self) -> Vec<Problem> {
+        let problems = self.problems.lock().unwrap_or_else(PoisonError::into_inner);
+        problems.values().flatten().cloned().collect()
+    }
+
+    /// Tells subscribers and the log what is wrong now with what comes from there, unless they know.
+    pub fn say_problems(&self, source: Source, found: Vec<Problem>) {
+        let mut problems = self.problems.lock().unwrap_or_else(PoisonError::into_inner);
+        if problems.get(&source).is_some_and(|known| *known == found) {
+            return;
+        }
+        for problem in &found {
+            (self.settings.log)(&problem.to_string());
+        }
+        let was_wrong = problems.insert(source, found).is_some_and(|known| !known.is_empty());
+        let problems: Vec<Problem> = problems.values().flatten().cloned().collect();
+        if was_wrong || !problems.is_empty() {
+            self.say(Event::new("problems", &Problems { problems }));
+        }
+    }
+
 
     /// How many subscribers there are.
     pub fn subscribed(&self) -> usize {

@@ -43,16 +43,37 @@ pub fn file(folder: &Path) -> PathBuf {
     folder.join(FILE)
 }
 
+/// What the file holds, or why it cannot be read.
+pub type Text = std::result::Result<String, io::ErrorKind>;
+
+/// What the file holds now.
+pub fn text(file: &Path) -> Text {
+    fs::read_to_string(file).map_err(|error| error.kind())
+}
+
+/// That nobody can come in.
+pub fn none(file: &Path) -> Error {
+    let message = format!("there is no token in {}: nobody is let in", file.display());
+    let help = "`adit token SITE add NAME` makes one; a service that is started without this file lets in whoever \
+                reaches this machine";
+    Error::said("tokens/none", message, Some(help.to_owned()))
+}
+
 impl Tokens {
-    /// Reads the file; none is no tokens.
-    pub fn read(file: &Path) -> Result<Self> {
-        match fs::read_to_string(file) {
-            Ok(text) => toml::from_str(&text).map_err(|error| {
+    /// Reads the file; `None` where there is none, so that no token is needed.
+    pub fn read(file: &Path) -> Result<Option<Self>> {
+        Self::of(file, &text(file))
+    }
+
+    /// The tokens that a file's text holds.
+    pub fn of(file: &Path, text: &Text) -> Result<Option<Self>> {
+        match text {
+            Ok(text) => toml::from_str(text).map(Some).map_err(|error| {
                 let message = format!("{}: {}", file.display(), error.message());
                 Error::said("tokens/unreadable", message, Some("`adit token` writes this file".to_owned()))
             }),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
-            Err(error) => Err(Error::io("read", file, &error)),
+            Err(io::ErrorKind::NotFound) => Ok(None),
+            Err(kind) => Err(Error::io("read", file, &(*kind).into())),
         }
     }
 

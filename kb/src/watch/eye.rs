@@ -21,16 +21,9 @@ pub struct Eye {
     files: Vec<PathBuf>,
     database: PathBuf,
     read: BTreeMap<PathBuf, (Stamp, Option<u64>)>,
-    /// Files besides those that the site names.
-    more: Vec<PathBuf>,
 }
 
 impl Eye {
-    /// An eye that looks at further files, too.
-    pub fn with(more: Vec<PathBuf>) -> Self {
-        Self { more, ..Self::default() }
-    }
-
     /// What the files hold now.
     pub fn look(&mut self, open: &dyn Fn() -> Result<KnowledgeBase>) -> Files {
         // a broken site.toml leaves the files to be watched that it named before
@@ -40,7 +33,7 @@ impl Eye {
         } else if let Some(file) = self.files.first() {
             self.read.remove(file);
         }
-        let files: Vec<PathBuf> = self.files.iter().chain(&self.more).cloned().collect();
+        let files = self.files.clone();
         let content = |file: PathBuf| {
             let content = self.content(&file);
             (file, content)

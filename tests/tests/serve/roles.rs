@@ -1,6 +1,10 @@
 //! Who may do what.
 
+use std::fs;
+use std::time::Duration;
+
 use adit_tests::TestSite;
+use adit_tests::lock::Lock;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
@@ -58,6 +62,147 @@ fn a_token_that_is_taken_away_is_void_within_a_second() {
     assert_eq!(ask(), 200);
     site.adit("token", &["remove", "anna"]).expect_status(0);
     crate::within_a_second(|| ask() == 401);
+}
+
+/// A token went, and with it the way in: `tokens.toml` emptied by an editor, cut off by a full disk, commented out, removed
+/// with its folder's other settings, or its last token taken away. Each of them made everybody an admin.
+#[test]
+fn a_service_that_asked_for_tokens_stays_closed_when_none_is_left_and_says_so() {
+    let ways: [(&str, fn(&TestSite)); 5] = [
+        ("emptied", |site| site.write("tokens.toml", "")),
+        ("cut off", |site| {
+            let text = site.read("tokens.toml");
+            site.write("tokens.toml", &text[..=text.find('\n').unwrap()]);
+        }),
+        ("commented out", |site| {
+            let text = site.read("tokens.toml");
+            site.write("tokens.toml", format!("# {}", text.replace('\n', "\n# ")));
+        }),
+        ("gone", |site| fs::remove_file(site.path().join("tokens.toml")).unwrap()),
+        ("its last token removed", |site| {
+            let said = site.adit("token", &["remove", "anna"]).expecting(0);
+            said.complains(&["that was the last token", "nobody is let in"]);
+        }),
+    ];
+    for (how, take_away) in ways {
+        let site = TestSite::example("paper").built();
+        let anna = token(&site, "anna", &["admin"]);
+        let service = Service::start(&site);
+        let as_anna = |token: &str| service.ask_as(&[token], "GET", "/api/site", None).0;
+        assert_eq!(as_anna(&anna), 200);
+        take_away(&site);
+        crate::within_a_second(|| as_anna(&anna) == 401);
+        let (status, refused) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+        assert_eq!((status, refused["error"]["code"].as_str()), (401, Some("auth/token-missing")), "{how}");
+        crate::within_a_second(|| service.log().contains("nobody is let in"));
+        // a new token opens it again, to its holder
+        let ben = token(&site, "ben", &["read"]);
+        crate::within_a_second(|| as_anna(&ben) == 200);
+        assert_eq!(service.ask("GET", "/api/site", None).0, 401, "{how}");
+    }
+}
+
+#[test]
+fn a_service_that_got_its_first_token_while_it_ran_stays_closed_too() {
+    let (site, service) = served("paper");
+    let ask = || service.ask("GET", "/api/site", None).0;
+    assert_eq!(ask(), 200);
+    token(&site, "anna", &["read"]);
+    crate::within_a_second(|| ask() == 401);
+    fs::remove_file(site.path().join("tokens.toml")).unwrap();
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(ask(), 401);
+}
+
+#[test]
+fn a_file_of_tokens_that_cannot_be_read_lets_in_whom_it_let_in_before_and_is_said() {
+    let site = TestSite::example("paper").built();
+    let anna = token(&site, "anna", &["read"]);
+    let service = Service::start(&site);
+    let good = site.read("tokens.toml");
+    site.write("tokens.toml", good.replace("sha256", "sha257"));
+    crate::within_a_second(|| service.log().contains("sha257"));
+    let (status, seen) = service.ask_as(&[&anna], "GET", "/api/site", None);
+    assert_eq!((status, &seen["problems"][0]["code"]), (200, &json!("tokens/unreadable")), "{seen}");
+    assert_eq!(service.ask("GET", "/api/site", None).0, 401);
+    // a map that is saved meanwhile is taken, and does not wipe out the word about the tokens
+    let mut events = service.events_as(&anna);
+    events.next("hello");
+    site.edit("map.toml", "height = 15.0", "height = 9.0");
+    events.next("changed");
+    let seen = service.ask_as(&[&anna], "GET", "/api/site", None).1;
+    assert_eq!(seen["problems"][0]["code"], "tokens/unreadable", "{seen}");
+    site.write("tokens.toml", good);
+    crate::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).1["problems"] == json!([]));
+}
+
+#[test]
+fn a_file_without_tokens_is_no_open_door_at_the_next_start() {
+    let site = TestSite::example("paper").built();
+    token(&site, "anna", &["read"]);
+    site.adit("token", &["remove", "anna"]).expect_status(0);
+    for text in [site.read("tokens.toml"), String::new()] {
+        site.write("tokens.toml", text);
+        let refused = Service::refused(&site, &["--listen", "127.0.0.1:0"]).expecting(2);
+        refused.complains(&["there is no token in", "tokens.toml", "nobody is let in", "adit token"]);
+    }
+    site.write("tokens.toml", "[[token]\n");
+    Service::refused(&site, &["--listen", "127.0.0.1:0"]).expecting(2).complains(&["tokens.toml"]);
+}
+
+/// A service that is called by another name is reached through a proxy on this machine: who listens is not who asks.
+#[test]
+fn without_tokens_it_is_not_called_by_other_names() {
+    let site = TestSite::example("paper").built();
+    let refused =
+        Service::refused(&site, &["--listen", "127.0.0.1:0", "--host", "adit.example"]).expecting(2);
+    refused.complains(&["adit.example", "the site has no tokens", "adit token"]);
+}
+
+#[test]
+fn who_may_come_in_does_not_wait_for_an_edit_that_takes_long() {
+    let site = TestSite::example("paper").built();
+    let anna = token(&site, "anna", &["tune"]);
+    let service = Service::start(&site);
+    let lock = Lock::hold(&site);
+    std::thread::scope(|scope| {
+        let edit =
+            scope.spawn(|| service.ask_as(&[&anna], "POST", "/api/edits", Some(&hardness("SQUAT", 3.0))));
+        std::thread::sleep(Duration::from_millis(300));
+        site.adit("token", &["remove", "anna"]).expect_status(0);
+        crate::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).0 == 401);
+        assert!(!edit.is_finished(), "the edit still waits for the database");
+        drop(lock);
+        assert_eq!(edit.join().unwrap().0, 200, "what was begun with a good token is done");
+    });
+}
+
+#[test]
+fn a_token_that_is_taken_away_while_rules_are_saved_is_void_all_the_same() {
+    let site = TestSite::example("paper");
+    site.copy_rules_and_tests("paper");
+    let site = site.built();
+    let (anna, ben) = (token(&site, "anna", &["rules"]), token(&site, "ben", &["read"]));
+    let service = Service::start(&site);
+    let (_, rules) = service.ask_as(&[&anna], "GET", "/api/rules", None);
+    let file = rules["files"].as_array().unwrap().iter().find(|file| file["file"] == "doors.rhai").unwrap();
+    let text = format!("{}\n// saved once more\n", file["text"].as_str().unwrap());
+    let save = json!({"text": text, "version": file["version"]});
+    site.adit("token", &["remove", "ben"]).expect_status(0);
+    assert_eq!(service.ask_as(&[&anna], "PUT", "/api/rules/doors.rhai", Some(&save)).0, 200);
+    crate::within_a_second(|| service.ask_as(&[&ben], "GET", "/api/site", None).0 == 401);
+}
+
+#[test]
+fn a_stream_of_events_ends_with_the_token_that_opened_it() {
+    let site = TestSite::example("paper").built();
+    let anna = token(&site, "anna", &["read"]);
+    token(&site, "ben", &["read"]);
+    let service = Service::start(&site);
+    let mut events = service.events_as(&anna);
+    events.next("hello");
+    site.adit("token", &["remove", "anna"]).expect_status(0);
+    events.end();
 }
 
 #[test]

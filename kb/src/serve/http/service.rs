@@ -79,7 +79,7 @@ pub async fn site(axum::extract::State(shared): Site, caller: Caller) -> Json<Si
         roles: caller.allowed(),
         who: caller.name,
         changed_at: seen.since.clone(),
-        problems: shared.problems.load().to_vec(),
+        problems: shared.problems(),
         shipped_rules: view.site().rule_folder().is_none(),
         routes_due: view.routes_due(),
         notes: seen.notes.clone(),
