@@ -598,6 +598,9 @@ pub struct ServeArgs {
     /// Rows that one SQL query may give
     #[arg(long, value_name = "ROWS", default_value_t = 100_000)]
     pub sql_rows: usize,
+    /// Seconds that an answer may take; an edit that has begun by then is waited for
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    pub answer_seconds: f64,
     /// Requests that are worked on at once; more are told to come back
     #[arg(long, value_name = "N", default_value_t = 1_024)]
     pub requests: usize,

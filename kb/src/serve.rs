@@ -17,6 +17,7 @@ mod routes;
 pub(crate) mod settings;
 mod shared;
 pub(crate) mod token;
+mod waiting;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
@@ -47,8 +48,8 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     let shared = Arc::new(Shared::new(settings, desk::seen(&live), tokens, jobs));
     let desk = desk::start(live, Arc::clone(&shared), waiting)?;
     let watcher = routes::start(Arc::clone(&shared))?;
-    let served = listen::serve(&shared, ready);
     let porter = porter::start(Arc::clone(&shared))?;
+    let served = listen::serve(&shared, ready);
     shared.ending.send_replace(true);
     let began = Instant::now();
     while !(desk.is_finished() && watcher.is_finished() && porter.is_finished()) {

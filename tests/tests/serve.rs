@@ -11,6 +11,8 @@ mod events;
 mod failures;
 #[path = "serve/follows.rs"]
 mod follows;
+#[path = "serve/late.rs"]
+mod late;
 #[path = "serve/roles.rs"]
 mod roles;
 #[path = "serve/rules.rs"]

@@ -21,10 +21,11 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         hosts: args.hosts.clone(),
         sql_deadline: Duration::from_secs_f64(args.sql_seconds),
         sql_rows: args.sql_rows,
+        patience: Duration::from_secs_f64(args.answer_seconds),
         requests: args.requests,
         subscribers: args.subscribers,
-    };
         log: remark,
+    };
     let name = Site::open(&settings.folder)?.name;
     serve::run(settings, |address| {
         line(&format!("listening on http://{address}/"));
@@ -48,13 +49,13 @@ pub fn token(args: &TokenArgs) -> Result<()> {
             tokens.remove(name)?;
             tokens.write(&file)?;
             remark(&format!("the token of `{name}` is void"));
-        }
             if tokens.tokens.is_empty() {
                 remark("that was the last token");
                 for problem in Problem::all(token::none(&file).problems()) {
                     remark(&problem.to_string());
                 }
             }
+        }
         TokenVerb::List if args.json => {
             let of = |token: &token::Token| serde_json::json!({"name": token.name, "roles": token.roles});
             json(&tokens.tokens.iter().map(of).collect::<Vec<_>>())?;

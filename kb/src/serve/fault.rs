@@ -72,6 +72,18 @@ impl Fault {
         Self::new(StatusCode::INTERNAL_SERVER_ERROR, "service/internal", message)
     }
 
+    /// An answer that takes too long; what was asked for is not begun, and will not be.
+    pub fn late() -> Self {
+        let message = "the answer took too long, and nothing was changed";
+        Self::new(StatusCode::SERVICE_UNAVAILABLE, "service/late", message)
+    }
+
+    /// The service ends before it came to what was asked for.
+    pub fn ending() -> Self {
+        let message = "the service ends, and nothing was changed";
+        Self::new(StatusCode::SERVICE_UNAVAILABLE, "service/ending", message)
+    }
+
     /// More is asked at once than can be answered.
     pub fn busy() -> Self {
         let message = "too much is asked at once; try again in a moment";

@@ -15,11 +15,14 @@ mod stream;
 mod tables;
 mod why;
 
+use std::convert::Infallible;
+use std::ops::Deref;
+use std::pin::pin;
 use std::sync::Arc;
-use std::time::Duration;
 
 use axum::body::Body;
-use axum::extract::DefaultBodyLimit;
+use axum::extract::{DefaultBodyLimit, FromRequestParts, State};
+use axum::http::request::Parts;
 use axum::http::{HeaderValue, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -28,28 +31,56 @@ use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
-use tower_http::timeout::TimeoutLayer;
 use utoipa::openapi::OpenApi;
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::fault::{Failure, Fault};
+use super::desk::Desk;
+use super::fault::{Answered, Failure, Fault};
 use super::shared::Shared;
+use super::waiting::Waiting;
 use super::{event, gate, meter, page};
 
 /// The longest body that is read, bytes.
 const BODY: usize = 2 << 20;
 
-/// The longest that one answer may take; streams begin within it.
-const TIMEOUT: Duration = Duration::from_mins(1);
-
 /// Scripts, styles and data come from here and nowhere else.
 const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; \
                       form-action 'self'; frame-ancestors 'none'";
 
-/// What every handler is given.
-type Site = axum::extract::State<Arc<Shared>>;
+/// What every handler is given: what all requests share, and whether this one is still waited for.
+pub struct Site {
+    shared: Arc<Shared>,
+    waiting: Waiting,
+}
+
+impl Site {
+    /// Has an edit made, if its turn comes while its caller waits.
+    async fn edit_at_desk<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.shared.edit_at_desk(&self.waiting, work).await
+    }
+}
+
+impl Deref for Site {
+    type Target = Arc<Shared>;
+
+    fn deref(&self) -> &Arc<Shared> {
+        &self.shared
+    }
+}
+
+impl FromRequestParts<Arc<Shared>> for Site {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, shared: &Arc<Shared>) -> Result<Self, Infallible> {
+        let waiting = parts.extensions.get().cloned().unwrap_or_default();
+        Ok(Self { shared: Arc::clone(shared), waiting })
+    }
+}
 
 /// All routes, and their description.
 fn described() -> (Router<Arc<Shared>>, OpenApi) {
@@ -139,7 +170,7 @@ pub fn router(shared: Arc<Shared>) -> Router {
         .layer(middleware::from_fn(shape))
         .layer(CatchPanicLayer::custom(|_| Fault::internal().into_response()))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), limit))
-        .layer(TimeoutLayer::with_status_code(StatusCode::SERVICE_UNAVAILABLE, TIMEOUT))
+        .layer(middleware::from_fn_with_state(Arc::clone(&shared), in_time))
         .layer(DefaultBodyLimit::max(BODY))
         .layer(middleware::from_fn_with_state(Arc::clone(&shared), gate::pass));
     Router::new()
@@ -165,12 +196,29 @@ async fn not_so() -> Fault {
 
 /// Refuses what is more than can be worked on at once.
 async fn limit(
-    axum::extract::State(shared): Site,
+    State(shared): State<Arc<Shared>>,
     request: Request<Body>,
     next: middleware::Next,
 ) -> Result<Response, Fault> {
     let Ok(_place) = shared.places.try_acquire() else { return Err(Fault::busy()) };
     Ok(next.run(request).await)
+}
+
+/// Refuses what is not answered in time. An edit that the desk has begun is waited for: it will be made, and its caller must
+/// not hear otherwise.
+async fn in_time(
+    State(shared): State<Arc<Shared>>,
+    mut request: Request<Body>,
+    next: middleware::Next,
+) -> Result<Response, Fault> {
+    let waiting = Waiting::default();
+    request.extensions_mut().insert(waiting.clone());
+    let mut answer = pin!(next.run(request));
+    match tokio::time::timeout(shared.settings.patience, &mut answer).await {
+        Ok(answer) => Ok(answer),
+        Err(_) if waiting.give_up() => Err(Fault::late()),
+        Err(_) => Ok(answer.await),
+    }
 }
 
 /// Gives failures of the layers below, which say them in words, the one shape of failures.
@@ -186,7 +234,6 @@ async fn shape(request: Request<Body>, next: middleware::Next) -> Response {
     }
     let (code, message) = match status {
         StatusCode::PAYLOAD_TOO_LARGE => ("service/too-large", format!("a body may have {BODY} bytes")),
-        StatusCode::SERVICE_UNAVAILABLE => ("service/late", "the answer took too long".to_owned()),
         _ => ("service/refused", status.canonical_reason().unwrap_or("refused").to_owned()),
     };
     Fault::new(status, code, message).into_response()

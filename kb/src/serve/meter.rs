@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use axum::extract::{MatchedPath, Request, State};
+use axum::extract::{MatchedPath, Request};
 use axum::middleware::Next;
 use axum::response::Response;
 use metrics::{counter, gauge, histogram};
@@ -35,7 +35,7 @@ pub async fn count(request: Request, next: Next) -> Response {
 }
 
 /// All that was counted, in Prometheus' text.
-pub fn text(State(shared): &State<Arc<Shared>>) -> String {
+pub fn text(shared: &Shared) -> String {
     let seen = shared.view.load();
     gauge!("adit_generation").set(seen.view.generation() as f64);
     gauge!("adit_subscribers").set(shared.subscribed() as f64);

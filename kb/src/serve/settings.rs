@@ -24,14 +24,16 @@ pub struct Settings {
     pub sql_deadline: Duration,
     /// Rows that one SQL query may give.
     pub sql_rows: usize,
+    /// Time that an answer may take.
+    pub patience: Duration,
     /// Requests that are worked on at once.
     pub requests: usize,
     /// Streams of events that are open at once.
     pub subscribers: usize,
-}
-
     /// Hears what whoever runs the service should know.
     pub log: fn(&str),
+}
+
 impl Settings {
     /// The site, opened as its files now are.
     pub fn open(&self) -> Result<KnowledgeBase> {

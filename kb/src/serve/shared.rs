@@ -16,7 +16,9 @@ use super::event::{Event, Problems};
 use super::fault::{Answered, Fault};
 use super::settings::Settings;
 use super::token::Tokens;
+use super::waiting::Waiting;
 use crate::error::Result;
+use crate::fork::Fork;
 use crate::live::View;
 use crate::problem::Problem;
 
@@ -45,8 +47,6 @@ pub struct Shared {
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
     subscribers: AtomicUsize,
-}
-
     problems: Mutex<BTreeMap<Source, Vec<Problem>>>,
 }
 
@@ -57,6 +57,8 @@ pub enum Source {
     Tokens,
     /// The site: its rules, map, settings, tables.
     Site,
+}
+
 /// The site after an edit, and when that was.
 pub struct Seen {
     /// The site.
@@ -92,21 +94,30 @@ impl Shared {
         }
     }
 
-    /// Has something done where edits are done, after all that was asked before.
-    pub async fn at_desk<T: Send + 'static>(
+    /// A copy of what is known after all edits that were asked for before, to try others on.
+    pub async fn fork(&self) -> Answered<Fork> {
+        self.edit_at_desk(&Waiting::default(), |desk| Ok(desk.live.fork())).await
+    }
+
+    /// Has something done where edits are done, after all that was asked before; not where nobody waits for it any more.
+    pub async fn edit_at_desk<T: Send + 'static>(
         &self,
+        waiting: &Waiting,
         work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
     ) -> Answered<T> {
         let (answer, answered) = oneshot::channel();
+        let waiting = waiting.clone();
         let job: Job = Box::new(move |desk| {
-            answer.send(work(desk)).ok();
+            if !answer.is_closed() && waiting.begin() {
+                answer.send(work(desk)).ok();
+            }
         });
         self.jobs.try_send(job).map_err(|error| match error {
             TrySendError::Full(_) => Fault::busy(),
-            TrySendError::Disconnected(_) => Fault::internal(),
+            TrySendError::Disconnected(_) => Fault::ending(),
         })?;
-        // a job that panicked leaves no answer
-        answered.await.map_err(|_| Fault::internal())?
+        // a job that panicked leaves no answer, nor does one that was not begun when the service ended
+        answered.await.map_err(|_| if *self.ending.borrow() { Fault::ending() } else { Fault::internal() })?
     }
 
     /// Has something done where edits are done, and does not wait for it; `false` where too much waits already.
@@ -162,17 +173,6 @@ impl Shared {
         done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
     }
 
-    /// Tells subscribers; nobody may be there.
-    pub fn say(&self, event: Event) {
-        self.events.send(Arc::new(event)).ok();
-    }
-
-    /// A place among the subscribers, until it is dropped; `None` where all are taken.
-    pub fn subscribe(self: &Arc<Self>) -> Option<Subscription> {
-        let taken = self.subscribers.fetch_add(1, Ordering::Relaxed);
-        let subscription = Subscription { shared: Arc::clone(self), events: self.events.subscribe() };
-        (taken < self.settings.subscribers).then_some(subscription)
-    }
     /// What is wrong with files that were saved; the service goes on with those of before.
     pub fn problems(&self) -> Vec<Problem> {
         let problems = self.problems.lock().unwrap_or_else(PoisonError::into_inner);
@@ -195,6 +195,17 @@ impl Shared {
         }
     }
 
+    /// Tells subscribers; nobody may be there.
+    pub fn say(&self, event: Event) {
+        self.events.send(Arc::new(event)).ok();
+    }
+
+    /// A place among the subscribers, until it is dropped; `None` where all are taken.
+    pub fn subscribe(self: &Arc<Self>) -> Option<Subscription> {
+        let taken = self.subscribers.fetch_add(1, Ordering::Relaxed);
+        let subscription = Subscription { shared: Arc::clone(self), events: self.events.subscribe() };
+        (taken < self.settings.subscribers).then_some(subscription)
+    }
 
     /// How many subscribers there are.
     pub fn subscribed(&self) -> usize {

@@ -309,7 +309,7 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
     let began = Instant::now();
     let author = Author { who: caller.name.clone(), why };
     let wanted = edit.clone();
-    let edited = site.at_desk(move |desk| {
+    let edited = site.edit_at_desk(move |desk| {
         let outcome = desk.edit(&edit, &author, |outcome| words(&edit, outcome))?;
         Ok(Edited {
             generation: outcome.generation,
@@ -376,7 +376,7 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
         return Err(Fault::bad("service/too-many", format!("a preview holds up to {PREVIEWED} edits")));
     }
     let edits = body.edits.iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
-    let mut fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let mut fork = site.fork().await?;
     if let Some(patience) = body.patience_ms {
         fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
     }

@@ -31,7 +31,7 @@ pub struct Way {
            ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = Firm), (status = "4XX", body = Failure)))]
 pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
-    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let fork = site.fork().await?;
     site.at_length(move || fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
 }
 
@@ -92,8 +92,8 @@ pub async fn add(
         (body.traversals, body.measure.or(asked.measure))
     };
     let author = Author { who: caller.name, why: String::new() };
-    let added =
-        site.at_desk(move |desk| Ok(desk.live.site().add_traversals(&rows, measure.as_deref(), &author)?));
+    let added = site
+        .edit_at_desk(move |desk| Ok(desk.live.site().add_traversals(&rows, measure.as_deref(), &author)?));
     added.await.map(Json)
 }
 
@@ -108,7 +108,7 @@ pub struct Removed {
 #[utoipa::path(delete, path = "/api/traversals", tag = "experience", security(("token" = [])), responses((status = 200, body = Removed), (status = "4XX", body = Failure)))]
 pub async fn clear(site: Site, caller: Caller) -> Answered<Json<Removed>> {
     require(&caller, Role::Tune)?;
-    let gone = site.at_desk(|desk| Ok(desk.live.site().clear_traversals()?)).await?;
+    let gone = site.edit_at_desk(|desk| Ok(desk.live.site().clear_traversals()?)).await?;
     Ok(Json(Removed { removed: gone }))
 }
 

@@ -96,8 +96,8 @@ struct DoorOf {
 
 /// The floor: walls, rooms and doors.
 #[utoipa::path(get, path = "/api/map", tag = "map", security(("token" = [])), responses((status = 200, body = MapAnswer), (status = "4XX", body = Failure)))]
-pub async fn map(axum::extract::State(shared): Site) -> Json<MapAnswer> {
-    let seen = shared.view.load();
+pub async fn map(site: Site) -> Json<MapAnswer> {
+    let seen = site.view.load();
     let (graph, world) = (seen.view.graph(), &seen.view.inputs().world);
     let (layers, rooms) = rooms(graph);
     let b = world.bounds;
@@ -218,8 +218,8 @@ struct Weights {
 
 /// What rules say of rooms and doors, in the order of `/api/map`.
 #[utoipa::path(get, path = "/api/weights", tag = "map", security(("token" = [])), responses((status = 200, body = WeightsAnswer), (status = "4XX", body = Failure)))]
-pub async fn weights(axum::extract::State(shared): Site) -> Json<WeightsAnswer> {
-    let seen = shared.view.load();
+pub async fn weights(site: Site) -> Json<WeightsAnswer> {
+    let seen = site.view.load();
     let graph = seen.view.graph();
     let (rooms, doors) = (&graph.rooms, &graph.doors);
     Json(WeightsAnswer {

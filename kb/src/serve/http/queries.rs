@@ -41,7 +41,8 @@ pub async fn save(
     Body(QueryBody { query }): Body<QueryBody>,
 ) -> Answered<Json<QueriesAnswer>> {
     require(&caller, Role::Tune)?;
-    let keep = site.at_desk(move |desk| Ok(desk.live.keep_query(&name, Some((&query, &caller.name)))?));
+    let keep =
+        site.edit_at_desk(move |desk| Ok(desk.live.keep_query(&name, Some((&query, &caller.name)))?));
     keep.await?;
     list(site).await
 }
@@ -51,7 +52,7 @@ pub async fn save(
     params(("name" = String, Path, description = "Its name")), responses((status = 200, body = QueriesAnswer), (status = "4XX", body = Failure)))]
 pub async fn remove(site: Site, caller: Caller, Named(name): Named<String>) -> Answered<Json<QueriesAnswer>> {
     require(&caller, Role::Tune)?;
-    let gone = site.at_desk(move |desk| Ok(desk.live.keep_query(&name, None)?)).await?;
+    let gone = site.edit_at_desk(move |desk| Ok(desk.live.keep_query(&name, None)?)).await?;
     if !gone {
         return Err(Fault::missing("sql/unknown-query", "no query of this name is kept"));
     }

@@ -72,9 +72,9 @@ impl Question {
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
     ),
     responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
-pub async fn route(axum::extract::State(shared): Site, RawQuery(query): RawQuery) -> Answered<Response> {
+pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
-    let seen = Arc::clone(&shared.view.load());
+    let seen = Arc::clone(&site.view.load());
     if let Some(response) = question.quick(&seen.view)? {
         return Ok(response);
     }

@@ -194,7 +194,9 @@ pub async fn save(
     check_name(&file)?;
     check_length(&body.text)?;
     let SaveBody { text, version } = body;
-    site.at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version.as_deref())).await.map(Json)
+    site.edit_at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version.as_deref()))
+        .await
+        .map(Json)
 }
 
 /// Which version is meant.
@@ -216,7 +218,7 @@ pub async fn remove(
 ) -> Answered<Json<Saved>> {
     require(&caller, Role::Rules)?;
     check_name(&file)?;
-    site.at_desk(move |desk| replace(desk, &caller, (&file, None), version.as_deref())).await.map(Json)
+    site.edit_at_desk(move |desk| replace(desk, &caller, (&file, None), version.as_deref())).await.map(Json)
 }
 
 /// Puts another text in place of a file's, or takes the file away; if the site cannot be built so, all is as it was.
@@ -320,7 +322,7 @@ fn check_length(text: &str) -> Answered<()> {
 #[utoipa::path(post, path = "/api/rules/adopt", tag = "rules", security(("token" = [])), responses((status = 200, body = RulesAnswer), (status = "4XX", body = Failure)))]
 pub async fn adopt(site: Site, caller: Caller) -> Answered<Json<RulesAnswer>> {
     require(&caller, Role::Rules)?;
-    site.at_desk(move |desk| copy(desk, &caller)).await.map(Json)
+    site.edit_at_desk(move |desk| copy(desk, &caller)).await.map(Json)
 }
 
 fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {

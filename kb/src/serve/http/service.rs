@@ -61,7 +61,7 @@ pub struct SiteAnswer {
 
 /// What is served, and where it stands.
 #[utoipa::path(get, path = "/api/site", tag = "service", security(("token" = [])), responses((status = 200, body = SiteAnswer), (status = "4XX", body = Failure)))]
-pub async fn site(axum::extract::State(shared): Site, caller: Caller) -> Json<SiteAnswer> {
+pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
     let seen = shared.view.load();
     let view = &seen.view;
     let (graph, site) = (view.graph(), view.site().site());
@@ -97,7 +97,7 @@ pub async fn openapi() -> Response {
 
 /// What is counted and timed, for Prometheus.
 #[utoipa::path(get, path = "/metrics", tag = "service", security(("token" = [])), responses((status = 200, body = String, content_type = "text/plain"), (status = "4XX", body = Failure)))]
-pub async fn metrics(state: Site, caller: Caller) -> Answered<Response> {
+pub async fn metrics(site: Site, caller: Caller) -> Answered<Response> {
     gate::require(&caller, Role::Read)?;
-    Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], meter::text(&state)).into_response())
+    Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], meter::text(&site)).into_response())
 }

@@ -20,7 +20,7 @@ pub struct What {
     params(("what" = String, Query, description = "`door 7`, `room d`, `doors.7.hardness`")),
     responses((status = 200, body = Why), (status = "4XX", body = Failure)))]
 pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json<Why>> {
-    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let fork = site.fork().await?;
     site.at_length(move || fork.why(&what)).await.map(Json)
 }
 
@@ -39,7 +39,7 @@ pub struct OtherWay {
            ("through" = String, Query, description = "`room d`, `door 7`"), ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = WhyNot), (status = "4XX", body = Failure)))]
 pub async fn why_not(site: Site, Asked(asked): Asked<OtherWay>) -> Answered<Json<WhyNot>> {
-    let fork = site.at_desk(|desk| Ok(desk.live.fork())).await?;
+    let fork = site.fork().await?;
     let answer = site
         .at_length(move || fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref()));
     answer.await.map(Json)
