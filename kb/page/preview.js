@@ -8,7 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
-import { showSaved } from './saved.js';
+import { focusSaved, showSaved } from './saved.js';
 
 const WAIT = 120;
 const QUICK = 30;
@@ -16,8 +16,14 @@ const THOROUGH = 5000;
 const MOST_ROUTES = 50;
 let stop = null;
 let failed = null;
+let refused = null;
+/** The edits, as text, that the preview on the screen is of. */
+let previewed = '';
 let conflicts = new Map();
 let saving = false;
+
+const question = () => JSON.stringify(edits(false));
+const isPreviewed = () => Boolean(model.preview) && previewed === question();
 
 const ask = debounced(async () => {
   stop?.abort();
@@ -27,16 +33,18 @@ const ask = debounced(async () => {
     return model.set('preview', null);
   }
   stop = new AbortController();
+  const asked = question();
   const { start, goal, robot } = model.ask;
   const body = { edits: wanted, ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) };
   try {
     const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: stop.signal });
     failed = null;
+    previewed = asked;
     model.set('preview', answer);
     // The first answer is quick; the whole comparison follows while nobody types.
     if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
   } catch (error) {
-    if (error.name === 'AbortError') return undefined;
+    if (error.name === 'AbortError' || asked !== question()) return undefined;
     failed = error;
     model.set('preview', null);
   }
@@ -99,12 +107,13 @@ function makeCard() {
     clashes: el('div'),
     why: el('input', { id: 'save-why', placeholder: 'if you like' }),
     who: el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '' }),
-    save: el('button', { type: 'button', id: 'save', class: 'strong', on: { click: saveAll } }),
+    save: el('button', { type: 'button', id: 'save', class: 'strong', 'aria-keyshortcuts': 'Control+Enter', on: { click: () => saveAll(isPreviewed()) } }),
+    unseen: el('button', { type: 'button', id: 'save-unseen', text: 'Save without a preview', on: { click: () => saveAll(isPreviewless()) } }),
     discard: button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' }),
   };
   made.whose = el('label', {}, 'Your name ', made.who);
   made.who.addEventListener('input', () => localStorage.setItem('adit-who', made.who.value.trim()));
-  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.discard));
+  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, el('span', { class: 'hint', text: 'Ctrl-Enter saves, too.' })));
   return made;
 }
 
@@ -122,12 +131,20 @@ function show() {
   card ??= makeCard();
   fill(card.typed, ...cells.map(([, cell]) => el('li', { text: cell.wrong ? `${keyName(cell.key)} ${cell.column}: ${cell.wrong}` : inOneWord(cell) })));
   fill(card.told, ...told(cells));
+  card.told.setAttribute('aria-busy', String(Boolean(model.preview) && !isPreviewed()));
   const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
-  fill(card.clashes, ...clashes.map(([id, error]) => conflict(id, error)));
+  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)));
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
   card.save.textContent = cells.length === 1 ? 'Save' : `Save ${cells.length} cells`;
-  card.save.disabled = saving || cells.some(([, cell]) => cell.wrong) || Boolean(failed && failed.status !== 0) || clashes.length > 0;
+  card.save.disabled = !maySave() || !isPreviewed();
+  card.unseen.hidden = !isPreviewless();
+  card.unseen.disabled = !maySave();
 }
+
+const maySave = () => !saving && ![...model.pending].some(([id, cell]) => cell.wrong || conflicts.has(id));
+
+// What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
+const isPreviewless = () => Boolean(failed && failed.status >= 500);
 
 function conflict(id, error) {
   const cell = model.pending.get(id);
@@ -147,9 +164,12 @@ function settle(id, current) {
   return undefined;
 }
 
-async function saveAll() {
+/** Saves all cells; `isKnown` says whether it was on the screen what that would change, or that it cannot be told. */
+async function saveAll(isKnown) {
+  if (!isKnown || !maySave()) return;
   saving = true;
-  card.save.disabled = true;
+  const hadFocus = byId('preview-card').contains(document.activeElement);
+  show();
   const why = card.why.value.trim() || undefined;
   const done = [];
   const words = [];
@@ -166,14 +186,14 @@ async function saveAll() {
       model.pending = pending;
     } catch (error) {
       if (error.status === 409) conflicts.set(id, error);
-      else failed = error;
+      else refused = error;
     }
   }
   if (done.length) {
     showSaved(`Saved: ${list(words)}.`, done);
-    byId('undo').focus({ preventScroll: true });
+    if (hadFocus) focusSaved();
   }
-  const keepFailure = failed;
+  const keepRefusal = refused;
   if (!model.pending.size) model.preview = null;
   // What was saved is shown as saved even before the new weights are here.
   if (done.length) {
@@ -185,14 +205,25 @@ async function saveAll() {
   saving = false;
   model.set('pending', new Map(model.pending));
   // What the service refused is said until the cell is edited again.
-  failed = keepFailure;
+  refused = keepRefusal;
   show();
 }
 
-/** Previews edits while they are typed; Escape discards them all. */
+/** Ctrl-Enter: saves what the preview on the screen is of; a preview that is there and not in sight comes into it first. */
+function saveBySign(event) {
+  if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
+  event.preventDefault();
+  if (event.repeat || !isPreviewed()) return;
+  const { top, bottom } = byId('preview-summary').getBoundingClientRect();
+  if (top >= 0 && bottom <= window.innerHeight) saveAll(true);
+  else byId('preview-summary').scrollIntoView({ block: 'center' });
+}
+
+/** Previews edits while they are typed; Ctrl-Enter saves them, Escape discards them all. */
 export function startPreview() {
   model.on('pending', () => {
     failed = null;
+    refused = null;
     if (!model.pending.size) {
       ask.cancel();
       stop?.abort();
@@ -208,6 +239,7 @@ export function startPreview() {
   byId('preview-card').addEventListener('keydown', (event) => {
     if (event.key === 'Escape') discard();
   });
+  for (const id of ['tables', 'preview-card']) byId(id).addEventListener('keydown', saveBySign);
   window.addEventListener('beforeunload', (event) => {
     if (model.pending.size) event.preventDefault();
   });

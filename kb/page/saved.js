@@ -14,14 +14,19 @@ import { refresh } from './refresh.js';
 export function showSaved(text, edits, other) {
   const undo = edits.length ? button('Undo', () => undoAll(edits), { id: 'undo', class: 'strong' }) : null;
   const more = other ? button(other.text, other.act) : null;
-  fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text }), undo, more, button('Close', () => fill(byId('saved')), { class: 'quiet' })));
+  fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text, id: 'saved-said', tabindex: '-1' }), undo, more, button('Close', () => fill(byId('saved')), { class: 'quiet' })));
 }
 
+/** Gives the focus to the word itself, not to its undo: who holds the key, or presses it once more, must not undo. */
+export const focusSaved = () => byId('saved-said').focus({ preventScroll: true });
+
 async function undoAll(edits) {
+  const hadFocus = byId('saved').contains(document.activeElement);
   try {
     let answer = null;
     for (const edit of [...edits].reverse()) answer = await post('/api/edits', { edit: { kind: 'undo', edit } });
     showSaved('Taken back. The tables are as they were.', []);
+    if (hadFocus) focusSaved();
     await refresh(answer?.generation);
   } catch (error) {
     byId('saved').append(el('div', { class: 'card' }, said(error)));

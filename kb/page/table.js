@@ -66,9 +66,18 @@ function makeCell(table, key, column, value) {
   input.addEventListener('input', read);
   input.addEventListener('keydown', (event) => {
     if (event.key === 'Escape') discard(cellId(table.table, key, column.name));
-    if (event.key === 'Enter') byId('save')?.focus();
+    if (event.key === 'Enter' && !event.ctrlKey && !event.metaKey && !event.isComposing) goDown(event);
   });
   return cell;
+}
+
+/** Enter goes to the same column of the next row. Nothing is saved by it: that takes Ctrl-Enter, or Save. */
+function goDown(event) {
+  event.preventDefault();
+  const td = event.target.closest('td');
+  const below = td.parentElement.nextElementSibling?.children[td.cellIndex]?.querySelector('input, select');
+  below?.focus();
+  below?.select?.();
 }
 
 /** What was typed, as the column's kind; or what is wrong with it. */

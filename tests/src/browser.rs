@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
 use fantoccini::elements::Element;
 use fantoccini::{Client, ClientBuilder, Locator};
 use hyper_util::client::legacy::connect::HttpConnector;
@@ -13,6 +14,12 @@ use serde_json::{Value, json};
 
 /// How long a journey waits for what must come.
 const PATIENCE: Duration = Duration::from_secs(15);
+
+/// Ctrl, as DevTools count it among the keys that are held.
+const CTRL: u8 = 2;
+
+/// The pause in a double click of somebody slow.
+const BETWEEN_CLICKS: Duration = Duration::from_millis(400);
 
 /// What the browser is seen on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +139,58 @@ impl Browser {
     /// The value of an expression.
     pub async fn value(&self, expression: &str) -> Value {
         self.run(&format!("return {expression}")).await
+    }
+
+    /// Presses Enter and holds it, so that it comes again and again.
+    pub async fn hold_enter(&self) {
+        for n in 0..6 {
+            self.enter("keyDown", &json!({ "text": "\r", "autoRepeat": n > 0 }));
+            tokio::time::sleep(Duration::from_millis(60)).await;
+        }
+        self.enter("keyUp", &json!({}));
+    }
+
+    /// Presses Enter with Ctrl, wherever the focus is; WebDriver would scroll there first.
+    pub fn ctrl_enter(&self) {
+        self.enter("keyDown", &json!({ "modifiers": CTRL }));
+        self.enter("keyUp", &json!({ "modifiers": CTRL }));
+    }
+
+    fn enter(&self, kind: &str, more: &Value) {
+        let mut key = json!({ "type": kind, "key": "Enter", "code": "Enter", "windowsVirtualKeyCode": 13 });
+        key.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
+        self.devtools("Input.dispatchKeyEvent", &key);
+    }
+
+    /// Clicks an element twice, as fast as people do who think that everything takes a double click.
+    pub async fn double_click(&self, css: &str) {
+        let element = self.find(css).await;
+        let (down, up) = (
+            PointerAction::Down { button: MOUSE_BUTTON_LEFT },
+            PointerAction::Up { button: MOUSE_BUTTON_LEFT },
+        );
+        let mouse = MouseActions::new("mouse".to_owned())
+            .then(PointerAction::MoveToElement { element, duration: None, x: 0.0, y: 0.0 })
+            .then(down.clone())
+            .then(up.clone())
+            .pause(BETWEEN_CLICKS)
+            .then(down)
+            .then(up);
+        self.client.perform_actions(mouse).await.expect("clicked");
+    }
+
+    /// Tells Chromium something that WebDriver has no word for.
+    fn devtools(&self, command: &str, parameters: &Value) {
+        let body = json!({ "cmd": command, "params": parameters }).to_string();
+        let mut stream = TcpStream::connect(&self.address).expect("the driver runs");
+        let path = format!("/session/{}/goog/cdp/execute", self.session);
+        let head =
+            format!("POST {path} HTTP/1.1\r\nHost: {}\r\nContent-Type: application/json", self.address);
+        write!(stream, "{head}\r\nContent-Length: {}\r\n\r\n{body}", body.len()).expect("asked");
+        // it keeps the line open, so one look at its answer is enough
+        let mut answer = [0; 1_024];
+        let read = stream.read(&mut answer).expect("answered");
+        assert!(answer[..read].starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&answer[..read]));
     }
 
     /// Waits until an expression is true.

@@ -19,10 +19,13 @@ mod rules;
 mod sql;
 #[path = "page/tune.rs"]
 mod tune;
+#[path = "page/unseen.rs"]
+mod unseen;
 
 use adit_tests::TestSite;
 use adit_tests::browser::{Browser, Screen};
 use adit_tests::service::Service;
+use serde_json::{Value, json};
 
 /// An example site, its service and its page at a desk.
 async fn at_a_desk(example: &str, hash: &str) -> (TestSite, Service, Browser) {
@@ -30,6 +33,11 @@ async fn at_a_desk(example: &str, hash: &str) -> (TestSite, Service, Browser) {
     let service = Service::start(&site);
     let browser = Browser::open(&service.page(hash), Screen::Desktop).await;
     (site, service, browser)
+}
+
+/// An edit of the hardness of one of the paper's states.
+fn set(state: &str, value: f64) -> Value {
+    json!({"edit": {"kind": "set", "table": "robots", "key": state, "column": "hardness", "value": value}})
 }
 
 /// The cell of the table of robots with this state's hardness.

@@ -49,9 +49,10 @@ async fn latency_from_a_saved_cell_to_the_screen() {
              const cell = document.querySelector(\"[data-key='robot/STAND'] input[aria-label^=hardness]\"); \
              cell.value = '{value}'; cell.dispatchEvent(new Event('input', {{ bubbles: true }})); \
              const before = Number(document.getElementById('canvas').dataset.generation); \
-             setTimeout(() => {{ const began = performance.now(); document.getElementById('save').click(); \
+             const wait = () => document.getElementById('save').disabled ? setTimeout(wait, 50) : save(); setTimeout(wait, 600); \
+             const save = () => {{ const began = performance.now(); document.getElementById('save').click(); \
              const look = () => Number(document.getElementById('canvas').dataset.generation) > before \
-                 ? done(performance.now() - began) : requestAnimationFrame(look); look(); }}, 600);"
+                 ? done(performance.now() - began) : requestAnimationFrame(look); look(); }};"
         );
         let took = browser.client.execute_async(&script, Vec::new()).await.unwrap();
         taken.push(took.as_f64().unwrap());

@@ -90,6 +90,7 @@ async fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
     // He insists; both see it.
     bert.click(".set-mine").await;
     bert.says("#preview", "SQUAT hardness 3 → 6").await;
+    bert.until("!document.getElementById('save').disabled", "what that would change is shown").await;
     bert.click("#save").await;
     bert.says("#saved", "3 → 6").await;
     let shown =

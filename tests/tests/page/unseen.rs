@@ -1,0 +1,245 @@
+//! Nothing is saved that was not previewed on the screen, and nothing is done twice by one press.
+
+use std::time::Duration;
+
+use adit_tests::TestSite;
+use adit_tests::browser::{Browser, Screen};
+use adit_tests::lock::Lock;
+use adit_tests::service::{Service, request};
+use serde_json::json;
+
+use crate::{at_a_desk, hardness_of};
+
+const ENTER: &str = "\u{e007}";
+
+const SQUAT: &str = "SELECT hardness FROM robots WHERE state = 'SQUAT'";
+const EDITS: &str = "SELECT count(*) FROM history";
+
+async fn press(browser: &Browser, keys: &str) {
+    browser.client.active_element().await.unwrap().send_keys(keys).await.unwrap();
+}
+
+/// Types a number in place of what a cell holds, without a pause after it.
+async fn type_over(browser: &Browser, css: &str, text: &str) {
+    browser.find(css).await.click().await.unwrap();
+    press(browser, &format!("\u{e009}a\u{e000}{text}")).await;
+}
+
+async fn focused(browser: &Browser) -> String {
+    let what = "document.activeElement.getAttribute('aria-label') ?? document.activeElement.id";
+    browser.value(what).await.as_str().unwrap_or_default().to_owned()
+}
+
+/// The state in the row below the one with this state.
+async fn below(browser: &Browser, state: &str) -> String {
+    let key =
+        format!("document.querySelector(\"[data-key='robot/{state}']\").nextElementSibling.dataset.key");
+    browser.value(&key).await.as_str().unwrap().replace("robot/", "")
+}
+
+async fn until_it_may_be_saved(browser: &Browser) {
+    browser.until("!document.getElementById('save').disabled", "it may be saved").await;
+}
+
+/// Enter moved the focus to Save within the key press, which pressed Save; the next one pressed Undo.
+#[tokio::test(flavor = "multi_thread")]
+async fn enter_goes_down_a_row_and_saves_nothing() {
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    let next = below(&browser, "SQUAT").await;
+    type_over(&browser, &hardness_of("SQUAT"), &format!("3{ENTER}")).await;
+    assert_eq!(focused(&browser).await, format!("hardness of {next}"));
+    browser.says("#preview-summary", "otherwise").await;
+    for _ in 0..8 {
+        press(&browser, ENTER).await;
+    }
+    browser.hold_enter().await;
+    browser.says("#preview", "SQUAT hardness 4 → 3").await;
+    assert_eq!((site.sqlite3(EDITS), site.sqlite3(SQUAT)), (vec!["0".to_owned()], vec!["4.0".to_owned()]));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn ctrl_enter_saves_what_was_previewed_and_no_further_enter_takes_it_back() {
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    type_over(&browser, &hardness_of("SQUAT"), "3").await;
+    until_it_may_be_saved(&browser).await;
+    browser.ctrl_enter();
+    browser.says("#saved", "Saved: SQUAT hardness 4 → 3").await;
+    assert_eq!(focused(&browser).await, "hardness of SQUAT", "the hand stays where it is");
+    press(&browser, ENTER).await;
+
+    // the same by the button: its place is taken by the word of what was saved, not by the way back
+    type_over(&browser, &hardness_of("SQUAT"), "5").await;
+    until_it_may_be_saved(&browser).await;
+    browser.run("document.getElementById('save').focus()").await;
+    browser.hold_enter().await;
+    browser.says("#saved", "Saved: SQUAT hardness 3 → 5").await;
+    press(&browser, ENTER).await;
+    browser.hold_enter().await;
+    browser.says("#saved", "Saved: SQUAT hardness 3 → 5").await;
+    assert_eq!((site.sqlite3(EDITS), site.sqlite3(SQUAT)), (vec!["2".to_owned()], vec!["5.0".to_owned()]));
+    // Undo is one Tab away
+    press(&browser, "\u{e004}").await;
+    assert_eq!(focused(&browser).await, "undo");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn save_waits_for_the_preview_of_what_is_typed() {
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    let cell = hardness_of("SQUAT");
+    type_over(&browser, &cell, "3").await;
+    until_it_may_be_saved(&browser).await;
+    // what an edit would do cannot be found out while another program writes
+    let lock = Lock::hold(&site);
+    type_over(&browser, &cell, "7").await;
+    browser.ctrl_enter();
+    browser.run("document.getElementById('save').click()").await;
+    assert_eq!(browser.value("document.getElementById('save').disabled").await, true);
+    browser
+        .until("document.querySelector('#preview [aria-busy=true]')", "the old counts are marked as such")
+        .await;
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    drop(lock);
+    until_it_may_be_saved(&browser).await;
+    assert_eq!(site.sqlite3(EDITS), ["0"]);
+    browser.ctrl_enter();
+    browser.says("#saved", "Saved: SQUAT hardness 4 → 7").await;
+    assert_eq!(site.sqlite3(SQUAT), ["7.0"]);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_preview_out_of_sight_comes_into_sight_before_ctrl_enter_saves() {
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser.client.set_window_size(1_380, 600).await.unwrap();
+    let cell = hardness_of("SQUAT");
+    type_over(&browser, &cell, "3").await;
+    until_it_may_be_saved(&browser).await;
+    let is_seen = "(({ top, bottom }) => top >= 0 && bottom <= innerHeight)(document.getElementById('preview-summary').getBoundingClientRect())";
+    browser.run("scrollTo({ top: 0, behavior: 'instant' })").await;
+    assert_eq!(browser.value(is_seen).await, false);
+    browser.ctrl_enter();
+    browser.until(is_seen, "the preview is seen").await;
+    assert_eq!(site.sqlite3(EDITS), ["0"]);
+    browser.ctrl_enter();
+    browser.says("#saved", "Saved: SQUAT hardness 4 → 3").await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_cannot_be_previewed_is_saved_only_by_who_says_so() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start_with(&site, &["--listen", "127.0.0.1:0", "--answer-seconds", "2"]);
+    let browser = Browser::open(&service.page("#map?start=f&goal=e"), Screen::Desktop).await;
+    let lock = Lock::hold(&site);
+    type_over(&browser, &hardness_of("SQUAT"), "7").await;
+    browser.says("#preview", "the answer took too long").await;
+    drop(lock);
+    browser.ctrl_enter();
+    assert_eq!(browser.value("document.getElementById('save').disabled").await, true);
+    assert_eq!(site.sqlite3(EDITS), ["0"]);
+    browser.press("#preview", "Save without a preview").await;
+    browser.says("#saved", "Saved: SQUAT hardness 4 → 7").await;
+}
+
+/// An edit that the service refuses is said beside the preview, which comes right after it.
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_refused_is_said_until_it_is_edited_again() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start_with(&site, &["--listen", "127.0.0.1:0", "--answer-seconds", "2"]);
+    let browser = Browser::open(&service.page("#map?start=f&goal=e"), Screen::Desktop).await;
+    type_over(&browser, &hardness_of("SQUAT"), "7").await;
+    until_it_may_be_saved(&browser).await;
+    let lock = Lock::hold(&site);
+    let address = service.address.clone();
+    let before = std::thread::spawn(move || {
+        request(&address, "POST", "/api/edits", Some(&crate::set("LIE-FACE-DOWN", 9.0)))
+    });
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    browser.click("#save").await;
+    browser.says("#preview", "nothing was changed").await;
+    drop(lock);
+    assert_eq!(before.join().unwrap().0, 200);
+    browser.says("#preview-summary", "otherwise").await;
+    until_it_may_be_saved(&browser).await;
+    browser.says("#preview", "nothing was changed").await;
+    assert_eq!(site.sqlite3(SQUAT), ["4.0"]);
+    type_over(&browser, &hardness_of("SQUAT"), "6").await;
+    browser
+        .until(
+            "!document.getElementById('preview').innerText.includes('nothing was changed')",
+            "it is another edit",
+        )
+        .await;
+}
+
+/// The row that moved up under the pointer was taken back, too.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_double_click_takes_back_one_fact() {
+    let (_site, service, browser) = at_a_desk("paper", "#facts").await;
+    for door in ["3", "5", "7"] {
+        let fact = json!({ "class": "DOORS", "object": door, "property": "hardness", "value": 9 });
+        assert_eq!(service.ask("POST", "/api/facts", Some(&fact)).0, 200);
+    }
+    browser.until("document.querySelectorAll('#facts-list button').length === 3", "three are told").await;
+    // the list follows each fact; the buttons are to be those of the last one
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    browser.double_click("#facts-list button").await;
+    browser.until("document.querySelectorAll('#facts-list button').length === 2", "one is taken back").await;
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    let (_, facts) = service.ask("GET", "/api/facts", None);
+    assert_eq!(facts["facts"].as_array().unwrap().len(), 2, "{facts}");
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_form_that_is_sent_twice_tells_once() {
+    let (_site, service, browser) = at_a_desk("paper", "#facts").await;
+    browser.type_into("#fact-object", "3").await;
+    browser
+        .run("const form = document.querySelector('.fact-form'); form.requestSubmit(); form.requestSubmit()")
+        .await;
+    browser.says("#fact-said", "Told").await;
+    browser.click("nav a[href='#map']").await;
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", "door 5").await;
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", "Close door 5").await;
+    browser.find("#close-why").await;
+    browser.run("const form = document.querySelector('#tell-card form'); form.requestSubmit(); form.requestSubmit()").await;
+    browser.says("#saved", "told").await;
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    let (_, facts) = service.ask("GET", "/api/facts", None);
+    assert_eq!(facts["facts"].as_array().unwrap().len(), 2, "{facts}");
+}
+
+/// The second of two saves met the version that the first had made, and the page said that somebody else had saved.
+#[tokio::test(flavor = "multi_thread")]
+async fn rules_are_saved_once_however_often_the_keys_are_pressed() {
+    let site = TestSite::example("paper");
+    site.copy_rules_and_tests("paper");
+    let site = site.built();
+    let service = Service::start(&site);
+    let browser = Browser::open(&service.page("#rules?file=rooms.rhai"), Screen::Desktop).await;
+    browser.says("#rules-name", "rooms.rhai").await;
+    browser.run("const area = document.querySelector('#rules textarea'); area.focus(); area.setSelectionRange(0, 0)").await;
+    press(&browser, &format!("// A word.{ENTER}\u{e009}sss\u{e000}")).await;
+    browser.says("#rules-result", "Saved and in force").await;
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    browser.says("#rules-result", "Saved and in force").await;
+    assert!(site.read("rules/rooms.rhai").contains("// A word."));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_cannot_be_brought_back_is_asked_about_before_it_is_deleted() {
+    let (_site, service, browser) = at_a_desk("paper", "#experience").await;
+    let measured =
+        json!({"traversals": [{"state": "SQUAT", "distance": 2.0, "measured": 8.0}], "measure": "seconds"});
+    assert_eq!(service.ask("POST", "/api/traversals", Some(&measured)).0, 200);
+    let kept = || service.ask("GET", "/api/traversals", None).1["traversals"].as_array().map(Vec::len);
+    browser.press("#experience", "Delete all measurements").await;
+    browser.says("dialog", "cannot be brought back").await;
+    browser.hold_enter().await;
+    browser.until("!document.querySelector('dialog[open]')", "it is kept").await;
+    assert_eq!(kept(), Some(1));
+    browser.press("#experience", "Delete all measurements").await;
+    browser.press("dialog", "Delete them").await;
+    browser.says("#experience-said", "deleted").await;
+    assert_eq!(kept(), Some(0));
+}
