@@ -1,7 +1,7 @@
 /** The cards under the map: why something is so, why not that way, and facts told from the map. */
 
 import { call, get, path, post } from './api.js';
-import { button, byId, el, fill } from './dom.js';
+import { button, byId, el, fill, form } from './dom.js';
 import { action, cost, list, number, value } from './format.js';
 import { model } from './model.js';
 import { complain, said } from './notice.js';
@@ -125,20 +125,19 @@ export function tellWays(thing) {
 export function closeDoor(fact, label) {
   const until = el('input', { type: 'time', id: 'close-until' });
   const reason = el('input', { id: 'close-why', placeholder: 'why (if you like)' });
-  const form = el('form', { class: 'line-form' },
+  const asked = form({ class: 'line-form' }, tell,
     el('label', {}, 'Until (empty: until taken back) ', until), el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
-  const made = card('tell-card', label.replace('…', ''), form);
-  form.addEventListener('submit', async (event) => {
-    event.preventDefault();
+  const made = card('tell-card', label.replace('…', ''), asked);
+  async function tell() {
     try {
       const answer = await post('/api/facts', { ...fact, until: until.value || undefined, why: reason.value || undefined });
       made.remove();
       showSaved(`${label.replace('…', '')}: told.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
       await refresh(answer.generation);
     } catch (error) {
-      fill(made, said(error), form);
+      fill(made, said(error), asked);
     }
-  });
+  }
   until.focus();
 }
 

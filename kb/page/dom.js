@@ -36,6 +36,59 @@ export function button(text, act, attributes = {}) {
   return made;
 }
 
+/** Asks before something is done that cannot be undone; the answer is `no` unless somebody says otherwise. */
+export function sure(question, yes) {
+  return new Promise((resolve) => {
+    const box = el('dialog', { 'aria-label': question, on: { close: () => { resolve(box.returnValue === 'yes'); box.remove(); } } }, el('p', { text: question }),
+      el('div', { class: 'buttons' }, button('Keep', () => box.close('no'), { autofocus: true }), button(yes, () => box.close('yes'), { class: 'strong' })));
+    document.body.append(box);
+    box.showModal();
+  });
+}
+
+/** A form that does something when it is sent; while it does, it cannot be sent again. */
+export function form(attributes, act, ...children) {
+  let busy = false;
+  const made = el('form', attributes, ...children);
+  made.addEventListener('submit', async (event) => {
+    event.preventDefault();
+    if (busy) return;
+    busy = true;
+    try {
+      await act(event);
+    } finally {
+      busy = false;
+    }
+  });
+  return made;
+}
+
+const DOUBLE_MS = 500;
+const DOUBLE_PX = 8;
+
+/**
+ * A double click, or a key that is held, does one thing: what has just appeared under the pointer, or has been given the
+ * focus, is not pressed by it.
+ */
+export function pressOnce() {
+  let last = null;
+  document.addEventListener('click', (event) => {
+    // Keys and scripts click without a count.
+    if (!event.detail) return;
+    const { timeStamp, clientX, clientY, target } = event;
+    const pressed = target.closest('label') ?? target.closest('a, button, summary, input, select, textarea') ?? target;
+    const again = last && timeStamp - last.timeStamp < DOUBLE_MS && Math.hypot(clientX - last.clientX, clientY - last.clientY) < DOUBLE_PX;
+    if (again && last.pressed !== pressed) {
+      event.preventDefault();
+      event.stopPropagation();
+    }
+    last = { timeStamp, clientX, clientY, pressed };
+  }, true);
+  document.addEventListener('keydown', (event) => {
+    if (event.repeat && event.key === 'Enter' && !event.target.closest?.('textarea')) event.preventDefault();
+  }, true);
+}
+
 /** Puts these children in place of what is there. */
 export function fill(parent, ...children) {
   parent.replaceChildren(...children.filter((child) => child !== null && child !== undefined));

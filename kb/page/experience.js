@@ -1,7 +1,7 @@
 /** Tuning from experience: what robots measured on their ways, and the hardness that fits it best. */
 
 import { call, get, path } from './api.js';
-import { button, byId, el, fill, grid } from './dom.js';
+import { button, byId, el, fill, grid, sure } from './dom.js';
 import { number, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -61,6 +61,7 @@ async function load() {
 }
 
 async function forget() {
+  if (!await sure('Delete all measurements? They cannot be brought back.', 'Delete them')) return undefined;
   try {
     await call('DELETE', '/api/traversals');
     fill(byId('experience-said'), el('p', { role: 'status', text: 'All measurements are deleted.' }));

@@ -2,7 +2,7 @@
 
 import { get, post } from './api.js';
 import { takeBack } from './answers.js';
-import { button, byId, el, fill, grid } from './dom.js';
+import { button, byId, el, fill, form, grid } from './dom.js';
 import { moment, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -22,9 +22,9 @@ function field(label, id, attributes = {}) {
   return el('label', { 'data-field': id }, `${label} `, el('input', { id: `fact-${id}`, autocomplete: 'off', ...attributes }));
 }
 
-function form() {
+function tellForm() {
   const kind = el('select', { id: 'fact-kind' }, ...Object.entries(USUAL).map(([name, { text }]) => el('option', { value: name, text })));
-  const made = el('form', { class: 'fact-form', on: { submit: tell } }, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
+  const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
     field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { type: 'time' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
   const choose = () => {
     const usual = USUAL[kind.value];
@@ -45,8 +45,7 @@ export function typed(text) {
   return text !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
 }
 
-async function tell(event) {
-  event.preventDefault();
+async function tell() {
   const read = (name) => byId(`fact-${name}`).value.trim();
   const usual = USUAL[read('kind')];
   const fact = { class: usual.class ?? read('class'), object: read('object'), property: usual.property ?? read('property'), value: typed(usual.value ?? read('value')), until: read('until') || undefined, why: read('why') || undefined };
@@ -76,7 +75,7 @@ async function load() {
 function show() {
   if (!byId('fact-kind')) {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
-      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), form(), el('div', { id: 'fact-said' })) : null);
+      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null);
   }
   return load();
 }

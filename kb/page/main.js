@@ -1,7 +1,7 @@
 /** Where the page begins: loads what there is, follows what changes. */
 
 import { get } from './api.js';
-import { button, byId, el } from './dom.js';
+import { button, byId, el, pressOnce } from './dom.js';
 import { startEnds, lead, openEnds } from './ends.js';
 import { startExperience } from './experience.js';
 import { startFacts } from './facts.js';
@@ -68,6 +68,7 @@ function heard(event, data) {
 
 async function begin() {
   startTheme();
+  pressOnce();
   try {
     const [site, map, weights, tables] = await Promise.all([get('/api/site'), get('/api/map'), get('/api/weights'), get('/api/tables')]);
     model.set('site', site);

@@ -18,6 +18,7 @@ let open = null;
 /** Texts that were changed here and are not saved: name to {text, version}. */
 const drafts = new Map();
 let pane = null;
+let saving = false;
 
 const languageOf = (name) => (name.endsWith('.toml') ? 'toml' : 'rhai');
 
@@ -63,10 +64,14 @@ function jump(problem) {
 async function save(version) {
   const file = open;
   const draft = drafts.get(file);
-  if (!draft) return;
+  if (!draft || saving) return;
+  saving = true;
   try {
     const answer = await call('PUT', `/api/rules/${file.split('/').map(encodeURIComponent).join('/')}`, { text: draft.text, version });
-    drafts.delete(file);
+    const now = drafts.get(file);
+    // What was typed meanwhile is not saved yet.
+    if (now === draft) drafts.delete(file);
+    else if (now) now.version = answer.version;
     files.set(file, { file, version: answer.version, text: draft.text });
     pane.mark([]);
     list();
@@ -76,7 +81,10 @@ async function save(version) {
     if (error.status === 409) return conflict(error);
     result(error.problems, null, error);
     if (error.problems.length) byId('rules-result').prepend(el('p', { class: 'wrong', role: 'alert', text: 'Not saved. The rules from before stay in force.' }));
+  } finally {
+    saving = false;
   }
+  return undefined;
 }
 
 // Somebody else saved the file since it was opened: nothing is overwritten without a word.

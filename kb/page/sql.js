@@ -1,7 +1,7 @@
 /** SQL: ask, look, take the answer along, share the question. */
 
 import { call, get, path, post } from './api.js';
-import { button, byId, copy, download, el, fill, grid } from './dom.js';
+import { button, byId, copy, download, el, fill, form, grid, sure } from './dom.js';
 import { editor } from './editor.js';
 import { exact } from './format.js';
 import { model } from './model.js';
@@ -51,8 +51,7 @@ async function saved() {
   }
 }
 
-async function keep(event) {
-  event.preventDefault();
+async function keep() {
   const name = byId('query-name').value.trim();
   if (!name || !pane.text.trim()) return;
   try {
@@ -65,6 +64,7 @@ async function keep(event) {
 }
 
 async function forget(name) {
+  if (!await sure(`Delete the query ${name}? It cannot be brought back.`, 'Delete it')) return;
   try {
     await call('DELETE', `/api/queries/${encodeURIComponent(name)}`);
   } catch (error) {
@@ -109,7 +109,7 @@ export function startSql() {
       run();
     }
   });
-  const keeper = el('form', { class: 'line-form', on: { submit: keep } }, el('label', {}, 'Save as ', el('input', { id: 'query-name' })), el('button', { type: 'submit', text: 'Save the query' }));
+  const keeper = form({ class: 'line-form' }, keep, el('label', {}, 'Save as ', el('input', { id: 'query-name' })), el('button', { type: 'submit', text: 'Save the query' }));
   fill(byId('sql'), el('div', { class: 'sql-columns' },
     el('div', {}, el('div', { class: 'card' }, pane.node, el('div', { class: 'buttons' }, button('Run', run, { id: 'sql-run', class: 'strong' }), el('span', { class: 'hint', text: 'Ctrl-Enter runs it. It only reads.' })), keeper), el('div', { class: 'card', id: 'sql-answer', 'aria-label': 'Answer' }, el('p', { class: 'hint', text: 'The answer comes here.' }))),
     el('div', {}, el('div', { class: 'card' }, el('h2', { text: 'Saved queries' }), el('div', { id: 'sql-saved' })), el('div', { class: 'card' }, el('h2', { text: 'Tables and views' }), el('p', { class: 'hint', text: 'A name that is pressed goes into the query.' }), el('div', { id: 'sql-schema' })))));
