@@ -14,6 +14,9 @@ use crate::migrate::{self, Kind, STEPS, VERSION};
 use crate::query::{self, Answer, Limits};
 use crate::transaction::Tx;
 
+/// Ends SQLite's WAL mode.
+const ONE_FILE: &str = "PRAGMA journal_mode = DELETE";
+
 /// How long a locked database is waited for, unless said otherwise.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -21,6 +24,8 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// each table's module instead.
 pub struct Store {
     connection: Connection,
+    /// Whether it was opened for writing, and is one of ours.
+    writes: bool,
 }
 
 impl Store {
@@ -59,7 +64,7 @@ impl Store {
             return Err(Error::Missing(path.to_owned()));
         }
         let options = options(path, PATIENCE)?.read_only(true);
-        let mut store = Self { connection: Connection::open(path, &options)? };
+        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
         let path = path.to_owned();
         match store.run(async |connection| migrate::kind(connection).await)? {
             Kind::Adit(VERSION) => Ok(store),
@@ -71,7 +76,7 @@ impl Store {
 
     fn writable(path: &Path, create: bool, patience: Duration) -> Result<Self> {
         let options = options(path, patience)?.create_if_missing(create);
-        let mut store = Self { connection: Connection::open(path, &options)? };
+        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
         store.run(async |connection| {
             let version: String =
                 sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&mut *connection).await?;
@@ -83,6 +88,7 @@ impl Store {
             }
             migrate::migrate(connection, path, STEPS).await
         })?;
+        store.writes = true;
         Ok(store)
     }
 
@@ -126,10 +132,22 @@ impl Store {
         work(&mut Tx::begin(&mut self.connection, begin)?)
     }
 
-    /// Lets others read while this connection writes (SQLite's WAL mode), or not any more: then the database is one file
-    /// again, unless another connection is open.
-    pub fn share(&mut self, on: bool) -> Result<()> {
-        self.connection.execute(if on { "PRAGMA journal_mode = WAL" } else { "PRAGMA journal_mode = DELETE" })
+    /// Lets others read while this connection writes (SQLite's WAL mode).
+    pub fn share(&mut self) -> Result<()> {
+        self.connection.execute("PRAGMA journal_mode = WAL")
+    }
+
+    /// Ends [`share`](Self::share): the database is one file again. Where another connection is still open, `-wal` and
+    /// `-shm` stay beside it; whether the file alone holds all is said then.
+    pub fn unshare(&mut self) -> Result<bool> {
+        match self.connection.execute(ONE_FILE) {
+            Err(error) if error.is_busy() => self.run(async |connection| {
+                let checkpoint = sqlx::query_as("PRAGMA wal_checkpoint(TRUNCATE)");
+                let (_, pages, moved): (i64, i64, i64) = checkpoint.fetch_one(connection).await?;
+                Ok(pages == moved)
+            }),
+            done => done.map(|()| true),
+        }
     }
 
     /// Whether each transaction is on the disk before it is done. Without that, and in WAL mode ([`Store::share`]), a crash
@@ -155,6 +173,16 @@ impl Store {
 
     fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
         self.connection.run(work)
+    }
+}
+
+impl Drop for Store {
+    /// Whoever writes last leaves one file, also where a program that shared the database was killed. With another
+    /// connection open SQLite refuses that at once.
+    fn drop(&mut self) {
+        if self.writes {
+            self.connection.execute(ONE_FILE).ok();
+        }
     }
 }
 

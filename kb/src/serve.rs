@@ -33,11 +33,12 @@ const QUEUE: usize = 1_024;
 /// How long an edit may still take when the service ends.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// Serves a site until the program is told to end.
+/// Serves a site until the program is told to end. `false` where another program reads the database at the end, so that
+/// the newest edits are not in its file yet.
 ///
 /// # Arguments
 /// `ready` hears the address once requests are answered.
-pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<()> {
+pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<bool> {
     let tokens = Tokens::read(&token::file(&settings.folder))?;
     if tokens.tokens.is_empty() && !settings.listen.ip().is_loopback() {
         let message =
@@ -64,6 +65,7 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     }
     let (desk, watcher) = (desk.join(), watcher.join());
     served?;
+    shared.stop_reading();
     match (desk, watcher) {
         (Ok(live), Ok(())) => live.unshare(),
         _ => Err(Error::said("serve/ended", "the service ended by a defect of its own", None)),

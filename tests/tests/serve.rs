@@ -3,6 +3,8 @@
 
 #[path = "serve/described.rs"]
 mod described;
+#[path = "serve/disk.rs"]
+mod disk;
 #[path = "serve/edits.rs"]
 mod edits;
 #[path = "serve/events.rs"]

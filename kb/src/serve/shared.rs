@@ -125,6 +125,11 @@ impl Shared {
         done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
     }
 
+    /// Closes all connections that read; requests must have ended.
+    pub fn stop_reading(&self) {
+        self.readers.close();
+    }
+
     /// Shows the site as it now is.
     pub fn show(&self, seen: Seen) {
         let generation = seen.view.generation();
