@@ -191,6 +191,16 @@ pub struct Limits {
     pub firings: usize,
     /// Matches of all rules that react, kept at once; some 200 bytes each.
     pub matches: usize,
+    /// The moment at which all of it ends, inferences and questions after one another, whatever is left of the others.
+    pub until: Option<Instant>,
+}
+
+impl Limits {
+    /// When something has to end that begins now and may take so long.
+    pub(crate) fn end(&self, time: Duration) -> Instant {
+        let end = Instant::now() + time;
+        self.until.map_or(end, |until| until.min(end))
+    }
 }
 
 impl Default for Limits {
@@ -201,6 +211,7 @@ impl Default for Limits {
             reactions: Duration::from_mins(1),
             firings: 10_000,
             matches: 1_000_000,
+            until: None,
         }
     }
 }
