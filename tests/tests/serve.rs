@@ -13,6 +13,8 @@ mod events;
 mod failures;
 #[path = "serve/follows.rs"]
 mod follows;
+#[path = "serve/hostile.rs"]
+mod hostile;
 #[path = "serve/roles.rs"]
 mod roles;
 #[path = "serve/rules.rs"]
