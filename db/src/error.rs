@@ -154,6 +154,7 @@ pub(crate) fn code(error: &sqlx::Error) -> Option<i32> {
 const BUSY: i32 = 5;
 const TABLE_LOCKED: i32 = 6;
 const READ_ONLY: i32 = 8;
+pub(crate) const NO_MEMORY: i32 = 7;
 pub(crate) const INTERRUPTED: i32 = 9;
 const CORRUPT: i32 = 11;
 const FULL: i32 = 13;
@@ -165,15 +166,21 @@ impl Error {
     /// The same failure, naming the database.
     pub(crate) fn at(self, path: &Path) -> Self {
         let Self::Sql(error) = self else { return self };
+        let of_file = code(&error).and_then(|code| Self::of_code(code, path));
+        of_file.unwrap_or(Self::Sql(error))
+    }
+
+    /// What a primary result code of SQLite says of the file, if it speaks of that.
+    pub(crate) fn of_code(code: i32, path: &Path) -> Option<Self> {
         let path = path.to_owned();
-        match code(&error) {
-            Some(BUSY | TABLE_LOCKED) => Self::Locked(path),
+        Some(match code {
+            BUSY | TABLE_LOCKED => Self::Locked(path),
             // a journal that cannot be created beside an open database: its folder is read-only
-            Some(READ_ONLY | CANNOT_OPEN) => Self::ReadOnly(path),
-            Some(CORRUPT | NOT_A_DATABASE) => Self::NotADatabase(path),
-            Some(FULL) => Self::Full(path),
-            _ => Self::Sql(error),
-        }
+            READ_ONLY | CANNOT_OPEN => Self::ReadOnly(path),
+            CORRUPT | NOT_A_DATABASE => Self::NotADatabase(path),
+            FULL => Self::Full(path),
+            _ => return None,
+        })
     }
 
     /// Whether another program holds the database.

@@ -9,6 +9,7 @@ pub mod backup;
 mod bulk;
 pub mod cell;
 pub mod conclusion;
+mod connection;
 pub mod doctor;
 pub mod door;
 mod dynamic;

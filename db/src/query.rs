@@ -3,16 +3,14 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use futures_util::TryStreamExt;
 use serde::Serialize;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{
-    AssertSqlSafe, Column, ConnectOptions, Connection, Executor, Row, SqlSafeStr, SqliteConnection, Statement,
-};
+use sqlx::sqlite::LockedSqliteHandle;
+use sqlx::{ConnectOptions, Connection, SqliteConnection};
 
 use crate::cell::Cell;
-use crate::error::{Error, INTERRUPTED, Result, code};
-use crate::{guard, store};
+use crate::error::{Error, INTERRUPTED, NO_MEMORY, Result};
+use crate::guard::{self, Failed, Statement};
+use crate::store;
 
 /// How much one query may take.
 #[derive(Clone, Copy, Debug)]
@@ -42,55 +40,60 @@ pub struct Answer {
     pub truncated: bool,
 }
 
-/// SQLite looks at the clock after so many of its instructions.
-const INSTRUCTIONS: i32 = 1_000;
+/// SQLite looks at clock and memory after so many of its instructions, where it comes round a loop.
+const INSTRUCTIONS: i32 = 50;
 
-/// Answers one reading statement, on a connection of its own that can do nothing but read the file at `path`.
+/// Bytes that SQLite may come to hold more while a query runs. Others that run meanwhile count, too: nobody can tell whose
+/// they are.
+const MEMORY: i64 = 256 << 20;
+
+/// Answers one reading statement, on a connection of its own that can do nothing but read the file at `path`. Blocks as long as
+/// that takes.
 pub async fn answer(path: &Path, sql: &str, limits: &Limits) -> Result<Answer> {
     let options = store::options(path, limits.deadline)?.read_only(true).pragma("query_only", "1");
-    let mut connection = options.connect().await?;
-    let answer = guarded(&mut connection, sql, limits).await;
+    let mut connection = options.pragma("cache_size", "-16384").connect().await?;
+    let answer = guarded(&mut connection, path, sql, limits).await;
     connection.close().await?;
-    answer.map_err(|error| match error {
-        Error::Sql(error) if code(&error) == Some(INTERRUPTED) => Error::Deadline(limits.deadline),
-        Error::Sql(error) => said(error),
-        other => other,
+    answer
+}
+
+async fn guarded(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    sql: &str,
+    limits: &Limits,
+) -> Result<Answer> {
+    let end = Instant::now() + limits.deadline;
+    let room = guard::memory() + MEMORY;
+    let mut handle = connection.lock_handle().await?;
+    guard::restrict(&mut handle);
+    handle.set_progress_handler(INSTRUCTIONS, move || Instant::now() < end && guard::memory() < room);
+    let answer = rows(&mut handle, sql, limits);
+    handle.remove_progress_handler();
+    answer.map_err(|failed| match failed.code {
+        INTERRUPTED if Instant::now() < end => Error::Query(TOO_MUCH.to_owned()),
+        INTERRUPTED => Error::Deadline(limits.deadline),
+        NO_MEMORY => Error::Query(TOO_MUCH.to_owned()),
+        code => Error::of_code(code, path).unwrap_or(Error::Query(failed.message)),
     })
 }
 
-/// What SQLite says about the user's text, without sqlx's words around it. Failures of the file stay as they are.
-fn said(error: sqlx::Error) -> Error {
-    const SQL_ERROR: i32 = 1;
-    match (code(&error), error.as_database_error()) {
-        (Some(SQL_ERROR), Some(said)) => Error::Query(said.message().to_owned()),
-        _ => Error::Sql(error),
-    }
-}
+const TOO_MUCH: &str = "the query takes more memory than a query may";
 
-async fn guarded(connection: &mut SqliteConnection, sql: &str, limits: &Limits) -> Result<Answer> {
-    let end = Instant::now() + limits.deadline;
-    {
-        let mut handle = connection.lock_handle().await?;
-        guard::restrict(&mut handle);
-        guard::one_reading_statement(&mut handle, sql).map_err(Error::Query)?;
-        handle.set_progress_handler(INSTRUCTIONS, move || Instant::now() < end);
-    }
-    let text = || AssertSqlSafe(sql.to_owned());
-    let statement = (&mut *connection).prepare(text().into_sql_str()).await?;
-    let columns: Vec<String> = statement.columns().iter().map(|column| column.name().to_owned()).collect();
-    let (mut rows, mut bytes) = (Vec::new(), 0);
-    let mut stream = sqlx::query(text()).fetch(connection);
-    while let Some(row) = stream.try_next().await? {
-        let row = cells(&row)?;
-        bytes += row.iter().map(Cell::bytes).sum::<usize>();
+fn rows(
+    handle: &mut LockedSqliteHandle<'_>,
+    sql: &str,
+    limits: &Limits,
+) -> std::result::Result<Answer, Failed> {
+    let mut statement = Statement::prepare(handle, sql)?;
+    let (columns, mut rows, mut bytes) = (statement.columns(), Vec::new(), 0);
+    while statement.step()? {
+        // a row is measured before it is copied
+        bytes += statement.bytes();
         if rows.len() == limits.rows || bytes > limits.bytes {
             return Ok(Answer { columns, rows, truncated: true });
         }
-        rows.push(row);
+        rows.push(statement.row()?);
     }
     Ok(Answer { columns, rows, truncated: false })
-}
-
-fn cells(row: &SqliteRow) -> Result<Vec<Cell>> {
-    (0..row.len()).map(|index| Cell::of(row, index)).collect()
 }

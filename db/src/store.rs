@@ -1,18 +1,21 @@
 //! The database of a site, opened.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use sqlx::sqlite::SqliteConnectOptions;
-use sqlx::{ConnectOptions, Connection, SqliteConnection};
-use tokio::runtime::{Builder, Runtime};
+use sqlx::{ConnectOptions, SqliteConnection};
 
 use crate::backup;
+use crate::connection::Connection;
 use crate::doctor::{self, Health};
-use crate::error::{self, Error, Result};
+use crate::error::{Error, Result};
 use crate::migrate::{self, Kind, STEPS, VERSION};
 use crate::query::{self, Answer, Limits};
 use crate::transaction::Tx;
+
+/// Ends SQLite's WAL mode.
+const ONE_FILE: &str = "PRAGMA journal_mode = DELETE";
 
 /// How long a locked database is waited for, unless said otherwise.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -20,9 +23,9 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// A site's database. Its functions block: do not call them from within an async runtime, which has the functions of
 /// each table's module instead.
 pub struct Store {
-    runtime: Runtime,
-    connection: SqliteConnection,
-    path: PathBuf,
+    connection: Connection,
+    /// Whether it was opened for writing, and is one of ours.
+    writes: bool,
 }
 
 impl Store {
@@ -60,20 +63,20 @@ impl Store {
         if !path.exists() {
             return Err(Error::Missing(path.to_owned()));
         }
-        let mut store = Self::connect(path, &options(path, PATIENCE)?.read_only(true))?;
+        let options = options(path, PATIENCE)?.read_only(true);
+        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
+        let path = path.to_owned();
         match store.run(async |connection| migrate::kind(connection).await)? {
             Kind::Adit(VERSION) => Ok(store),
-            Kind::Adit(found) if found > VERSION => {
-                Err(Error::Newer { path: store.path, found, known: VERSION })
-            }
-            Kind::Adit(found) => Err(Error::Older { path: store.path, found, known: VERSION }),
-            Kind::Empty | Kind::Other => Err(Error::NotAdit(store.path)),
+            Kind::Adit(found) if found > VERSION => Err(Error::Newer { path, found, known: VERSION }),
+            Kind::Adit(found) => Err(Error::Older { path, found, known: VERSION }),
+            Kind::Empty | Kind::Other => Err(Error::NotAdit(path)),
         }
     }
 
     fn writable(path: &Path, create: bool, patience: Duration) -> Result<Self> {
-        let mut store = Self::connect(path, &options(path, patience)?.create_if_missing(create))?;
-        let at = store.path.clone();
+        let options = options(path, patience)?.create_if_missing(create);
+        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
         store.run(async |connection| {
             let version: String =
                 sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&mut *connection).await?;
@@ -81,30 +84,17 @@ impl Store {
                 return Err(Error::OldSqlite(version));
             }
             if !create && migrate::kind(connection).await? == Kind::Empty {
-                return Err(Error::NotAdit(at.clone()));
+                return Err(Error::NotAdit(path.to_owned()));
             }
-            migrate::migrate(connection, &at, STEPS).await
+            migrate::migrate(connection, path, STEPS).await
         })?;
+        store.writes = true;
         Ok(store)
-    }
-
-    fn connect(path: &Path, options: &SqliteConnectOptions) -> Result<Self> {
-        let at = || path.to_owned();
-        if path.is_dir() {
-            return Err(Error::CannotOpen(at()));
-        }
-        let runtime =
-            Builder::new_current_thread().build().map_err(|source| Error::Io { path: at(), source })?;
-        let connection = runtime.block_on(options.connect()).map_err(|e| match error::code(&e) {
-            Some(14) => Error::CannotOpen(at()),
-            _ => Error::from(e).at(path),
-        })?;
-        Ok(Self { runtime, connection, path: at() })
     }
 
     /// The database's file.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.connection.path()
     }
 
     /// Does `work` in one transaction that no other writer comes between. If it fails, the database is as before.
@@ -112,23 +102,10 @@ impl Store {
         &mut self,
         work: impl FnOnce(&mut Tx<'_>) -> std::result::Result<T, E>,
     ) -> std::result::Result<T, E> {
-        let mut tx = self.begin("BEGIN IMMEDIATE")?;
-        let result = work(&mut tx);
-        match result {
-            Ok(value) => match tx.commit() {
-                Ok(()) => Ok(value),
-                Err(error) => {
-                    // the rollback is only on its way: whoever reads the file next must not find it locked still
-                    self.runtime.block_on(self.connection.ping()).ok();
-                    Err(E::from(error))
-                }
-            },
-            Err(error) => {
-                // on a full disk SQLite has rolled back already, and says so; what went wrong first is what counts
-                tx.roll_back().ok();
-                Err(error)
-            }
-        }
+        let mut tx = Tx::begin(&mut self.connection, "BEGIN IMMEDIATE")?;
+        let value = work(&mut tx)?;
+        tx.commit()?;
+        Ok(value)
     }
 
     /// Does `work` as [`Store::transaction`] would, and takes everything back.
@@ -152,40 +129,31 @@ impl Store {
         begin: &'static str,
         work: impl FnOnce(&mut Tx<'_>) -> std::result::Result<T, E>,
     ) -> std::result::Result<T, E> {
-        let mut tx = self.begin(begin)?;
-        let result = work(&mut tx);
-        let rolled_back = tx.roll_back();
-        let value = result?;
-        rolled_back.map_err(E::from)?;
-        Ok(value)
+        work(&mut Tx::begin(&mut self.connection, begin)?)
     }
 
-    fn begin(&mut self, begin: &'static str) -> Result<Tx<'_>> {
-        let transaction = self
-            .runtime
-            .block_on(self.connection.begin_with(begin))
-            .map_err(|e| Error::from(e).at(&self.path))?;
-        Ok(Tx::new(&self.runtime, transaction, &self.path))
+    /// Lets others read while this connection writes (SQLite's WAL mode).
+    pub fn share(&mut self) -> Result<()> {
+        self.connection.execute("PRAGMA journal_mode = WAL")
     }
 
-    /// Lets others read while this connection writes (SQLite's WAL mode), or not any more: then the database is one file
-    /// again, unless another connection is open.
-    pub fn share(&mut self, on: bool) -> Result<()> {
-        let sql = if on { "PRAGMA journal_mode = WAL" } else { "PRAGMA journal_mode = DELETE" };
-        self.run(async |connection| {
-            sqlx::query(sql).execute(connection).await?;
-            Ok(())
-        })
+    /// Ends [`share`](Self::share): the database is one file again. Where another connection is still open, `-wal` and
+    /// `-shm` stay beside it; whether the file alone holds all is said then.
+    pub fn unshare(&mut self) -> Result<bool> {
+        match self.connection.execute(ONE_FILE) {
+            Err(error) if error.is_busy() => self.run(async |connection| {
+                let checkpoint = sqlx::query_as("PRAGMA wal_checkpoint(TRUNCATE)");
+                let (_, pages, moved): (i64, i64, i64) = checkpoint.fetch_one(connection).await?;
+                Ok(pages == moved)
+            }),
+            done => done.map(|()| true),
+        }
     }
 
     /// Whether each transaction is on the disk before it is done. Without that, and in WAL mode ([`Store::share`]), a crash
     /// of the program loses nothing, and a power cut the last transactions; the database stays whole in either case.
     pub fn sync_each(&mut self, on: bool) -> Result<()> {
-        let sql = if on { "PRAGMA synchronous = FULL" } else { "PRAGMA synchronous = NORMAL" };
-        self.run(async |connection| {
-            sqlx::query(sql).execute(connection).await?;
-            Ok(())
-        })
+        self.connection.execute(if on { "PRAGMA synchronous = FULL" } else { "PRAGMA synchronous = NORMAL" })
     }
 
     /// Writes a compact copy of the database to `to`, which must not exist.
@@ -200,11 +168,21 @@ impl Store {
 
     /// Answers one reading SQL statement of a user, on a connection that can do nothing but read this file.
     pub fn query(&self, sql: &str, limits: &Limits) -> Result<Answer> {
-        self.runtime.block_on(query::answer(&self.path, sql, limits)).map_err(|e| e.at(&self.path))
+        self.connection.beside(async |path| query::answer(path, sql, limits).await)
     }
 
     fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
-        self.runtime.block_on(work(&mut self.connection)).map_err(|e| e.at(&self.path))
+        self.connection.run(work)
+    }
+}
+
+impl Drop for Store {
+    /// Whoever writes last leaves one file, also where a program that shared the database was killed. With another
+    /// connection open SQLite refuses that at once.
+    fn drop(&mut self) {
+        if self.writes {
+            self.connection.execute(ONE_FILE).ok();
+        }
     }
 }
 
@@ -229,6 +207,56 @@ fn older_than_3_51_3(version: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Gives the database so many pages more than it has.
+    fn give_room(store: &mut Store, pages: i64) {
+        let set = store.run(async |connection| {
+            let has: i64 = sqlx::query_scalar("PRAGMA page_count").fetch_one(&mut *connection).await?;
+            let limit = format!("PRAGMA max_page_count = {}", has + pages);
+            sqlx::raw_sql(sqlx::AssertSqlSafe(limit)).execute(connection).await?;
+            Ok(())
+        });
+        set.unwrap();
+    }
+
+    /// SQLite ends a transaction by itself when the disk is full. It was taken for open ever after: no edit until a restart.
+    #[test]
+    fn a_full_disk_ends_one_transaction_and_not_all_that_follow() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = Store::create(folder.path().join("site.db")).unwrap();
+        let long = "long".repeat(100_000);
+        for _ in 0..3 {
+            give_room(&mut store, 2);
+            let full = store.transaction(|tx| {
+                tx.set_site_value("short", Some("before"))?;
+                tx.set_site_value("long", Some(&long))
+            });
+            assert!(matches!(full, Err(Error::Full(_))), "{full:?}");
+            let full = store.rehearse(|tx| tx.set_site_value("long", Some(&long)));
+            assert!(matches!(full, Err(Error::Full(_))), "{full:?}");
+            give_room(&mut store, 1_000);
+            assert_eq!(store.snapshot(|tx| tx.site_value("short")).unwrap(), None);
+            store.transaction(|tx| tx.set_site_value("long", Some(&long))).unwrap();
+            store.transaction(|tx| tx.set_site_value("long", None)).unwrap();
+            store
+                .run(async |connection| Ok(sqlx::raw_sql("VACUUM").execute(connection).await.map(drop)?))
+                .unwrap();
+        }
+    }
+
+    #[test]
+    fn a_panic_takes_a_transaction_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = Store::create(folder.path().join("site.db")).unwrap();
+        let panicked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
+            store.transaction(|tx| -> Result<()> {
+                tx.set_site_value("half", Some("done"))?;
+                panic!("a defect");
+            })
+        }));
+        assert!(panicked.is_err());
+        assert_eq!(store.transaction(|tx| tx.site_value("half")).unwrap(), None);
+    }
 
     #[test]
     fn versions_are_compared_as_numbers() {

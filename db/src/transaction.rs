@@ -1,34 +1,42 @@
 //! One transaction, and the blocking form of what the tables' modules do.
 
-use std::path::Path;
+use sqlx::SqliteConnection;
 
-use sqlx::{Sqlite, SqliteConnection, Transaction};
-use tokio::runtime::Runtime;
-
-use crate::error::{Error, Result};
+use crate::connection::Connection;
+use crate::error::Result;
 
 /// A transaction of a [`Store`](crate::Store). Each table's module adds the functions that read and write it. After a
 /// failed write let the error end the transaction, so that no half of it is kept.
+///
+/// It is no transaction of sqlx's, which counts those that are open: SQLite ends one by itself where the disk is full or
+/// fails, and whoever counts takes that for open ever after.
 pub struct Tx<'s> {
-    runtime: &'s Runtime,
-    transaction: Transaction<'s, Sqlite>,
-    path: &'s Path,
+    connection: &'s mut Connection,
+    is_committed: bool,
 }
 
 impl<'s> Tx<'s> {
-    pub(crate) fn new(runtime: &'s Runtime, transaction: Transaction<'s, Sqlite>, path: &'s Path) -> Self {
-        Self { runtime, transaction, path }
+    pub(crate) fn begin(connection: &'s mut Connection, begin: &'static str) -> Result<Self> {
+        connection.execute(begin)?;
+        Ok(Self { connection, is_committed: false })
     }
 
     pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
-        self.runtime.block_on(work(&mut self.transaction)).map_err(|e| e.at(self.path))
+        self.connection.run(work)
     }
 
-    pub(crate) fn commit(self) -> Result<()> {
-        self.runtime.block_on(self.transaction.commit()).map_err(|e| Error::from(e).at(self.path))
+    pub(crate) fn commit(mut self) -> Result<()> {
+        self.connection.execute("COMMIT")?;
+        self.is_committed = true;
+        Ok(())
     }
+}
 
-    pub(crate) fn roll_back(self) -> Result<()> {
-        self.runtime.block_on(self.transaction.rollback()).map_err(|e| Error::from(e).at(self.path))
+impl Drop for Tx<'_> {
+    /// What was not committed is taken back, after a panic too. It fails only where SQLite has ended the transaction already.
+    fn drop(&mut self) {
+        if !self.is_committed {
+            self.connection.execute("ROLLBACK").ok();
+        }
     }
 }

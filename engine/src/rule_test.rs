@@ -10,6 +10,7 @@ use std::fmt;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
+use crate::script::interpreter::Limits;
 use crate::script::source::SourceFile;
 use crate::value::Value;
 
@@ -106,9 +107,20 @@ impl RuleTests {
 
     /// Runs every test on a knowledge base of its own. Names and types that cannot be right are an error.
     pub fn run(&self, rules: &RuleBase, schema: &Schema) -> Result<Vec<TestOutcome>, Diagnostics> {
+        self.run_within(rules, schema, Limits::default())
+    }
+
+    /// As [`run`](Self::run), with limits: all tests together may take what one inference may.
+    pub fn run_within(
+        &self,
+        rules: &RuleBase,
+        schema: &Schema,
+        limits: Limits,
+    ) -> Result<Vec<TestOutcome>, Diagnostics> {
         let vocabulary = vocabulary::Vocabulary::new(&self.files, rules, schema).map_err(Diagnostics)?;
         let tests = self.files.iter().flat_map(|file| file.tests.iter().map(move |test| (file, test)));
-        Ok(tests.map(|(file, test)| run::run(file, test, rules, &vocabulary)).collect())
+        let limits = Limits { until: Some(limits.end(limits.inference)), ..limits };
+        Ok(tests.map(|(file, test)| run::run(file, test, rules, (&vocabulary, limits))).collect())
     }
 }
 

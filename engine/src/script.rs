@@ -9,6 +9,7 @@ pub(crate) mod reactor;
 pub(crate) mod read;
 pub(crate) mod resolve;
 mod rewrite;
+mod sizes;
 pub(crate) mod source;
 pub(crate) mod syntax;
 pub(crate) mod wording;

@@ -2,12 +2,12 @@
 //! time everything that follows is derived by the same path, in one transaction.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use adit_db::history::Author;
 use adit_db::robot::State;
 use adit_db::{Store, Tx};
-use adit_engine::{RuleBase, RuleTests, Schema, TestOutcome, Type};
+use adit_engine::{Limits, RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::layers::RoomsByState;
@@ -37,6 +37,10 @@ use crate::store::{LastBuild, Tables};
 use crate::told::{Attached, Fact, Told};
 use crate::tunings::{self, RowKeys};
 use crate::{classes, generation, lint, rules, states, tables, trees};
+
+/// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
+/// everybody's edits wait.
+const TRIAL: Duration = Duration::from_secs(10);
 
 /// Something that the expert should know, though nothing is wrong.
 #[derive(Debug, thiserror::Error, miette::Diagnostic)]
@@ -189,7 +193,8 @@ impl KnowledgeBase {
         let mut store = Store::open_read_only(&self.database)?;
         let (told, generation) =
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?;
-        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
+        let limits = Limits { inference: TRIAL, rule: TRIAL, ..Limits::default() };
+        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told, limits)? })
     }
 
     /// The files that a build reads, `site.toml` first.
@@ -440,15 +445,25 @@ impl KnowledgeBase {
 
     /// Refuses rules with names or types that cannot be right, and rules that fail a test beside them.
     fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<()> {
-        let failures: Vec<_> =
-            self.run_tests(rules, tests, told)?.into_iter().flat_map(|outcome| outcome.failures).collect();
+        let failures: Vec<_> = self
+            .run_tests(rules, tests, told, Limits::default())?
+            .into_iter()
+            .flat_map(|outcome| outcome.failures)
+            .collect();
         if failures.is_empty() {
             return Ok(());
         }
         Err(Error::all(failures.into_iter().map(|failure| failure.diagnostic)))
     }
 
-    fn run_tests(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<Vec<TestOutcome>> {
+    /// Runs tests; all of them together may take what one inference may.
+    fn run_tests(
+        &self,
+        rules: &RuleBase,
+        tests: &RuleTests,
+        told: &Told,
+        limits: Limits,
+    ) -> Result<Vec<TestOutcome>> {
         let schema = self.schema(told);
         let problems = rules.check(&schema);
         let errors: Vec<_> =
@@ -456,7 +471,7 @@ impl KnowledgeBase {
         if !errors.is_empty() {
             return Err(Error::all(errors));
         }
-        tests.run(rules, &schema).map_err(|problems| Error::all(problems.0))
+        tests.run_within(rules, &schema, limits).map_err(|problems| Error::all(problems.0))
     }
 
     /// Runs the tests of the rule base that is in force; nothing is changed.
@@ -468,7 +483,8 @@ impl KnowledgeBase {
         } else {
             (Told { classes: tables::unbuilt(), ..Told::default() }, 0)
         };
-        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told)? })
+        let limits = Limits::default();
+        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told, limits)? })
     }
 
     pub(crate) fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {

@@ -161,12 +161,13 @@ impl Live {
 
     /// Lets others read the database while edits are written.
     pub fn share(&mut self) -> Result<()> {
-        Ok(self.store.share(true)?)
+        Ok(self.store.share()?)
     }
 
-    /// Leaves the database as one file, unless others still read it.
-    pub fn unshare(mut self) -> Result<()> {
-        self.store.share(false).or_else(|error| if error.is_busy() { Ok(()) } else { Err(error.into()) })
+    /// Leaves the database as one file. Where others still read it, two files stay beside it; `false` where the file lacks
+    /// then what is in those.
+    pub fn unshare(mut self) -> Result<bool> {
+        Ok(self.store.unshare()?)
     }
 
     /// Keeps a query of somebody's under a name, or takes it away; whether there is, or was, one.

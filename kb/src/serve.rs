@@ -35,11 +35,12 @@ const QUEUE: usize = 1_024;
 /// How long an edit may still take when the service ends.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// Serves a site until the program is told to end.
+/// Serves a site until the program is told to end. `false` where another program reads the database at the end, so that
+/// the newest edits are not in its file yet.
 ///
 /// # Arguments
 /// `ready` hears the address once requests are answered.
-pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<()> {
+pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<bool> {
     let tokens = tokens(&settings)?;
     let mut live = Live::open(settings.open()?)?;
     live.share()?;
@@ -61,6 +62,7 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     }
     let (desk, watcher, porter) = (desk.join(), watcher.join(), porter.join());
     served?;
+    shared.stop_reading();
     match (desk, watcher, porter) {
         (Ok(live), Ok(()), Ok(())) => live.unshare(),
         _ => Err(Error::said("serve/ended", "the service ended by a defect of its own", None)),

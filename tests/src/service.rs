@@ -34,8 +34,13 @@ impl Service {
 
     /// Serves the site with these arguments.
     pub fn start_with(site: &TestSite, arguments: &[&str]) -> Self {
+        Self::start_by(Command::new(adit()), site, arguments)
+    }
+
+    /// Serves the site by a command that becomes the program: `prlimit --as=2000000000 adit`.
+    pub fn start_by(mut program: Command, site: &TestSite, arguments: &[&str]) -> Self {
         let log = NamedTempFile::new().expect("a temporary file");
-        let mut child = Command::new(adit())
+        let mut child = program
             .arg("serve")
             .arg(site.path())
             .args(arguments)
@@ -89,9 +94,26 @@ impl Service {
         format!("http://{}/{hash}", self.address)
     }
 
+    /// The program's number.
+    pub fn pid(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// The most memory that the program had so far, in bytes.
+    pub fn peak_memory(&self) -> u64 {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.pid())).expect("it runs");
+        let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).expect("it says its peak");
+        peak.trim().trim_end_matches(" kB").parse::<u64>().expect("a number") * 1024
+    }
+
     /// Tells the program to end, and waits until it has.
-    pub fn end(mut self) {
-        let told = Command::new("kill").args(["-TERM", &self.child.id().to_string()]).status();
+    pub fn end(self) {
+        self.end_by("TERM");
+    }
+
+    /// As [`end`](Self::end), by this signal.
+    pub fn end_by(mut self, signal: &str) {
+        let told = Command::new("kill").args([&format!("-{signal}"), &self.pid().to_string()]).status();
         assert!(told.expect("kill is there").success());
         assert!(self.child.wait().expect("it ends").success());
     }

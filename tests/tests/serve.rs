@@ -3,6 +3,8 @@
 
 #[path = "serve/described.rs"]
 mod described;
+#[path = "serve/disk.rs"]
+mod disk;
 #[path = "serve/edits.rs"]
 mod edits;
 #[path = "serve/events.rs"]
@@ -11,6 +13,8 @@ mod events;
 mod failures;
 #[path = "serve/follows.rs"]
 mod follows;
+#[path = "serve/hostile.rs"]
+mod hostile;
 #[path = "serve/late.rs"]
 mod late;
 #[path = "serve/roles.rs"]

@@ -218,7 +218,7 @@ impl KnowledgeBase {
         let rule = &declaration.rule;
         let known = super::evaluate::Known { base: self, rule };
         let Ok(plan) = plan(rule, &known, &self.symbols) else { return false };
-        let machine = self.machine(rule, &plan, Instant::now() + self.limits.rule);
+        let machine = self.machine(rule, &plan, self.limits.end(self.limits.rule));
         let frame = Frame { len: 1, rows: vec![Rows::Same(row)] };
         let batch = Batch { frame: &frame, slots: &[], mask: None };
         plan.clauses[0]

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::time::Instant;
 
 use rhai::{Dynamic, Scope};
 
@@ -122,7 +121,7 @@ impl KnowledgeBase {
         for (variable, clause) in bound {
             scope.push_dynamic(clause.variable.as_str(), Dynamic::from(Object(variable)));
         }
-        start_run(run.until.min(Instant::now() + self.limits.rule));
+        start_run(run.until.min(self.limits.end(self.limits.rule)));
         let (done, writes) = with_run(known, || {
             let evaluate = || reactor().eval_ast_with_scope::<Dynamic>(&mut scope, &body.script);
             catch_unwind(AssertUnwindSafe(evaluate))

@@ -159,7 +159,7 @@ impl KnowledgeBase {
     /// Takes in what was told.
     pub(super) fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
         let gone = self.take_over(base);
-        let mut run = Run::new(base, Instant::now() + self.limits.inference);
+        let mut run = Run::new(base, self.limits.end(self.limits.inference));
         run.recheck = std::mem::take(&mut self.network.recheck);
         for name in gone {
             run.changed(&name, (0, 1), &Dirty::All);

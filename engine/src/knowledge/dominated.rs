@@ -59,6 +59,7 @@ impl KnowledgeBase {
     }
 
     fn all_dominated(&mut self, rules: &RuleBase) -> Vec<Dominated> {
+        let until = self.limits.end(self.limits.inference);
         let mut found = vec![];
         for (rule, node) in rules.rules.iter().zip(&self.network.nodes) {
             let Some(planned) = node.planned.as_ref().filter(|_| node.needs.is_empty() && !rule.reacts())
@@ -66,19 +67,19 @@ impl KnowledgeBase {
                 continue;
             };
             for number in 0..rule.clauses.len() {
-                found.extend(self.dominated_in(rule, &planned.plan, number));
+                found.extend(self.dominated_in(rule, &planned.plan, number, until));
             }
         }
         found
     }
 
-    fn dominated_in(&self, rule: &Rule, plan: &Plan, number: usize) -> Vec<Dominated> {
+    fn dominated_in(&self, rule: &Rule, plan: &Plan, number: usize, until: Instant) -> Vec<Dominated> {
         let (clause, choice) = (&rule.clauses[number], &plan.clauses[number]);
         let size = self.len(&clause.class).unwrap_or(0);
         if !compares_alone(choice) || size > MOST_OBJECTS {
             return vec![];
         }
-        let machine = self.machine(rule, plan, Instant::now() + self.limits.rule);
+        let machine = self.machine(rule, plan, until);
         let Ok(candidates) = Candidates::of(&machine, plan, number, size) else { return vec![] };
         let hurdles = hurdles(&machine, plan, number, &candidates.rows);
         let easier = |other: usize, one: usize| {

@@ -109,7 +109,7 @@ impl KnowledgeBase {
             columns: plan.columns.iter().map(column).collect(),
             symbols: &self.symbols,
             runner: runner(),
-            deadline: until.min(Instant::now() + self.limits.rule),
+            deadline: until.min(self.limits.end(self.limits.rule)),
             trouble: None.into(),
             troubles: 0.into(),
             stopped: false.into(),

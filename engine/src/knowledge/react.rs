@@ -36,7 +36,7 @@ impl KnowledgeBase {
         on_deep_stack(|| {
             self.prepare(rules);
             self.follow(rules);
-            let mut run = Run::new(rules, Instant::now() + self.limits.reactions);
+            let mut run = Run::new(rules, self.limits.end(self.limits.reactions));
             if self.matching(&mut run, true).is_err() {
                 return vec![];
             }
@@ -59,7 +59,7 @@ impl KnowledgeBase {
     }
 
     fn run(&mut self, rules: &RuleBase) -> Reactions {
-        let mut run = Run::new(rules, Instant::now() + self.limits.reactions);
+        let mut run = Run::new(rules, self.limits.end(self.limits.reactions));
         self.prepare(rules);
         self.follow(rules);
         let mut stopped = self.matching(&mut run, true).err().map(|why| self.too_much(rules, why));

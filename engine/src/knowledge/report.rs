@@ -23,6 +23,7 @@ impl KnowledgeBase {
             let writers: Vec<usize> = self.derived[name].writers.iter().map(|writer| writer.rule).collect();
             self.index(name, &writers);
         }
+        let until = self.limits.end(self.limits.inference);
         let mut report = Conclusions::default();
         for (number, rule) in base.rules.iter().enumerate() {
             let node = &self.network.nodes[number];
@@ -32,7 +33,7 @@ impl KnowledgeBase {
             }
             report.diagnostics.extend(node.problems.iter().cloned());
             report.diagnostics.extend(node.memory.as_ref().and_then(|memory| memory.problem.clone()));
-            report.left_out.extend(self.left_out(base, number));
+            report.left_out.extend(self.left_out(base, number, until));
         }
         report.waiting.sort_by_key(|waiting| self.place(base, &waiting.rule));
         for (name, derived) in &self.derived {
@@ -73,7 +74,7 @@ impl KnowledgeBase {
         base.order.iter().position(is).unwrap_or(usize::MAX)
     }
 
-    fn left_out(&self, base: &RuleBase, number: usize) -> Vec<LeftOut> {
+    fn left_out(&self, base: &RuleBase, number: usize, until: Instant) -> Vec<LeftOut> {
         let (rule, node) = (&base.rules[number], &self.network.nodes[number]);
         let (Some(planned), Some(memory)) = (&node.planned, &node.memory) else { return vec![] };
         let mut out = vec![];
@@ -84,7 +85,7 @@ impl KnowledgeBase {
                     memory.statuses.iter().filter(|&&status| status == Status::LEFT_OUT).count()
                 }
                 None => {
-                    let machine = self.machine(rule, &planned.plan, Instant::now() + self.limits.rule);
+                    let machine = self.machine(rule, &planned.plan, until);
                     let size = self.len(&clause.class).unwrap_or(0);
                     Candidates::of(&machine, &planned.plan, at, size).map_or(0, |found| found.left_out)
                 }

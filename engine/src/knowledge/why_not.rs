@@ -4,8 +4,6 @@ mod rows;
 mod tests_of;
 mod walk;
 
-use std::time::Instant;
-
 use super::KnowledgeBase;
 use super::evaluate::{Known, below};
 use crate::column::Column;
@@ -70,7 +68,7 @@ impl KnowledgeBase {
             columns: columns.iter().map(column).collect(),
             symbols: &self.symbols,
             runner: runner(),
-            deadline: Instant::now() + self.limits.rule,
+            deadline: self.limits.end(self.limits.rule),
             trouble: None.into(),
             troubles: 0.into(),
             stopped: false.into(),

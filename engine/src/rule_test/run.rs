@@ -9,6 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::knowledge::KnowledgeBase;
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
+use crate::script::interpreter::Limits;
 use crate::value::Value;
 
 struct Run<'t> {
@@ -25,9 +26,10 @@ pub(super) fn run(
     file: &TestFile,
     test: &Test,
     rules: &RuleBase,
-    vocabulary: &Vocabulary<'_>,
+    (vocabulary, limits): (&Vocabulary<'_>, Limits),
 ) -> TestOutcome {
-    let mut run = Run { file, test, rules, knowledge: KnowledgeBase::new(), step: 0, failures: vec![] };
+    let knowledge = KnowledgeBase::with_limits(limits);
+    let mut run = Run { file, test, rules, knowledge, step: 0, failures: vec![] };
     for class in vocabulary.classes(file, &test.given) {
         if let Err(error) = run.knowledge.assert(class) {
             run.fail(&test.name, &format!("what is given cannot be: {error}"));

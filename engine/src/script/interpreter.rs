@@ -11,7 +11,7 @@ use rhai::packages::{
 };
 use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, OptimizationLevel};
 
-use super::syntax;
+use super::{sizes, syntax};
 
 /// Steps that one run of an interpreted part may take, its closures included.
 pub(crate) const MAX_STEPS: u64 = 1_000_000;
@@ -115,12 +115,16 @@ pub(super) fn bare() -> Engine {
     engine.disable_symbol("eval");
     engine.disable_symbol("import");
     engine.disable_symbol("export");
+    // `f = f.curry(f)` doubles what `f` holds, and nothing measures that. The parser calls it all the same, for closures
+    // that look outside.
+    engine.disable_symbol("curry");
     engine.on_print(|_| {});
     engine.on_debug(|_, _, _| {});
     engine.on_progress(|_| on_step());
     // Otherwise the built-in operators win over ours.
     engine.set_fast_operators(false);
     register_functions(&mut engine);
+    sizes::register(&mut engine);
     engine
 }
 
@@ -187,6 +191,16 @@ pub struct Limits {
     pub firings: usize,
     /// Matches of all rules that react, kept at once; some 200 bytes each.
     pub matches: usize,
+    /// The moment at which all of it ends, inferences and questions after one another, whatever is left of the others.
+    pub until: Option<Instant>,
+}
+
+impl Limits {
+    /// When something has to end that begins now and may take so long.
+    pub(crate) fn end(&self, time: Duration) -> Instant {
+        let end = Instant::now() + time;
+        self.until.map_or(end, |until| until.min(end))
+    }
 }
 
 impl Default for Limits {
@@ -197,6 +211,7 @@ impl Default for Limits {
             reactions: Duration::from_mins(1),
             firings: 10_000,
             matches: 1_000_000,
+            until: None,
         }
     }
 }

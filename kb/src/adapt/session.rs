@@ -211,19 +211,10 @@ impl Session {
     }
 }
 
-impl Drop for Session {
-    /// One file again, unless another program reads it.
-    fn drop(&mut self) {
-        if let Some(store) = &mut self.store {
-            store.share(false).ok();
-        }
-    }
-}
-
 /// A database to which each task is written: others may read meanwhile, and no task waits for the disk.
 fn open(db: &Path) -> Result<Store> {
     let mut store = Store::open_or_create(db)?;
-    store.share(true)?;
+    store.share()?;
     store.sync_each(false)?;
     store.transaction(|tx| tx.make_experience())?;
     Ok(store)

@@ -26,11 +26,19 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         subscribers: args.subscribers,
         log: remark,
     };
-    let name = Site::open(&settings.folder)?.name;
-    serve::run(settings, |address| {
+    let site = settings.open()?;
+    let name = &site.site().name;
+    let is_whole = serve::run(settings, |address| {
         line(&format!("listening on http://{address}/"));
         remark(&format!("{name} is served; Ctrl-C ends it"));
-    })
+    })?;
+    if !is_whole {
+        let database = site.database().display();
+        remark(&format!(
+            "another program still reads {database}: a copy needs {database}-wal beside it, until `adit build`"
+        ));
+    }
+    Ok(())
 }
 
 /// Adds, lists or removes tokens.

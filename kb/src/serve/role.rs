@@ -17,7 +17,7 @@ pub enum Role {
     Tell,
     /// Edit tables, undo, switch tunings, upload traversals; tell facts, too.
     Tune,
-    /// Edit rule files.
+    /// Try and edit rule files.
     Rules,
     /// Everything.
     Admin,

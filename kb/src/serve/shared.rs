@@ -43,6 +43,8 @@ pub struct Shared {
     pub places: Semaphore,
     /// Places of what takes long.
     long: Arc<Semaphore>,
+    /// Places of questions in SQL.
+    queries: Arc<Semaphore>,
     jobs: SyncSender<Job>,
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
@@ -72,6 +74,9 @@ pub struct Seen {
 /// Previews and the like that are worked on at once; more wait.
 const LONG: usize = 4;
 
+/// Questions in SQL that are worked on at once; more wait. Each may take a core, and memory.
+const QUERIES: usize = 4;
+
 /// Events that a subscriber may lag behind before it is dropped.
 const BACKLOG: usize = 256;
 
@@ -89,6 +94,7 @@ impl Shared {
             subscribers: AtomicUsize::new(0),
             places: Semaphore::new(settings.requests),
             long: Arc::new(Semaphore::new(LONG)),
+            queries: Arc::new(Semaphore::new(QUERIES)),
             settings,
             jobs,
         }
@@ -135,14 +141,18 @@ impl Shared {
         done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
     }
 
-    /// Reads as [`read`](Self::read) does, with the whole store.
-    pub async fn with_store<T: Send + 'static>(
+    /// Answers a question of somebody's, with the whole store; few such questions are answered at once.
+    pub async fn query<T: Send + 'static>(
         self: &Arc<Self>,
         work: impl FnOnce(&mut Store) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let shared = Arc::clone(self);
-        let done = tokio::task::spawn_blocking(move || shared.readers.with(work));
-        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+        at_a_place(&self.queries, move || shared.readers.with(work)).await
+    }
+
+    /// Closes all connections that read; requests must have ended.
+    pub fn stop_reading(&self) {
+        self.readers.close();
     }
 
     /// Shows the site as it now is.
@@ -164,13 +174,7 @@ impl Shared {
         self: &Arc<Self>,
         work: impl FnOnce() -> Result<T> + Send + 'static,
     ) -> Answered<T> {
-        let place = Arc::clone(&self.long).acquire_owned().await.map_err(|_| Fault::internal())?;
-        let done = tokio::task::spawn_blocking(move || {
-            // whoever asked may have gone: the place is free when the work is done
-            let _place = place;
-            work()
-        });
-        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+        at_a_place(&self.long, work).await
     }
 
     /// What is wrong with files that were saved; the service goes on with those of before.
@@ -211,6 +215,20 @@ impl Shared {
     pub fn subscribed(&self) -> usize {
         self.subscribers.load(Ordering::Relaxed)
     }
+}
+
+/// Does something once there is a place for it.
+async fn at_a_place<T: Send + 'static>(
+    places: &Arc<Semaphore>,
+    work: impl FnOnce() -> Result<T> + Send + 'static,
+) -> Answered<T> {
+    let place = Arc::clone(places).acquire_owned().await.map_err(|_| Fault::internal())?;
+    let done = tokio::task::spawn_blocking(move || {
+        // whoever asked may have gone: the place is free when the work is done
+        let _place = place;
+        work()
+    });
+    done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
 }
 
 /// A subscriber's place.

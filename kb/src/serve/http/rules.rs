@@ -135,21 +135,23 @@ fn folder_of(site: &KnowledgeBase) -> &Path {
     site.rule_folder().unwrap_or(Path::new(""))
 }
 
-/// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules. Nothing is saved.
+/// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules, in 10 s at most.
+/// Nothing is saved. Role `rules`: what is tried runs.
 #[utoipa::path(post, path = "/api/rules/check", tag = "rules", security(("token" = [])), request_body = CheckBody,
     responses((status = 200, body = Checked), (status = "4XX", body = Failure)))]
-pub async fn check(site: Site, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
+pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
+    require(&caller, Role::Rules)?;
     check_name(&body.file)?;
     check_length(&body.text)?;
     let view = site.view.load().view.clone();
-    let checked = tokio::task::spawn_blocking(move || {
+    let checked = site.at_length(move || {
         let (site, folder) = (view.site(), folder_of(view.site()));
-        match site.try_rules(&body.file, Some(&body.text)) {
+        Ok(match site.try_rules(&body.file, Some(&body.text)) {
             Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, folder)) },
             Err(error) => Checked { problems: near_all(&error, folder), tests: None },
-        }
+        })
     });
-    Ok(Json(checked.await.map_err(|_| Fault::internal())?))
+    checked.await.map(Json)
 }
 
 /// A text to be saved.

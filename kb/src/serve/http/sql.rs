@@ -54,8 +54,7 @@ pub struct SqlAnswer {
 async fn answer(site: &Site, query: String, rows: usize) -> Answered<Answer> {
     let settings = &site.settings;
     let limits = Limits { deadline: settings.sql_deadline, rows: rows.min(settings.sql_rows), bytes: BYTES };
-    let answer =
-        site.with_store(move |store: &mut Store| store.query(&query, &limits).map_err(Error::from)).await;
+    let answer = site.query(move |store: &mut Store| store.query(&query, &limits).map_err(Error::from)).await;
     answer.map_err(|fault| Fault { status: 400, code: "sql/refused".to_owned(), ..fault })
 }
 

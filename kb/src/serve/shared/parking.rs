@@ -37,6 +37,11 @@ impl Readers {
         Ok(done)
     }
 
+    /// Closes them: whoever writes can leave the database as one file only when nobody else has it open.
+    pub fn close(&self) {
+        self.free().clear();
+    }
+
     fn free(&self) -> std::sync::MutexGuard<'_, Vec<Store>> {
         // whoever panicked held no connection: it was taken out before
         self.free.lock().unwrap_or_else(std::sync::PoisonError::into_inner)

@@ -1,0 +1,63 @@
+//! A connection with the runtime that drives it, in blocking form.
+
+use std::path::{Path, PathBuf};
+
+use sqlx::sqlite::SqliteConnectOptions;
+use sqlx::{ConnectOptions, Connection as _, SqliteConnection};
+use tokio::runtime::{Builder, Runtime};
+
+use crate::error::{self, Error, Result};
+
+/// An open connection. It is closed when this is dropped, and not some time later: SQLite tidies up behind the last one.
+pub(crate) struct Connection {
+    runtime: Runtime,
+    connection: Option<SqliteConnection>,
+    path: PathBuf,
+}
+
+impl Connection {
+    pub(crate) fn open(path: &Path, options: &SqliteConnectOptions) -> Result<Self> {
+        let at = || path.to_owned();
+        if path.is_dir() {
+            return Err(Error::CannotOpen(at()));
+        }
+        let runtime =
+            Builder::new_current_thread().build().map_err(|source| Error::Io { path: at(), source })?;
+        let connection = runtime.block_on(options.connect()).map_err(|e| match error::code(&e) {
+            Some(14) => Error::CannotOpen(at()),
+            _ => Error::from(e).at(path),
+        })?;
+        Ok(Self { runtime, connection: Some(connection), path: at() })
+    }
+
+    /// The database's file.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
+        let connection = self.connection.as_mut().expect("it is taken away by drop alone");
+        self.runtime.block_on(work(connection)).map_err(|e| e.at(&self.path))
+    }
+
+    /// Does what needs no connection of ours, or one of its own.
+    pub(crate) fn beside<T>(&self, work: impl AsyncFnOnce(&Path) -> Result<T>) -> Result<T> {
+        self.runtime.block_on(work(&self.path)).map_err(|e| e.at(&self.path))
+    }
+
+    /// Runs a statement that gives no rows.
+    pub(crate) fn execute(&mut self, sql: &'static str) -> Result<()> {
+        self.run(async |connection| {
+            sqlx::raw_sql(sql).execute(connection).await?;
+            Ok(())
+        })
+    }
+}
+
+impl Drop for Connection {
+    fn drop(&mut self) {
+        if let Some(connection) = self.connection.take() {
+            self.runtime.block_on(connection.close()).ok();
+        }
+    }
+}
