@@ -9,7 +9,7 @@ PEERS=$(readlink -m "$1"); mkdir -p "$2"; WORK=$(readlink -f "$2"); HERE=$(dirna
 PYTHON=${PYTHON:-/usr/bin/python3}; GEN_PYTHON=${GEN_PYTHON:-python3}
 cd "$HERE/../.."
 . tests/peers/common
-[ -z "$smallest" ] || SIZES=100
+[ -z "$smallest" ] || SIZES=1000
 SIZES=${SIZES:-1000 10000 100000}
 [ -f "$PEERS/gen.py" ] || skip "$PEERS is missing, so there is no graph"
 "$GEN_PYTHON" -c "import numpy, scipy" 2> /dev/null || skip "$GEN_PYTHON has no numpy and scipy, so there is no graph"

@@ -44,7 +44,7 @@ fn live() {
 
 #[test]
 fn routing() {
-    runs("routing.sh", &["100 rooms: the view takes"]);
+    runs("routing.sh", &["1000 rooms: the view takes"]);
 }
 
 #[test]
