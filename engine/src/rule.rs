@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use rhai::{Expr, Module, Position, Shared, StmtBlock};
@@ -231,6 +232,12 @@ impl Rule {
     /// The line of its name, from 1.
     pub const fn line(&self) -> usize {
         self.line
+    }
+
+    /// Where its name stands, for messages: the file, and the bytes.
+    pub fn place(&self) -> (&SourceFile, Range<usize>) {
+        let (start, length) = self.file.source.place(self.position).span;
+        (&self.file.source, start..start + length)
     }
 
     /// A short hash of its text; of the file's constants and functions too, if it uses any.

@@ -64,6 +64,7 @@ impl Planner for Graph {
             .with("y0", room(|at| at[1]))
             .with("x1", room(|at| at[0] + 3.0))
             .with("y1", room(|at| at[1] + 3.0))
+            .with("facing", Column::Number(vec![None; rooms as usize]))
             .with("height", Column::Number(vec![None; rooms as usize]))
             .with("width", vec![3.0; rooms as usize].into_iter().collect::<Column>());
         let door = |of: &dyn Fn(&[u32; 5]) -> f64| self.doors.iter().map(of).collect::<Column>();

@@ -27,4 +27,5 @@ pub use experiment::{
     Outcome as ExperimentOutcome, Row, method_of, method_word, run as experiment, write_csv,
 };
 pub use judge::{CELL_CHANGES, EDGES, LANDMARKS, strategy_of};
+pub(crate) use judge::{OF_CELL_CHANGES, OF_EDGES, OF_LANDMARKS};
 pub use session::{Beginning, Done, Session};

@@ -40,11 +40,9 @@ impl Inputs {
         let Rules { base: rules, tests } = rules::load(site, rule_folder)?;
         let (world, map_report, notes) = site.world()?;
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
-        let unread = lint::unread(&rules, planners).into_iter().map(|problem| problem.to_string());
-        let idle = lint::not_carried_out(&rules).into_iter().map(|problem| problem.to_string());
-        let unread = unread.chain(idle);
-        let unread = unread.chain(lint::unheard(&rules, &world));
-        let notes = unread.chain(notes.into_iter().map(|note| note.to_string())).collect();
+        let ignored = lint::ignored(site, rule_folder, &rules, planners).into_iter();
+        let ignored = ignored.map(|problem| problem.to_string()).chain(lint::unheard(&rules, &world));
+        let notes = ignored.chain(notes.into_iter().map(|note| note.to_string())).collect();
         Ok(Self { rules, tests, world, map_report, notes, stage })
     }
 }

@@ -266,12 +266,8 @@ impl KnowledgeBase {
     /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<miette::Report>> {
         let rules = rules::load(&self.site, self.rules.as_deref())?.base;
-        let unread = lint::unread(&rules, &self.planners);
-        let idle = lint::not_carried_out(&rules);
-        let said: Vec<String> =
-            unread.iter().map(ToString::to_string).chain(idle.iter().map(ToString::to_string)).collect();
-        let mut problems: Vec<miette::Report> = unread.into_iter().map(miette::Report::new).collect();
-        problems.extend(idle.into_iter().map(miette::Report::new));
+        let mut problems = lint::ignored(&self.site, self.rules.as_deref(), &rules, &self.planners);
+        let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
         if self.database.exists() {

@@ -64,6 +64,7 @@ mod trees;
 mod tunings;
 pub mod watch;
 mod weights;
+mod whole;
 pub mod why;
 pub mod why_not;
 

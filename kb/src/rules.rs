@@ -61,7 +61,17 @@ pub fn from_folder(folder: &Path) -> Result<Rules> {
 fn folder_sources(folder: &Path) -> Result<Sources> {
     let tests = folder.join(TESTS);
     let tests = if tests.is_dir() { folder_files(&tests, "toml")? } else { Vec::new() };
-    Ok(Sources { rules: folder_files(folder, "rhai")?, tests })
+    let rules = folder_files(folder, "rhai")?;
+    if rules.is_empty() {
+        let message = format!("there is no rule in {}: it has no file NAME.rhai", folder.display());
+        let near = not_read(folder).into_iter().next();
+        let help = match near {
+            Some((file, why)) => format!("{} is not read: {why}", file.display()),
+            None => "without the folder the shipped rules count; copy them into it to change them".to_owned(),
+        };
+        return Err(Error::said("rules/none", message, Some(help)));
+    }
+    Ok(Sources { rules, tests })
 }
 
 fn compile(rules: &[SourceFile], tests: &[SourceFile]) -> Result<Rules> {
@@ -101,6 +111,41 @@ pub fn folder<'a>(site: &'a Site, instead: Option<&'a Path>) -> Option<&'a Path>
 pub fn files(folder: &Path) -> Vec<PathBuf> {
     let of = |folder: &Path, extension| listed(folder, extension).unwrap_or_default();
     [of(folder, "rhai"), of(&folder.join(TESTS), "toml")].concat()
+}
+
+/// Files in and below a folder of rules that look like rules or tests of rules, and are not read, with what would have
+/// them read.
+pub fn not_read(folder: &Path) -> Vec<(PathBuf, &'static str)> {
+    let mut found = Vec::new();
+    look(folder, Path::new(""), &mut found);
+    found.sort();
+    found
+}
+
+fn look(folder: &Path, below: &Path, found: &mut Vec<(PathBuf, &'static str)>) {
+    let in_tests = below == Path::new(TESTS);
+    for entry in fs::read_dir(folder.join(below)).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let (path, small) = (entry.path(), name.to_lowercase());
+        // what programs keep for themselves: an editor's copies, the files of a system
+        if name.starts_with('.') || name.ends_with('~') {
+            continue;
+        }
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            look(folder, &below.join(&name), found);
+        } else if small.contains(".rhai") && !(below == Path::new("") && name.ends_with(".rhai")) {
+            found.push((path, "rule files are called NAME.rhai, and lie in the folder of the rules itself"));
+        } else if small.contains(".toml") && !(in_tests && name.ends_with(".toml")) && has_tests(&path) {
+            found.push((
+                path,
+                "tests of rules are called NAME.toml, and lie in the folder `tests` beside the rules",
+            ));
+        }
+    }
+}
+
+fn has_tests(file: &Path) -> bool {
+    fs::read_to_string(file).is_ok_and(|text| text.contains("[[test]]"))
 }
 
 fn shipped_files(folder: &str, extension: &str) -> Vec<SourceFile> {

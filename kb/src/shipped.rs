@@ -1,11 +1,11 @@
 //! What the program carries: the shipped rule bases and the example sites.
 
-use std::fs;
 use std::path::Path;
 
 use rust_embed::RustEmbed;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::whole::Whole;
 
 /// The folder `rules/` of the repository.
 #[derive(RustEmbed)]
@@ -33,15 +33,8 @@ pub fn files<E: RustEmbed>(folder: &str) -> Vec<(String, String)> {
     found
 }
 
-/// Writes one shipped folder into a folder of the user's. Files that are there already are an error.
-pub fn write<E: RustEmbed>(folder: &str, into: &Path) -> Result<()> {
-    fs::create_dir_all(into).map_err(|error| Error::io("make", into, &error))?;
-    for (name, text) in files::<E>(folder) {
-        let path = into.join(name);
-        if path.exists() {
-            return Err(Error::said("site/exists", format!("{} is there already", path.display()), None));
-        }
-        fs::write(&path, text).map_err(|error| Error::io("write", &path, &error))?;
-    }
-    Ok(())
+/// Makes one shipped folder in a folder of the user's. Files that are there already are an error.
+pub fn make<E: RustEmbed>(folder: &str, into: &Path, made: &mut Whole) -> Result<()> {
+    made.folder(into)?;
+    files::<E>(folder).into_iter().try_for_each(|(name, text)| made.file(&into.join(name), text))
 }

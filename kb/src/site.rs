@@ -68,6 +68,8 @@ pub struct Site {
     pub robots: PathBuf,
     /// Folder of the site's own rule base; `None`: the shipped one.
     pub rules: Option<PathBuf>,
+    /// The folder `rules`, where `site.toml` names another one: it does not count.
+    pub idle_rules: Option<PathBuf>,
     /// How the map is cut into rooms.
     pub rooms: Rooms,
     /// From where routes are kept; `None`: not said.
@@ -110,13 +112,15 @@ impl Site {
         fields.refuse_unknown(&keys, &mut problems);
         let path =
             |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
+        let (rules, idle_rules) = own_rules(folder, optional_text(&fields, "rules", &mut problems));
         let site = Self {
             folder: folder.to_owned(),
             name: optional_text(&fields, "name", &mut problems)
                 .unwrap_or_else(|| folder.display().to_string()),
             map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
-            rules: optional_text(&fields, "rules", &mut problems).map(|rules| folder.join(rules)),
+            rules,
+            idle_rules,
             rooms: rooms(&fields, &mut problems),
             starts: starts(&fields, &mut problems),
             hours: hours::read(&fields, &mut problems),
@@ -125,7 +129,21 @@ impl Site {
             overlay: Overlay::from_fields(&fields, &mut problems),
             text: text.clone(),
         };
+        site.check_clearance(&fields, &mut problems);
         if problems.is_empty() { Ok(site) } else { Err(Error::all(problems)) }
+    }
+
+    /// Refuses a clearance that no room would keep.
+    fn check_clearance(&self, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) {
+        if self.rooms == Rooms::ByState || self.settings.clearance <= 0.0 {
+            return;
+        }
+        if let Some(value) = fields.get("clearance") {
+            let message = format!("`clearance` is not kept where `rooms` is \"{}\"", self.rooms.name());
+            let problem = fields.text.problem(Code::Impossible, &value.span(), message);
+            problems
+                .push(problem.with_help("make the states wider in robots.toml, or cut rooms \"by-state\""));
+        }
     }
 
     /// The database, unless the user names another one.
@@ -169,6 +187,22 @@ impl Site {
         further
     }
 
+    /// The site that a map is the map of: the one in its folder, if it names it.
+    pub fn of_map(map: &Path) -> Result<Option<Self>> {
+        let folder = map.parent().unwrap_or(Path::new(""));
+        if !folder.join("site.toml").is_file() {
+            return Ok(None);
+        }
+        let site = Self::open(folder)?;
+        let is_same = fs::canonicalize(&site.map).ok() == fs::canonicalize(map).ok();
+        Ok(is_same.then_some(site))
+    }
+
+    /// Lays over its map what `site.toml` says, and gives notes.
+    pub fn lay_over(&self, map: &mut World) -> Result<Vec<Problem>> {
+        self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))
+    }
+
     /// Reads the map and lays over it what `site.toml` says.
     ///
     /// # Returns
@@ -177,8 +211,7 @@ impl Site {
         let (mut world, report) =
             read_map(&self.map, &self.settings).map_err(|errors| Error::all(errors.problems))?;
         let mut notes = report.notes.clone();
-        let laid = self.overlay.clone().lay_over(&mut world).map_err(|errors| Error::all(errors.problems))?;
-        notes.extend(laid);
+        notes.extend(self.lay_over(&mut world)?);
         Ok((world, report, notes))
     }
 }
@@ -192,6 +225,23 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
         format!("{} is not a site: it has no site.toml", folder.display()),
         Some(format!("`adit new {}` starts one", folder.display())),
     )
+}
+
+/// The folder of a site's own rules: the one that `site.toml` names, else `rules` if there is one; and `rules` where it is
+/// there beside the one that is named.
+fn own_rules(folder: &Path, named: Option<String>) -> (Option<PathBuf>, Option<PathBuf>) {
+    let usual = folder.join("rules");
+    // a link that leads nowhere is there as well: it is read, and the error says so
+    let is_there = fs::symlink_metadata(&usual).is_ok();
+    match named.map(|named| folder.join(named)) {
+        None => (is_there.then_some(usual), None),
+        Some(named) => {
+            let is_same =
+                |one: &Path, other: &Path| fs::canonicalize(one).ok() == fs::canonicalize(other).ok();
+            let is_idle = is_there && !is_same(&named, &usual);
+            (Some(named), is_idle.then_some(usual))
+        }
+    }
 }
 
 fn optional_text(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<String> {

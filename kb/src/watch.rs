@@ -87,6 +87,7 @@ mod tests {
 
     use super::*;
     use crate::shipped::{self, Rules, Sites};
+    use crate::whole::Whole;
 
     /// What a watched copy of the paper's example said, one text an event.
     struct Watched {
@@ -110,9 +111,11 @@ mod tests {
     fn watching(work: impl FnOnce(&Watched)) {
         let folder = tempfile::tempdir().unwrap();
         let site = folder.path().to_owned();
-        shipped::write::<Sites>("paper", &site).unwrap();
-        shipped::write::<Rules>("rooms/paper", &site.join("rules")).unwrap();
-        shipped::write::<Rules>("rooms/paper/tests", &site.join("rules/tests")).unwrap();
+        let mut made = Whole::default();
+        shipped::make::<Sites>("paper", &site, &mut made).unwrap();
+        shipped::make::<Rules>("rooms/paper", &site.join("rules"), &mut made).unwrap();
+        shipped::make::<Rules>("rooms/paper/tests", &site.join("rules/tests"), &mut made).unwrap();
+        made.keep();
         let toml = fs::read_to_string(site.join("site.toml")).unwrap();
         fs::write(site.join("site.toml"), format!("rules = \"rules\"\n{toml}")).unwrap();
         let (say, said) = channel();

@@ -3,30 +3,25 @@
 # alike, in one run; exit status 1 if a figure of the verdict is missed. WORK is a folder for what is made. Needs a C++
 # compiler; installs libompl-dev where it is missing and that is possible. RUNS=100, SEED=1000; ADIT_SHARED says where the
 # reference lies if not in ../shared (without it, ratios are to this run's RRTConnect only).
+# SMALLEST=1: the least size, to see that it runs (tests/peers/common).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 shared=$(readlink -m "${ADIT_SHARED:-../shared}")
-target=${CARGO_TARGET_DIR:-target}
+. tests/peers/common
 work=${1:-$target/peers-adapt}
-runs=${RUNS:-100}
+runs=${RUNS:-${smallest:+2}}
+runs=${runs:-100}
 seed=${SEED:-1000}
 mkdir -p "$work"
 work=$(readlink -f "$work")
 scenarios=tests/tests/adapt/two-link.json
 
-if ! pkg-config --exists ompl; then
-    if command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; then
-        apt-get update -qq && apt-get install -y -qq libompl-dev g++ pkg-config
-    else
-        echo "please install first: libompl-dev g++ pkg-config" >&2
-        exit 2
-    fi
-fi
+install_ompl
 if [ ! -x "$work/ompl_cell" ] || [ tests/peers/ompl_cell.cpp -nt "$work/ompl_cell" ]; then
     g++ $(pkg-config --cflags ompl eigen3) -O2 -std=c++17 tests/peers/ompl_cell.cpp -lompl -pthread -o "$work/ompl_cell"
 fi
-cargo build --quiet --release --locked -p adit --bin adit
-adit=$(readlink -f "$target/release/adit")
+build adit --bin adit
+adit=$(readlink -f "$built/adit")
 
 python3 tests/peers/adapt.py texts "$scenarios" "$work"
 # One after the other, on one core: wall times are compared.
@@ -35,7 +30,7 @@ for name in two-link-A two-link-B; do
         "$work/ompl_cell" "$work/$name.txt" "$runs" "$seed" "$method" > "$work/$name-$method.json"
     done
     rm -f "$work/$name-kept.json"
-    for run in $(seq 10); do
+    for run in $(seq "${smallest:-10}"); do
         rm -f "$work/kept.db"*
         "$adit" plan "$scenarios" --scenario "$name" --tasks 100 --seed "$run" --db "$work/kept.db" --json \
             | python3 -c 'import json, sys; print(json.dumps(json.load(sys.stdin)))' >> "$work/$name-kept.json"

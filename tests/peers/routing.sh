@@ -3,12 +3,20 @@
 # graphs and pairs, in one run. PEERS holds the peers' gen.py and bench.py; WORK is a folder for what is made.
 # Needs: mod_spatialite (Debian: libsqlite3-mod-spatialite), a python3 whose sqlite3 loads extensions (PYTHON), and
 # one with numpy and scipy for the graphs (GEN_PYTHON). SIZES="1000 10000" for less.
+# SMALLEST=1: the least size, to see that it runs (tests/peers/common).
 set -euo pipefail
-PEERS=$(readlink -f "$1"); mkdir -p "$2"; WORK=$(readlink -f "$2"); HERE=$(dirname "$(readlink -f "$0")")
-PYTHON=${PYTHON:-/usr/bin/python3}; GEN_PYTHON=${GEN_PYTHON:-python3}; SIZES=${SIZES:-1000 10000 100000}
+PEERS=$(readlink -m "$1"); mkdir -p "$2"; WORK=$(readlink -f "$2"); HERE=$(dirname "$(readlink -f "$0")")
+PYTHON=${PYTHON:-/usr/bin/python3}; GEN_PYTHON=${GEN_PYTHON:-python3}
 cd "$HERE/../.."
-cargo build --release -p adit-db --example load_graph
-LOAD=${CARGO_TARGET_DIR:-target}/release/examples/load_graph
+. tests/peers/common
+[ -z "$smallest" ] || SIZES=1000
+SIZES=${SIZES:-1000 10000 100000}
+[ -f "$PEERS/gen.py" ] || skip "$PEERS is missing, so there is no graph"
+"$GEN_PYTHON" -c "import numpy, scipy" 2> /dev/null || skip "$GEN_PYTHON has no numpy and scipy, so there is no graph"
+"$PYTHON" -c "import sqlite3; c = sqlite3.connect(':memory:'); c.enable_load_extension(True); c.load_extension('mod_spatialite')" \
+    2> /dev/null || skip "$PYTHON cannot load SpatiaLite (Debian's package libsqlite3-mod-spatialite)"
+build adit-db --example load_graph
+LOAD=$built/examples/load_graph
 for n in $SIZES; do
   [ -f "$WORK/g/$n/doors.u32" ] || "$GEN_PYTHON" "$PEERS/gen.py" "$WORK/g" "$n"
   rm -f "$WORK/site-$n.db"

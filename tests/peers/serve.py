@@ -12,6 +12,7 @@ import threading
 import time
 
 ADIT, WORK = sys.argv[1:3]
+SMALLEST = "SMALLEST" in os.environ
 STATES = [("STAND", "WALK", 1.7, 0.6, 1), ("SIDE-STAND", "SIDE-WALK", 1.7, 0.35, 2),
           ("SQUAT", "WALK-ON-KNEE", 1.1, 0.7, 4), ("LIE", "CREEP", 0.6, 0.7, 8), ("FLAT", "PULL", 0.1, 0.01, 10000)]
 
@@ -94,6 +95,7 @@ def latency(service, ends, change, undo, rounds):
 
 
 def measure_latency(name, service, ends, rounds=100):
+    rounds = 5 if SMALLEST else rounds
     query = {"query": "SELECT door FROM doors WHERE kind = 'door' LIMIT 1000"}
     doors = [str(door) for (door,) in service.client()("POST", "/api/sql", query)["rows"]]
 
@@ -112,7 +114,7 @@ def measure_latency(name, service, ends, rounds=100):
     print(f"{name}: a told fact, in the next answer:   {latency(service, ends, fact, retract, rounds)}", flush=True)
 
 
-def wrk(address, path=None, script=None, connections=8, seconds=6):
+def wrk(address, path=None, script=None, connections=8, seconds=1 if SMALLEST else 6):
     command = ["wrk", "-t1", f"-c{connections}", f"-d{seconds}s", "--latency"] + (["-s", script] if script else [])
     out = subprocess.run(command + [f"http://{address}{path or '/'}"], check=True, capture_output=True, text=True).stdout
     assert "Non-2xx" not in out and "Socket errors" not in out, out
@@ -159,7 +161,7 @@ def throughput(service, rooms):
 
 
 def main():
-    folder, _ = site("doors", "paper", 36)
+    folder, _ = site("doors", "paper", 6 if SMALLEST else 36)
     service = Service(folder)
     ask = service.client()
     seen = ask("GET", "/api/site")
@@ -170,7 +172,7 @@ def main():
     throughput(service, len(names))
     service.end()
 
-    folder, width = site("by-state", "by-state", 9)
+    folder, width = site("by-state", "by-state", 3 if SMALLEST else 9)
     service = Service(folder)
     seen = service.client()("GET", "/api/site")
     print(f"by state: {seen['rooms']} rooms, {seen['doors']} doors", flush=True)

@@ -241,3 +241,17 @@ fn a_state_that_cannot_be_drawn() {
     let file = site.path().join("floor.svg").display().to_string();
     site.adit("draw", &["-o", &file, "--state", "FLY"]).expecting(2).complains(&["FLY", "STAND"]);
 }
+
+#[test]
+fn a_clearance_that_no_room_would_keep_is_refused() {
+    for rooms in ["paper", "minimum"] {
+        let site = TestSite::example("paper");
+        let text = site.read("site.toml").replace("rooms = \"paper\"", &format!("rooms = \"{rooms}\""));
+        site.write("site.toml", format!("clearance = 0.5\n{text}"));
+        let said = format!("`clearance` is not kept where `rooms` is \"{rooms}\"");
+        site.adit("build", &[]).expecting(2).complains(&[&said, "site.toml:1"]);
+    }
+    let site = TestSite::example("paper");
+    site.write("site.toml", format!("clearance = 0.0\n{}", site.read("site.toml")));
+    site.adit("build", &[]).expect_status(0);
+}

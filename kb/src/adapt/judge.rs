@@ -68,6 +68,13 @@ pub fn strategy_of(word: &str) -> Option<Strategy> {
     STRATEGIES.iter().find(|(known, _)| *known == word).map(|(_, strategy)| *strategy)
 }
 
+/// What is asked of a change.
+pub(crate) const OF_CELL_CHANGES: [&str; 1] = ["strategy"];
+/// What is asked of a landmark.
+pub(crate) const OF_LANDMARKS: [&str; 2] = ["weight", "serves"];
+/// What is asked of an edge.
+pub(crate) const OF_EDGES: [&str; 1] = ["trust"];
+
 /// Rules as a judge.
 #[derive(Debug)]
 pub struct RuleJudge {
@@ -87,9 +94,9 @@ impl RuleJudge {
     pub fn new(rules: &Arc<RuleBase>, fixed: Option<Strategy>, explains: bool) -> Result<Self, ClassError> {
         let rules = || Arc::clone(rules);
         Ok(Self {
-            changes: Consultation::new(rules(), "CELL_CHANGES", CELL_CHANGES, &["strategy"])?,
-            landmarks: Consultation::new(rules(), "LANDMARKS", LANDMARKS, &["weight", "serves"])?,
-            edges: Consultation::new(rules(), "EDGES", EDGES, &["trust"])?,
+            changes: Consultation::new(rules(), "CELL_CHANGES", CELL_CHANGES, &OF_CELL_CHANGES)?,
+            landmarks: Consultation::new(rules(), "LANDMARKS", LANDMARKS, &OF_LANDMARKS)?,
+            edges: Consultation::new(rules(), "EDGES", EDGES, &OF_EDGES)?,
             fixed,
             considered: Vec::new(),
             explained: explains.then(Explained::default),

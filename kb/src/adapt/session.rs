@@ -17,6 +17,7 @@ use super::judge::RuleJudge;
 use super::plugins::with_taught;
 use super::{keep, recall};
 use crate::error::{Error, Result};
+use crate::whole::Whole;
 
 /// How a session begins.
 #[derive(Clone, Debug, Default)]
@@ -33,6 +34,8 @@ pub struct Beginning<'b> {
     pub taught: Vec<Vec<Configuration>>,
     /// Whether it is asked of every decision which rules made it.
     pub explains: bool,
+    /// The goals that it will go to: one that there is not is said before anything is kept.
+    pub goals: Vec<&'b str>,
 }
 
 /// A robot at work.
@@ -76,6 +79,10 @@ impl Session {
     ) -> Result<(Self, Option<Changed>)> {
         let judge = RuleJudge::new(rules, beginning.strategy, beginning.explains)
             .map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+        let mut made = Whole::default();
+        if let Some(db) = beginning.db {
+            made.database(db);
+        }
         let mut store = beginning.db.map(open).transpose()?;
         let kept = match &mut store {
             None => None,
@@ -95,8 +102,12 @@ impl Session {
         let cell = described.after(adapt.progress().tasks as usize);
         let described = described.clone();
         let mut session = Self { cell, described, adapt, judge, store, seed, copied_from };
+        for goal in beginning.goals {
+            session.cell.goal(goal)?;
+        }
         let changed = session.take_in()?;
         session.keep(kept.is_none(), None)?;
+        made.keep();
         Ok((session, changed))
     }
 

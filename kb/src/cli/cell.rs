@@ -34,12 +34,9 @@ pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> 
         strategy: learning.strategy.as_deref().and_then(strategy_of),
         taught: taught_paths,
         explains: args.explain,
+        goals: named.iter().map(|text| text.as_str()).collect(),
     };
     let (mut session, changed) = Session::begin(cell, rules, beginning)?;
-    // Goals are looked up before anything is done.
-    for text in &named {
-        session.cell().goal(text)?;
-    }
     let mut tasks = Vec::new();
     for text in named {
         let goal = session.cell().goal(text)?;

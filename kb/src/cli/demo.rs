@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 
 use super::DemoArgs;
 use super::build::show;
-use super::output::{json, line, maybe, table};
+use super::output::{json, line, maybe, program, quoted, table};
+use super::picture::save;
 use super::route;
-use crate::draw::{Layers, Style, render_png, render_svg};
+use crate::draw::{Layers, Style, render_svg};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::progress::Spinner;
 use crate::scene::main_state;
 use crate::shipped::{self, Sites};
+use crate::whole::{self, Whole};
 use adit_db::Store;
 
 /// Builds the examples into a folder and shows them.
@@ -32,18 +34,28 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     line("");
     route::summary(&clinic.answer);
     line(&format!("picture: {}\n", clinic.picture.display()));
-    let site = args.out.join("clinic");
-    let site = site.display();
+    let (adit, site) = (program(), quoted(&args.out.join("clinic")));
+    let picture = quoted(&args.out.join("lobby.svg"));
     line("What to try next:");
-    line(&format!("  adit route {site} dock \"ward 6\"                    another route"));
-    line(&format!(
-        "  adit tune {site} robots SQUAT hardness 6 --dry-run   what would follow if squatting were harder"
-    ));
-    line(&format!("  adit draw {site} -o clinic.svg --route lobby \"ward 9\""));
-    line(&format!(
-        "  sqlite3 {site}/site.db \"SELECT step, kind, place, action, cost FROM action_sequence WHERE start = 'dock' AND goal = 'ward 12' ORDER BY step\""
-    ));
-    line("  adit new my-site --map my-map.yaml                a site of your own");
+    for (command, what) in [
+        (format!("{adit} route {site} dock \"ward 6\""), "another route"),
+        (
+            format!("{adit} tune {site} robots SQUAT hardness 6 --dry-run"),
+            "what would follow if squatting were harder",
+        ),
+        (format!("{adit} draw {site} -o {picture} --route lobby \"ward 9\""), "a picture of a third"),
+        (
+            format!(
+                "{adit} sql {site} \"SELECT step, kind, place, action, cost FROM action_sequence \
+                 WHERE start = 'dock' AND goal = 'ward 12' ORDER BY step\""
+            ),
+            "the same in any program that reads SQLite",
+        ),
+        (format!("{adit} serve {site}"), "the page where all of it is tuned, until Ctrl-C"),
+        (format!("{adit} new my-site"), "a site of your own; --map FILE begins with your map"),
+    ] {
+        line(&format!("  {command}  # {what}"));
+    }
     Ok(())
 }
 
@@ -62,8 +74,10 @@ impl Shown {
 
 fn build(args: &DemoArgs, name: &str, (start, goal): (&str, &str)) -> Result<Shown> {
     let folder = args.out.join(name);
-    renew(&folder, name)?;
+    let mut made = Whole::default();
+    renew(&folder, name, &mut made)?;
     let knowledge = KnowledgeBase::open(&folder)?;
+    made.database(knowledge.database());
     let spinner = Spinner::new();
     let report = knowledge.build(&spinner)?;
     let answer = knowledge.route(start, goal, None)?;
@@ -71,24 +85,33 @@ fn build(args: &DemoArgs, name: &str, (start, goal): (&str, &str)) -> Result<Sho
     let scene = knowledge.scene(Some((start, goal)), None)?;
     let layers = Layers { state: scene.route.as_ref().and_then(main_state), ..Layers::default() };
     let svg = render_svg(&scene, &layers, &Style::default());
-    let png = render_png(&svg, 1600).map_err(|error| Error::said("draw/png", error.to_string(), None))?;
-    std::fs::write(&picture, png).map_err(|error| Error::io("write", &picture, &error))?;
+    save(svg, &picture, 1600)?;
+    made.keep();
     drop(spinner);
     Ok(Shown { knowledge, report, answer, picture })
 }
 
-/// The example as it is shipped: files of an earlier demo make room, other people's do not.
-fn renew(folder: &Path, name: &str) -> Result<()> {
-    let files = shipped::files::<Sites>(name);
-    if folder.exists() {
-        for file in files.iter().map(|(file, _)| file.as_str()).chain(["site.db"]) {
-            let path = folder.join(file);
-            if path.exists() {
-                std::fs::remove_file(&path).map_err(|error| Error::io("replace", &path, &error))?;
-            }
-        }
+/// The example as it is shipped: that of an earlier demo makes room, a site of the user's does not.
+fn renew(folder: &Path, name: &str, made: &mut Whole) -> Result<()> {
+    if !folder.join("site.toml").exists() {
+        return shipped::make::<Sites>(name, folder, made);
     }
-    shipped::write::<Sites>(name, folder)
+    let files = shipped::files::<Sites>(name);
+    let of_site = |text: &str| files.iter().any(|(file, shipped)| file == "site.toml" && shipped == text);
+    if !std::fs::read_to_string(folder.join("site.toml")).is_ok_and(|text| of_site(&text)) {
+        let message =
+            format!("{} is a site, and not the example that would be written there", folder.display());
+        let help = "name another folder with --out, or move this one away".to_owned();
+        return Err(Error::said("site/exists", message, Some(help)));
+    }
+    for (file, text) in files {
+        whole::write(&folder.join(file), text.as_bytes())?;
+    }
+    let database = folder.join("site.db");
+    if database.exists() {
+        std::fs::remove_file(&database).map_err(|error| Error::io("replace", &database, &error))?;
+    }
+    Ok(())
 }
 
 fn rooms(knowledge: &KnowledgeBase) -> Result<()> {

@@ -1,6 +1,5 @@
 //! `adit experiment`: scenarios over many seeds, as a table, CSV and a picture.
 
-use std::fs::File;
 use std::path::Path;
 
 use super::ExperimentArgs;
@@ -12,6 +11,7 @@ use crate::error::{Error, Result};
 use crate::number::number;
 use crate::plan::rules::{self, Kind};
 use crate::progress::Bar;
+use crate::whole;
 
 /// Runs the scenarios; `false` where a task found no path.
 pub fn run(args: &ExperimentArgs) -> Result<bool> {
@@ -27,14 +27,15 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
         Some(name) => vec![scenario::one(&args.scenario, Some(name))?],
         None => scenario::read(&args.scenario)?,
     };
-    let (rules, _) = rules::load(Kind::Adapt, &args.rules, Path::new(""))?;
+    let (rules, remarks) = rules::load(Kind::Adapt, &args.rules, Path::new(""))?;
+    remarks.iter().for_each(|text| remark(text));
     let mut methods: Vec<_> = args.strategy.iter().filter_map(|word| method_of(word)).collect();
     methods.sort_by_key(|method| (crate::adapt::method_word(*method) == "solve", *method));
     methods.dedup();
     // A file that cannot be written is found before the work.
-    let csv =
-        args.csv.as_deref().map(|path| File::create(path).map_err(|error| Error::io("write", path, &error)));
-    let csv = csv.transpose()?;
+    for path in args.csv.iter().chain(&args.picture) {
+        whole::is_writable(path)?;
+    }
     let alone = usize::from(!args.strategy.iter().any(|word| word == "solve"));
     let bar = Bar::new("runs", (cells.len() * (methods.len() + alone)) as u64 * u64::from(args.runs));
     let mut outcomes = Vec::with_capacity(cells.len());
@@ -43,9 +44,11 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     }
     drop(bar);
     let rows: Vec<Row> = outcomes.iter().flat_map(|outcome| outcome.rows.iter().cloned()).collect();
-    if let (Some(path), Some(file)) = (&args.csv, csv) {
-        write_csv(&rows, file)
+    if let Some(path) = &args.csv {
+        let mut table = Vec::new();
+        write_csv(&rows, &mut table)
             .map_err(|error| Error::said("experiment/csv", format!("{}: {error}", path.display()), None))?;
+        whole::write(path, &table)?;
     }
     if let Some(output) = &args.picture {
         let title = format!("{} runs of each, seed {}", args.runs, args.seed);

@@ -23,6 +23,7 @@ use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
 use crate::navigation::missions::{ending, refuse};
 use crate::number::number;
+use crate::whole::{self, Whole};
 
 /// Learns a world, keeps and prints what came of it; `false` where that is not as it should be.
 pub fn run(
@@ -39,10 +40,12 @@ pub fn run(
     let film = args.film.as_ref().map(|_| &mut made);
     let (row, record) = explore((world, rules_name), floor, rules, &exploration, film)?;
     if let (Some(file), Some(made)) = (&args.film, &made) {
-        std::fs::write(file, made.svg(args.speed)).map_err(|error| Error::io("write", file, &error))?;
+        whole::write(file, made.svg(args.speed).as_bytes())?;
         remark(&format!("{}: how it was learned", file.display()));
     }
     if let Some(db) = &args.db {
+        let mut made = Whole::default();
+        made.database(db);
         let named = Store::open_or_create(db)?.snapshot(|tx| tx.learned(world))?;
         if let Some(named) = named.filter(|learned| !learned.places.is_empty()) {
             let names: Vec<&str> = named.places.iter().map(|(name, _)| name.as_str()).collect();
@@ -50,6 +53,7 @@ pub fn run(
             remark(&format!("{}: {message}: {}", db.display(), names.join(", ")));
         }
         keep_learned(db, &record, floor, rules)?;
+        made.keep();
     }
     if args.json {
         print(&row)?;

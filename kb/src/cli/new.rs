@@ -3,46 +3,54 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use adit_planners::read::{MapSettings, read_map};
+
 use super::NewArgs;
-use super::output::{json, line};
+use super::output::{json, line, program, quoted};
 use crate::error::{Error, Result};
 use crate::rules::TESTS;
 use crate::shipped::{self, Rules, Sites};
 use crate::site::{Rooms, Site};
+use crate::whole::Whole;
 
-/// Starts a site.
+/// Starts a site. Where that fails nothing of it is left.
 pub fn run(args: &NewArgs) -> Result<()> {
     if args.dir.join("site.toml").exists() {
         let message = format!("{} is a site already", args.dir.display());
         return Err(Error::said("site/exists", message, None));
     }
-    fs::create_dir_all(&args.dir).map_err(|error| Error::io("make", &args.dir, &error))?;
     let mode =
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
+    if let Some(map) = &args.map {
+        // what is wrong with it is said where the user has it
+        read_map(map, &MapSettings::default()).map_err(|errors| Error::all(errors.problems))?;
+    }
+    let mut made = Whole::default();
+    made.folder(&args.dir)?;
     let map = match &args.map {
-        Some(map) => copy_map(map, &args.dir)?,
-        None => starter(&args.dir, "map.toml")?,
+        Some(map) => copy_map(map, &args.dir, &mut made)?,
+        None => starter(&args.dir, "map.toml", &mut made)?,
     };
     let rules = args.dir.join("rules");
-    shipped::write::<Rules>(mode.rule_base(), &rules)?;
-    shipped::write::<Rules>(&format!("{}/{TESTS}", mode.rule_base()), &rules.join(TESTS))?;
-    starter(&args.dir, "robots.toml")?;
-    write(&args.dir.join("site.toml"), &site_text(&args.dir, &map, mode))?;
+    shipped::make::<Rules>(mode.rule_base(), &rules, &mut made)?;
+    shipped::make::<Rules>(&format!("{}/{TESTS}", mode.rule_base()), &rules.join(TESTS), &mut made)?;
+    starter(&args.dir, "robots.toml", &mut made)?;
+    made.file(&args.dir.join("site.toml"), site_text(&args.dir, &map, mode))?;
     Site::open(&args.dir)?.world()?;
+    made.keep();
     if args.json {
         return json(&serde_json::json!({"site": args.dir, "map": map, "rooms": mode.name()}));
     }
-    let site = args.dir.display();
-    line(&format!("{site} is a site now:"));
+    line(&format!("{} is a site now:", args.dir.display()));
     line("  site.toml    what it is made of; places, bridges and obstacles may be laid over the map here");
     line("  robots.toml  the robot's states: height and width in metres, hardness per metre, action");
     line("  rules/       what decides, with its tests; edit both, and build again");
-    line(&format!("next: adit build {site}"));
+    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
     Ok(())
 }
 
 /// A map of the user's, with its image where it has one, under its own name.
-fn copy_map(map: &Path, into: &Path) -> Result<String> {
+fn copy_map(map: &Path, into: &Path, made: &mut Whole) -> Result<String> {
     let name = map
         .file_name()
         .map(PathBuf::from)
@@ -56,39 +64,32 @@ fn copy_map(map: &Path, into: &Path) -> Result<String> {
     if let Some(image) = image.filter(|_| !is_toml) {
         let from = map.parent().unwrap_or(Path::new("")).join(image);
         let file = Path::new(image).file_name().map(PathBuf::from).unwrap_or_default();
-        let to = into.join(&file);
-        fs::copy(&from, &to).map_err(|error| Error::io("copy", &from, &error))?;
+        let pixels = fs::read(&from).map_err(|error| Error::io("read", &from, &error))?;
+        made.file(&into.join(&file), pixels)?;
         let renamed = text.replacen(image, &file.display().to_string(), 1);
-        write(&into.join(&name), &renamed)?;
+        made.file(&into.join(&name), renamed)?;
     } else {
-        write(&into.join(&name), &text)?;
+        made.file(&into.join(&name), text)?;
     }
     Ok(name.display().to_string())
 }
 
 /// A file of the site that beginners start from.
-fn starter(into: &Path, name: &str) -> Result<String> {
+fn starter(into: &Path, name: &str, made: &mut Whole) -> Result<String> {
     let files = shipped::files::<Sites>("starter");
     let text = files.iter().find(|(file, _)| file == name).map_or("", |(_, text)| text.as_str());
-    write(&into.join(name), text)?;
+    made.file(&into.join(name), text)?;
     Ok(name.to_owned())
-}
-
-fn write(path: &Path, text: &str) -> Result<()> {
-    if path.exists() {
-        return Err(Error::said("site/exists", format!("{} is there already", path.display()), None));
-    }
-    fs::write(path, text).map_err(|error| Error::io("write", path, &error))
 }
 
 fn site_text(folder: &Path, map: &str, mode: Rooms) -> String {
     let name = folder.file_name().map_or("site".to_owned(), |name| name.to_string_lossy().into_owned());
-    let name = name.replace(['"', '\\'], "");
+    let [name, map] = [name.as_str(), map].map(toml::Value::from);
     format!(
-        r#"name   = "{name}"
-map    = "{map}"
+        r#"name   = {name}
+map    = {map}
 robots = "robots.toml"     # seeds the table once; from then on `adit tune` changes it
-rules  = "rules"           # without this line the shipped rules count
+rules  = "rules"           # without the folder the shipped rules count
 rooms  = "{}"        # or "paper", "minimum"
 # starts = ["dock"]        # from where routes are kept; every place without this line
 

@@ -2,6 +2,7 @@
 //! error. A closed pipe ends the printing quietly.
 
 use std::io::{ErrorKind, IsTerminal, Write, stderr, stdout};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -82,6 +83,23 @@ pub use crate::number::number;
 /// [`number`], or nothing.
 pub fn maybe(value: Option<f64>) -> String {
     value.map_or(String::new(), number)
+}
+
+/// The program as it was called, for commands that are printed: where `cargo run` starts it there is none on the path.
+pub fn program() -> String {
+    let called = std::env::args_os().next().map(PathBuf::from).unwrap_or_default();
+    if called.components().count() > 1 { quoted(&called) } else { "adit".to_owned() }
+}
+
+/// A path as a shell takes it.
+pub fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "-_./:,=+@%".contains(c);
+    if !text.is_empty() && text.chars().all(is_plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
 }
 
 /// A time as people read it.

@@ -1,7 +1,6 @@
 //! `adit draw`.
 
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
 
 use super::DrawArgs;
@@ -11,6 +10,7 @@ use crate::draw::{Layers, Style, render_png, render_svg};
 use crate::error::{Error, Result};
 use crate::scene::main_state;
 use crate::suggest::did_you_mean;
+use crate::whole;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
@@ -65,7 +65,7 @@ pub fn save(svg: String, output: &Path, width: u32) -> Result<usize> {
     } else {
         svg.into_bytes()
     };
-    fs::write(output, &bytes).map_err(|error| Error::io("write", output, &error))?;
+    whole::write(output, &bytes)?;
     Ok(bytes.len())
 }
 

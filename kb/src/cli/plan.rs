@@ -1,9 +1,10 @@
 //! `adit plan`: the planners of worlds of their own.
 
+use std::path::Path;
 use std::sync::Arc;
 
-use adit_db::Store;
 use adit_db::plan::Plan;
+use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
 use adit_planners::geometry::Point;
 
@@ -18,6 +19,7 @@ use crate::number::number;
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World};
+use crate::whole::Whole;
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {
@@ -30,11 +32,7 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
     }
     let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
     let name = name.as_str();
-    if args.explain && !world.task.kind().shipped().contains(&name) {
-        for text in &remarks {
-            remark(text);
-        }
-    }
+    remarks.iter().for_each(|text| remark(text));
     let steps =
         || Steps::new(rules.clone()).map_err(|error| Error::said("plan/rules", error.to_string(), None));
     match &world.task {
@@ -94,7 +92,7 @@ fn walk(
     }
     if let Some(path) = &args.db {
         let record = record(world, rules_name, floor, &mut judge, &walked);
-        Store::open_or_create(path)?.transaction(|tx| tx.keep_floor_plan(&record))?;
+        keep(path, |tx| tx.keep_floor_plan(&record))?;
     }
     if let Some(output) = &args.output {
         let path = walked.tight.as_ref().ok();
@@ -205,6 +203,15 @@ fn gaps<W: Clone, const N: usize>(
     if args.gap.is_empty() { Ok(vec![world.clone()]) } else { args.gap.iter().map(gap).collect() }
 }
 
+/// Writes to a database, and makes none where that fails.
+fn keep(path: &Path, work: impl FnOnce(&mut Tx<'_>) -> adit_db::Result<()>) -> Result<()> {
+    let mut made = Whole::default();
+    made.database(path);
+    Store::open_or_create(path)?.transaction(work)?;
+    made.keep();
+    Ok(())
+}
+
 /// Keeps the last plan, draws all of them, and prints them where JSON is wanted.
 fn finish(
     args: &PlanArgs,
@@ -214,7 +221,7 @@ fn finish(
     panels: &[ChannelPanel],
 ) -> Result<()> {
     if let (Some(path), Some(record)) = (&args.db, record) {
-        Store::open_or_create(path)?.transaction(|tx| tx.keep_plan(&record))?;
+        keep(path, |tx| tx.keep_plan(&record))?;
     }
     match (&args.output, panels) {
         (None, _) => {}

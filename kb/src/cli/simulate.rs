@@ -19,6 +19,7 @@ use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all}
 use crate::number::number;
 use crate::plan::{Task, World};
 use crate::progress::Bar;
+use crate::whole::{self, Whole};
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs) -> Result<bool> {
@@ -28,7 +29,8 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         return Err(Error::said("simulate/no-floor-plan", message, None));
     };
     check_film(args)?;
-    let (rules, name, _) = world.rules(args.rules.as_deref())?;
+    let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
+    remarks.iter().for_each(|text| remark(text));
     if let Some(output) = &args.curve {
         super::curve::run(args, output, &world.name, floor, &rules)?;
         return Ok(true);
@@ -60,7 +62,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         let mut made = None;
         journalled(&stage, &rules, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
-            std::fs::write(film, made.svg(args.speed)).map_err(|error| Error::io("write", film, &error))?;
+            whole::write(film, made.svg(args.speed).as_bytes())?;
             remark(&format!("{}: mission {}", film.display(), args.mission));
         }
     }
@@ -107,6 +109,8 @@ fn kept(
     missions: &[Mission],
     db: &Path,
 ) -> Result<Vec<Row>> {
+    let mut made = Whole::default();
+    made.database(db);
     let mut store = Store::open_or_create(db)?;
     let written_anew = store.snapshot(|tx| -> Result<i64> {
         let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
@@ -122,6 +126,8 @@ fn kept(
         let (row, entries, noting) = journalled(stage, rules, (index + 1, mission), None)?;
         let record = record(world, rules_name, &row, &entries, noting);
         store.transaction(|tx| tx.keep_mission(&record))?;
+        // what was kept stays, whatever comes of the next one
+        std::mem::take(&mut made).keep();
         rows.push(row);
         bar.step();
     }

@@ -24,7 +24,8 @@ pub const OPENINGS: &[(&str, Type)] = &[
     ("radius", Type::Number),
 ];
 
-const OF_OPENINGS: [&str; 2] = ["explore", "worth"];
+/// What is asked of them.
+pub(crate) const OF_OPENINGS: [&str; 2] = ["explore", "worth"];
 
 /// Rules as the guide of an exploration.
 #[derive(Debug)]

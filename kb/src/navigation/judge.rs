@@ -77,9 +77,13 @@ pub const WAYS: &[(&str, Type)] = &[
 /// So many of them follow from the floor plan and from what was seen; the others a world tells.
 pub const MEASURED: usize = 6;
 
-const OF_SITUATIONS: [&str; 2] = ["next", "action"];
-const OF_SEGMENTS: [&str; 6] = ["becomes", "source", "is_kept", "counts_for_pose", "is_anchored", "is_cut"];
-const OF_WAYS: [&str; 2] = ["weight", "passable"];
+/// What is asked of them.
+pub(crate) const OF_SITUATIONS: [&str; 2] = ["next", "action"];
+/// What is asked of them.
+pub(crate) const OF_SEGMENTS: [&str; 6] =
+    ["becomes", "source", "is_kept", "counts_for_pose", "is_anchored", "is_cut"];
+/// What is asked of them.
+pub(crate) const OF_WAYS: [&str; 2] = ["weight", "passable"];
 
 /// Rules as a judge.
 #[derive(Debug)]

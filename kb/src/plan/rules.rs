@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use adit_engine::{Consultation, Datum, RuleBase, Schema, Severity, Type};
 
-use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS};
+use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS, OF_CELL_CHANGES, OF_EDGES, OF_LANDMARKS};
 use crate::error::{Error, Result};
-use crate::navigation::guide::OPENINGS;
-use crate::navigation::judge::{SEGMENTS, SITUATIONS, WAYS};
+use crate::lint;
+use crate::navigation::guide::{OF_OPENINGS, OPENINGS};
+use crate::navigation::judge::{OF_SEGMENTS, OF_SITUATIONS, OF_WAYS, SEGMENTS, SITUATIONS, WAYS};
 use crate::rules::{self, Rules};
 
 /// What a rule base is for.
@@ -30,6 +31,30 @@ impl Kind {
             Self::Navigation => &["navigation"],
             Self::Adapt => &["adapt"],
         }
+    }
+
+    /// What is asked of the rules.
+    fn asked(self) -> Vec<String> {
+        let asked: &[(&str, &[&str])] = match self {
+            Self::Channels => &[
+                ("STEPS", &super::steps::OUTPUTS),
+                ("TURNS", &super::turns::OUTPUTS),
+                ("PASSAGES", &super::turns::WEIGHED),
+            ],
+            Self::Navigation => &[
+                ("SITUATIONS", &OF_SITUATIONS),
+                ("SEGMENTS", &OF_SEGMENTS),
+                ("WAYS", &OF_WAYS),
+                ("OPENINGS", &OF_OPENINGS),
+            ],
+            Self::Adapt => {
+                &[("CELL_CHANGES", &OF_CELL_CHANGES), ("LANDMARKS", &OF_LANDMARKS), ("EDGES", &OF_EDGES)]
+            }
+        };
+        let named = |(class, properties): &(&str, &[&str])| -> Vec<String> {
+            properties.iter().map(|property| format!("{class}.{property}")).collect()
+        };
+        asked.iter().flat_map(named).collect()
     }
 
     fn folder(self, name: &str) -> String {
@@ -176,10 +201,14 @@ pub fn load_by(
     schema: &Schema,
 ) -> Result<(Arc<RuleBase>, Vec<String>)> {
     let Rules { base, tests } = found(kind, name, beside)?;
-    let (errors, remarks): (Vec<_>, Vec<_>) =
+    let (errors, warnings): (Vec<_>, Vec<_>) =
         base.check(schema).into_iter().partition(|found| found.severity == Severity::Error);
     if !errors.is_empty() {
         return Err(Error::all(errors));
+    }
+    let idle = lint::not_carried_out(&base, "worlds", miette::Severity::Error);
+    if !idle.is_empty() {
+        return Err(Error::all(idle));
     }
     let outcomes = tests.run(&base, schema).map_err(|wrong| Error::all(wrong.0))?;
     let failures: Vec<_> =
@@ -187,7 +216,16 @@ pub fn load_by(
     if !failures.is_empty() {
         return Err(Error::all(failures));
     }
-    Ok((Arc::new(base), remarks.iter().map(ToString::to_string).collect()))
+    // the shipped ones are as they are meant
+    let remarks = if kind.shipped().contains(&name) {
+        Vec::new()
+    } else {
+        let ignored = lint::not_read(Some(&beside.join(name)));
+        let unread = lint::unread_but(&base, kind.asked());
+        let said = warnings.iter().map(ToString::to_string).chain(unread.iter().map(ToString::to_string));
+        said.chain(ignored.iter().map(ToString::to_string)).collect()
+    };
+    Ok((Arc::new(base), remarks))
 }
 
 /// Reads a rule base that was in use already, whatever it speaks of.

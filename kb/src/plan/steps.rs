@@ -9,7 +9,8 @@ use super::gap::Asked;
 use super::refusal::{NoPath, Spoke};
 use super::rules::{STEPS, place};
 
-const OUTPUTS: [&str; 8] = ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
+pub(super) const OUTPUTS: [&str; 8] =
+    ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
 const RULE: usize = 0;
 const MARGIN: usize = 1;
 const GAP: usize = 4;

@@ -12,9 +12,9 @@ use super::keep::Fact;
 use super::refusal::{NoPath, Spoke, silent};
 use super::rules::{PASSAGES, TURNS, place};
 
-const OUTPUTS: [&str; 10] =
+pub(super) const OUTPUTS: [&str; 10] =
     ["rule", "gap", "corner_x", "corner_y", "turns", "arrive_x", "arrive_y", "offset", "refusal", "remark"];
-const WEIGHED: [&str; 3] = ["weight", "passable", "refusal"];
+pub(super) const WEIGHED: [&str; 3] = ["weight", "passable", "refusal"];
 
 /// The rules, ready to be asked turn after turn.
 #[derive(Debug)]

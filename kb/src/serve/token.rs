@@ -85,7 +85,10 @@ impl Tokens {
         let next = file.with_extension("toml.new");
         let written =
             fs::write(&next, text).and_then(|()| private(&next)).and_then(|()| fs::rename(&next, file));
-        written.map_err(|error| Error::io("write", file, &error))
+        written.map_err(|error| {
+            fs::remove_file(&next).ok();
+            Error::io("write", file, &error)
+        })
     }
 
     /// A new token for a holder; the text is nowhere else.

@@ -8,7 +8,7 @@ use super::noding::{Noded, SNAP_M};
 use super::planar::Planar;
 use crate::geometry::{Point, Rect};
 use crate::read::{Code, MapErrors, Problem, Text};
-use crate::world::{Occupancy, Place, Shape, World};
+use crate::world::{Bridge, Occupancy, Place, Shape, World};
 
 /// Walls without thickness, solid things, and named places, in metres.
 #[derive(Clone, Debug)]
@@ -85,15 +85,20 @@ impl FloorPlan {
         Ok(Self { name, walls, solids, places, source, space })
     }
 
-    /// The floor plan of a map: its edge and all that is solid on it, polygons as they are drawn. Bridges are left
-    /// out, and so is the map's clearance: a disc has a margin of its own.
-    pub fn of_world(world: &World) -> Result<Self, MapErrors> {
+    /// The floor plan of a map: its edge and all that is solid on it, polygons as they are drawn. The map's clearance is
+    /// left out: a disc has a margin of its own. So are named areas and doors, which are not solid.
+    ///
+    /// # Arguments
+    /// `height` of the robot, metres: a bridge that it does not pass under is solid to it. Unknown, it passes under none.
+    pub fn of_world(world: &World, height: Option<f64>) -> Result<Self, MapErrors> {
         let corners = |shape: &Shape| match shape {
             Shape::Rect(r) => rectangle(r),
             Shape::Polygon(corners) => corners.clone(),
         };
         let mut solids: Vec<Vec<Point>> = world.obstacles.iter().map(|item| corners(&item.shape)).collect();
         solids.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(|rect| rectangle(&rect)));
+        let is_low = |bridge: &&Bridge| height.is_none_or(|height| height >= bridge.height);
+        solids.extend(world.bridges.iter().filter(is_low).map(|bridge| rectangle(&bridge.rect)));
         solids.extend(frame(&world.bounds));
         Self::new(Drawn { solids, places: world.places.clone(), ..Drawn::default() })
     }

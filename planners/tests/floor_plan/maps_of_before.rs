@@ -18,7 +18,7 @@ fn drawn() -> World {
 
 #[test]
 fn a_vector_map_is_a_floor_plan_with_thick_walls() {
-    let plan = FloorPlan::of_world(&drawn()).unwrap();
+    let plan = FloorPlan::of_world(&drawn(), None).unwrap();
     assert!((plan.free_area() - (80.0 - 1.4 - 2.0)).abs() < 1e-6, "{}", plan.free_area());
     let regions = Regions::of(&plan).regions;
     assert!((regions.iter().map(|region| region.area).sum::<f64>() / plan.free_area() - 1.0).abs() < 1e-9);
@@ -53,7 +53,7 @@ fn an_occupancy_map_is_a_floor_plan_of_cells() {
         rows,
         blocked: (0..columns * rows).map(is_wall).collect(),
     });
-    let plan = FloorPlan::of_world(&world).unwrap();
+    let plan = FloorPlan::of_world(&world, None).unwrap();
     let free = (0..columns * rows).filter(|&cell| !is_wall(cell)).count() as f64 * 0.01;
     assert!((plan.free_area() - free).abs() < 1e-6);
     let regions = Regions::of(&plan);
@@ -65,5 +65,5 @@ fn an_occupancy_map_is_a_floor_plan_of_cells() {
 fn a_map_without_free_space_is_refused() {
     let mut world = World::empty(Rect::new(0.0, 0.0, 2.0, 2.0));
     world.obstacles = vec![Obstacle { shape: Shape::Rect(Rect::new(0.0, 0.0, 2.0, 2.0)) }];
-    assert!(FloorPlan::of_world(&world).is_err());
+    assert!(FloorPlan::of_world(&world, None).is_err());
 }

@@ -61,6 +61,98 @@ fn a_drawn_map_is_a_floor_plan_too() {
     on(&folder, "plan", "world.toml", &["left", "right"]).expect_status(2).complains(&["map.toml:7", "left"]);
 }
 
+/// 8 x 6 m, with a pipe of 1.3 m across the straight way, and a way round it.
+const PIPE: &str = "width = 8.0\ndepth = 6.0\n[[bridge]]\nrect = [3.8, 0.0, 4.2, 4.5]\nheight = 1.3\n[[place]]\nname = \"left\"\nat = [1.0, 1.0]\n[[place]]\nname = \"right\"\nat = [7.0, 1.0]\n";
+
+#[test]
+fn a_low_bridge_is_driven_round_and_a_high_one_under() {
+    let folder = TestSite::empty().with("map.toml", PIPE);
+    let world = |height: &str| {
+        folder.write(
+            "world.toml",
+            format!("[floor_plan]\nmap = \"map.toml\"\nrobot = {{ radius = 0.25{height} }}\n"),
+        );
+    };
+    let length = |verb: &str| {
+        let found = on(&folder, verb, "world.toml", &["left", "right", "--json"]).expect_status(0).json();
+        let found = if verb == "plan" { &found } else { &found[0] };
+        found["length"].as_f64().expect("a length")
+    };
+    let round = 2.0 * f64::hypot(2.8, 3.5);
+    world(", height = 1.2");
+    assert!(length("plan") < 6.1, "{}", length("plan"));
+    for height in [", height = 1.3", ", height = 1.7"] {
+        world(height);
+        assert!(length("plan") > round && length("simulate") > round, "{} under {height}", length("plan"));
+    }
+    world("");
+    for verb in ["plan", "simulate"] {
+        on(&folder, verb, "world.toml", &["left", "right"]).expect_status(2).complains(&[
+            "the map has a bridge of 1.3 m at (3.8, 0) to (4.2, 4.5)",
+            "`robot` has no `height`",
+            "world.toml:3",
+        ]);
+    }
+    // one that the world itself lays over its map
+    folder.write("map.toml", PIPE.replace("[[bridge]]\nrect = [3.8, 0.0, 4.2, 4.5]\nheight = 1.3\n", ""));
+    world(", height = 1.7");
+    let open = folder.read("world.toml");
+    folder.write("world.toml", open + "[[bridge]]\nrect = [3.8, 0.0, 4.2, 4.5]\nheight = 1.3\n");
+    assert!(length("plan") > round);
+}
+
+#[test]
+fn what_a_site_lays_over_its_map_counts_on_the_floor_plan_too() {
+    let folder = TestSite::empty().with("map.toml", PIPE);
+    folder.write("map.toml", PIPE.replace("height = 1.3", "height = 3.0"));
+    folder.write("world.toml", "[floor_plan]\nmap = \"map.toml\"\nrobot = { radius = 0.25, height = 1.0 }\n");
+    let length = || {
+        let found = on(&folder, "plan", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
+        found["length"].as_f64().expect("a length")
+    };
+    assert!(length() < 6.1);
+    let site = "map = \"map.toml\"\n[[obstacle]]\nrect = [3.8, 0.0, 4.2, 4.5]\n";
+    folder.write("site.toml", site);
+    assert!(length() > 2.0 * f64::hypot(2.8, 3.5), "{}", length());
+    folder.write("site.toml", site.replace("map.toml", "other.toml"));
+    assert!(length() < 6.1, "the site of another map");
+    folder.write("site.toml", "map = \"map.toml\"\n[[obstacle]]\nrekt = [3.8, 0.0, 4.2, 4.5]\n");
+    on(&folder, "plan", "world.toml", &["left", "right"])
+        .expect_status(2)
+        .complains(&["site.toml:3", "rekt"]);
+}
+
+#[test]
+fn areas_and_doors_that_say_more_than_a_name_are_open_or_closed() {
+    let folder = TestSite::empty();
+    let overlays = "[[area]]\nname = \"pit\"\nkind = \"keep-out\"\nrect = [3.8, 0.0, 4.2, 4.5]\n[[area]]\nname = \"lounge\"\nrect = [0.0, 0.0, 2.0, 2.0]\n[[door]]\nname = \"gate\"\nfrom = [3.0, 0.0]\nto = [3.0, 4.5]\nclosed = true\n";
+    let free = PIPE.replace("height = 1.3", "height = 3.0");
+    folder.write("map.toml", format!("{free}{overlays}"));
+    let plan = |keys: &str| {
+        let text =
+            format!("[floor_plan]\nmap = \"map.toml\"\n{keys}robot = {{ radius = 0.25, height = 1.0 }}\n");
+        folder.write("world.toml", text);
+        on(&folder, "plan", "world.toml", &["left", "right", "--json"])
+    };
+    plan("").expect_status(2).complains(&[
+        "the map has the area `pit` (kind keep-out), and nothing says whether the robot may go there",
+        "the map has the door `gate` (closed true)",
+    ]);
+    plan("open = [\"pit\"]\n").expect_status(2).complains(&["gate"]);
+    let length = |keys: &str| plan(keys).expect_status(0).json()["length"].as_f64().expect("a length");
+    assert!(length("open = [\"pit\", \"gate\"]\n") < 6.1);
+    let round = 2.0 * f64::hypot(2.0, 3.5);
+    for keys in [
+        "closed = [\"pit\", \"gate\"]\n",
+        "open = [\"pit\"]\nclosed = [\"gate\"]\n",
+        "open = [\"gate\"]\nclosed = [\"pit\"]\n",
+    ] {
+        assert!(length(keys) > round, "{keys}");
+    }
+    plan("open = [\"pit\", \"gat\"]\n").expect_status(2).complains(&["no area or door `gat`", "gate"]);
+    plan("open = \"pit\"\n").expect_status(2).complains(&["`open`", "a list of names"]);
+}
+
 #[test]
 fn maps_of_other_people_are_floor_plans() {
     for (map, from, to) in MAPS {

@@ -21,6 +21,7 @@ use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::serve::token::hex;
 use crate::shipped;
+use crate::whole::Whole;
 
 /// The longest rule file, bytes.
 const LONGEST: usize = 1 << 20;
@@ -334,8 +335,9 @@ fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {
         return Err(Fault::conflict("rules/own", "the site has rules of its own already"));
     }
     let (base, into) = (site.site().rooms.rule_base(), settings.folder.join("rules"));
-    shipped::write::<shipped::Rules>(base, &into)?;
-    shipped::write::<shipped::Rules>(&format!("{base}/{TESTS}"), &into.join(TESTS))?;
+    let mut made = Whole::default();
+    shipped::make::<shipped::Rules>(base, &into, &mut made)?;
+    shipped::make::<shipped::Rules>(&format!("{base}/{TESTS}"), &into.join(TESTS), &mut made)?;
     let file = settings.folder.join("site.toml");
     let text = fs::read_to_string(&file).map_err(|error| Error::io("read", &file, &error))?;
     put(&file, Some(&format!("rules = \"rules\"\n{text}")))?;
@@ -347,6 +349,7 @@ fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {
             return Err(error.into());
         }
     };
+    made.keep();
     let what = "the shipped rules were copied into the site".to_owned();
     desk.publish(&outcome, &Cause { who: caller.name.clone(), why: String::new(), what });
     desk.files_are_taken();

@@ -1,0 +1,185 @@
+//! Rules are never ignored in silence: a folder `rules` counts, and what does not count is said.
+
+use adit_tests::TestSite;
+
+/// The paper's example with the shipped rules as its own, and nothing of them in `site.toml`.
+fn with_rules() -> TestSite {
+    let site = TestSite::example("paper");
+    let plain = site.read("site.toml");
+    site.copy_rules_and_tests("paper");
+    site.write("site.toml", plain);
+    site
+}
+
+#[test]
+fn a_folder_rules_counts_though_site_toml_does_not_name_it() {
+    let site = TestSite::example("paper");
+    site.write("rules/slip.rhai", "rule \"slip\" each room in\n");
+    for verb in ["check", "build", "test"] {
+        let ran = site.adit(verb, &[]);
+        assert_ne!(ran.status, 0, "{verb}: {}", ran.stdout);
+        ran.complains(&["rules/slip.rhai:2"]);
+    }
+}
+
+#[test]
+fn the_rules_of_the_folder_decide() {
+    let site = with_rules();
+    std::fs::remove_dir_all(site.path().join("rules/tests")).expect("removed");
+    let hardness = |site: &TestSite| site.sqlite3("SELECT sum(hardness) FROM doors");
+    let shipped = hardness(&TestSite::example("paper").built());
+    assert_eq!(hardness(&with_rules().built()), shipped);
+    site.write(
+        "rules/twice.rhai",
+        "revise \"twice\" each door in DOORS set door.hardness by * 2.0 level 5\n",
+    );
+    assert_ne!(hardness(&site.built()), shipped);
+}
+
+#[test]
+fn a_second_folder_of_rules_is_said_not_to_count() {
+    let site = with_rules();
+    std::fs::rename(site.path().join("rules"), site.path().join("night")).expect("renamed");
+    site.write("rules/slip.rhai", "rule \"slip\" each room in\n");
+    site.write("site.toml", format!("rules = \"night\"\n{}", site.read("site.toml")));
+    site.adit("build", &[]).expect_status(0);
+    site.adit("check", &[]).expecting(1).complains(&["/rules do not count: site.toml names", "/night"]);
+}
+
+#[test]
+fn a_folder_without_a_rule_is_refused() {
+    let site = TestSite::example("paper");
+    site.write("rules/tests/rooms.toml", "[given]\n");
+    site.adit("build", &[]).expecting(2).complains(&["there is no rule in", "NAME.rhai"]);
+    site.write("rules/doors.RHAI", "");
+    site.adit("build", &[])
+        .expecting(2)
+        .complains(&["doors.RHAI is not read: rule files are called NAME.rhai"]);
+    let plain = TestSite::example("paper").with("other/readme.txt", "");
+    let other = plain.path().join("other");
+    let ran = plain.adit("build", &["--rules", other.to_str().expect("a path")]);
+    ran.expecting(2).complains(&["there is no rule in"]);
+    let file = TestSite::example("paper").with("rules", "");
+    file.adit("build", &[]).expecting(2).complains(&["read the rule base"]);
+}
+
+#[test]
+fn files_that_look_like_rules_and_are_not_read_are_named() {
+    let site = with_rules();
+    let rule = "rule \"slip\" each room in\n";
+    let test = "[[test]]\nname = \"none\"\n";
+    for file in ["rules/a.RHAI", "rules/b.rhai.txt", "rules/more/c.rhai", "rules/tests/d.rhai"] {
+        site.write(file, rule);
+    }
+    for file in ["rules/e.toml", "rules/tests/more/f.toml", "rules/tests/g.TOML"] {
+        site.write(file, test);
+    }
+    // what editors and systems leave, and what is no rule at all
+    for file in ["rules/h.rhai~", "rules/.i.rhai.swp", "rules/notes.txt", "rules/j.toml"] {
+        site.write(file, "");
+    }
+    let said = site.adit("check", &[]).expecting(1).stderr;
+    let said: String = said.split_whitespace().filter(|word| *word != "│").collect();
+    for file in ["a.RHAI", "b.rhai.txt", "more/c.rhai", "tests/d.rhai", "e.toml", "more/f.toml", "g.TOML"] {
+        assert!(said.contains(&format!("{file}isnotread")), "{file} in {said}");
+    }
+    for file in ["h.rhai", "i.rhai", "notes", "j.toml"] {
+        assert!(!said.contains(file), "{file} in {said}");
+    }
+    let said = site.adit("build", &[]).expecting(0);
+    assert!(format!("{}{}", said.stdout, said.stderr).contains("is not read"));
+}
+
+#[test]
+fn a_rule_that_reacts_is_shown_where_it_stands() {
+    let site = with_rules();
+    site.write(
+        "rules/react.rhai",
+        "// a comment\non \"a hard door is told\"\n    each door in DOORS where door.hardness > 5.0\n    then { tell(\"HARD\", #{ door: door.door }); }\n",
+    );
+    let said = site.adit("check", &[]).expecting(1);
+    said.complains(&[
+        "\"a hard door is told\"",
+        "rules/react.rhai, line 2",
+        "does nothing",
+        "react.rhai:2:4",
+    ]);
+    let said = site.adit("build", &[]).expecting(0);
+    assert!(format!("{}{}", said.stdout, said.stderr).contains("a hard door is told"));
+}
+
+/// A world's file in a folder with its own copy of the shipped rules.
+fn world(text: &str, base: &str) -> TestSite {
+    let folder = TestSite::empty();
+    folder.write("world.toml", format!("rules = \"mine\"\n{text}"));
+    let shipped = adit_tests::repository().join("rules").join(base);
+    for entry in std::fs::read_dir(shipped).expect("a rule base").flatten() {
+        if entry.path().is_file() {
+            let name = entry.file_name().to_string_lossy().into_owned();
+            folder.write(&format!("mine/{name}"), std::fs::read(entry.path()).expect("readable"));
+        }
+    }
+    folder
+}
+
+fn shipped_world(name: &str) -> String {
+    std::fs::read_to_string(adit_tests::repository().join("kb/worlds").join(name)).expect("a world")
+}
+
+fn run(folder: &TestSite, arguments: &[&str]) -> adit_tests::Ran {
+    let mut adit = std::process::Command::new(adit_tests::adit());
+    adit_tests::Ran::new(&adit.args(arguments).current_dir(folder.path()).output().expect("adit runs"))
+}
+
+/// Worlds, their rule bases, and a rule that reacts to what each of them is told.
+const WORLDS: [(&str, &str, &str, &[&str]); 3] = [
+    ("corridor-S.toml", "channels/corrected", "TURNS", &["plan", "world.toml"]),
+    ("flat.toml", "navigation", "WAYS", &["simulate", "world.toml", "--missions", "1"]),
+    ("cell.toml", "adapt", "EDGES", &["plan", "world.toml", "load"]),
+];
+
+#[test]
+fn a_rule_that_reacts_is_refused_in_every_world() {
+    for (file, base, class, arguments) in WORLDS {
+        let folder = world(&shipped_world(file), base);
+        if file == "flat.toml" {
+            folder.write("flat.json", shipped_world("flat.json"));
+        }
+        run(&folder, arguments).expect_status(0);
+        let rule = format!(
+            "on \"tells\"\n    each one in {class}\n    then {{ tell(\"SEEN\", #{{ one: 1.0 }}); }}\n"
+        );
+        folder.write("mine/react.rhai", rule);
+        run(&folder, arguments).expecting(2).complains(&[
+            "rule \"tells\"",
+            "react.rhai, line 1",
+            "worlds do not carry out reactions",
+            "mine/react.rhai:1:4",
+        ]);
+    }
+}
+
+#[test]
+fn what_nobody_asks_of_a_worlds_rules_is_said() {
+    for (file, base, class, arguments) in WORLDS {
+        let folder = world(&shipped_world(file), base);
+        if file == "flat.toml" {
+            folder.write("flat.json", shipped_world("flat.json"));
+        }
+        let rule = format!("rule \"in vain\"\n    each one in {class}\n    then {{ one.wieght = 3.0; }}\n");
+        folder.write("mine/vain.rhai", rule);
+        folder.write("mine/more/other.rhai", "");
+        let said = run(&folder, arguments).expecting(0);
+        said.complains(&["\"in vain\"", &format!("{class}.wieght"), "more/other.rhai is not read"]);
+    }
+}
+
+#[test]
+fn misspelt_keys_of_sites_and_worlds_are_refused() {
+    let site = TestSite::example("paper");
+    site.write("site.toml", format!("rulez = \"rules\"\n{}", site.read("site.toml")));
+    site.adit("build", &[]).expecting(2).complains(&["rulez", "rules"]);
+    let folder = world(&shipped_world("corridor-S.toml"), "channels/corrected");
+    folder.edit("world.toml", "rules =", "rule =");
+    run(&folder, &["plan", "world.toml"]).expecting(2).complains(&["`rule`"]);
+}
