@@ -4,7 +4,9 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Kind, State, cut_layers};
-use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
+use adit_planners::routes::{
+    Blockage, Closed, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way, blockage,
+};
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use proptest::prelude::*;
 
@@ -91,6 +93,26 @@ fn a_strip_from_which_another_change_leads_on_is_entered_as_it_is_left() {
     let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
     let (there, back) = (way(&graph, home, window).unwrap(), way(&graph, window, home).unwrap());
     assert!((there.cost - back.cost).abs() < 1e-3 * there.cost, "{} and {}", there.cost, back.cost);
+}
+
+#[test]
+fn a_closed_boundary_is_shut_for_every_shape() {
+    let mut graph = graph_of(&two_halls(), &three_shapes(), 0.5);
+    let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
+    let before = way(&graph, home, window).unwrap();
+    let mouth = right_mouth(&graph);
+    let close = |doors: &[usize]| -> Vec<Closed> {
+        let closed = |&door: &usize| graph.doors()[door];
+        doors.iter().map(closed).map(|door| Closed { door: door.door, segment: door.crossing }).collect()
+    };
+    let all = close(&mouth);
+    graph.close(all);
+    assert!(way(&graph, home, window).is_none() && way(&graph, window, home).is_none());
+    let goal = Goal { rooms: holding(&graph, window), at: Some(window) };
+    let start = Start { rooms: holding(&graph, home), at: home };
+    assert!(matches!(blockage(&graph, &start, &goal), Blockage::Doors(doors) if !doors.is_empty()));
+    graph.close(Vec::new());
+    assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
 }
 
 fn holding(graph: &RouteGraph, p: Point) -> Vec<usize> {
@@ -288,6 +310,32 @@ proptest! {
             prop_assert!((there.cost / back.cost - 1.0).abs() < 5e-2, "{} and {}", there.cost, back.cost);
         }
     }
+
+    #[test]
+    fn no_way_crosses_a_closed_boundary_or_changes_shape_on_it(
+        blocks in blocks(), pipes in pipes(), from in point(), to in point(), change in 0.0..2.0_f64,
+        closed in prop::collection::vec(any::<prop::sample::Index>(), 1..5)
+    ) {
+        let mut graph = graph_of(&with_pipes(&blocks, &pipes), &three_shapes(), change);
+        let free = way(&graph, from, to);
+        prop_assume!(free.is_some());
+        let free = free.unwrap();
+        // doors on the way, as long as there are any
+        let passed: Vec<RouteDoor> = free.legs.iter().filter_map(|leg| leg.door).map(|door| graph.doors()[door])
+            .filter(|door| !door.is_change()).collect();
+        prop_assume!(!passed.is_empty());
+        let closed: Vec<Closed> = closed.iter().map(|door| door.get(&passed))
+            .map(|door| Closed { door: door.door, segment: door.crossing }).collect();
+        graph.close(closed.clone());
+        if let Some(way) = way(&graph, from, to) {
+            check_legs(&graph, &way, from, to)?;
+            for Closed { segment, .. } in &closed {
+                check_keeps_off(&graph, &way, segment)?;
+            }
+        }
+        graph.close(Vec::new());
+        prop_assert_eq!(self::way(&graph, from, to), Some(free));
+    }
 }
 
 fn pipes() -> impl Strategy<Value = Vec<(u8, bool)>> {
@@ -306,4 +354,35 @@ fn with_pipes(blocks: &[(u8, u8, u8, u8)], pipes: &[(u8, bool)]) -> World {
     };
     world.bridges = pipes.iter().map(pipe).collect();
     world
+}
+
+/// A way comes to a closed boundary from one side, if at all, and leaves to that side or round its end.
+fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Rect) -> Result<(), TestCaseError> {
+    let is_upright = boundary.x0 == boundary.x1;
+    let (across, along) = (
+        |p: Point| if is_upright { p.x - boundary.x0 } else { p.y - boundary.y0 },
+        |p: Point| if is_upright { p.y } else { p.x },
+    );
+    let (low, high) = if is_upright { (boundary.y0, boundary.y1) } else { (boundary.x0, boundary.x1) };
+    let is_within = |p: Point| along(p) > low + 1e-6 && along(p) < high - 1e-6;
+    let is_on = |p: Point| across(p).abs() < 1e-6 && is_within(p);
+    // the side on which the way last was, as long as it has not been past an end since
+    let mut side = 0.0;
+    for leg in &way.legs {
+        let (from, to) = (leg.from, leg.to);
+        let (one, two) = (across(from), across(to));
+        if one.abs() > 1e-6 {
+            side = one;
+        } else if !is_within(from) {
+            side = 0.0;
+        }
+        if two.abs() > 1e-6 && side * two < 0.0 {
+            let share = one.abs() / (one.abs() + two.abs());
+            let at = Point::new(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
+            prop_assert!(!is_within(at), "{leg:?} crosses {boundary:?}");
+        }
+        let is_change = leg.door.is_some_and(|door| graph.doors()[door].is_change());
+        prop_assert!(!(is_change && is_on(leg.to)), "a shape is changed on {boundary:?}: {leg:?}");
+    }
+    Ok(())
 }

@@ -46,7 +46,11 @@ impl RouteGraph {
             let deep = |segment: Segment| Gate { segment, is_deep: true };
             if common.is_none_or(|common| !is_same(&common, &area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
-                return sides(&area).into_iter().map(deep).collect();
+                return sides(&area)
+                    .into_iter()
+                    .flat_map(|side| self.clear_of_walls(side))
+                    .map(deep)
+                    .collect();
             }
             let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
             for side in sides(&area) {
@@ -77,7 +81,10 @@ impl RouteGraph {
                     }));
                 }
             }
-            gates.into()
+            let clear = |gate: Gate| {
+                self.clear_of_walls(gate.segment).into_iter().map(move |segment| Gate { segment, ..gate })
+            };
+            gates.into_iter().flat_map(clear).collect()
         })
     }
 
@@ -286,7 +293,7 @@ pub(super) fn sides(area: &Rect) -> [Segment; 4] {
 }
 
 /// The parts of an axis-parallel segment that none of some others on its line covers.
-fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
+pub(super) fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
     let upright = (side.a.x - side.b.x).abs() <= EPSILON;
     let along = |p: Point| if upright { p.y } else { p.x };
     let ends = |segment: &Segment| {
