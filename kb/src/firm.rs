@@ -19,6 +19,7 @@ mod linear;
 mod path;
 mod probe;
 mod search;
+mod turn;
 mod words;
 
 use std::time::{Duration, Instant};
@@ -33,7 +34,7 @@ use crate::suggest::did_you_mean;
 pub(crate) use cells::Lever;
 pub(crate) use path::{Path, Routes};
 pub(crate) use probe::{Prober, Weights};
-pub(crate) use search::overtaken;
+pub(crate) use turn::{Through, Turn, scale};
 pub(crate) use words::{actions, instead};
 
 /// How long is spent on one question.

@@ -2,15 +2,15 @@
 
 mod texts;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-use adit_db::door::{Door, DoorWeight};
+use adit_db::door::{Door, DoorKind, DoorWeight};
 use adit_db::place::Place;
 use adit_db::room::{Room, RoomWeight};
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;
-use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+use adit_planners::routes::{Closed, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 
 pub use texts::{Texts, word};
 
@@ -24,6 +24,8 @@ pub struct SiteGraph {
     /// Rows of `places`, by index.
     pub places: Vec<Place>,
     graph: RouteGraph,
+    /// The doors that are told to let nobody through, by index.
+    closed: BTreeSet<usize>,
     index: Arc<Index>,
     texts: Option<Texts>,
 }
@@ -68,7 +70,20 @@ impl SiteGraph {
             place_by_name: places.iter().enumerate().rev().map(placed).collect(),
             rooms: RectIndex::new(rooms.iter().map(rect_of)),
         };
-        Self { rooms, doors, places, graph, index: Arc::new(index), texts: None }
+        let closed = doors.iter().enumerate().filter(|(_, door)| is_told_closed(door)).map(|(row, _)| row);
+        let closed = closed.collect();
+        let mut all = Self { rooms, doors, places, graph, closed, index: Arc::new(index), texts: None };
+        all.graph.close(all.boundaries());
+        all
+    }
+
+    /// Where doors are told to let nobody through: that holds for every state and robot.
+    fn boundaries(&self) -> Vec<Closed> {
+        let boundary = |&row: &usize| {
+            let door = self.graph.doors()[row];
+            Closed { door: door.door, segment: door.crossing }
+        };
+        self.closed.iter().map(boundary).collect()
     }
 
     /// Makes answers quick between any two ends. Copies made from now on are prepared, too.
@@ -136,6 +151,14 @@ impl SiteGraph {
             (row, door.hardness.value, door.passable.value.unwrap_or(false))
         });
         let (rooms, doors): (Vec<_>, Vec<_>) = (rooms.collect(), doors.collect());
+        let mut is_closed_otherwise = false;
+        for (row, _, _) in &doors {
+            let is_closed = is_told_closed(&self.doors[*row]);
+            is_closed_otherwise |= if is_closed { self.closed.insert(*row) } else { self.closed.remove(row) };
+        }
+        if is_closed_otherwise {
+            self.graph.close(self.boundaries());
+        }
         if let Some(texts) = &mut self.texts {
             texts.forget(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _, _)| *row));
         }
@@ -246,6 +269,12 @@ impl SiteGraph {
 /// Whether a room can be walked in: its hardness is known and it is passable, as with doors.
 pub fn is_weighed(room: &Room) -> bool {
     walking_in(room) != Walking::Unknown
+}
+
+/// Whether a door lets nobody through because that is told of it, not because a rule says so: a rule speaks of the one
+/// layer's door, what is told of the place.
+fn is_told_closed(door: &Door) -> bool {
+    door.kind == DoorKind::Door && door.passable.value == Some(false) && door.passable.rule.is_none()
 }
 
 fn rect_of(room: &Room) -> Rect {

@@ -23,8 +23,8 @@ pub fn no_route(
     ends: &[End],
     robot: &str,
 ) -> Result<String> {
-    let goals = graph.rooms_of(&ends[1], Some(robot));
-    for (what, end, rooms) in [("start", &ends[0], &start.rooms), ("goal", &ends[1], &goals)] {
+    let goal = graph.goal(&ends[1], Some(robot));
+    for (what, end, rooms) in [("start", &ends[0], &start.rooms), ("goal", &ends[1], &goal.rooms)] {
         if rooms.is_empty() {
             let at = graph.point(end);
             if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
@@ -33,7 +33,7 @@ pub fn no_route(
             return Ok(format!("no state of the robot fits at the {what} ({:.2}, {:.2})", at.x, at.y));
         }
     }
-    match blockage(graph.graph(), start, &goals) {
+    match blockage(graph.graph(), start, &goal) {
         Blockage::Doors(doors) => {
             let mut shut: Vec<String> = doors
                 .iter()

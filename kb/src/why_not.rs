@@ -7,19 +7,20 @@ mod through;
 use std::time::{Duration, Instant};
 
 use adit_engine::Rejected;
+use adit_planners::routes::Way;
 use serde::Serialize;
 
 use crate::answer::{self, Answer};
 use crate::error::{Error, Result};
-use crate::firm::{Path, Prober, Routes, overtaken};
+use crate::firm::{Path, Prober, Routes, Through, Turn, scale};
 use crate::fork::Fork;
 use crate::live::Live;
 use crate::subject::Subject;
 use crate::why::Reasoned;
-use through::Question;
+use through::{Passing, Question, Via};
 
 /// How long is looked for a cell that would decide otherwise.
-const PATIENCE: Duration = Duration::from_secs(2);
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Why a route does not lead through a room or door.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -46,6 +47,8 @@ pub struct WhyNot {
     pub deciding: Vec<String>,
     /// The cell that would have to change least for this way to be the best, where one alone can do it.
     pub would_win: Option<WouldWin>,
+    /// Whether not all cells were looked at, to the end of what they may be: another one may do it, or do it sooner.
+    pub not_looked_further: bool,
     /// What is concluded about the room or door.
     pub conclusions: Vec<Reasoned>,
     /// What rules did not take on the way to that, and why not.
@@ -89,15 +92,18 @@ impl Fork {
         let robot = answer::pick(&self.base.robots(), robot)?;
         let question = Question::new(&self, start, goal, &robot)?;
         let key = subject.key.parse().unwrap_or_default();
-        let way = match subject.class.as_str() {
-            "rooms" => self.graph.room(key).and_then(|room| question.through_room(room)),
-            "doors" => self.graph.door(key).and_then(|door| question.through_door(door)),
+        let via = match subject.class.as_str() {
+            "rooms" => self.graph.room(key).map(Via::Room),
+            "doors" => self.graph.doors.binary_search_by_key(&key, |door| door.door).ok().map(Via::Door),
             _ => {
                 let message = format!("a route leads through rooms and doors, not {}", subject.name);
                 return Err(Error::said("why/through", message, None));
             }
         };
         let best = question.best();
+        let (way, passing) = via.map(|via| question.passing(via)).unzip();
+        let is_through = |way: &Way| passing.as_ref().is_some_and(|passing| passing.holds_way(way));
+        let way = best.clone().filter(is_through).or(way.flatten());
         let is_to_point = question.is_to_point();
         let (rejected, truncated) = self.rejected(&subject);
         let named = Subject { property: None, ..subject.clone() };
@@ -121,6 +127,7 @@ impl Fork {
             reason,
             deciding: Vec::new(),
             would_win: None,
+            not_looked_further: false,
             conclusions,
             rejected,
             truncated,
@@ -129,7 +136,9 @@ impl Fork {
         match (best, way) {
             (Some(best), Some(way)) if !contrast::is_best(best.cost, way.cost) => {
                 let paths = (Path::of(&best), Path::of(&way));
-                answer.contrast(self, paths)?;
+                if let Some(passing) = passing {
+                    answer.contrast(self, paths, &passing)?;
+                }
             }
             (_, None) => answer.deciding = contrast::failures(&answer.rejected),
             _ => {}
@@ -157,7 +166,7 @@ impl Fork {
 
 impl WhyNot {
     /// Fills in what decides between the best way and this one, and what would have to be otherwise.
-    fn contrast(&mut self, fork: Fork, (best, way): (Path, Path)) -> Result<()> {
+    fn contrast(&mut self, fork: Fork, (best, way): (Path, Path), passing: &Passing) -> Result<()> {
         let routes = Routes::new(&fork, &self.start, &self.goal, &self.robot)?;
         let (best, way) = if routes.is_on_doors() {
             let doors = |path: Path| Path { metres: Vec::new(), doors: path.doors };
@@ -166,27 +175,35 @@ impl WhyNot {
             (best, way)
         };
         let mut prober = Prober::new(fork);
-        self.would_win = would_win(&mut prober, &routes, &way)?;
+        (self.would_win, self.not_looked_further) = would_win(&mut prober, &routes, passing)?;
         self.deciding = contrast::deciding(&prober, &best, &way);
         self.sentence = contrast::sentence(self);
         Ok(())
     }
 }
 
-/// The cell that has to change least, as a share of what it is, for a way to cost no more than any other.
-fn would_win(prober: &mut Prober, routes: &Routes, way: &Path) -> Result<Option<WouldWin>> {
+/// The cell that has to change least, as a share of what it is, for a way through to cost no more than any other; and
+/// whether time was over before all were looked at.
+fn would_win(
+    prober: &mut Prober,
+    routes: &Routes,
+    through: &dyn Through,
+) -> Result<(Option<WouldWin>, bool)> {
     let deadline = Instant::now() + PATIENCE;
-    let mut found: Option<(f64, WouldWin)> = None;
-    for lever in prober.levers()? {
-        if Instant::now() >= deadline {
-            break;
-        }
-        let Some((wins_at, cost)) = overtaken(prober, routes, way, &lever, deadline)? else { continue };
-        let share = (wins_at - lever.value).abs() / lever.value.abs().max(0.1);
-        if found.as_ref().is_none_or(|(least, _)| share < *least) {
+    let levers = prober.levers()?;
+    let mut turn = Turn::new(prober, routes, through, deadline);
+    let guesses: Result<Vec<f64>> = levers.iter().map(|lever| turn.guess(lever)).collect();
+    let mut guessed: Vec<_> = guesses?.into_iter().zip(levers).collect();
+    guessed.sort_by(|(one, _), (two, _)| one.total_cmp(two));
+    let (mut found, mut least) = (None, f64::INFINITY);
+    for (_, lever) in guessed {
+        let Some((wins_at, cost)) = turn.nearest(&lever, least)? else { continue };
+        let share = (wins_at - lever.value).abs() / scale(&lever);
+        if share < least {
+            least = share;
             let (table, key, column) = (lever.class.to_lowercase(), lever.key, lever.column);
-            found = Some((share, WouldWin { table, key, column, value: lever.value, wins_at, cost }));
+            found = Some(WouldWin { table, key, column, value: lever.value, wins_at, cost });
         }
     }
-    Ok(found.map(|(_, cell)| cell))
+    Ok((found, turn.is_cut()))
 }

@@ -9,6 +9,7 @@
 //! is in the way. The search is any-angle over the mesh of rooms, and what it finds is pulled tight.
 
 mod blocked;
+mod closed;
 mod compact;
 mod cone;
 mod gates;
@@ -26,12 +27,14 @@ use std::sync::OnceLock;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::geometry::{Point, Rect};
+use closed::Cut;
 use gates::Gate;
 use hierarchy::Hierarchy;
 use mesh::Mesh;
 use taut::{Outcome, Search, Wanted};
 
 pub use blocked::{Blockage, blockage};
+pub use closed::Closed;
 pub use compact::{CompactGraph, CompactTree, NONE};
 pub use lazy::LazyRoute;
 pub use on_doors::{Arrival, Tree};
@@ -151,6 +154,12 @@ pub struct RouteGraph {
     passing: Vec<Passing>,
     /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
     gates: Vec<[OnceLock<Box<[Gate]>>; 2]>,
+    /// Boundaries that nobody crosses.
+    closed: Vec<Closed>,
+    /// The rooms cut along them; found when first asked for.
+    cut: OnceLock<Box<Cut>>,
+    /// Boundaries along which these rooms are cut already.
+    walls: Vec<Rect>,
 }
 
 impl RouteGraph {
@@ -161,7 +170,20 @@ impl RouteGraph {
         let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
         let measured = rooms.iter().filter(|room| room.is_measured()).count();
         let graph = OnceLock::new();
-        let mut all = Self { rooms, doors, measured, graph, hierarchy: None, mesh, bends, passing, gates };
+        let mut all = Self {
+            rooms,
+            doors,
+            measured,
+            graph,
+            hierarchy: None,
+            mesh,
+            bends,
+            passing,
+            gates,
+            closed: Vec::new(),
+            cut: OnceLock::new(),
+            walls: Vec::new(),
+        };
         all.passing = (0..all.doors.len()).map(|door| all.passing_of(door)).collect();
         all.find_bends(&(0..all.doors.len()).collect::<Vec<_>>());
         all
@@ -209,6 +231,8 @@ impl RouteGraph {
         rooms: impl IntoIterator<Item = (usize, Walking)>,
         doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
     ) {
+        let (rooms, doors) = (rooms.into_iter().collect::<Vec<_>>(), doors.into_iter().collect::<Vec<_>>());
+        self.reweigh_cut(&rooms, &doors);
         let was_on_doors = self.is_on_doors();
         let (mut touched, mut orders, mut is_other_price) = (Vec::new(), Vec::new(), false);
         let rooms: Vec<(usize, Walking)> =
@@ -311,6 +335,9 @@ impl RouteGraph {
             let ways = all.filter_map(|(goal, way)| Some((goal, way?)));
             return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
         }
+        if let Some(cut) = self.cut() {
+            return cut.way(start, goals);
+        }
         let outcome = Search::find(self, start, goals, Wanted::One);
         let ways = (0..goals.len()).filter_map(|goal| Some((goal, self.best(&outcome, start, goal)?)));
         ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))
@@ -332,6 +359,9 @@ impl RouteGraph {
     pub fn ways(&self, start: &Start, goals: &[Goal], rooms: bool) -> Ways {
         if self.is_on_doors() {
             return self.tree(start).ways(self, start, goals, rooms);
+        }
+        if let Some(cut) = self.cut() {
+            return cut.ways(start, goals, rooms);
         }
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
         let outcome = Search::find(self, start, goals, wanted);

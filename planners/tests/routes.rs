@@ -28,6 +28,10 @@ fn start(room: usize) -> Start {
     Start { rooms: vec![room], at: Point::default() }
 }
 
+fn goal(room: usize) -> Goal {
+    Goal { rooms: vec![room], at: None }
+}
+
 fn any_doors(rooms: usize) -> impl Strategy<Value = Vec<RouteDoor>> {
     let any = (0..rooms, 0..rooms, 0_u8..20, prop::bool::weighted(0.9), prop::bool::weighted(0.2));
     prop::collection::vec(any, 0..60).prop_map(|doors| {
@@ -72,7 +76,7 @@ proptest! {
     #[test]
     fn a_blockage_names_doors_that_suffice(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors.clone());
-        match blockage(&graph, &start(0), &[11]) {
+        match blockage(&graph, &start(0), &goal(11)) {
             Blockage::Doors(shut) => {
                 let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..*d };
                 let opened = RouteGraph::new(rooms(12), doors.iter().map(open).collect());
@@ -101,7 +105,7 @@ fn a_one_way_door_is_passed_from_its_first_room_only() {
     let graph = RouteGraph::new(rooms(2), vec![RouteDoor { one_way: true, ..door(1, 0, 1, 1.0) }]);
     assert!(graph.tree(&start(0)).rooms[1].is_some());
     assert!(graph.tree(&start(1)).rooms[0].is_none());
-    assert_eq!(blockage(&graph, &start(1), &[0]), Blockage::Apart);
+    assert_eq!(blockage(&graph, &start(1), &goal(0)), Blockage::Apart);
 }
 
 #[test]
@@ -109,7 +113,7 @@ fn a_door_without_hardness_is_not_passed_but_named() {
     let unknown = RouteDoor { hardness: None, ..door(7, 0, 1, 0.0) };
     let graph = RouteGraph::new(rooms(2), vec![unknown]);
     assert!(graph.tree(&start(0)).rooms[1].is_none());
-    assert_eq!(blockage(&graph, &start(0), &[1]), Blockage::Doors(vec![7]));
+    assert_eq!(blockage(&graph, &start(0), &goal(1)), Blockage::Doors(vec![7]));
 }
 
 #[test]
@@ -160,6 +164,6 @@ fn a_room_of_unknown_hardness_is_not_entered_and_its_door_is_named() {
     let graph = RouteGraph::new(rooms, vec![door(1, 0, 1, 1.0), door(2, 1, 2, 1.0)]);
     let tree = graph.tree(&start(0));
     assert!(tree.rooms[1].is_none() && tree.rooms[2].is_none());
-    assert_eq!(blockage(&graph, &start(0), &[2]), Blockage::Doors(vec![1, 2]));
+    assert_eq!(blockage(&graph, &start(0), &goal(2)), Blockage::Doors(vec![1, 2]));
     assert!(graph.tree(&start(1)).rooms[1].is_none());
 }

@@ -124,6 +124,6 @@ impl Basis<'_> {
 impl Status {
     /// What a way makes of the question.
     pub(super) fn of(way: &Way) -> Self {
-        if way.legs.len() == 1 { Self::SameRoom } else { Self::Ok }
+        if way.legs.iter().all(|leg| leg.door.is_none()) { Self::SameRoom } else { Self::Ok }
     }
 }

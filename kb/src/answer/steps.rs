@@ -11,9 +11,15 @@ use crate::trees::heading;
 /// The steps of a way; where it does not lead to a point, nothing is walked in the last room.
 pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::with_capacity(way.legs.len() * 2);
-    let mut before = 0.0;
+    let (mut before, mut walked) = (0.0, 0.0);
     for (index, leg) in way.legs.iter().enumerate() {
-        let is_goal = leg.door.is_none();
+        let is_goal = index + 1 == way.legs.len();
+        walked += leg.hardness;
+        if leg.door.is_none() && !is_goal {
+            // a bend within a room is no step
+            continue;
+        }
+        let leg = &Leg { hardness: std::mem::take(&mut walked), ..*leg };
         let heading = heading(leg.from, leg.to).filter(|_| !is_goal || to_point);
         steps.push(Step { heading, ..room_step(graph, rules, leg, before + leg.hardness) });
         before = leg.cost;

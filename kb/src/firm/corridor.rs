@@ -127,7 +127,9 @@ impl Corridor {
         let start = Start { rooms: of_run(0, &routes.start.rooms), at: routes.start.at };
         let goal =
             Goal { rooms: of_run(runs.len().saturating_sub(1), &routes.goal.rooms), at: routes.goal.at };
-        Self { graph: RefCell::new(RouteGraph::new(copied, copies)), start, goal, rooms, doors }
+        let mut own = RouteGraph::new(copied, copies);
+        own.close(graph.graph().closed().to_vec());
+        Self { graph: RefCell::new(own), start, goal, rooms, doors }
     }
 
     fn cost(&self, weights: &Weights) -> Option<f64> {

@@ -14,26 +14,35 @@ pub struct Line {
 }
 
 impl Line {
+    /// Through two values.
+    pub fn new(from: (f64, Weights), to: (f64, Weights)) -> Self {
+        Self { from, to }
+    }
+
     /// Through two values, if a third one between them lies on it.
     pub fn through(from: (f64, Weights), between: (f64, &Weights), to: (f64, Weights)) -> Option<Self> {
         let line = Self { from, to };
-        let said = line.at(between.0)?;
+        line.holds(between.0, between.1).then_some(line)
+    }
+
+    /// Whether weights at a value are where the line says.
+    pub fn holds(&self, value: f64, weights: &Weights) -> bool {
+        let Some(said) = self.at(value) else { return false };
         let near = |one: f64, two: f64, scale: f64| {
             one.total_cmp(&two).is_eq() || (one - two).abs() <= STRAIGHT * scale.max(one.abs()).max(1e-300)
         };
-        let rooms = said.rooms.iter().zip(&between.1.rooms).zip(&line.to.1.rooms);
+        let rooms = said.rooms.iter().zip(&weights.rooms).zip(&self.to.1.rooms);
         let mut same_rooms = rooms.map(|((one, two), far)| match (one, two, far) {
             (Walking::PerMetre(one), Walking::PerMetre(two), Walking::PerMetre(far)) => {
                 near(*one, *two, far.abs())
             }
             (one, two, _) => one == two,
         });
-        let mut doors = said.doors.iter().zip(&between.1.doors).zip(&line.to.1.doors);
+        let mut doors = said.doors.iter().zip(&weights.doors).zip(&self.to.1.doors);
         let is_same = |((one, two), far): ((&f64, &f64), &f64)| {
             near(*one, *two, if far.is_finite() { far.abs() } else { 0.0 })
         };
-        let is_straight = same_rooms.all(|same| same) && doors.all(is_same);
-        is_straight.then_some(line)
+        same_rooms.all(|same| same) && doors.all(is_same)
     }
 
     /// The weights at a value; `None` where the two values have another kind of weight for something.

@@ -95,6 +95,13 @@ impl Routes {
     }
 }
 
+/// Whether what costs so much costs no more than the best way, to a rounding: where ways are measured, two searches for
+/// one of them may bend a hair apart.
+pub fn is_least(routes: &Routes, cost: f64, best: f64) -> bool {
+    let tolerance = if routes.is_on_doors() { 1e-9 } else { 1e-6 };
+    cost <= best + tolerance * best.abs().max(1e-9)
+}
+
 /// Gives the doors of a graph these weights.
 fn weigh(graph: &mut CompactGraph, weights: &Weights) {
     for (door, &weight) in weights.doors.iter().enumerate() {

@@ -28,6 +28,15 @@ impl Weights {
         Self { rooms: rooms.collect(), doors: doors.collect() }
     }
 
+    /// Whether nothing weighs less than in others.
+    pub fn are_no_less_than(&self, other: &Self) -> bool {
+        let rooms = self.rooms.iter().zip(&other.rooms).all(|pair| match pair {
+            (Walking::PerMetre(one), Walking::PerMetre(two)) => one >= two,
+            (one, two) => one == two,
+        });
+        rooms && self.doors.iter().zip(&other.doors).all(|(one, two)| one >= two)
+    }
+
     /// Whether something weighs a little differently, and nothing much differently.
     pub fn differ_a_little(&self, other: &Self) -> bool {
         /// Beyond this share it is a step, not a slope.

@@ -9,13 +9,13 @@ use super::{Beyond, FirmCell, Lever, Path, Prober, Routes, Weights, words};
 use crate::error::Result;
 
 /// Values beyond this are not looked at: there is no end.
-const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 
 /// Most cuts on the way to an end.
 const CUTS: usize = 60;
 
 /// Values that are tried in a piece where weights are not linear.
-const TRIED: usize = 8;
+pub(super) const TRIED: usize = 8;
 
 /// Where the way stops being the best.
 struct End {
@@ -277,108 +277,6 @@ impl Side<'_> {
         }
         Ok(None)
     }
-}
-
-/// The value of a cell nearest to its present one at which a way costs no more than any other, and what it then costs.
-///
-/// # Arguments
-/// `way` is a way that costs more than the best at present.
-pub fn overtaken(
-    prober: &mut Prober,
-    routes: &Routes,
-    way: &Path,
-    lever: &Lever,
-    deadline: Instant,
-) -> Result<Option<(f64, f64)>> {
-    let least = if lever.value < 0.0 { -LARGEST } else { 0.0 };
-    let mut found: Option<(f64, f64)> = None;
-    for limit in [least, LARGEST] {
-        let there = overtaken_towards(prober, routes, way, lever, limit, deadline)?;
-        let nearer = |(value, _): &(f64, f64)| {
-            found.is_none_or(|(other, _)| (value - lever.value).abs() < (other - lever.value).abs())
-        };
-        if let Some(there) = there.filter(nearer) {
-            found = Some(there);
-        }
-    }
-    prober.restore(lever)?;
-    Ok(found)
-}
-
-fn overtaken_towards(
-    prober: &mut Prober,
-    routes: &Routes,
-    way: &Path,
-    lever: &Lever,
-    limit: f64,
-    deadline: Instant,
-) -> Result<Option<(f64, f64)>> {
-    let tolerance = if routes.is_on_doors() { 1e-9 } else { 1e-6 };
-    let lead = |weights: &Weights| {
-        let best = routes.best(weights).map_or(f64::INFINITY, |best| best.cost(weights));
-        let cost = way.cost(weights);
-        (cost.is_finite() && cost <= best * (1.0 + tolerance)).then_some(cost)
-    };
-    let mut from = lever.value;
-    if from.total_cmp(&limit).is_eq() {
-        return Ok(None);
-    }
-    for to in breaks(lever, limit) {
-        if Instant::now() >= deadline {
-            return Ok(None);
-        }
-        let mut weights = Vec::new();
-        let values = [0.125, 0.5, 0.875].map(|share| from + (to - from) * share);
-        for value in values {
-            if let Probe::Weighs(found) = prober.at(lever, value)? {
-                weights.push(found);
-            }
-        }
-        let [one, two, three] = weights.as_slice() else { return Ok(None) };
-        if *one != prober.present || one != three {
-            let line = Line::through((values[0], one.clone()), (values[1], two), (values[2], three.clone()));
-            let Some(line) = line else { return Ok(None) };
-            if let Some(found) = newton(&line, routes, way, (from, to), &lead) {
-                return Ok(Some(found));
-            }
-        }
-        if let Probe::Weighs(weights) = prober.at(lever, to)?
-            && let Some(cost) = lead(&weights)
-        {
-            return Ok(Some((to, cost)));
-        }
-        from = to;
-    }
-    Ok(None)
-}
-
-/// The first value from `from` on at which the way costs no more than the best one, whose cost is concave there.
-fn newton(
-    line: &Line,
-    routes: &Routes,
-    way: &Path,
-    (from, to): (f64, f64),
-    lead: &dyn Fn(&Weights) -> Option<f64>,
-) -> Option<(f64, f64)> {
-    let mut value = from;
-    for _ in 0..CUTS {
-        let here = line.at(value)?;
-        if let Some(cost) = lead(&here) {
-            return Some((value, cost));
-        }
-        let best = routes.best(&here)?;
-        let far = line.at(to)?;
-        let (now, then) = (way.cost(&here) - best.cost(&here), way.cost(&far) - best.cost(&far));
-        if !now.is_finite() || !then.is_finite() || then >= 0.0 {
-            return None;
-        }
-        let next = value + (to - value) * (now / (now - then));
-        if (next - value).abs() <= 1e-13 * value.abs().max(1e-9) {
-            return None;
-        }
-        value = next;
-    }
-    None
 }
 
 impl Beyond {

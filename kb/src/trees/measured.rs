@@ -52,6 +52,16 @@ struct Last {
     clearance: Option<f64>,
     heading: Option<f64>,
     bend: bool,
+    walked: Walked,
+}
+
+/// How far a way has come.
+#[derive(Clone, Copy, Default)]
+struct Walked {
+    /// Doors passed.
+    doors: i64,
+    /// Hardness in the room since its door: a way may bend in it.
+    hardness: f64,
 }
 
 /// No node is before the first.
@@ -65,7 +75,13 @@ impl<'g> Chains<'g> {
             nodes,
             rows,
             next,
-            last: Last { node: NOTHING, clearance: None, heading: None, bend: true },
+            last: Last {
+                node: NOTHING,
+                clearance: None,
+                heading: None,
+                bend: true,
+                walked: Walked::default(),
+            },
         }
     }
 
@@ -79,31 +95,37 @@ impl<'g> Chains<'g> {
         };
         let doors = way.legs.len() - 1;
         let first = &way.legs[0];
-        let start = TreeRow { distance: Some(0.0), bend: true, ..self.row(first, None, 0) };
+        let start = TreeRow { distance: Some(0.0), bend: true, ..self.row(first, None, Walked::default()) };
         let start = TreeRow { at: Some([first.from.x, first.from.y]), ..start };
         let step = (NOTHING, first.room, None, [first.from.x.to_bits(), first.from.y.to_bits()]);
         let mut before = self.node(step, first.room, node.filter(|_| doors == 0), start);
-        let mut distance = 0.0;
+        let (mut distance, mut walked) = (0.0, Walked::default());
         for (index, leg) in way.legs[..doors].iter().enumerate() {
             distance += leg.length();
+            walked.hardness += leg.hardness;
+            walked.doors += i64::from(leg.door.is_some());
             let row = TreeRow {
                 distance: Some(distance),
                 clearance: clearances[index],
                 bend: bends[index],
                 heading: headings[index],
-                ..self.row(leg, Some(before), index as i64 + 1)
+                ..self.row(leg, Some(before), walked)
             };
+            if leg.door.is_some() {
+                walked.hardness = 0.0;
+            }
             let room = way.legs[index + 1].room;
             let step = (before, leg.room, leg.door, [leg.to.x.to_bits(), leg.to.y.to_bits()]);
             before = self.node(step, room, node.filter(|_| index + 1 == doors), row);
         }
-        self.last =
-            Last { node: before, clearance: clearances[doors], heading: headings[doors], bend: bends[doors] };
+        walked.hardness += way.legs[doors].hardness;
+        let (clearance, heading) = (clearances[doors], headings[doors]);
+        self.last = Last { node: before, clearance, heading, bend: bends[doors], walked };
     }
 
     /// Adds the last leg of the way added last, to a place.
     fn arrive(&mut self, node: i64, way: &Way) {
-        let Last { node: before, clearance, heading, bend } = self.last;
+        let Last { node: before, clearance, heading, bend, walked } = self.last;
         let Some(leg) = way.legs.last() else { return };
         let row = TreeRow {
             distance: Some(way.length()),
@@ -111,12 +133,12 @@ impl<'g> Chains<'g> {
             heading,
             bend,
             node,
-            ..self.row(leg, Some(before), way.legs.len() as i64 - 1)
+            ..self.row(leg, Some(before), walked)
         };
         self.rows.insert(node, row);
     }
 
-    fn row(&self, leg: &Leg, before: Option<i64>, hops: i64) -> TreeRow {
+    fn row(&self, leg: &Leg, before: Option<i64>, walked: Walked) -> TreeRow {
         let room = self.graph.rooms[leg.room].room;
         let weight = leg.door.and_then(|door| self.graph.graph().doors()[door].weight()).unwrap_or(0.0);
         let is_start = before.is_none();
@@ -125,9 +147,9 @@ impl<'g> Chains<'g> {
             prev: before,
             from_room: (before != Some(room)).then_some(room),
             door: leg.door.filter(|_| !is_start).map(|door| i64::from(self.graph.graph().doors()[door].door)),
-            hops,
+            hops: walked.doors,
             reach: if is_start { 0.0 } else { leg.cost - weight },
-            leg: if is_start { 0.0 } else { leg.hardness },
+            leg: if is_start { 0.0 } else { walked.hardness },
             at: Some([leg.to.x, leg.to.y]),
             heading: None,
             distance: None,

@@ -1,21 +1,37 @@
-//! The best way through a room or a door.
+//! The best way through a room or a door: a search in two copies of the graph, one for what lies before it and one for
+//! what comes after. Who is in the second copy has passed it.
 
-use adit_db::door::Door;
-use adit_planners::geometry::Point;
-use adit_planners::routes::{Goal, Leg, Start, Way};
+use adit_planners::routes::{Goal, Leg, RouteDoor, RouteGraph, Start, Way};
 
 use crate::error::Result;
+use crate::firm::{self, Path, Routes, Weights};
 use crate::fork::Fork;
-use crate::graph::{End, SiteGraph};
+use crate::graph::SiteGraph;
 
-/// Points of a room or a door over which a way is tried, where ways are measured.
-const POINTS: usize = 9;
+/// What a way is asked to lead through, by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Via {
+    Room(usize),
+    Door(usize),
+}
 
 /// Ways from a start to a goal.
 pub(super) struct Question<'g> {
     graph: &'g SiteGraph,
     start: Start,
     goal: Goal,
+}
+
+/// Ways through a room or a door.
+pub(super) struct Passing {
+    via: Via,
+    /// Rooms and doors of the site.
+    rooms: usize,
+    /// Of each door of the two copies the site's, by index.
+    doors: Vec<usize>,
+    /// The doors by which a way is through.
+    entries: Vec<bool>,
+    routes: Routes,
 }
 
 impl<'g> Question<'g> {
@@ -26,7 +42,8 @@ impl<'g> Question<'g> {
     }
 
     pub(super) fn best(&self) -> Option<Way> {
-        self.way(&self.start, &self.goal)
+        let goals = std::slice::from_ref(&self.goal);
+        self.graph.graph().way(&self.start, goals).map(|(_, way)| way)
     }
 
     /// Whether the goal is a point, so that something is walked in the last room.
@@ -34,82 +51,73 @@ impl<'g> Question<'g> {
         self.goal.at.is_some()
     }
 
-    fn way(&self, start: &Start, goal: &Goal) -> Option<Way> {
-        self.graph.graph().way(start, std::slice::from_ref(goal)).map(|(_, way)| way)
-    }
-
-    /// The way to a point in a room.
-    fn to(&self, room: usize, at: Point) -> Option<Way> {
-        self.way(&self.start, &Goal { rooms: vec![room], at: Some(at) })
-    }
-
-    /// The way on from a point in a room.
-    fn on(&self, room: usize, at: Point) -> Option<Way> {
-        self.way(&Start { rooms: vec![room], at }, &self.goal)
-    }
-
-    /// By where it is entered at least cost, by its middle, or by one of its doors.
-    pub(super) fn through_room(&self, room: usize) -> Option<Way> {
-        let middle = self.graph.point(&End::Room(room));
-        let via = |at: Point| Some(joined(self.to(room, at)?, None, self.on(room, at)?));
-        if self.graph.graph().is_on_doors() {
-            // walking in a room weighs nothing: every point of it is as good
-            return via(middle);
+    /// The best way through a room or a door, and what finds it at other weights.
+    pub(super) fn passing(&self, via: Via) -> (Option<Way>, Passing) {
+        let graph = self.graph.graph();
+        let count = graph.rooms().len();
+        let is_entry = |door: &RouteDoor, index: usize| match via {
+            Via::Room(room) => door.room1 == room || door.room2 == room,
+            Via::Door(door) => door == index,
+        };
+        let (mut copies, mut doors) = (Vec::new(), Vec::new());
+        let mut add = |index: usize, copy: RouteDoor| {
+            copies.push(copy);
+            doors.push(index);
+        };
+        for (index, door) in graph.doors().iter().enumerate() {
+            let (room1, room2) = (door.room1, door.room2);
+            if is_entry(door, index) {
+                let leads_in = |to: usize| matches!(via, Via::Door(_)) || via == Via::Room(to);
+                if leads_in(room2) {
+                    add(index, RouteDoor { room2: room2 + count, one_way: true, ..*door });
+                }
+                if !door.one_way && leads_in(room1) {
+                    add(index, RouteDoor { room1: room2, room2: room1 + count, one_way: true, ..*door });
+                }
+            } else {
+                add(index, *door);
+            }
+            add(index, RouteDoor { room1: room1 + count, room2: room2 + count, ..*door });
         }
-        let first = Goal { rooms: vec![room], at: None };
-        let entered = self.way(&self.start, &first).and_then(|way| way.legs.last().copied());
-        let doors = self.graph.graph().doors().iter();
-        let doors = doors.filter(|door| !door.is_change() && (door.room1 == room || door.room2 == room));
-        let points = entered.map(|leg| leg.to).into_iter().chain([middle]);
-        let points = points.chain(doors.map(|door| door.crossing.centre())).take(POINTS);
-        points.filter_map(via).min_by(|one, two| one.cost.total_cmp(&two.cost))
-    }
-
-    /// By one of some points of the door; both ways, unless it is passed one way only.
-    pub(super) fn through_door(&self, door: &Door) -> Option<Way> {
-        let hardness = door.hardness.value.filter(|_| door.passable.value == Some(true))?;
-        let index = self.graph.doors.binary_search_by_key(&door.door, |one| one.door).ok()?;
-        let (one, two) = (self.graph.room(door.side1.room)?, self.graph.room(door.side2.room)?);
-        let ways = [(one, two), (two, one)];
-        let ways = if door.one_way { &ways[..1] } else { &ways[..] };
-        let [x0, y0, x1, y1] = door.segment;
-        let share = |part: usize| part as f64 / (POINTS - 1) as f64;
-        let along = |part| Point::new(x0 + (x1 - x0) * share(part), y0 + (y1 - y0) * share(part));
-        let points: Vec<Point> = if self.graph.graph().is_on_doors() {
-            vec![Point::new(door.at[0], door.at[1])]
-        } else {
-            (0..POINTS).map(along).collect()
-        };
-        let via = |(from, to): (usize, usize), at: Point| {
-            Some(joined(self.to(from, at)?, Some((index, hardness)), self.on(to, at)?))
-        };
-        let all = ways.iter().flat_map(|&way| points.iter().filter_map(move |&at| via(way, at)));
-        all.min_by(|one, two| one.cost.total_cmp(&two.cost))
+        let rooms = graph.rooms().iter().chain(graph.rooms()).copied().collect();
+        let mut both = RouteGraph::new(rooms, copies);
+        both.close(graph.closed().to_vec());
+        let begin = |&room: &usize| if via == Via::Room(room) { room + count } else { room };
+        let start = Start { rooms: self.start.rooms.iter().map(begin).collect(), at: self.start.at };
+        let goal = Goal { rooms: self.goal.rooms.iter().map(|room| room + count).collect(), ..self.goal };
+        let way = both.way(&start, std::slice::from_ref(&goal)).map(|(_, way)| {
+            let leg =
+                |leg: &Leg| Leg { room: leg.room % count, door: leg.door.map(|door| doors[door]), ..*leg };
+            Way { legs: way.legs.iter().map(leg).collect(), cost: way.cost }
+        });
+        let entries = graph.doors().iter().enumerate().map(|(index, door)| is_entry(door, index)).collect();
+        let routes = Routes::between(&both, start, goal);
+        (way, Passing { via, rooms: count, doors, entries, routes })
     }
 }
 
-/// One way, then the other one, by a door between them or on in the same room.
-fn joined(first: Way, door: Option<(usize, f64)>, second: Way) -> Way {
-    let mut legs = first.legs;
-    let mut cost = first.cost;
-    if let (Some(last), Some((door, hardness))) = (legs.last_mut(), door) {
-        cost += hardness;
-        last.door = Some(door);
-        last.cost = cost;
+impl Passing {
+    /// Whether the way is through.
+    pub(super) fn holds_way(&self, way: &Way) -> bool {
+        firm::Through::holds(self, &Path::of(way))
     }
-    let begun = cost;
-    let after = second.legs.into_iter().map(|leg| Leg { cost: begun + leg.cost, ..leg });
-    let mut after = after.peekable();
-    // a stop that is no bend is none
-    let is_on =
-        |last: &Leg, next: &Leg| last.door.is_none() && (last.length() < 1e-9 || next.length() < 1e-9);
-    if let (Some(last), Some(next)) = (legs.last().copied(), after.peek().copied())
-        && is_on(&last, &next)
-    {
-        legs.pop();
-        after.next();
-        legs.push(Leg { from: last.from, hardness: last.hardness + next.hardness, ..next });
+}
+
+impl firm::Through for Passing {
+    fn best(&self, weights: &Weights) -> Option<Path> {
+        let twice = Weights {
+            rooms: weights.rooms.iter().chain(&weights.rooms).copied().collect(),
+            doors: self.doors.iter().map(|&door| weights.doors[door]).collect(),
+        };
+        let path = self.routes.best(&twice)?;
+        Some(Path {
+            metres: path.metres.into_iter().map(|(room, metres)| (room % self.rooms, metres)).collect(),
+            doors: path.doors.into_iter().map(|door| self.doors[door]).collect(),
+        })
     }
-    legs.extend(after);
-    Way { cost: begun + second.cost, legs }
+
+    fn holds(&self, path: &Path) -> bool {
+        let is_in = |&(room, _): &(usize, f64)| self.via == Via::Room(room);
+        path.metres.iter().any(is_in) || path.doors.iter().any(|&door| self.entries[door])
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::{RouteGraph, Start};
+use super::{Goal, RouteGraph, Start};
 
 /// What stands between a start and a goal that no route joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,8 +13,15 @@ pub enum Blockage {
     Apart,
 }
 
-/// The fewest doors that would have to be passable to reach one of `goals`. O(rooms + doors).
-pub fn blockage(graph: &RouteGraph, start: &Start, goals: &[usize]) -> Blockage {
+/// The fewest doors that would have to be passable to reach the goal. O(rooms + doors).
+pub fn blockage(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
+    match graph.cut().map(|cut| cut.with(start, goal)) {
+        Some((cut, start, goal)) => shut_between(cut, &start, &goal),
+        None => shut_between(graph, start, goal),
+    }
+}
+
+fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
     let mut leaving: Vec<Vec<(usize, usize)>> = vec![Vec::new(); graph.rooms.len()];
     for (index, door) in graph.doors.iter().enumerate() {
         leaving[door.room1].push((door.room2, index));
@@ -47,7 +54,7 @@ pub fn blockage(graph: &RouteGraph, start: &Start, goals: &[usize]) -> Blockage 
             }
         }
     }
-    let nearest = goals.iter().filter_map(|&goal| least[goal].map(|shut| (shut, goal))).min();
+    let nearest = goal.rooms.iter().filter_map(|&goal| least[goal].map(|shut| (shut, goal))).min();
     let Some((_, mut room)) = nearest else { return Blockage::Apart };
     let mut doors = Vec::new();
     while let Some((before, door)) = from[room] {

@@ -13,6 +13,15 @@ const DEEP_M: f64 = 0.5;
 /// left out beside others.
 const THIN_M: f64 = 0.3;
 
+/// By what a way may go on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Further {
+    /// By doors.
+    Doors,
+    /// By doors, and by another change of shape into a state that has room beyond.
+    AllWays,
+}
+
 /// Where a change may pay.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gate {
@@ -37,7 +46,11 @@ impl RouteGraph {
             let deep = |segment: Segment| Gate { segment, is_deep: true };
             if common.is_none_or(|common| !is_same(&common, &area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
-                return sides(&area).into_iter().map(deep).collect();
+                return sides(&area)
+                    .into_iter()
+                    .flat_map(|side| self.clear_of_walls(side))
+                    .map(deep)
+                    .collect();
             }
             let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
             for side in sides(&area) {
@@ -47,7 +60,7 @@ impl RouteGraph {
                 let (alike, otherwise) = self.beside(door, (from, to), side);
                 known.extend(alike);
                 for end in without(side, &known) {
-                    let on = self.deep(easier, end, area.centre(), THIN_M);
+                    let on = self.deep(easier, end, area.centre(), THIN_M, Further::Doors);
                     rim.extend(without(end, &on));
                 }
                 gates.extend(otherwise.into_iter().map(deep));
@@ -59,18 +72,31 @@ impl RouteGraph {
                     continue;
                 }
                 for segment in rim {
-                    let parts = self.deep(to, segment, area.centre(), DEEP_M);
+                    let parts = self.deep(to, segment, area.centre(), DEEP_M, Further::AllWays);
                     let shallow = without(segment, &parts).into_iter();
                     gates.extend(parts.into_iter().map(deep));
-                    gates.extend(shallow.map(|segment| Gate { segment, is_deep: false }));
+                    gates.extend(shallow.map(|segment| {
+                        let is_deep = self.leads_on_along(from, to, segment, area.centre());
+                        Gate { segment, is_deep }
+                    }));
                 }
             }
-            gates.into()
+            let clear = |gate: Gate| {
+                self.clear_of_walls(gate.segment).into_iter().map(move |segment| Gate { segment, ..gate })
+            };
+            gates.into_iter().flat_map(clear).collect()
         })
     }
 
     /// The parts of a segment from which a room and those behind it go on for so many metres, away from a point.
-    fn deep(&self, room: usize, segment: Segment, away_from: Point, metres: f64) -> Vec<Segment> {
+    fn deep(
+        &self,
+        room: usize,
+        segment: Segment,
+        away_from: Point,
+        metres: f64,
+        by: Further,
+    ) -> Vec<Segment> {
         let rect = &self.rooms()[room].rect;
         let upright = (segment.a.x - segment.b.x).abs() <= EPSILON;
         let (at, from) = if upright { (segment.a.x, away_from.x) } else { (segment.a.y, away_from.y) };
@@ -91,11 +117,62 @@ impl RouteGraph {
             let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
             let on = |p: Point| beyond.nearest_to(p).distance(p) <= EPSILON;
             if on(a) && on(b) && a.distance(b) > EPSILON {
-                let further = self.deep(exit.to as usize, Segment { a, b }, away_from, metres - depth);
+                let further = self.deep(exit.to as usize, Segment { a, b }, away_from, metres - depth, by);
                 parts.extend(further.into_iter().map(|part| Segment { a: back(part.a), b: back(part.b) }));
             }
         }
+        if by == Further::AllWays {
+            let strip = Rect::new(
+                segment.a.x.min(beyond.a.x),
+                segment.a.y.min(beyond.a.y),
+                segment.b.x.max(beyond.b.x),
+                segment.b.y.max(beyond.b.y),
+            );
+            for exit in
+                self.mesh.changes.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
+            {
+                let other = self.rooms()[exit.to as usize].rect;
+                let (low, high) = if upright { (other.x0, other.x1) } else { (other.y0, other.y1) };
+                let is_further = if at > from { high > far + EPSILON } else { low < far - EPSILON };
+                let shared = self.doors()[exit.door as usize].crossing.intersection(&strip);
+                if let Some(shared) = shared.filter(|_| is_further) {
+                    let (a, b) = (shared.nearest_to(segment.a), shared.nearest_to(segment.b));
+                    let part = Segment { a: back(a), b: back(b) };
+                    parts.extend(self.deep(exit.to as usize, part, away_from, metres, by));
+                }
+            }
+        }
         parts
+    }
+
+    /// Whether the shallow strip beyond a rim goes on along the rim, where the easier room and those behind it do not.
+    fn leads_on_along(&self, easier: usize, harder: usize, rim: Segment, inside: Point) -> bool {
+        let upright = (rim.a.x - rim.b.x).abs() <= EPSILON;
+        let (rect, at) = (&self.rooms()[harder].rect, if upright { rim.a.x } else { rim.a.y });
+        let is_beyond_high = at > if upright { inside.x } else { inside.y };
+        let far = match (upright, is_beyond_high) {
+            (true, true) => rect.x1,
+            (true, false) => rect.x0,
+            (false, true) => rect.y1,
+            (false, false) => rect.y0,
+        };
+        if (far - at).abs() <= EPSILON {
+            return false;
+        }
+        // across the strip, or so far into the easier room, at an end of the rim
+        let across = |end: Point, to: f64| {
+            let (low, high) = (at.min(to), at.max(to));
+            if upright {
+                Segment { a: Point::new(low, end.y), b: Point::new(high, end.y) }
+            } else {
+                Segment { a: Point::new(end.x, low), b: Point::new(end.x, high) }
+            }
+        };
+        let inner = if is_beyond_high { at - THIN_M } else { at + THIN_M };
+        [(rim.a, rim.b), (rim.b, rim.a)].into_iter().any(|(end, other)| {
+            self.deep(easier, across(end, inner), other, THIN_M, Further::Doors).is_empty()
+                && !self.deep(harder, across(end, far), other, DEEP_M, Further::AllWays).is_empty()
+        })
     }
 
     /// The parts of a side of a change's area beyond which the same change is possible; and those beyond which it has
@@ -216,7 +293,7 @@ pub(super) fn sides(area: &Rect) -> [Segment; 4] {
 }
 
 /// The parts of an axis-parallel segment that none of some others on its line covers.
-fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
+pub(super) fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
     let upright = (side.a.x - side.b.x).abs() <= EPSILON;
     let along = |p: Point| if upright { p.y } else { p.x };
     let ends = |segment: &Segment| {

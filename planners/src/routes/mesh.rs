@@ -30,7 +30,7 @@ pub(super) struct Mesh {
     pub changes: Lists,
     /// For each room the changes that lead into it; `to` is the room where they begin.
     pub changes_into: Lists,
-    /// For each room its layer: rooms that doors to pass join are of one.
+    /// For each room its layer: rooms that doors to pass both ways join are of one.
     pub layer: Vec<u32>,
     /// For each door the ends of its segment, by number; [`NONE`] for a change.
     pub ends: Vec<[u32; 2]>,
@@ -158,10 +158,10 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
     (ends, at_end, points)
 }
 
-/// For each room the first of the rooms that doors to pass join with it.
+/// For each room the first of the rooms that doors to pass, both ways, join with it.
 fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
     let mut of: Vec<usize> = (0..rooms).collect();
-    for door in doors.iter().filter(|door| !door.is_change()) {
+    for door in doors.iter().filter(|door| !door.is_change() && !door.one_way) {
         let (a, b) = (representative(&mut of, door.room1), representative(&mut of, door.room2));
         of[a.max(b)] = a.min(b);
     }

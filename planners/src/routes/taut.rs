@@ -465,6 +465,9 @@ impl<'g> Search<'g> {
         let room = exit.to as usize;
         let (here, there) = (self.graph.per_m(node.room as usize), self.graph.per_m(room));
         let reach = |search: &mut Self, p: Point| {
+            if search.graph.is_on_wall(p) {
+                return;
+            }
             let cost = node.cost + apart(node.root, p) * here;
             // reached at less cost otherwise, here or there
             let is_vain = search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
@@ -490,7 +493,8 @@ impl<'g> Search<'g> {
             reach(self, node.root);
         }
         if self.care == Care::Full {
-            for side in sides(&graph.doors()[door].crossing) {
+            let sides = sides(&graph.doors()[door].crossing).into_iter();
+            for side in sides.flat_map(|side| graph.clear_of_walls(side)) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
