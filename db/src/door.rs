@@ -11,6 +11,7 @@ use crate::error::Result;
 use crate::reason::Derived;
 use crate::stale::in_bulk;
 use crate::transaction::Tx;
+use crate::weight::Weight;
 
 /// What happens at a door.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -62,17 +63,20 @@ pub struct Door {
     pub one_way: bool,
 }
 
-/// What rules say about a door.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DoorWeight {
-    /// The door.
-    pub door: i64,
-    /// Cost of passing.
-    pub hardness: Derived<f64>,
-    /// How to pass.
-    pub action: Derived<String>,
-    /// Whether it can be passed.
-    pub passable: Derived<bool>,
+impl Door {
+    /// What rules say about it.
+    pub fn weight(&self) -> Weight {
+        Weight {
+            hardness: self.hardness.clone(),
+            action: self.action.clone(),
+            passable: self.passable.clone(),
+        }
+    }
+
+    /// Has rules say something else about it.
+    pub fn weigh(&mut self, weight: Weight) {
+        (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
+    }
 }
 
 impl Record for &Door {
@@ -195,56 +199,6 @@ pub async fn replace(connection: &mut SqliteConnection, doors: &[Door]) -> Resul
     Ok(())
 }
 
-/// Gives doors new weights; how many rows differed and were written.
-pub async fn reweigh(connection: &mut SqliteConnection, weights: &[DoorWeight]) -> Result<usize> {
-    let known = read(connection).await?;
-    let differs = |weight: &&DoorWeight| {
-        known.binary_search_by_key(&weight.door, |door| door.door).is_ok_and(|at| {
-            let door = &known[at];
-            door.hardness != weight.hardness
-                || door.action != weight.action
-                || door.passable != weight.passable
-        })
-    };
-    let changed: Vec<&DoorWeight> = weights.iter().filter(differs).collect();
-    put_weights(connection, changed.iter().copied()).await?;
-    Ok(changed.len())
-}
-
-/// Gives these doors new weights, whatever they were.
-pub async fn put_weights(
-    connection: &mut SqliteConnection,
-    weights: impl IntoIterator<Item = &DoorWeight>,
-) -> Result<u64> {
-    in_bulk(connection, "doors", async |connection| bulk::update::<1, _>(connection, weights).await).await
-}
-
-impl Record for &DoorWeight {
-    const TABLE: &'static str = "doors";
-    const COLUMNS: &'static [&'static str] = &[
-        "door",
-        "hardness",
-        "hardness_rule",
-        "hardness_witness",
-        "action",
-        "action_rule",
-        "action_witness",
-        "passable",
-        "passable_rule",
-        "passable_witness",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.door);
-        values.real(self.hardness.value);
-        self.hardness.bind_reason(values);
-        values.text(self.action.value.as_deref());
-        self.action.bind_reason(values);
-        values.truth(self.passable.value);
-        self.passable.bind_reason(values);
-    }
-}
-
 impl Tx<'_> {
     /// All doors, by number.
     pub fn doors(&mut self) -> Result<Vec<Door>> {
@@ -264,15 +218,5 @@ impl Tx<'_> {
     /// Replaces all doors by these; their rooms must be there.
     pub fn replace_doors(&mut self, by: &[Door]) -> Result<()> {
         self.run(async |connection| replace(connection, by).await)
-    }
-
-    /// Gives doors new weights; how many rows differed and were written.
-    pub fn reweigh_doors(&mut self, weights: &[DoorWeight]) -> Result<usize> {
-        self.run(async |connection| reweigh(connection, weights).await)
-    }
-
-    /// Gives these doors new weights, whatever they were; how many.
-    pub fn put_door_weights<'w>(&mut self, weights: impl IntoIterator<Item = &'w DoorWeight>) -> Result<u64> {
-        self.run(async |connection| put_weights(connection, weights).await)
     }
 }

@@ -42,6 +42,7 @@ mod transaction;
 pub mod traversal;
 pub mod tree;
 pub mod tuning;
+pub mod weight;
 
 pub use cell::Cell;
 pub use error::{Error, Result};

@@ -10,6 +10,7 @@ use crate::error::Result;
 use crate::reason::Derived;
 use crate::stale::in_bulk;
 use crate::transaction::Tx;
+use crate::weight::Weight;
 
 /// A room: a rectangle of free space, in one layer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,24 +37,19 @@ pub struct Room {
     pub passable: Derived<bool>,
 }
 
-/// What rules say about a room.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RoomWeight {
-    /// The room.
-    pub room: i64,
-    /// Cost per metre.
-    pub hardness: Derived<f64>,
-    /// How to move in it.
-    pub action: Derived<String>,
-    /// Whether it is entered.
-    pub passable: Derived<bool>,
-}
-
 impl Room {
     /// What rules say about it.
-    pub fn weight(&self) -> RoomWeight {
-        let Self { room, hardness, action, passable, .. } = self.clone();
-        RoomWeight { room, hardness, action, passable }
+    pub fn weight(&self) -> Weight {
+        Weight {
+            hardness: self.hardness.clone(),
+            action: self.action.clone(),
+            passable: self.passable.clone(),
+        }
+    }
+
+    /// Has rules say something else about it.
+    pub fn weigh(&mut self, weight: Weight) {
+        (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
     }
 }
 
@@ -139,53 +135,6 @@ pub async fn replace(connection: &mut SqliteConnection, rooms: &[Room]) -> Resul
     Ok(())
 }
 
-/// Gives rooms new weights; how many rows differed and were written.
-pub async fn reweigh(connection: &mut SqliteConnection, weights: &[RoomWeight]) -> Result<usize> {
-    let known = read(connection).await?;
-    let differs = |weight: &&RoomWeight| {
-        known
-            .binary_search_by_key(&weight.room, |room| room.room)
-            .is_ok_and(|at| known[at].weight() != **weight)
-    };
-    let changed: Vec<&RoomWeight> = weights.iter().filter(differs).collect();
-    put_weights(connection, changed.iter().copied()).await?;
-    Ok(changed.len())
-}
-
-/// Gives these rooms new weights, whatever they were.
-pub async fn put_weights(
-    connection: &mut SqliteConnection,
-    weights: impl IntoIterator<Item = &RoomWeight>,
-) -> Result<u64> {
-    in_bulk(connection, "rooms", async |connection| bulk::update::<1, _>(connection, weights).await).await
-}
-
-impl Record for &RoomWeight {
-    const TABLE: &'static str = "rooms";
-    const COLUMNS: &'static [&'static str] = &[
-        "room",
-        "hardness",
-        "hardness_rule",
-        "hardness_witness",
-        "action",
-        "action_rule",
-        "action_witness",
-        "passable",
-        "passable_rule",
-        "passable_witness",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.room);
-        values.real(self.hardness.value);
-        self.hardness.bind_reason(values);
-        values.text(self.action.value.as_deref());
-        self.action.bind_reason(values);
-        values.truth(self.passable.value);
-        self.passable.bind_reason(values);
-    }
-}
-
 impl Tx<'_> {
     /// All rooms, by number.
     pub fn rooms(&mut self) -> Result<Vec<Room>> {
@@ -200,15 +149,5 @@ impl Tx<'_> {
     /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
     pub fn replace_rooms(&mut self, by: &[Room]) -> Result<()> {
         self.run(async |connection| replace(connection, by).await)
-    }
-
-    /// Gives rooms new weights; how many rows differed and were written.
-    pub fn reweigh_rooms(&mut self, weights: &[RoomWeight]) -> Result<usize> {
-        self.run(async |connection| reweigh(connection, weights).await)
-    }
-
-    /// Gives these rooms new weights, whatever they were; how many.
-    pub fn put_room_weights<'w>(&mut self, weights: impl IntoIterator<Item = &'w RoomWeight>) -> Result<u64> {
-        self.run(async |connection| put_weights(connection, weights).await)
     }
 }

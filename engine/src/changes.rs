@@ -45,7 +45,7 @@ impl Changes {
 
 impl Changes {
     /// What changed over both steps, this one and the next.
-    pub(crate) fn absorb(&mut self, next: Self) {
+    pub fn absorb(&mut self, next: Self) {
         for (class, reasons) in &mut self.reasons {
             let Some(moved) = next.classes.get(class).and_then(|changes| changes.moved.as_ref()) else {
                 continue;

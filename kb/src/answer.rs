@@ -9,9 +9,10 @@ use adit_db::{Store, Tx};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::gauge::Gauge;
+use crate::gauge::{Gauge, sizes_of};
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::live::Memory;
 use crate::suggest::did_you_mean;
 use crate::{generation, states};
 
@@ -85,7 +86,7 @@ impl KnowledgeBase {
     pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
         let inputs = self.inputs(&crate::progress::Silent)?;
         Store::open(self.database())?.rehearse(|tx| {
-            self.follow(tx, &inputs, &crate::progress::Silent)?;
+            Memory::build(tx, &self.shared(), &inputs, &crate::progress::Silent)?;
             work(tx)
         })
     }
@@ -123,7 +124,7 @@ impl KnowledgeBase {
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let states = states::in_force(tx)?;
         let (world, _, _) = self.site().world()?;
-        let gauge = Gauge::new(&world, &states);
+        let gauge = Gauge::new(&world, sizes_of(&states));
         let basis = Basis { knowledge: self, graph: &graph, rules: &rules, world: &world, gauge: &gauge };
         basis.search(goals, answer)
     }

@@ -1,6 +1,7 @@
 //! Routes between places under two named tunings, side by side.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use adit_db::history::Author;
 use adit_db::{Store, Tx};
@@ -10,6 +11,7 @@ use crate::edit::Edit;
 use crate::error::{Error, Result};
 use crate::inputs::Inputs;
 use crate::knowledge::KnowledgeBase;
+use crate::live::Memory;
 use crate::progress::Silent;
 
 /// The name that stands for no tuning at all.
@@ -53,7 +55,7 @@ impl KnowledgeBase {
         Ok(compared.collect())
     }
 
-    fn costs(&self, store: &mut Store, inputs: &Inputs, tuning: &str) -> Result<Costs> {
+    fn costs(&self, store: &mut Store, inputs: &Arc<Inputs>, tuning: &str) -> Result<Costs> {
         store.rehearse(|tx| {
             let author = Author { who: String::new(), why: String::new() };
             let mut is_on = false;
@@ -67,7 +69,7 @@ impl KnowledgeBase {
             if tuning != BASE && !is_on {
                 Edit::Switch(tuning.to_owned(), true).apply(tx, self, &inputs.rules, &author)?;
             }
-            self.follow(tx, inputs, &Silent)?;
+            Memory::build(tx, &self.shared(), inputs, &Silent)?;
             costs_between_places(tx)
         })
     }

@@ -28,7 +28,7 @@ use serde::Serialize;
 
 use crate::answer;
 use crate::error::{Error, Result};
-use crate::fork::Fork;
+use crate::state::State;
 use crate::live::Live;
 use crate::suggest::did_you_mean;
 pub(crate) use cells::Lever;
@@ -104,10 +104,10 @@ impl Live {
     }
 }
 
-impl Fork {
+impl State {
     /// As [`Live::firm`], of the state that was forked; the site is not held up meanwhile.
     pub fn firm(self, start: &str, goal: &str, robot: Option<&str>) -> Result<Firm> {
-        let robot = answer::pick(&self.base.robots(), robot)?;
+        let robot = answer::pick(&self.robots(), robot)?;
         let routes = Routes::new(&self, start, goal, &robot)?;
         let mut prober = Prober::new(self);
         let mut firm = Firm {
@@ -137,9 +137,9 @@ impl Fork {
 
     /// What a name means; an error that names it where it means nothing.
     pub(crate) fn end(&self, name: &str) -> Result<crate::graph::End> {
-        self.graph.end(name).ok_or_else(|| {
+        self.graph().end(name).ok_or_else(|| {
             let message = format!("`{name}` is no place, no room and no point `x,y`");
-            Error::said("route/unknown", message, did_you_mean(name, self.graph.names()))
+            Error::said("route/unknown", message, did_you_mean(name, self.graph().names()))
         })
     }
 }

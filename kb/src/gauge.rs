@@ -1,6 +1,7 @@
 //! How near to anything solid a robot comes on its way.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use adit_db::robot::State;
 use adit_engine::KnowledgeBase as Inference;
@@ -15,38 +16,49 @@ use crate::trees::heading;
 
 /// Everything solid of a map, and the sizes of the states.
 pub struct Gauge {
-    solids: Solids,
+    solids: Arc<Solids>,
     /// What encloses the obstacles of the map, by index.
-    obstacles: RectIndex,
-    /// By robot and state: half the width, and the height; metres.
-    sizes: BTreeMap<(String, String), (f64, f64)>,
+    obstacles: Arc<RectIndex>,
+    sizes: Sizes,
+}
+
+/// Half the width and the height of each state of each robot, metres.
+pub type Sizes = BTreeMap<(String, String), (f64, f64)>;
+
+/// The sizes that are told or concluded.
+pub fn sizes(knowledge: &Inference) -> Sizes {
+    let numbers = |property| knowledge.numbers("ROBOTS", property).unwrap_or_default();
+    let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
+    let (robots, states) = (texts("robot"), texts("state"));
+    let (widths, heights) = (numbers("width"), numbers("height"));
+    let size = |row: usize| {
+        let (robot, state) = (robots.get(row)?.as_ref()?, states.get(row)?.as_ref()?);
+        let size = ((*widths.get(row)?)? / 2.0, (*heights.get(row)?)?);
+        Some(((robot.to_string(), state.to_string()), size))
+    };
+    (0..robots.len()).filter_map(size).collect()
+}
+
+/// The sizes of states as the database has them.
+pub fn sizes_of(states: &[State]) -> Sizes {
+    let size = |state: &State| {
+        ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height))
+    };
+    states.iter().map(size).collect()
 }
 
 impl Gauge {
-    /// What is solid in the world, for robots of these states.
-    pub fn new(world: &World, states: &[State]) -> Self {
-        let size =
-            |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
+    /// What is solid in the world, for robots of these sizes.
+    pub fn new(world: &World, sizes: Sizes) -> Self {
         let obstacles =
             RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
-        Self { solids: Solids::new(world), obstacles, sizes: states.iter().map(size).collect() }
+        Self { solids: Arc::new(Solids::new(world)), obstacles: Arc::new(obstacles), sizes }
     }
 
-    /// What is solid in the world, for robots of the sizes that rules concluded.
-    pub fn of_sizes(world: &World, knowledge: &Inference) -> Self {
-        let numbers = |property| knowledge.numbers("ROBOTS", property).unwrap_or_default();
-        let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
-        let (robots, states) = (texts("robot"), texts("state"));
-        let (widths, heights) = (numbers("width"), numbers("height"));
-        let size = |row: usize| {
-            let (robot, state) = (robots.get(row)?.as_ref()?, states.get(row)?.as_ref()?);
-            let size = ((*widths.get(row)?)? / 2.0, (*heights.get(row)?)?);
-            Some(((robot.to_string(), state.to_string()), size))
-        };
-        let sizes = (0..robots.len()).filter_map(size).collect();
-        let obstacles =
-            RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
-        Self { solids: Solids::new(world), obstacles, sizes }
+    /// The same for robots of other sizes.
+    #[must_use]
+    pub fn resized(&self, sizes: Sizes) -> Self {
+        Self { solids: Arc::clone(&self.solids), obstacles: Arc::clone(&self.obstacles), sizes }
     }
 
     /// Whether a point of the world lies inside something solid, as [`World::is_solid`] says.

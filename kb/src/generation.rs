@@ -1,12 +1,13 @@
 //! The number of the knowledge base's state, which stands on every answer and grows with every change that took.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 
 use adit_db::Tx;
 use adit_engine::RuleBase;
 use adit_planners::world::World;
+use siphasher::sip::SipHasher13;
 
-use crate::derive::content;
+use crate::state::content;
 use crate::error::Result;
 use crate::site::Site;
 use crate::told::Told;
@@ -25,19 +26,14 @@ pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
     Ok(generation)
 }
 
-/// A text that is equal where everything is that a derivation starts from.
-pub fn basis(site: &Site, world: &World, rules: &RuleBase, told: &Told) -> String {
-    Basis::new(site, world, rules).with(told)
-}
-
-/// What a derivation starts from besides the tables: the costly part of [`basis`], for many edits.
+/// What a derivation starts from besides the tables: the costly part, for many edits.
 #[derive(Clone)]
-pub struct Basis(DefaultHasher);
+pub struct Basis(SipHasher13);
 
 impl Basis {
     /// Of a site as its files are now.
     pub fn new(site: &Site, world: &World, rules: &RuleBase) -> Self {
-        let mut hasher = DefaultHasher::new();
+        let mut hasher = SipHasher13::new();
         (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
         for rule in rules.rules() {
             (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);

@@ -5,9 +5,10 @@ mod texts;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
-use adit_db::door::{Door, DoorKind, DoorWeight};
+use adit_db::door::{Door, DoorKind};
 use adit_db::place::Place;
-use adit_db::room::{Room, RoomWeight};
+use adit_db::room::Room;
+use adit_db::weight::Weight;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::{Closed, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
@@ -104,7 +105,7 @@ impl SiteGraph {
     }
 
     /// Gives rooms and doors other weights, by index.
-    pub fn write(&mut self, rooms: &[(usize, RoomWeight)], doors: &[(usize, DoorWeight)]) {
+    pub fn write(&mut self, rooms: &[(usize, Weight)], doors: &[(usize, Weight)]) {
         self.put(rooms, doors);
         self.weigh(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _)| *row));
     }
@@ -114,8 +115,8 @@ impl SiteGraph {
         &mut self,
         from: &Self,
         (late_rooms, late_doors): (&[usize], &[usize]),
-        rooms: &[(usize, RoomWeight)],
-        doors: &[(usize, DoorWeight)],
+        rooms: &[(usize, Weight)],
+        doors: &[(usize, Weight)],
     ) {
         for &row in late_rooms {
             self.rooms[row].clone_from(&from.rooms[row]);
@@ -129,17 +130,9 @@ impl SiteGraph {
         self.weigh(rooms, doors);
     }
 
-    fn put(&mut self, rooms: &[(usize, RoomWeight)], doors: &[(usize, DoorWeight)]) {
-        for (row, weight) in rooms {
-            let room = &mut self.rooms[*row];
-            (room.hardness, room.action) = (weight.hardness.clone(), weight.action.clone());
-            room.passable = weight.passable.clone();
-        }
-        for (row, weight) in doors {
-            let door = &mut self.doors[*row];
-            (door.hardness, door.action) = (weight.hardness.clone(), weight.action.clone());
-            door.passable = weight.passable.clone();
-        }
+    fn put(&mut self, rooms: &[(usize, Weight)], doors: &[(usize, Weight)]) {
+        rooms.iter().for_each(|(row, weight)| self.rooms[*row].weigh(weight.clone()));
+        doors.iter().for_each(|(row, weight)| self.doors[*row].weigh(weight.clone()));
     }
 
     /// Lets searches see the weights of these rows.

@@ -1,74 +1,44 @@
 //! What concluded values rest on, as the database keeps it: the number of the rule, and of the facts that it chose.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use adit_db::conclusion::Witness;
 use adit_engine::{Grounds, KnowledgeBase as Inference, RuleBase};
+use sha2::{Digest, Sha256};
 
 /// The number of the rule behind a value, and that of the witness, where the rule chose something.
 pub type Reason = (Option<i64>, Option<i64>);
 
-/// Numbers for facts that rules chose. Facts keep the number that they have; new ones come after all that there were.
-#[derive(Clone, Debug, Default)]
-pub struct Numbering {
-    /// Shared, since there may be a witness a door and most edits add none.
-    known: Arc<BTreeMap<String, i64>>,
-    new: BTreeMap<String, i64>,
-    next: i64,
+/// The number of facts that a rule chose: of equal facts the same one, whatever the site went through before, so that a
+/// database tells nothing of the order of edits. The first 63 bits of SHA-256: of a million facts two share a number in one
+/// site of eighteen million.
+fn number(facts: &str) -> i64 {
+    let hash = Sha256::digest(facts.as_bytes());
+    let first = hash.first_chunk::<8>().copied().unwrap_or_default();
+    (u64::from_be_bytes(first) >> 1) as i64
 }
 
-impl Numbering {
-    /// Numbers that are taken.
-    pub fn new(witnesses: &[Witness]) -> Self {
-        let known = witnesses.iter().map(|witness| (witness.facts.clone(), witness.witness)).collect();
-        let next = witnesses.iter().map(|witness| witness.witness).max().unwrap_or(0) + 1;
-        Self { known: Arc::new(known), new: BTreeMap::new(), next }
-    }
-
-    fn number(&mut self, facts: String) -> i64 {
-        if let Some(number) = self.known.get(&facts) {
-            return *number;
-        }
-        let next = &mut self.next;
-        *self.new.entry(facts).or_insert_with(|| {
-            *next += 1;
-            *next - 1
-        })
-    }
-
-    /// The witnesses whose number is wanted, by number.
-    pub fn witnesses(&self, is_wanted: impl Fn(i64) -> bool) -> Vec<Witness> {
-        let wanted = self.known.iter().chain(&self.new).filter(|(_, number)| is_wanted(**number));
-        let mut witnesses: Vec<Witness> =
-            wanted.map(|(facts, number)| Witness { witness: *number, facts: facts.clone() }).collect();
-        witnesses.sort_by_key(|witness| witness.witness);
-        witnesses
-    }
-
-    /// Whether facts were numbered since it was made.
-    pub fn has_new(&self) -> bool {
-        !self.new.is_empty()
-    }
-}
-
-/// Finds reasons and numbers them.
+/// Finds reasons, and keeps the facts behind those that were asked for.
 pub struct Reasons<'a> {
     knowledge: &'a Inference,
     rules: &'a RuleBase,
-    numbering: &'a mut Numbering,
+    facts: BTreeMap<i64, String>,
 }
 
 impl<'a> Reasons<'a> {
     /// Of what these rules concluded.
-    pub fn new(knowledge: &'a Inference, rules: &'a RuleBase, numbering: &'a mut Numbering) -> Self {
-        Self { knowledge, rules, numbering }
+    pub fn new(knowledge: &'a Inference, rules: &'a RuleBase) -> Self {
+        Self { knowledge, rules, facts: BTreeMap::new() }
     }
 
-    /// The reasons for a property of all objects; none where no rule concludes it.
-    pub fn of(&mut self, class: &str, property: &str) -> Vec<Reason> {
-        let rows: Vec<u32> = (0..self.knowledge.len(class).unwrap_or(0) as u32).collect();
-        self.of_rows(class, property, &rows)
+    /// The facts that rules chose, by number, as far as they were asked for.
+    pub fn into_facts(self) -> BTreeMap<i64, String> {
+        self.facts
+    }
+
+    fn number(&mut self, facts: String) -> i64 {
+        let number = number(&facts);
+        self.facts.insert(number, facts);
+        number
     }
 
     /// The reasons for a property of the objects in these rows.
@@ -89,7 +59,7 @@ impl<'a> Reasons<'a> {
                 Some(witness) if revised_by.is_none() => *witness,
                 _ => {
                     let facts = self.facts(&grounds, revised_by);
-                    let witness = facts.map(|facts| self.numbering.number(facts));
+                    let witness = facts.map(|facts| self.number(facts));
                     if revised_by.is_none() {
                         seen.insert(grounds, witness);
                     }
@@ -104,7 +74,7 @@ impl<'a> Reasons<'a> {
     fn revision(&mut self, revised_by: &[&str]) -> Reason {
         let last = self.rules.rules().iter().position(|rule| Some(&rule.name()) == revised_by.last());
         let facts = serde_json::json!({ "revised by": revised_by }).to_string();
-        (last.map(|index| index as i64 + 1), Some(self.numbering.number(facts)))
+        (last.map(|index| index as i64 + 1), Some(self.number(facts)))
     }
 
     /// The rules that revise a property, by the row that they revise.

@@ -2,6 +2,7 @@
 //! time everything that follows is derived by the same path, in one transaction.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use adit_db::history::Author;
@@ -20,23 +21,19 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use crate::clock::{Clock, stored};
-use crate::derive::{Stage, derive};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
-use crate::gauge::Gauge;
-use crate::graph::SiteGraph;
-use crate::grounds::Numbering;
 use crate::hours::Opening;
 use crate::inputs::Inputs;
+use crate::live::Memory;
 use crate::progress::{Progress, Silent};
-use crate::report::{Before, PlaceCosts, Report, Routes};
+use crate::report::Report;
 use crate::robots::RobotFile;
 use crate::rules::Rules;
 use crate::site::{Rooms, Site};
-use crate::store::{LastBuild, Tables};
 use crate::told::{Attached, Fact, Told};
 use crate::tunings::{self, RowKeys};
-use crate::{classes, generation, lint, rules, states, tables, trees};
+use crate::{classes, generation, lint, rules, states, tables};
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
@@ -73,9 +70,10 @@ pub struct Tested {
 }
 
 /// A site with its planners, ready to be built and edited.
+#[derive(Clone)]
 pub struct KnowledgeBase {
     site: Site,
-    planners: Vec<Box<dyn Planner>>,
+    planners: Vec<Arc<dyn Planner>>,
     database: PathBuf,
     rules: Option<PathBuf>,
     reseed: bool,
@@ -111,7 +109,7 @@ impl KnowledgeBase {
 
     /// Adds a planner. What it gives, rules use by name.
     pub fn register(&mut self, planner: Box<dyn Planner>) {
-        self.planners.push(planner);
+        self.planners.push(planner.into());
     }
 
     /// Keeps the database in another file than `site.db` of the site's folder.
@@ -165,7 +163,7 @@ impl KnowledgeBase {
         Author { who: "nobody".to_owned(), why: String::new() }
     }
 
-    pub(crate) fn planners(&self) -> &[Box<dyn Planner>] {
+    pub(crate) fn planners(&self) -> &[Arc<dyn Planner>] {
         &self.planners
     }
 
@@ -213,9 +211,10 @@ impl KnowledgeBase {
 
     fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
         let inputs = self.inputs(progress)?;
-        let seed = RobotFile::read(&self.site.robots)?;
         let fresh = !database.exists();
-        let outcome = self.build_into(database, &inputs, &seed, progress);
+        let outcome = Store::open_or_create(database)
+            .map_err(Error::from)
+            .and_then(|mut store| self.shared().build_in(&mut store, &inputs, progress));
         if outcome.is_err() && fresh && is_unbuilt(database) {
             // a first build that failed leaves no empty database behind; nothing of the user's is in it
             std::fs::remove_file(database).ok();
@@ -224,22 +223,22 @@ impl KnowledgeBase {
             let message = format!("{} was removed by someone while it was built", database.display());
             return Err(Error::said("database", message, Some("build again".to_owned())));
         }
-        outcome
+        Ok(outcome?.1)
     }
 
-    fn build_into(
-        &self,
-        database: &Path,
-        inputs: &Inputs,
-        seed: &RobotFile,
+    /// Seeds the tables, where they are empty, and derives everything from them, in one transaction.
+    pub(crate) fn build_in(
+        self: &Arc<Self>,
+        store: &mut Store,
+        inputs: &Arc<Inputs>,
         progress: &dyn Progress,
-    ) -> Result<Report> {
-        let mut store = Store::open_or_create(database)?;
+    ) -> Result<(Memory, Report)> {
+        let seed = RobotFile::read(&self.site.robots)?;
         store.transaction(|tx| {
             let notes = seed.seed_tables(tx, &self.site.robots, self.reseed)?;
-            let mut report = self.follow(tx, inputs, progress)?;
+            let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
-            Ok(report)
+            Ok((memory, report))
         })
     }
 
@@ -254,8 +253,7 @@ impl KnowledgeBase {
         let inputs = self.inputs(progress)?;
         let mut store = Store::open(&self.database)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
-            let done = edit.apply(tx, self, &inputs.rules, author)?;
-            let mut report = self.follow(tx, &inputs, progress)?;
+            let (done, mut report) = Memory::edit(tx, &self.shared(), &inputs, (edit, author), progress)?;
             report.notes.extend(edit.overridden(tx, &done)?);
             Ok((done, report))
         };
@@ -282,9 +280,14 @@ impl KnowledgeBase {
         Ok(problems)
     }
 
-    pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Inputs> {
+    pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
         progress.stage("map");
-        Inputs::read(&self.site, self.rules.as_deref(), &self.planners)
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners)?))
+    }
+
+    /// For what holds on to it while others go on.
+    pub(crate) fn shared(&self) -> Arc<Self> {
+        Arc::new(self.clone())
     }
 
     /// The states of a robot as they count: with the named tunings that are on, and the sizes that rules made of those in the
@@ -293,54 +296,6 @@ impl KnowledgeBase {
         let mut states = Store::open_read_only(&self.database)?.snapshot(states::in_force)?;
         states.retain(|state| state.robot == robot);
         Ok(states)
-    }
-
-    /// Derives everything from the tables as they stand and writes it: the path of every build and every edit.
-    pub(crate) fn follow(&self, tx: &mut Tx<'_>, inputs: &Inputs, progress: &dyn Progress) -> Result<Report> {
-        let before = Before::read(tx)?;
-        let told = self.told(tx, &inputs.rules)?;
-        self.vet(&inputs.rules, &inputs.tests, &told)?;
-        let robots = self.robots(tx)?;
-        let mut derived = derive(
-            &inputs.world,
-            &told,
-            &self.planners,
-            &inputs.rules,
-            &mut LastBuild::new(tx, &before),
-            progress,
-        )?;
-        derived.stages.insert(0, inputs.stage.clone());
-        let made = Tables::new(&derived, &inputs.rules, &mut Numbering::new(&before.witnesses))?;
-
-        progress.stage("database");
-        let began = Instant::now();
-        made.write(tx, &inputs.world, &derived)?;
-        keep_planned_classes(tx, &derived.facts)?;
-        tx.replace_site_hours(&self.site.hours)?;
-        keep_standings(tx, &told, &derived.attached)?;
-        let database = Stage { name: "database".to_owned(), took: began.elapsed(), kept: false };
-
-        progress.stage("routes");
-        let began = Instant::now();
-        let graph = SiteGraph::new(made.rooms, made.doors, tx.places()?);
-        let gauge = Gauge::new(&inputs.world, &states::in_force(tx)?);
-        let routes = self.keep_routes(tx, (&graph, &gauge), &robots, &before, progress)?;
-        derived.stages.push(database);
-        derived.stages.push(Stage { name: "routes".to_owned(), took: began.elapsed(), kept: false });
-        let same = before.rooms == graph.rooms && before.doors == graph.doors && routes.changed == Some(0);
-        let basis = generation::basis(&self.site, &inputs.world, &inputs.rules, &told);
-        let generation = generation::renew(tx, same, &basis)?;
-        self.sign(tx, &inputs.rules)?;
-        told.sign(tx)?;
-        let lost = told.lost(&derived.attached);
-        let idle = told.idle_hours(&derived.knowledge);
-        let mut report = Report::new(&before, &graph, routes, derived, inputs, generation);
-        report.lost = lost;
-        report.notes.extend(told.notes.iter().cloned().chain(idle));
-        if graph.rooms.is_empty() {
-            report.notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
-        }
-        Ok(report)
     }
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
@@ -440,7 +395,7 @@ impl KnowledgeBase {
     }
 
     /// Refuses rules with names or types that cannot be right, and rules that fail a test beside them.
-    fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<()> {
+    pub(crate) fn vet(&self, rules: &RuleBase, tests: &RuleTests, told: &Told) -> Result<()> {
         let failures: Vec<_> = self
             .run_tests(rules, tests, told, Limits::default())?
             .into_iter()
@@ -497,57 +452,8 @@ impl KnowledgeBase {
         Ok(robots)
     }
 
-    /// Keeps the routes. Where the starts are those of before, only trees that differ are written.
-    fn keep_routes(
-        &self,
-        tx: &mut Tx<'_>,
-        (graph, gauge): (&SiteGraph, &Gauge),
-        robots: &[String],
-        before: &Before,
-        progress: &dyn Progress,
-    ) -> Result<Routes> {
-        let plan = trees::plan(graph, robots, self.site.starts.as_ref())?;
-        let ends = trees::ends(graph)?;
-        let comparable = before.same_starts(&plan.starts) && before.same_rooms(graph);
-        let mut routes = Routes::new(plan.starts.len(), comparable);
-        let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
-        let mut new = PlaceCosts::new();
-        if !comparable {
-            tx.clear_trees()?;
-            tx.replace_starts(&plan.starts)?;
-        }
-        tx.replace_ends(&ends)?;
-        for (batch, roots) in plan.roots.chunks(64).enumerate() {
-            progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
-            let made = trees::rows(graph, roots, gauge);
-            let numbered = (batch as i64 * 64 + 1..).zip(made);
-            if comparable {
-                for (tree, rows) in numbered {
-                    let Some(start) = plan.start(tree) else { continue };
-                    if routes.differs(before, (start, &tx.tree_rows(tree)?), &rows, graph) {
-                        routes.rows += tx.put_tree(tree, rows)?;
-                    }
-                }
-            } else {
-                let numbered: Vec<_> = numbered.collect();
-                for (tree, rows) in &numbered {
-                    new.extend(plan.place_costs(graph, *tree, rows));
-                }
-                let rows = numbered
-                    .into_iter()
-                    .flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
-                routes.rows += tx.put_trees(rows)?;
-            }
-        }
-        if !before.starts.is_empty() {
-            routes.compare(&old, &new);
-        }
-        routes.sort();
-        Ok(routes)
-    }
-
     /// Says what the database now stands for.
-    fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
+    pub(crate) fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
         tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
@@ -572,17 +478,6 @@ pub(crate) fn keep_standings(tx: &mut Tx<'_>, told: &Told, attached: &Attached) 
     Ok(())
 }
 
-/// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner
-/// goes on from them.
-fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
-    for (class, table) in facts {
-        if !["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"].contains(&class.as_str()) {
-            tables::keep(tx, &class.to_lowercase(), table)?;
-        }
-    }
-    Ok(())
-}
-
 /// Whether no build has ever come to its end in the database, nor is at work there now.
 fn is_unbuilt(database: &Path) -> bool {
     if std::fs::metadata(database).is_ok_and(|file| file.len() == 0) {
@@ -590,24 +485,4 @@ fn is_unbuilt(database: &Path) -> bool {
     }
     let signed = |tx: &mut Tx<'_>| tx.site_value("generation");
     Store::open(database).and_then(|mut store| store.transaction(signed)).is_ok_and(|g| g.is_none())
-}
-
-/// What the kept routes between places cost so far; few enough to be asked one by one, or none.
-fn place_costs(tx: &mut Tx<'_>, before: &Before, graph: &SiteGraph) -> Result<PlaceCosts> {
-    const ASKED: usize = 5_000;
-    let is_place = |name: &str| graph.places.iter().any(|place| place.place == name);
-    let starts: Vec<_> = before.starts.iter().filter(|start| is_place(&start.name)).collect();
-    let mut costs = PlaceCosts::new();
-    if starts.len() * graph.places.len() > ASKED {
-        return Ok(costs);
-    }
-    for start in starts {
-        for goal in &graph.places {
-            if let Some(cost) = tx.route(&start.robot, &start.name, &goal.place)?.and_then(|route| route.cost)
-            {
-                costs.insert((start.robot.clone(), start.name.clone(), goal.place.clone()), cost);
-            }
-        }
-    }
-    Ok(costs)
 }

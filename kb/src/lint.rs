@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use adit_engine::{Dominated, RuleBase};
 use adit_planners::planner::Planner;
@@ -44,7 +45,7 @@ impl Diagnostic for Unread {
 }
 
 /// Every property that is set and never read, in the order of the rules.
-fn unread(rules: &RuleBase, planners: &[Box<dyn Planner>]) -> Vec<Unread> {
+fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Unread> {
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs))
 }

@@ -11,9 +11,10 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::edit::Edit;
 use crate::error::Result;
-use crate::fork::{Cell, Followed, Fork, Reweighed};
+use crate::state::{Cell, Nothing, State, Weighed};
 use crate::graph::SiteGraph;
 use crate::live::Live;
+use crate::progress::Silent;
 pub use routes::{PlaceRoute, PlaceRoutes};
 
 /// How many rooms, doors or routes are listed.
@@ -107,15 +108,15 @@ impl Live {
     }
 }
 
-impl Fork {
+impl State {
     /// As [`Live::preview`], of the state that was forked; the site is not held up meanwhile.
     pub fn preview(mut self, edits: &[Edit], route: Option<Wanted<'_>>) -> Result<Preview> {
         let rehearsed = self.rehearse(edits)?;
-        let cells = crate::fork::differences(&rehearsed.before, &rehearsed.after);
-        if !self.base.told.counts_as(&rehearsed.before) {
+        let cells = crate::state::differences(&rehearsed.before, &rehearsed.after);
+        if !self.told.counts_as(&rehearsed.before) {
             // others edited the tables meanwhile, or the clock went on: what they did is no part of the preview
-            self.tell(rehearsed.before)?;
-            self.known = Arc::default();
+            let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;
+            self.accept(step);
         }
         let answer = |fork: &Self| {
             let answer =
@@ -123,15 +124,13 @@ impl Fork {
             route.map(answer).transpose()
         };
         let before_route = answer(&self)?;
-        let (before, known) = (Arc::clone(&self.graph), Arc::clone(&self.known));
-        let robots = self.base.robots();
-        let followed = self.tell(rehearsed.after)?;
-        let after = Arc::clone(&self.graph);
-        let (layout_changed, reweighed) = match followed {
-            Followed::Reweighed(reweighed) => (false, reweighed),
-            Followed::CutAnew => (true, Reweighed::default()),
-        };
-        let same = !layout_changed && reweighed.is_empty();
+        let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
+        let robots = self.robots();
+        let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
+        let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
+        self.accept(step);
+        let after = Arc::clone(self.graph());
+        let same = !layout_changed && weighed.is_empty();
         let routes = if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
@@ -141,8 +140,8 @@ impl Fork {
             generation: self.generation,
             cells,
             layout_changed,
-            rooms: rooms(&before, &after, &reweighed, layout_changed),
-            doors: doors(&before, &after, &reweighed, layout_changed),
+            rooms: rooms(&before, &after, &weighed, layout_changed),
+            doors: doors(&before, &after, &weighed, layout_changed),
             routes,
             route: answer(&self)?,
             before: before_route,
@@ -150,7 +149,7 @@ impl Fork {
     }
 }
 
-fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Reweighed, anew: bool) -> Changed<RoomChange> {
+fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<RoomChange> {
     let total = after.rooms.len();
     if anew {
         return Changed { changed: total, total, list: Vec::new() };
@@ -167,7 +166,7 @@ fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Reweighed, anew: bool) -> C
     listed(total, list.filter(|change| change.old != change.new))
 }
 
-fn doors(before: &SiteGraph, after: &SiteGraph, to: &Reweighed, anew: bool) -> Changed<DoorChange> {
+fn doors(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<DoorChange> {
     let total = after.doors.len();
     if anew {
         return Changed { changed: total, total, list: Vec::new() };

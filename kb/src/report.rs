@@ -1,43 +1,61 @@
 //! What a build or an edit made and changed, counted in the expert's own terms.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 
 use adit_db::Tx;
-use adit_db::conclusion::Witness;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::tree::{Start, TreeRow};
+use adit_db::weight::Weight;
 use adit_engine::{Conclusions, Dominated};
 use adit_planners::read::MapReport;
 use serde::Serialize;
 
-use crate::derive::{Derived, Stage};
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::inputs::Inputs;
+use crate::state::{Stage, State, Weighed, is_same_cut};
 
-/// The site as it was.
-#[derive(Default)]
-pub struct Before {
+/// Rooms, doors and kept routes as they were.
+#[derive(Clone, Copy)]
+pub struct Before<'a> {
     /// The rooms, by number.
-    pub rooms: Vec<Room>,
+    pub rooms: &'a [Room],
     /// The doors, by number.
-    pub doors: Vec<Door>,
+    pub doors: &'a [Door],
     /// The starts that routes were kept from.
-    pub starts: Vec<Start>,
-    /// What rules chose.
-    pub witnesses: Vec<Witness>,
+    pub starts: &'a [Start],
 }
 
-impl Before {
+/// What the database has of rooms, doors and starts.
+#[derive(Default)]
+pub struct Rows {
+    rooms: Vec<Room>,
+    doors: Vec<Door>,
+    starts: Vec<Start>,
+}
+
+impl Rows {
     /// Reads it.
     pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
-        let (rooms, doors) = (tx.rooms()?, tx.doors()?);
-        Ok(Self { rooms, doors, starts: tx.starts()?, witnesses: tx.witnesses()? })
+        Ok(Self { rooms: tx.rooms()?, doors: tx.doors()?, starts: tx.starts()? })
     }
 
+    /// The site as it was.
+    pub fn before(&self) -> Before<'_> {
+        Before { rooms: &self.rooms, doors: &self.doors, starts: &self.starts }
+    }
+}
+
+impl Before<'_> {
     fn door(&self, key: i64) -> Option<&Door> {
         self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
+    }
+
+    /// What rules say otherwise than they did; `None` where rooms or doors are cut anew.
+    pub fn weighed(&self, graph: &SiteGraph) -> Option<Weighed> {
+        let (old, new) = ((self.rooms, self.doors), (&*graph.rooms, &*graph.doors));
+        is_same_cut(old, new).then(|| Weighed::between(old, new))
     }
 
     /// Whether routes were kept from these starts, in whatever order, each as the same tree.
@@ -47,17 +65,7 @@ impl Before {
             starts.sort_unstable_by(|a, b| (&a.name, &a.robot, a.tree).cmp(&(&b.name, &b.robot, b.tree)));
             starts
         };
-        sorted(&self.starts) == sorted(starts)
-    }
-
-    /// Whether the rooms are the same rectangles of the same states, so that numbers mean what they meant.
-    pub fn same_rooms(&self, graph: &SiteGraph) -> bool {
-        let same = |(old, new): (&Room, &Room)| {
-            old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
-                && old.layer == new.layer
-                && old.facing == new.facing
-        };
-        self.rooms.len() == graph.rooms.len() && self.rooms.iter().zip(&graph.rooms).all(same)
+        sorted(self.starts) == sorted(starts)
     }
 }
 
@@ -130,7 +138,7 @@ impl Routes {
     /// Counts what differs between a tree of before and of now; whether its rows must be written.
     pub fn differs(
         &mut self,
-        before: &Before,
+        before: Before<'_>,
         (start, old): (&Start, &[TreeRow]),
         new: &[TreeRow],
         graph: &SiteGraph,
@@ -141,17 +149,17 @@ impl Routes {
         let then = |row: &TreeRow| {
             row.reach + row.door.and_then(|key| before.door(key)?.hardness.value).unwrap_or(0.0)
         };
-        let (old_rows, new_rows) = (by_node(old), by_node(new));
+        let (old_rows, new_rows) = (Chains::new(old), Chains::new(new));
+        let mut other_ways = OtherWays { old: &old_rows, new: &new_rows, known: HashMap::new() };
         let (mut changed, mut rerouted) = (0, 0);
-        for node in old_rows.keys().chain(new_rows.keys().filter(|node| !old_rows.contains_key(node))) {
-            let (old_row, new_row) = (old_rows.get(node), new_rows.get(node));
-            let costs = (old_row.map(|row| then(row)), new_row.map(|row| now(row)));
-            let other_way = old_row.map(|row| row.prev) != new_row.map(|row| row.prev)
-                || way(&old_rows, *node) != way(&new_rows, *node);
+        for node in old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none())) {
+            let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
+            let costs = (old_row.map(then), new_row.map(now));
+            let other_way = other_ways.of(node);
             let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
             changed += usize::from(differ || other_way);
             rerouted += usize::from(other_way);
-            if differ && let Some(place) = graph.place_of(*node) {
+            if differ && let Some(place) = graph.place_of(node) {
                 let (robot, from) = (start.robot.clone(), start.name.clone());
                 let (goal, other_way) = (place.to_owned(), Some(other_way));
                 self.changes.push(RouteChange {
@@ -194,19 +202,58 @@ impl Routes {
     }
 }
 
-fn by_node(rows: &[TreeRow]) -> BTreeMap<i64, &TreeRow> {
-    rows.iter().map(|row| (row.node, row)).collect()
+/// The rows of a tree by their node.
+struct Chains<'a> {
+    rows: &'a [TreeRow],
+    /// Only looked up in: no order of it can reach a report.
+    by_node: HashMap<i64, usize>,
 }
 
-/// The doors of a route, from its goal back.
-fn way(rows: &BTreeMap<i64, &TreeRow>, node: i64) -> Vec<Option<i64>> {
-    let mut doors = Vec::new();
-    let mut at = rows.get(&node);
-    while let Some(row) = at {
-        doors.push(row.door);
-        at = row.prev.and_then(|prev| rows.get(&prev));
+impl<'a> Chains<'a> {
+    fn new(rows: &'a [TreeRow]) -> Self {
+        Self { rows, by_node: rows.iter().enumerate().map(|(at, row)| (row.node, at)).collect() }
     }
-    doors
+
+    fn row(&self, node: i64) -> Option<&'a TreeRow> {
+        self.by_node.get(&node).map(|at| &self.rows[*at])
+    }
+
+    fn nodes(&self) -> impl Iterator<Item = i64> {
+        self.rows.iter().map(|row| row.node)
+    }
+}
+
+/// Whether ways to nodes pass other doors, or come from another node, in one tree than in another.
+struct OtherWays<'a> {
+    old: &'a Chains<'a>,
+    new: &'a Chains<'a>,
+    known: HashMap<i64, bool>,
+}
+
+impl OtherWays<'_> {
+    /// Of one node. Each node is looked at once, however many ways lead through it.
+    fn of(&mut self, node: i64) -> bool {
+        let mut chain = Vec::new();
+        let mut at = Some(node);
+        let mut differs = false;
+        while let Some(node) = at {
+            if let Some(known) = self.known.get(&node) {
+                differs = *known;
+                break;
+            }
+            chain.push(node);
+            let step = |chains: &Chains<'_>| chains.row(node).map(|row| (row.prev, row.door));
+            let (old, new) = (step(self.old), step(self.new));
+            if old != new {
+                differs = true;
+                break;
+            }
+            at = old.and_then(|(prev, _)| prev);
+        }
+        // whatever comes behind a difference differs
+        self.known.extend(chain.into_iter().map(|node| (node, differs)));
+        differs
+    }
 }
 
 /// What was made.
@@ -239,41 +286,56 @@ pub struct Report {
 }
 
 impl Report {
+    /// Of a step that was kept.
+    ///
+    /// # Arguments
+    /// `weighed` is what rules say otherwise of rooms and doors than before; `None` where they are cut anew.
     pub(crate) fn new(
-        before: &Before,
-        graph: &SiteGraph,
-        routes: Routes,
-        mut derived: Derived,
-        inputs: &Inputs,
-        generation: u64,
+        before: Before<'_>,
+        weighed: Option<&Weighed>,
+        state: &mut State,
+        (routes, stages): (Routes, Vec<Stage>),
     ) -> Self {
-        let cut_anew = !before.same_rooms(graph);
+        let inputs = Arc::clone(&state.inputs);
+        let conclusions = state.knowledge.conclude(&inputs.rules);
+        let dominated = state.knowledge.dominated(&inputs.rules);
+        let graph = state.graph();
+        let (mut rooms, mut doors) = (Counts::all(graph.rooms.len()), Counts::all(graph.doors.len()));
         let mut changes = Vec::new();
-        if !cut_anew {
-            changes
-                .extend(before.rooms.iter().zip(&graph.rooms).filter_map(|(old, new)| room_change(old, new)));
+        if let Some(weighed) = weighed {
+            let room = |(row, weight): &(usize, Weight)| {
+                let old = &before.rooms[*row];
+                Change::between(format!("room {}", old.name), old.weight(), weight)
+            };
+            let door = |(row, weight): &(usize, Weight)| {
+                let old = &before.doors[*row];
+                Change::between(format!("door {}", old.door), old.weight(), weight)
+            };
+            changes.extend(weighed.rooms.iter().filter_map(room));
+            rooms.changed = changes.len();
+            changes.extend(weighed.doors.iter().filter_map(door));
+            doors.changed = changes.len() - rooms.changed;
         }
-        let changed_rooms = if cut_anew { graph.rooms.len() } else { changes.len() };
-        let mut changed_doors = graph.doors.len();
-        if !cut_anew {
-            let doors: Vec<Change> =
-                graph.doors.iter().filter_map(|new| door_change(before.door(new.door), new)).collect();
-            changed_doors = doors.len();
-            changes.extend(doors);
+        let lost = state.told.lost(&state.attached);
+        let idle = state.told.idle_hours(&state.knowledge);
+        let mut notes: Vec<String> =
+            inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
+        if graph.rooms.is_empty() {
+            notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }
         Self {
-            generation,
-            rooms: Counts { total: graph.rooms.len(), changed: changed_rooms },
-            doors: Counts { total: graph.doors.len(), changed: changed_doors },
+            generation: state.generation,
+            rooms,
+            doors,
             changes,
-            cut_anew,
+            cut_anew: weighed.is_none(),
             routes,
-            stages: derived.stages,
+            stages,
             map: inputs.map_report.clone(),
-            notes: inputs.notes.clone(),
-            lost: Vec::new(),
-            gaps: gaps(&derived.conclusions, graph),
-            dominated: derived.knowledge.dominated(&inputs.rules),
+            notes,
+            lost,
+            gaps: gaps(&conclusions, graph),
+            dominated,
         }
     }
 
@@ -304,32 +366,24 @@ impl Report {
     }
 }
 
-fn room_change(old: &Room, new: &Room) -> Option<Change> {
-    let differs = old.hardness.value != new.hardness.value
-        || old.action.value != new.action.value
-        || old.passable.value != new.passable.value;
-    differs.then(|| Change {
-        what: format!("room {}", new.name),
-        old: old.hardness.value,
-        new: new.hardness.value,
-        old_action: old.action.value.clone(),
-        new_action: new.action.value.clone(),
-    })
+impl Counts {
+    /// All of them count as changed.
+    fn all(total: usize) -> Self {
+        Self { total, changed: total }
+    }
 }
 
-fn door_change(old: Option<&Door>, new: &Door) -> Option<Change> {
-    let same = old.is_some_and(|old| {
-        old.hardness.value == new.hardness.value
-            && old.action.value == new.action.value
-            && old.passable.value == new.passable.value
-    });
-    (!same).then(|| Change {
-        what: format!("door {}", new.door),
-        old: old.and_then(|door| door.hardness.value),
-        new: new.hardness.value,
-        old_action: old.and_then(|door| door.action.value.clone()),
-        new_action: new.action.value.clone(),
-    })
+impl Change {
+    /// What is said otherwise than before; `None` where only somebody else says it.
+    fn between(what: String, old: Weight, new: &Weight) -> Option<Self> {
+        (!old.is_same(new)).then(|| Self {
+            what,
+            old: old.hardness.value,
+            new: new.hardness.value,
+            old_action: old.action.value,
+            new_action: new.action.value.clone(),
+        })
+    }
 }
 
 /// What routes need and no rule gave, in sentences.

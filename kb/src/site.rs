@@ -1,7 +1,7 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
 use std::fs;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use adit_planners::read::{
@@ -11,6 +11,7 @@ use adit_planners::world::World;
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
+use siphasher::sip::SipHasher13;
 use crate::error::{Error, Result};
 use crate::hours;
 use crate::suggest::did_you_mean;
@@ -166,7 +167,7 @@ impl Site {
     /// A number that changes with the texts of `site.toml` and of the map's own file (not of its image).
     pub fn texts(&self) -> u64 {
         let map = if self.map.is_file() { fs::read(&self.map).unwrap_or_default() } else { Vec::new() };
-        let mut hasher = DefaultHasher::new();
+        let mut hasher = SipHasher13::new();
         (&self.text, map).hash(&mut hasher);
         hasher.finish()
     }

@@ -1,7 +1,7 @@
 //! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
 
 use crate::error::{Error, Result};
-use crate::fork::Fork;
+use crate::state::State;
 use crate::suggest::did_you_mean;
 
 /// An object of a table or class, perhaps one property of it.
@@ -19,7 +19,7 @@ pub struct Subject {
 
 impl Subject {
     /// Finds out what a text means; an object that is not there is an error.
-    pub fn find(fork: &Fork, text: &str) -> Result<Self> {
+    pub fn find(fork: &State, text: &str) -> Result<Self> {
         if let Some((kind, name)) = text.trim().split_once(' ')
             && let Some(class) = ["doors", "rooms"].into_iter().find(|class| is_called(class, kind))
         {
@@ -39,22 +39,22 @@ impl Subject {
         Self::of(fork, &class, key, property).ok_or_else(|| unknown(fork, &class, key))
     }
 
-    fn of(fork: &Fork, class: &str, key: &str, property: Option<String>) -> Option<Self> {
+    fn of(fork: &State, class: &str, key: &str, property: Option<String>) -> Option<Self> {
         let found = |key: String, name: String| Self { class: class.to_owned(), key, property, name };
         match class {
             "rooms" => {
-                let mut rooms = fork.graph.rooms.iter();
+                let mut rooms = fork.graph().rooms.iter();
                 let room = rooms.find(|room| room.name == key || room.room.to_string() == key)?;
                 Some(found(room.room.to_string(), format!("room {}", room.name)))
             }
             "doors" => {
-                let door = fork.graph.door(key.parse().ok()?)?;
+                let door = fork.graph().door(key.parse().ok()?)?;
                 Some(found(door.door.to_string(), format!("door {}", door.door)))
             }
             _ => {
                 let of = class.to_uppercase();
                 let is_concluded = fork.inputs.rules.concluded().iter().any(|name| name.class == of);
-                let is_there = is_concluded && fork.base.knowledge.row(&of, key).is_some();
+                let is_there = is_concluded && fork.knowledge.row(&of, key).is_some();
                 is_there.then(|| found(key.to_owned(), format!("{class} {key}")))
             }
         }
@@ -67,8 +67,8 @@ fn is_called(class: &str, kind: &str) -> bool {
     kind == class || format!("{kind}s") == class
 }
 
-fn unknown(fork: &Fork, class: &str, key: &str) -> Error {
-    let graph = &fork.graph;
+fn unknown(fork: &State, class: &str, key: &str) -> Error {
+    let graph = fork.graph();
     let help = match class {
         "doors" => Some(format!("there are {} doors, numbered from 1", graph.doors.len())),
         "rooms" => did_you_mean(key, graph.rooms.iter().map(|room| room.name.as_str())),

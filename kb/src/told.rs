@@ -3,7 +3,7 @@
 pub mod attach;
 mod resolve;
 
-use std::hash::{DefaultHasher, Hash};
+use std::hash::{Hash, Hasher};
 
 use adit_db::told::{Standing, Told as Row};
 use adit_db::{Cell, Tx};
@@ -135,6 +135,14 @@ impl Told {
         }
     }
 
+    /// The robots, in the order of their names.
+    pub fn robots(&self) -> Vec<String> {
+        let states = self.classes.get("ROBOTS").and_then(|table| table.texts("robot").ok());
+        let mut robots: Vec<String> = states.into_iter().flatten().flatten().cloned().collect();
+        robots.dedup();
+        robots
+    }
+
     /// Whether the same counts: classes and facts, whatever the clock says of the time after.
     pub fn counts_as(&self, other: &Self) -> bool {
         self.classes == other.classes && self.facts == other.facts
@@ -223,7 +231,7 @@ impl Told {
     }
 
     /// A number that stands for the facts.
-    pub fn hash(&self, hasher: &mut DefaultHasher) {
+    pub fn hash(&self, hasher: &mut impl Hasher) {
         for fact in &self.facts {
             (&fact.class, &fact.property, fact.value.to_string()).hash(hasher);
             match &fact.object {

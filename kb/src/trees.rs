@@ -3,6 +3,7 @@
 mod measured;
 mod on_doors;
 
+use adit_db::Tx;
 use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
 use adit_planners::geometry::Point;
 use adit_planners::routes::Start;
@@ -11,8 +12,10 @@ use rayon::prelude::*;
 use crate::error::{Error, Result};
 use crate::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
-use crate::report::PlaceCosts;
+use crate::progress::Progress;
+use crate::report::{Before, PlaceCosts, Routes};
 use crate::site::Starts;
+use crate::state::{State, Step};
 use crate::suggest::did_you_mean;
 
 /// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
@@ -167,4 +170,78 @@ pub fn heading(from: Point, to: Point) -> Option<f64> {
     // to a hundredth, as the tables keep it
     let degrees = (to.y - from.y).atan2(to.x - from.x).to_degrees();
     (from.distance(to) > 1e-9).then(|| (degrees * 100.0).round() / 100.0)
+}
+
+/// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only trees that differ are
+/// written.
+///
+/// # Arguments
+/// `is_same_cut`: whether rooms and doors are those of before, so that trees can be compared.
+pub fn keep(
+    tx: &mut Tx<'_>,
+    (state, step): (&State, &Step),
+    (before, is_same_cut): (Before<'_>, bool),
+    progress: &dyn Progress,
+) -> Result<(Plan, Routes)> {
+    let site = &state.site;
+    let graph: &SiteGraph = state.graph_after(step);
+    let gauge = state.gauge_after(step);
+    let plan = plan(graph, &site.robots(tx)?, site.site().starts.as_ref())?;
+    let ends = ends(graph)?;
+    let comparable = is_same_cut && before.same_starts(&plan.starts);
+    let mut routes = Routes::new(plan.starts.len(), comparable);
+    let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
+    let mut new = PlaceCosts::new();
+    if !comparable {
+        tx.clear_trees()?;
+        tx.replace_starts(&plan.starts)?;
+    }
+    tx.replace_ends(&ends)?;
+    for (batch, roots) in plan.roots.chunks(64).enumerate() {
+        progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
+        let made = rows(graph, roots, gauge);
+        let numbered = (batch as i64 * 64 + 1..).zip(made);
+        if comparable {
+            for (tree, rows) in numbered {
+                let Some(start) = plan.start(tree) else { continue };
+                if routes.differs(before, (start, &tx.tree_rows(tree)?), &rows, graph) {
+                    routes.rows += tx.put_tree(tree, rows)?;
+                }
+            }
+        } else {
+            let numbered: Vec<_> = numbered.collect();
+            for (tree, rows) in &numbered {
+                new.extend(plan.place_costs(graph, *tree, rows));
+            }
+            let rows = numbered
+                .into_iter()
+                .flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
+            routes.rows += tx.put_trees(rows)?;
+        }
+    }
+    if !before.starts.is_empty() {
+        routes.compare(&old, &new);
+    }
+    routes.sort();
+    Ok((plan, routes))
+}
+
+/// What the kept routes between places cost so far; few enough to be asked one by one, or none.
+fn place_costs(tx: &mut Tx<'_>, before: Before<'_>, graph: &SiteGraph) -> Result<PlaceCosts> {
+    const ASKED: usize = 5_000;
+    let is_place = |name: &str| graph.places.iter().any(|place| place.place == name);
+    let starts: Vec<_> = before.starts.iter().filter(|start| is_place(&start.name)).collect();
+    let mut costs = PlaceCosts::new();
+    if starts.len() * graph.places.len() > ASKED {
+        return Ok(costs);
+    }
+    for start in starts {
+        for goal in &graph.places {
+            if let Some(cost) = tx.route(&start.robot, &start.name, &goal.place)?.and_then(|route| route.cost)
+            {
+                costs.insert((start.robot.clone(), start.name.clone(), goal.place.clone()), cost);
+            }
+        }
+    }
+    Ok(costs)
 }

@@ -1,11 +1,12 @@
 //! What rules say of rooms and doors, checked before it is kept: a hardness is a number that a sum can take.
 
+use adit_db::door::Door;
+use adit_db::room::Room;
 use adit_engine::{Changes, KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
 use crate::classes;
 use crate::error::{Error, Result};
-use crate::graph::SiteGraph;
 use crate::number::number;
 
 /// The largest hardness that the tables take.
@@ -15,7 +16,7 @@ const LARGEST: f64 = 1e300;
 ///
 /// # Arguments
 /// `name` is how messages call the object in a row.
-pub fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -> String) -> Result<()> {
+fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -> String) -> Result<()> {
     let values = match classes::column(knowledge, class, "hardness") {
         Some(Column::Number(values)) => values,
         Some(other) => {
@@ -31,11 +32,20 @@ pub fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -
     Err(refusal(knowledge, class, (row, values[row]), name))
 }
 
-/// Checks the hardness of the rooms and doors that an update changed.
-pub fn check_changes(knowledge: &Inference, changes: &Changes, graph: &SiteGraph) -> Result<()> {
-    let (rooms, doors) = (changes.rows("ROOMS", "hardness"), changes.rows("DOORS", "hardness"));
-    check_rows(knowledge, "ROOMS", rooms, |row| format!("room {}", graph.rooms[row].name))?;
-    check_rows(knowledge, "DOORS", doors, |row| format!("door {}", graph.doors[row].door))
+/// Checks the hardness of rooms and doors: of those that an update changed, or of all.
+pub fn check(
+    knowledge: &Inference,
+    (rooms, doors): (&[Room], &[Door]),
+    changes: Option<&Changes>,
+) -> Result<()> {
+    let room = |row: usize| format!("room {}", rooms[row].name);
+    let door = |row: usize| format!("door {}", doors[row].door);
+    let Some(changes) = changes else {
+        check_hardness(knowledge, "ROOMS", room)?;
+        return check_hardness(knowledge, "DOORS", door);
+    };
+    check_rows(knowledge, "ROOMS", changes.rows("ROOMS", "hardness"), room)?;
+    check_rows(knowledge, "DOORS", changes.rows("DOORS", "hardness"), door)
 }
 
 /// Checks the hardness of the objects in these rows, of a class that was checked before.

@@ -7,7 +7,7 @@ use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::fork::Fork;
+use crate::state::State;
 use crate::live::Live;
 use crate::subject::Subject;
 use crate::suggest::did_you_mean;
@@ -58,7 +58,7 @@ impl Live {
     }
 }
 
-impl Fork {
+impl State {
     /// As [`Live::why`].
     pub fn why(&self, what: &str) -> Result<Why> {
         let subject = Subject::find(self, what)?;
@@ -111,7 +111,7 @@ impl Fork {
         property: &str,
         facts: &mut Vec<Facts>,
     ) -> Option<Reasoned> {
-        let (knowledge, rules) = (&self.base.knowledge, &self.inputs.rules);
+        let (knowledge, rules) = (&self.knowledge, &self.inputs.rules);
         let found = knowledge.why(rules, class, &subject.key, property)?;
         let mut witness = serde_json::Map::new();
         let mut chosen = Vec::new();
@@ -164,9 +164,9 @@ impl Fork {
 
     /// Which fact says so.
     fn told_by(&self, subject: &Subject, class: &str, property: &str) -> String {
-        let row = self.base.knowledge.row(class, &subject.key);
+        let row = self.knowledge.row(class, &subject.key);
         let cell = row.map(|row| (class.to_owned(), row, property.to_owned()));
-        let fact = cell.and_then(|cell| self.base.attached.cells().get(&cell));
+        let fact = cell.and_then(|cell| self.attached.cells().get(&cell));
         fact.map_or_else(|| ", as told".to_owned(), |fact| format!(", as fact {} tells", fact.id))
     }
 }

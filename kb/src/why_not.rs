@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::answer::{self, Answer};
 use crate::error::{Error, Result};
 use crate::firm::{Path, Prober, Routes, Through, Turn, scale};
-use crate::fork::Fork;
+use crate::state::State;
 use crate::live::Live;
 use crate::subject::Subject;
 use crate::why::Reasoned;
@@ -85,16 +85,16 @@ impl Live {
     }
 }
 
-impl Fork {
+impl State {
     /// As [`Live::why_not`], of the state that was forked; the site is not held up meanwhile.
     pub fn why_not(mut self, start: &str, goal: &str, through: &str, robot: Option<&str>) -> Result<WhyNot> {
         let subject = Subject::find(&self, through)?;
-        let robot = answer::pick(&self.base.robots(), robot)?;
+        let robot = answer::pick(&self.robots(), robot)?;
         let question = Question::new(&self, start, goal, &robot)?;
         let key = subject.key.parse().unwrap_or_default();
         let via = match subject.class.as_str() {
-            "rooms" => self.graph.room(key).map(Via::Room),
-            "doors" => self.graph.doors.binary_search_by_key(&key, |door| door.door).ok().map(Via::Door),
+            "rooms" => self.graph().room(key).map(Via::Room),
+            "doors" => self.graph().doors.binary_search_by_key(&key, |door| door.door).ok().map(Via::Door),
             _ => {
                 let message = format!("a route leads through rooms and doors, not {}", subject.name);
                 return Err(Error::said("why/through", message, None));
@@ -109,7 +109,7 @@ impl Fork {
         let named = Subject { property: None, ..subject.clone() };
         let (conclusions, _) = self.conclusions(&named)?;
         let costs = (best.as_ref().map(|best| best.cost), way.as_ref().map(|way| way.cost));
-        let reason = contrast::reason(&subject, self.graph.door(key), (start, goal), costs);
+        let reason = contrast::reason(&subject, self.graph().door(key), (start, goal), costs);
         let route = way.as_ref().map(|way| {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
             self.basis().along(way, is_to_point, &mut answer);
@@ -151,7 +151,7 @@ impl Fork {
         let class = subject.class.to_uppercase();
         let (mut rejected, mut truncated) = (Vec::new(), false);
         for property in ["hardness", "action", "passable"] {
-            let asked = self.base.knowledge.why_not(&self.inputs.rules, &class, &subject.key, property);
+            let asked = self.knowledge.why_not(&self.inputs.rules, &class, &subject.key, property);
             for one in asked.iter().flat_map(|why| &why.rejected) {
                 // one rule mostly gives all three, and rejects the same for each
                 if !rejected.contains(one) {
@@ -166,7 +166,7 @@ impl Fork {
 
 impl WhyNot {
     /// Fills in what decides between the best way and this one, and what would have to be otherwise.
-    fn contrast(&mut self, fork: Fork, (best, way): (Path, Path), passing: &Passing) -> Result<()> {
+    fn contrast(&mut self, fork: State, (best, way): (Path, Path), passing: &Passing) -> Result<()> {
         let routes = Routes::new(&fork, &self.start, &self.goal, &self.robot)?;
         let (best, way) = if routes.is_on_doors() {
             let doors = |path: Path| Path { metres: Vec::new(), doors: path.doors };

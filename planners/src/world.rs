@@ -3,9 +3,10 @@
 mod named;
 mod occupancy;
 
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{Hash, Hasher};
 
 use geo::{Contains, Coord, LineString, Polygon};
+use siphasher::sip::SipHasher13;
 
 pub use named::{Area, NamedDoor, Property};
 pub use occupancy::Occupancy;
@@ -73,7 +74,7 @@ impl World {
 
     /// A number that two equal worlds share, and two others hardly ever do.
     pub fn fingerprint(&self) -> u64 {
-        let mut hasher = DefaultHasher::new();
+        let mut hasher = SipHasher13::new();
         let mut numbers = |values: &[f64]| values.iter().for_each(|value| value.to_bits().hash(&mut hasher));
         numbers(&[self.bounds.x0, self.bounds.y0, self.bounds.x1, self.bounds.y1]);
         numbers(&[self.clearance, self.grid.unwrap_or(-1.0)]);

@@ -1,5 +1,6 @@
 //! Routes beyond the paper's example: several doors between two rooms, layers, places with nodes of their own.
 
+use adit_db::weight::Weight;
 use adit_db::door::DoorKind;
 use adit_db::tree::{End, EndKind, Start, TreeRow};
 use adit_db::{Derived, Error, Store};
@@ -148,21 +149,16 @@ fn the_second_robot_has_routes_of_its_own() {
 }
 
 #[test]
-fn a_new_weight_is_written_only_where_it_differs() {
+fn a_new_weight_is_written_to_its_door_and_to_no_other() {
     let (_folder, mut store) = paper::site();
     store
         .transaction(|tx| {
-            let weigh = |door: adit_db::door::Door| adit_db::door::DoorWeight {
-                door: door.door,
-                hardness: door.hardness,
-                action: door.action,
-                passable: door.passable,
-            };
-            let mut weights: Vec<_> = tx.doors()?.into_iter().map(weigh).collect();
-            assert_eq!(tx.reweigh_doors(&weights)?, 0);
-            weights[6].hardness = Derived::by(paper::WEIGH, None, 40.0);
-            assert_eq!(tx.reweigh_doors(&weights)?, 1);
-            assert_eq!(tx.doors()?[6].hardness.value, Some(40.0));
+            let before = tx.doors()?;
+            let weight = Weight { hardness: Derived::by(paper::WEIGH, None, 40.0), ..before[6].weight() };
+            assert_eq!(tx.put_door_weights([(before[6].door, &weight)])?, 1);
+            let mut expected = before;
+            expected[6].weigh(weight);
+            assert_eq!(tx.doors()?, expected);
             Ok::<_, Error>(())
         })
         .unwrap();

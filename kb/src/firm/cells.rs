@@ -64,7 +64,7 @@ impl Prober {
             .map(|name| (name.class.clone(), name.property.clone()))
             .collect();
         let is_number = |(class, column): &(String, String)| {
-            let table = self.fork.base.told.classes.get(class);
+            let table = self.fork.told.classes.get(class);
             matches!(table.and_then(|table| table.column(column)), Some(Column::Number(_)))
         };
         read.into_iter().filter(is_number).collect()
@@ -72,7 +72,7 @@ impl Prober {
 
     /// The cells of a column that count as the table says: what a fact says instead is no cell.
     fn cells_of(&self, class: &str, column: &str) -> Vec<Lever> {
-        let told = &self.fork.base.told;
+        let told = &self.fork.told;
         let keys = told.keys.get(class).map_or(&[][..], Vec::as_slice);
         let Some(Column::Number(values)) = told.classes.get(class).and_then(|table| table.column(column))
         else {
@@ -81,7 +81,7 @@ impl Prober {
         let cell = |row: usize| {
             let value = values[row]?;
             let is_told =
-                self.fork.base.attached.cells().contains_key(&(class.to_owned(), row, column.to_owned()));
+                self.fork.attached.cells().contains_key(&(class.to_owned(), row, column.to_owned()));
             let key = keys.get(row).filter(|_| !is_told)?.clone();
             let mut others: Vec<f64> =
                 values.iter().flatten().copied().filter(|other| other.total_cmp(&value).is_ne()).collect();

@@ -34,7 +34,7 @@ impl SameWay {
         if routes.is_on_doors() {
             return Self { path, corridor: None, tolerance: 1e-9 };
         }
-        let corridor = Corridor::new(&prober.fork.graph, routes, &path);
+        let corridor = Corridor::new(prober.fork.graph(), routes, &path);
         let mut same = Self { path, corridor: Some(corridor), tolerance: 1e-6 };
         // two searches for one way may bend a hair apart
         let (own, best) = (same.cost(&prober.present), same.path.cost(&prober.present));

@@ -6,7 +6,7 @@ use adit_planners::routes::{CompactGraph, CompactTree, Goal, NONE, RouteGraph, S
 
 use super::Weights;
 use crate::error::Result;
-use crate::fork::Fork;
+use crate::state::State;
 
 /// A way: what it costs is a sum over the metres in its rooms and over its doors.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -58,9 +58,9 @@ enum Searched {
 
 impl Routes {
     /// Between two names of places, rooms or points.
-    pub fn new(fork: &Fork, start: &str, goal: &str, robot: &str) -> Result<Self> {
+    pub fn new(fork: &State, start: &str, goal: &str, robot: &str) -> Result<Self> {
         let (start, goal) = (fork.end(start)?, fork.end(goal)?);
-        let graph = &fork.graph;
+        let graph = fork.graph();
         Ok(Self::between(graph.graph(), graph.start(&start, Some(robot)), graph.goal(&goal, Some(robot))))
     }
 

@@ -7,10 +7,8 @@ use adit_planners::routes::Walking;
 use super::Lever;
 use crate::classes;
 use crate::error::{Error, Result};
-use crate::fork::Fork;
+use crate::state::{Look, State, Which, needs_changed};
 use crate::graph::{SiteGraph, walking};
-use crate::live::needs_changed;
-use crate::store::decides_rooms;
 
 /// What rooms and doors weigh, by index.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,54 +65,40 @@ pub enum Probe {
 /// Gives cells other values, one at a time, in a fork.
 pub struct Prober {
     /// The fork; its graph stays as it was.
-    pub fork: Fork,
+    pub fork: State,
     /// What everything weighs as it is.
     pub present: Weights,
     now: Weights,
     /// What planners worked from.
     needs: Facts,
-    is_decided: bool,
     is_cut_anew: bool,
 }
 
 impl Prober {
     /// On a fork, which it changes and gives back no more.
-    pub fn new(fork: Fork) -> Self {
-        let present = Weights::of(&fork.graph);
+    pub fn new(fork: State) -> Self {
+        let present = Weights::of(fork.graph());
         let needs = needs(&fork);
-        let is_decided = decides_rooms(&fork.inputs.rules);
-        Self { now: present.clone(), present, fork, needs, is_decided, is_cut_anew: false }
+        Self { now: present.clone(), present, fork, needs, is_cut_anew: false }
     }
 
     /// What the value leads to. The cell keeps it until [`restore`](Self::restore).
     pub fn at(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
         let fork = &mut self.fork;
         let told =
-            fork.base.knowledge.tell_row(&lever.class, lever.row, &lever.column, Some(Value::Number(value)));
+            fork.knowledge.tell_row(&lever.class, lever.row, &lever.column, Some(Value::Number(value)));
         told.map_err(|error| Error::said("firm/refused", error.to_string(), None))?;
-        let changes = fork.base.knowledge.update(&fork.inputs.rules);
-        let (knowledge, graph) = (&fork.base.knowledge, &fork.graph);
-        let weight = |class: &str, row: u32| {
-            let hardness = match knowledge.value_at(class, row as usize, "hardness") {
-                Some(Value::Number(number)) => Some(number),
-                _ => None,
-            };
-            let passable = match knowledge.value_at(class, row as usize, "passable") {
-                Some(Value::Truth(truth)) => Some(truth),
-                _ => None,
-            };
-            (hardness, passable)
-        };
-        for &row in changes.rows("ROOMS", "hardness").iter().chain(changes.rows("ROOMS", "passable")) {
-            let (hardness, passable) = weight("ROOMS", row);
-            let passable = passable.or(if self.is_decided { None } else { Some(true) });
-            let of_state = graph.rooms[row as usize].layer.is_some();
-            self.now.rooms[row as usize] = walking(hardness, passable, of_state);
+        let changes = fork.knowledge.update(&fork.inputs.rules);
+        let (knowledge, graph) = (&fork.knowledge, fork.graph());
+        let (rules, which) = (&fork.inputs.rules, Which::Touched(&changes));
+        let mut look = Look { knowledge, rules, which, reasons: None };
+        for (row, weight) in look.rooms() {
+            let of_state = graph.rooms[row].layer.is_some();
+            self.now.rooms[row] = walking(weight.hardness.value, weight.passable.value, of_state);
         }
-        for &row in changes.rows("DOORS", "hardness").iter().chain(changes.rows("DOORS", "passable")) {
-            let (hardness, passable) = weight("DOORS", row);
-            let hardness = hardness.filter(|_| passable == Some(true));
-            self.now.doors[row as usize] = hardness.unwrap_or(f64::INFINITY);
+        for (row, weight) in look.doors() {
+            let hardness = weight.hardness.value.filter(|_| weight.passable.value == Some(true));
+            self.now.doors[row] = hardness.unwrap_or(f64::INFINITY);
         }
         let failed = knowledge.problems(&fork.inputs.rules);
         let is_bad = |number: f64| number < 0.0 || number.is_nan();
@@ -142,8 +126,8 @@ impl Prober {
     }
 }
 
-fn needs(fork: &Fork) -> Facts {
+fn needs(fork: &State) -> Facts {
     let needs: Vec<String> =
         fork.site.planners().iter().flat_map(|planner| planner.signature().needs).collect();
-    classes::known(&fork.base.knowledge, &needs)
+    classes::known(&fork.knowledge, &needs)
 }

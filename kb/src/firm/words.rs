@@ -39,7 +39,7 @@ pub(super) fn beyond(
             let present = actions(prober, &same.path);
             prober.at(lever, *value)?;
             let other = actions(prober, path);
-            instead(&prober.fork.graph, (&same.path, &present), (path, &other))
+            instead(prober.fork.graph(), (&same.path, &present), (path, &other))
         }
         Takeover::CutAnew => ("rooms and doors are cut anew".to_owned(), None),
         Takeover::Refused => ("rules give a hardness that does not count".to_owned(), None),
@@ -50,7 +50,7 @@ pub(super) fn beyond(
 
 /// The action of each door of a way, or of each of its rooms where these weigh metres; as the knowledge says now.
 pub fn actions(prober: &Prober, path: &Path) -> Vec<String> {
-    let text = |class: &str, row: usize| match prober.fork.base.knowledge.value_at(class, row, "action") {
+    let text = |class: &str, row: usize| match prober.fork.knowledge.value_at(class, row, "action") {
         Some(adit_engine::Value::Text(text)) => text.to_lowercase(),
         _ => "move".to_owned(),
     };

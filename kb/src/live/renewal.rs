@@ -5,7 +5,8 @@ use std::sync::Arc;
 use adit_db::stale::Mark;
 use adit_db::tree::TreeRow;
 
-use super::{Live, ROUTES};
+use super::Live;
+use super::memory::ROUTES;
 use crate::error::Result;
 use crate::gauge::Gauge;
 use crate::generation;
@@ -52,11 +53,11 @@ impl Live {
         if !memory.routes_due {
             return Ok(None);
         }
-        let graph = Arc::clone(memory.routes.graph());
-        let plan = trees::plan(&graph, &memory.base.robots(), self.site.site().starts.as_ref())?;
+        let graph = Arc::clone(memory.state.graph());
+        let plan = trees::plan(&graph, &memory.state.robots(), self.site.site().starts.as_ref())?;
         let fits = plan.starts == memory.routes.plan().starts;
-        let gauge = Arc::clone(&memory.gauge);
-        Ok(Some(Renewal { graph, gauge, plan, generation: memory.generation, fits }))
+        let gauge = Arc::clone(&memory.state.gauge);
+        Ok(Some(Renewal { graph, gauge, plan, generation: memory.state.generation, fits }))
     }
 
     /// Keeps trees of a renewal; `false` where an edit has overtaken it, so that it is void.
@@ -64,10 +65,10 @@ impl Live {
     /// # Arguments
     /// `last`: whether all others are kept already, so that the kept routes count again.
     pub fn keep(&mut self, renewal: &Renewal, trees: Vec<(i64, Vec<TreeRow>)>, last: bool) -> Result<bool> {
-        if renewal.generation != self.memory.generation || !renewal.fits {
+        if renewal.generation != self.memory.state.generation || !renewal.fits {
             return Ok(false);
         }
-        let generation = self.memory.generation;
+        let generation = self.memory.state.generation;
         let kept = self.store.transaction(|tx| -> Result<bool> {
             let is_ours = |mark: &Mark| mark.table == ROUTES;
             if generation::read(tx)? != generation || !tx.stale_marks()?.iter().all(is_ours) {
@@ -94,6 +95,6 @@ impl Live {
         if self.keep(&renewal, trees, true)? {
             return Ok(rows);
         }
-        Ok(self.build_anew()?.tree_rows as u64)
+        Ok(self.reopen()?.tree_rows as u64)
     }
 }

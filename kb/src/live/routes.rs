@@ -1,22 +1,18 @@
 //! The kept routes, and what of them an edit changes.
 
-use std::sync::Arc;
-
 use adit_db::Tx;
-use adit_db::room::RoomWeight;
 use adit_db::tree::{TreeChange, TreeRow};
+use adit_db::weight::Weight;
 use adit_planners::geometry::Point;
 use adit_planners::routes::{CompactGraph, CompactTree, NONE};
 
-use super::kept::Written;
-use super::twin::Twin;
 use crate::error::Result;
 use crate::graph::{End, SiteGraph};
+use crate::state::Weighed;
 use crate::trees::{self, Plan};
 
-/// The graph of the site, and the trees of its kept starts.
+/// The trees of the kept starts.
 pub struct KeptRoutes {
-    graph: Twin,
     plan: Plan,
     trees: Trees,
 }
@@ -49,31 +45,34 @@ impl Renewed {
 }
 
 impl KeptRoutes {
-    /// Takes the graph of a built site, and its trees.
-    pub fn new(graph: SiteGraph, plan: Plan) -> Self {
+    /// The trees of these starts, which follow edits later.
+    pub fn later(plan: Plan) -> Self {
+        Self { plan, trees: Trees::Later }
+    }
+
+    /// Begins with other starts, or on another graph; trees that followed edits at once still do.
+    pub fn restart(&mut self, graph: &SiteGraph, plan: Plan) {
+        let follows = matches!(self.trees, Trees::Now { .. });
+        self.plan = plan;
+        self.trees = Trees::Later;
+        if follows {
+            self.follow_at_once(graph);
+        }
+    }
+
+    /// Has the trees follow each edit at once, where all hardness lies on the doors and trees are few.
+    pub fn follow_at_once(&mut self, graph: &SiteGraph) {
+        let plan = &self.plan;
         let is_small = plan.roots.len() * graph.rooms.len() <= AT_ONCE;
         let compact = if is_small { CompactGraph::new(graph.graph()) } else { None };
-        let trees = if let Some(compact) = compact {
+        if let Some(compact) = compact {
             let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
             let place = |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
             let places =
                 |(robot, _): &(String, _)| (0..graph.places.len()).map(|index| place(robot, index)).collect();
             let places = plan.roots.iter().map(places).collect();
-            Trees::Now { graph: compact, trees, places }
-        } else {
-            Trees::Later
-        };
-        Self { graph: Twin::new(graph), plan, trees }
-    }
-
-    /// The graph as it was committed last.
-    pub fn graph(&self) -> &Arc<SiteGraph> {
-        self.graph.shown()
-    }
-
-    /// Keeps ways between any two rooms ready.
-    pub fn prepare(&mut self) {
-        self.graph.prepare();
+            self.trees = Trees::Now { graph: compact, trees, places };
+        }
     }
 
     /// The trees that are kept.
@@ -84,17 +83,16 @@ impl KeptRoutes {
     /// The routes over the doors and rooms as they now weigh; `None` where ways are measured from now on, or no longer.
     ///
     /// Where they are, what is asked from now on is found with the new weights; the kept routes are due.
-    pub fn renew(&mut self, written: &Written) -> Option<Renewed> {
-        if written.is_empty() {
+    pub fn renew(&mut self, graph_now: &SiteGraph, weighed: &Weighed) -> Option<Renewed> {
+        if weighed.is_empty() {
             return Some(Renewed { changes: Vec::new(), trees: None, is_due: false });
         }
-        let is_on_doors = |(_, room): &(usize, RoomWeight)| {
+        let is_on_doors = |(_, room): &(usize, Weight)| {
             room.hardness.value.is_none() && room.passable.value == Some(true)
         };
-        let graph_now = self.graph.write(written);
         match &mut self.trees {
-            Trees::Now { graph, trees, places } if written.rooms.iter().all(is_on_doors) => {
-                for (door, weight) in &written.doors {
+            Trees::Now { graph, trees, places } if weighed.rooms.iter().all(is_on_doors) => {
+                for (door, weight) in &weighed.doors {
                     graph.reweigh(*door, weight_of(weight.hardness.value, weight.passable.value));
                 }
                 let roots = &self.plan.roots;
@@ -120,20 +118,17 @@ impl KeptRoutes {
         Ok(())
     }
 
-    /// Makes renewed routes the kept ones, and shows the graph that they were found on.
-    pub fn accept(&mut self, written: &Written, renewed: Renewed) {
-        if !written.is_empty() {
-            self.graph.turn();
-        }
+    /// Makes renewed routes the kept ones.
+    pub fn accept(&mut self, renewed: Renewed) {
         if let (Some(now), Trees::Now { trees, .. }) = (renewed.trees, &mut self.trees) {
             *trees = now;
         }
     }
 
-    /// Forgets an edit that was not committed.
-    pub fn take_back(&mut self) {
+    /// Forgets an edit that was not committed, over the graph that still counts.
+    pub fn take_back(&mut self, shown: &SiteGraph) {
         if let Trees::Now { graph, .. } = &mut self.trees {
-            for (row, door) in self.graph.shown().doors.iter().enumerate() {
+            for (row, door) in shown.doors.iter().enumerate() {
                 graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
             }
         }

@@ -9,7 +9,7 @@ use super::Live;
 use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::gauge::Gauge;
-use crate::graph::{End, Rules, SiteGraph};
+use crate::graph::{End, SiteGraph};
 use crate::inputs::Inputs;
 use crate::knowledge::KnowledgeBase;
 use crate::report::PlaceCosts;
@@ -21,7 +21,6 @@ pub struct View {
     inputs: Arc<Inputs>,
     graph: Arc<SiteGraph>,
     gauge: Arc<Gauge>,
-    rules: Arc<Rules>,
     robots: Arc<[String]>,
     layout: Arc<str>,
     generation: u64,
@@ -34,13 +33,12 @@ impl Live {
         let memory = &self.memory;
         View {
             site: Arc::clone(&self.site),
-            inputs: Arc::clone(&memory.inputs),
-            graph: Arc::clone(memory.routes.graph()),
-            gauge: Arc::clone(&memory.gauge),
-            rules: Arc::clone(&memory.rules),
-            robots: memory.base.robots().into(),
+            inputs: Arc::clone(&memory.state.inputs),
+            graph: Arc::clone(memory.state.graph()),
+            gauge: Arc::clone(&memory.state.gauge),
+            robots: memory.state.robots().into(),
             layout: Arc::clone(&memory.layout),
-            generation: memory.generation,
+            generation: memory.state.generation,
             routes_due: memory.routes_due,
         }
     }
@@ -70,7 +68,7 @@ impl View {
         answer::Basis {
             knowledge: &self.site,
             graph: &self.graph,
-            rules: &self.rules,
+            rules: &self.inputs.rule_names,
             world: &self.inputs.world,
             gauge: &self.gauge,
         }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::LISTED;
-use crate::fork::pairs::{self, Found, From, Known};
+use crate::pairs::{self, Found, From, Known};
 use crate::graph::SiteGraph;
 
 /// How the routes between places would change.

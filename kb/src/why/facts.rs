@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use adit_engine::{Support, Value, Witness};
 use serde::Serialize;
 
-use crate::fork::Fork;
+use crate::state::State;
 use crate::number::number;
 
 /// An object with the properties that rules read of it.
@@ -22,9 +22,9 @@ pub struct Facts {
 
 impl Facts {
     /// What a rule read of one of its witnesses; `None` where that is nothing.
-    pub(super) fn of(fork: &Fork, support: &Support, witness: &Witness) -> Option<Self> {
+    pub(super) fn of(fork: &State, support: &Support, witness: &Witness) -> Option<Self> {
         let rule = fork.inputs.rules.rules().iter().find(|rule| rule.name() == support.rule)?;
-        let knowledge = &fork.base.knowledge;
+        let knowledge = &fork.knowledge;
         let read = rule.reads().filter(|name| name.class == witness.class);
         let value = |property: &str| match knowledge.value(&witness.class, &witness.key, property) {
             Some(Value::Number(number)) => serde_json::json!(number),

@@ -53,7 +53,7 @@ pub(super) fn reason(
 
 /// What is done instead of what, and where most of the difference lies.
 pub(super) fn deciding(prober: &Prober, best: &Path, way: &Path) -> Vec<String> {
-    let (graph, weights) = (&prober.fork.graph, &prober.present);
+    let (graph, weights) = (prober.fork.graph(), &prober.present);
     let (theirs, mine) = (actions(prober, way), actions(prober, best));
     let (instead, _) = instead(graph, (best, &mine), (way, &theirs));
     let mut deciding = vec![instead];

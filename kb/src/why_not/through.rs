@@ -5,8 +5,8 @@ use adit_planners::routes::{Goal, Leg, RouteDoor, RouteGraph, Start, Way};
 
 use crate::error::Result;
 use crate::firm::{self, Path, Routes, Weights};
-use crate::fork::Fork;
 use crate::graph::SiteGraph;
+use crate::state::State;
 
 /// What a way is asked to lead through, by index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,9 +35,9 @@ pub(super) struct Passing {
 }
 
 impl<'g> Question<'g> {
-    pub(super) fn new(fork: &'g Fork, start: &str, goal: &str, robot: &str) -> Result<Self> {
+    pub(super) fn new(fork: &'g State, start: &str, goal: &str, robot: &str) -> Result<Self> {
         let (start, goal) = (fork.end(start)?, fork.end(goal)?);
-        let graph = &*fork.graph;
+        let graph = fork.graph();
         Ok(Self { graph, start: graph.start(&start, Some(robot)), goal: graph.goal(&goal, Some(robot)) })
     }
 

@@ -1,7 +1,8 @@
 use std::time::Instant;
 
+use adit_db::weight::Weight;
 use adit_db::Derived;
-use adit_db::door::{Door, DoorKind, DoorWeight, Side};
+use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_planners::geometry::Rect;
@@ -9,7 +10,7 @@ use adit_planners::world::World;
 
 use super::*;
 use crate::answer::steps;
-use crate::gauge::Gauge;
+use crate::gauge::{Gauge, Sizes};
 
 /// A floor of rooms in a square, joined by doors to the right and upwards.
 fn floor(side: usize) -> SiteGraph {
@@ -93,7 +94,7 @@ fn both(graph: &SiteGraph, gauge: &Gauge, [start, goal]: [&str; 2]) -> Option<[V
 fn what_is_put_together_is_what_serde_writes() {
     let mut graph = floor(9);
     graph.prepare();
-    let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 36.9, 36.9)), &[]);
+    let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 36.9, 36.9)), Sizes::new());
     let room = |number: usize| format!("r\"{number}\\é");
     let mut routes = 0;
     for round in 0..3 {
@@ -113,7 +114,7 @@ fn what_is_put_together_is_what_serde_writes() {
             let door = &graph.doors[row];
             let hardness = Derived::by(1, None, hardness(row + round + 1));
             let (action, passable) = (Derived::by(1, None, "crawl".to_owned()), door.passable.clone());
-            (row, DoorWeight { door: door.door, hardness, action, passable })
+            (row, Weight { hardness, action, passable })
         });
         let weighed: Vec<_> = weighed.collect();
         graph.write(&[], &weighed);
@@ -135,7 +136,7 @@ fn how_long_answers_take() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             draw.push(graph.rooms[(state >> 33) as usize % (side * side)].name.clone());
         }
-        let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 1e4, 1e4)), &[]);
+        let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 1e4, 1e4)), Sizes::new());
         for what in ["way", "steps and waypoints", "with serde", "put together", "put together again"] {
             let (mut took, mut rooms, mut bytes) = (Vec::new(), 0, 0);
             for pair in draw.chunks_exact(2) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::graph::SiteGraph;
 
-use super::kept::Written;
+use super::weighed::Weighed;
 
 /// A graph that is changed while others read it. Neither waits for the other.
 pub struct Twin {
@@ -22,16 +22,26 @@ struct Lag {
 }
 
 impl Lag {
-    fn note(&mut self, written: &Written) {
-        self.rooms.extend(written.rooms.iter().map(|(row, _)| *row));
-        self.doors.extend(written.doors.iter().map(|(row, _)| *row));
+    fn note(&mut self, weighed: &Weighed) {
+        self.rooms.extend(weighed.rooms.iter().map(|(row, _)| *row));
+        self.doors.extend(weighed.doors.iter().map(|(row, _)| *row));
     }
 }
 
 impl Twin {
     /// Takes a graph. The second copy is made by the first edit.
     pub fn new(graph: SiteGraph) -> Self {
-        Self { shown: Arc::new(graph), other: None, lag: Lag::default() }
+        Self::of(Arc::new(graph))
+    }
+
+    /// As [`new`](Self::new), of a graph that others may read already.
+    pub fn of(shown: Arc<SiteGraph>) -> Self {
+        Self { shown, other: None, lag: Lag::default() }
+    }
+
+    /// One of its own that begins with what is shown.
+    pub fn fork(&self) -> Self {
+        Self::of(Arc::clone(&self.shown))
     }
 
     /// Keeps ways between any two rooms ready, in both copies.
@@ -49,19 +59,24 @@ impl Twin {
     /// The graph as it is after an edit that is not committed yet. It is seen by [`turn`](Self::turn) only.
     ///
     /// Costs what this edit and the one before changed; a copy of all where someone still reads what was shown before.
-    pub fn write(&mut self, written: &Written) -> &SiteGraph {
+    pub fn write(&mut self, weighed: &Weighed) {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
         let graph = if let Some(mut graph) = free {
-            graph.follow(&self.shown, (&lag.rooms, &lag.doors), &written.rooms, &written.doors);
+            graph.follow(&self.shown, (&lag.rooms, &lag.doors), &weighed.rooms, &weighed.doors);
             graph
         } else {
             let mut graph = SiteGraph::clone(&self.shown);
-            graph.write(&written.rooms, &written.doors);
+            graph.write(&weighed.rooms, &weighed.doors);
             graph
         };
-        self.lag.note(written);
-        self.other.insert(Arc::new(graph))
+        self.lag.note(weighed);
+        self.other = Some(Arc::new(graph));
+    }
+
+    /// What was written last, and is not shown yet.
+    pub fn written(&self) -> &Arc<SiteGraph> {
+        self.other.as_ref().unwrap_or(&self.shown)
     }
 
     /// Shows what was written.

@@ -6,7 +6,7 @@ use adit_db::{Cell as Value, Store, Tx};
 use adit_planners::facts::Table;
 use serde::Serialize;
 
-use super::Fork;
+use super::State;
 use crate::edit::Edit;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
@@ -38,7 +38,7 @@ pub(crate) struct Rehearsed {
     pub after: Told,
 }
 
-impl Fork {
+impl State {
     /// What would be told after the edits, one after the other; they are checked as they would be if they were meant.
     pub(crate) fn rehearse(&self, edits: &[Edit]) -> Result<Rehearsed> {
         let author = KnowledgeBase::nobody();

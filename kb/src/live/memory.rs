@@ -1,0 +1,288 @@
+//! A site's state with what the database keeps of it. Opened from what was built, built from nothing, edited: each is a
+//! step of the state, and its change written.
+
+use std::sync::Arc;
+
+use adit_db::Tx;
+use adit_db::history::Author;
+use adit_db::stale::Mark;
+
+use super::routes::{KeptRoutes, Renewed};
+use super::view;
+use crate::edit::{Done, Edit};
+use crate::error::Result;
+use crate::generation::{self, Basis};
+use crate::inputs::Inputs;
+use crate::keep::{Kept, LastBuild, Written};
+use crate::knowledge::{KnowledgeBase, keep_standings};
+use crate::progress::{Progress, Silent};
+use crate::report::{Before, Report, Routes, Rows};
+use crate::state::{Clock, Nothing, Stage, State, Step, Weighed};
+use crate::trees::{self, Plan};
+
+/// The mark of routes that have yet to follow.
+pub const ROUTES: &str = "routes";
+
+/// When the kept routes follow an edit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Promptness {
+    /// With it.
+    AtOnce,
+    /// With it where that costs milliseconds; else when somebody [renews](super::Renewal) them.
+    Later,
+}
+
+/// What is known of a site, and what of it is kept.
+pub struct Memory {
+    pub state: State,
+    kept: Kept,
+    pub routes: KeptRoutes,
+    basis: Basis,
+    /// Names the cut of the floor.
+    pub layout: Arc<str>,
+    /// Whether the kept routes are older than rooms and doors.
+    pub routes_due: bool,
+}
+
+/// What follows an edit: written, and to be [accepted](Memory::accept) once it is committed.
+pub struct Followed {
+    done: Option<Done>,
+    step: Step,
+    kept: KeptNow,
+    routes: RoutesNow,
+    generation: u64,
+    clock: Clock,
+}
+
+/// What is kept besides the routes.
+enum KeptNow {
+    Rows(Written),
+    All(Kept),
+}
+
+/// What became of the kept routes.
+enum RoutesNow {
+    Renewed(Renewed),
+    All(Plan, Routes),
+}
+
+/// What an edit changed, once it is accepted.
+pub struct Accepted {
+    pub done: Option<Done>,
+    /// What rules say otherwise of rooms and doors; `None` where they are cut anew.
+    pub weighed: Option<Weighed>,
+    /// Rows of routes that were written.
+    pub tree_rows: usize,
+    /// The kept routes, where all were looked at.
+    pub routes: Option<Routes>,
+    /// Whether planners gave facts anew.
+    pub anew: bool,
+    pub stages: Vec<Stage>,
+}
+
+impl Memory {
+    /// What was built; `None` where it is not built as files and tables now stand.
+    pub fn open(tx: &mut Tx<'_>, site: &Arc<KnowledgeBase>, inputs: &Arc<Inputs>) -> Result<Option<Self>> {
+        let texts = site.site().texts().to_string();
+        let generation = generation::read(tx)?;
+        let is_built = generation > 0 && tx.site_value("texts")?.as_deref() == Some(&texts);
+        if !is_built || !tx.stale_marks()?.is_empty() {
+            return Ok(None);
+        }
+        let told = site.told(tx, &inputs.rules)?;
+        let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
+        if tx.site_value("basis")?.as_deref() != Some(&basis.with(&told)) {
+            return Ok(None);
+        }
+        let rows = Rows::read(tx)?;
+        let before = rows.before();
+        let mut state = State::empty(Arc::clone(site), Arc::clone(inputs));
+        let step = state.step(told, &mut LastBuild::new(tx, before), &Silent)?;
+        let graph = state.graph_after(&step);
+        if graph.rooms != before.rooms || graph.doors != before.doors {
+            return Ok(None);
+        }
+        let kept = Kept::of_opened(&state, &step)?;
+        state.accept(step);
+        state.generation = generation;
+        let plan = trees::plan(state.graph(), &site.robots(tx)?, site.site().starts.as_ref())?;
+        Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
+    }
+
+    /// Derives everything from files and tables as they stand, and writes it.
+    pub fn build(
+        tx: &mut Tx<'_>,
+        site: &Arc<KnowledgeBase>,
+        inputs: &Arc<Inputs>,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Report)> {
+        let rows = Rows::read(tx)?;
+        let before = rows.before();
+        let told = site.told(tx, &inputs.rules)?;
+        let mut state = State::empty(Arc::clone(site), Arc::clone(inputs));
+        let step = state.step(told, &mut LastBuild::new(tx, before), progress)?;
+        let mut clock = Clock::new();
+        let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
+        let (kept, plan, routes, generation) =
+            write_all(tx, &state, &step, (before, &basis), progress, &mut clock)?;
+        let weighed = before.weighed(state.graph_after(&step));
+        let mut stages = vec![inputs.stage.clone()];
+        stages.extend(step.stages.iter().cloned().chain(clock.stages));
+        state.accept(step);
+        state.generation = generation;
+        let report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
+        Ok((Self::of(state, kept, plan, basis), report))
+    }
+
+    /// Edits a table, and writes all that follows, the kept routes too.
+    pub fn edit(
+        tx: &mut Tx<'_>,
+        site: &Arc<KnowledgeBase>,
+        inputs: &Arc<Inputs>,
+        (edit, author): (&Edit, &Author),
+        progress: &dyn Progress,
+    ) -> Result<(Done, Report)> {
+        let opened = Self::open(tx, site, inputs)?;
+        let done = edit.apply(tx, site, &inputs.rules, author)?;
+        let Some(mut memory) = opened else { return Ok((done, Self::build(tx, site, inputs, progress)?.1)) };
+        let graph = Arc::clone(memory.state.graph());
+        let starts = memory.routes.plan().starts.clone();
+        let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
+        let Accepted { weighed, routes, mut stages, .. } = memory.accept(followed);
+        stages.insert(0, inputs.stage.clone());
+        let before = Before { rooms: &graph.rooms, doors: &graph.doors, starts: &starts };
+        let routes = routes.unwrap_or_default();
+        Ok((done, Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages))))
+    }
+
+    fn of(state: State, kept: Kept, plan: Plan, basis: Basis) -> Self {
+        let layout = view::layout(state.graph());
+        Self { state, kept, routes: KeptRoutes::later(plan), basis, layout, routes_due: false }
+    }
+
+    /// Whether the database is as it was left: nobody else has edited or built it since.
+    pub fn is_of(&self, tx: &mut Tx<'_>) -> Result<bool> {
+        let is_ours = |mark: &Mark| self.routes_due && mark.table == ROUTES;
+        Ok(generation::read(tx)? == self.state.generation && tx.stale_marks()?.iter().all(is_ours))
+    }
+
+    /// Writes what follows from the tables as they now are.
+    pub fn follow(
+        &mut self,
+        tx: &mut Tx<'_>,
+        done: Option<Done>,
+        promptness: Promptness,
+        progress: &dyn Progress,
+    ) -> Result<Followed> {
+        let mut clock = Clock::new();
+        let site = Arc::clone(&self.state.site);
+        let told = site.told(tx, &self.state.inputs.rules)?;
+        clock.lap("edit");
+        let step = self.state.step(told, &mut Nothing, progress)?;
+        clock.skip();
+        clock.stages.extend(step.stages.iter().cloned());
+        let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));
+        let renewed = match (&step.cut, promptness) {
+            (None, Promptness::Later) => self.routes.renew(&graph, &step.weighed),
+            _ => None,
+        };
+        let before = state.graph();
+        let starts = self.routes.plan().starts.clone();
+        let before = Before { rooms: &before.rooms, doors: &before.doors, starts: &starts };
+        if step.cut.is_some() {
+            let (kept, plan, routes, generation) =
+                write_all(tx, state, &step, (before, &self.basis), progress, &mut clock)?;
+            let (kept, routes) = (KeptNow::All(kept), RoutesNow::All(plan, routes));
+            return Ok(Followed { done, step, kept, routes, generation, clock });
+        }
+        let written = self.kept.differences(state, &step);
+        written.write(tx, &graph, &step)?;
+        clock.lap("rows of rooms and doors");
+        let routes = match renewed {
+            Some(renewed) => {
+                KeptRoutes::write(tx, &renewed)?;
+                RoutesNow::Renewed(renewed)
+            }
+            None => {
+                let (plan, routes) = trees::keep(tx, (state, &step), (before, true), progress)?;
+                RoutesNow::All(plan, routes)
+            }
+        };
+        let generation = generation::renew(tx, step.weighed.is_empty(), &self.basis.with(&step.told))?;
+        keep_standings(tx, &step.told, &step.attached)?;
+        step.told.sign(tx)?;
+        tx.mark_fresh()?;
+        let is_due = match &routes {
+            RoutesNow::Renewed(renewed) => self.routes_due || renewed.is_due,
+            RoutesNow::All(..) => false,
+        };
+        if is_due {
+            tx.mark_stale(ROUTES)?;
+        }
+        clock.lap("rows of routes");
+        Ok(Followed { done, step, kept: KeptNow::Rows(written), routes, generation, clock })
+    }
+
+    /// Makes a committed edit part of what is known.
+    pub fn accept(&mut self, followed: Followed) -> Accepted {
+        let Followed { done, step, kept, routes, generation, clock } = followed;
+        let anew = step.cut.is_some();
+        let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
+        self.state.accept(step);
+        self.state.generation = generation;
+        match kept {
+            KeptNow::Rows(written) => self.kept.accept(written),
+            KeptNow::All(kept) => self.kept = kept,
+        }
+        let (tree_rows, routes) = match routes {
+            RoutesNow::Renewed(renewed) => {
+                let rows = renewed.rows();
+                self.routes_due |= renewed.is_due;
+                self.routes.accept(renewed);
+                (rows, None)
+            }
+            RoutesNow::All(plan, routes) => {
+                self.routes_due = false;
+                self.routes.restart(self.state.graph(), plan);
+                (routes.rows as usize, Some(routes))
+            }
+        };
+        if anew {
+            self.layout = view::layout(self.state.graph());
+        }
+        Accepted { done, weighed, tree_rows, routes, anew, stages: clock.stages }
+    }
+
+    /// Forgets what was written and not committed.
+    pub fn take_back(&mut self) -> Result<()> {
+        self.state.take_back()?;
+        self.routes.take_back(self.state.graph());
+        Ok(())
+    }
+}
+
+/// Writes everything that there is of a state once a step is accepted, and all kept routes.
+fn write_all(
+    tx: &mut Tx<'_>,
+    state: &State,
+    step: &Step,
+    (before, basis): (Before<'_>, &Basis),
+    progress: &dyn Progress,
+    clock: &mut Clock,
+) -> Result<(Kept, Plan, Routes, u64)> {
+    let site = &state.site;
+    progress.stage("database");
+    let kept = Kept::write_all(tx, state, step)?;
+    tx.replace_site_hours(&site.site().hours)?;
+    keep_standings(tx, &step.told, &step.attached)?;
+    clock.lap("database");
+    progress.stage("routes");
+    let weighed = before.weighed(state.graph_after(step));
+    let (plan, routes) = trees::keep(tx, (state, step), (before, weighed.is_some()), progress)?;
+    clock.lap("routes");
+    let is_same = weighed.is_some_and(|weighed| weighed.is_empty()) && routes.changed == Some(0);
+    let generation = generation::renew(tx, is_same, &basis.with(&step.told))?;
+    site.sign(tx, &state.inputs.rules)?;
+    step.told.sign(tx)?;
+    Ok((kept, plan, routes, generation))
+}

@@ -1,0 +1,140 @@
+//! What a site knows at one moment, in memory: what is told, what planners gave, what rules concluded, and the graph of
+//! routes. [`State::step`] is all that follows an edit, whoever made it: a build is a step from the empty state, a preview
+//! a step of a fork, an edit a step whose change is kept in the database.
+
+mod planned;
+mod rehearse;
+mod step;
+mod twin;
+mod weighed;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use adit_engine::KnowledgeBase as Inference;
+
+use crate::answer::{self, Answer};
+use crate::error::Result;
+use crate::gauge::{Gauge, Sizes};
+use crate::graph::SiteGraph;
+use crate::inputs::Inputs;
+use crate::knowledge::KnowledgeBase;
+use crate::pairs::Known;
+use crate::keep::places;
+use crate::told::{Attached, Told};
+use planned::Planned;
+pub use rehearse::Cell;
+pub(crate) use rehearse::differences;
+pub(crate) use planned::content;
+pub use step::Stage;
+pub(crate) use step::{Clock, Nothing, Recall, Step, needs_changed};
+use step::Pending;
+use twin::Twin;
+pub(crate) use weighed::{Look, Weighed, Which, is_same_cut, truth};
+
+/// How long a preview looks for routes between places, unless told otherwise.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// What a site knows at one moment. A [fork](State::fork) of it shares nothing that a step of the one or the other would
+/// change.
+pub struct State {
+    pub(crate) site: Arc<KnowledgeBase>,
+    pub(crate) inputs: Arc<Inputs>,
+    /// What people, robots and tables tell.
+    pub(crate) told: Told,
+    /// Which objects facts are about.
+    pub(crate) attached: Attached,
+    planned: Planned,
+    /// What rules concluded.
+    pub(crate) knowledge: Inference,
+    twin: Twin,
+    pub(crate) gauge: Arc<Gauge>,
+    /// What has to be undone where a step is not accepted.
+    pending: Option<Pending>,
+    /// Number of the knowledge base's state.
+    pub generation: u64,
+    /// Routes between places, as far as previews asked for them.
+    pub(crate) known: Arc<Known>,
+    pub(crate) patience: Duration,
+}
+
+impl State {
+    /// Of a site of which nothing is known yet but its files.
+    pub(crate) fn empty(site: Arc<KnowledgeBase>, inputs: Arc<Inputs>) -> Self {
+        let graph = SiteGraph::new(Vec::new(), Vec::new(), places(&inputs.world));
+        let knowledge = Inference::new();
+        let gauge = Arc::new(Gauge::new(&inputs.world, Sizes::new()));
+        Self {
+            site,
+            inputs,
+            told: Told::default(),
+            attached: Attached::default(),
+            planned: Planned::default(),
+            knowledge,
+            twin: Twin::new(graph),
+            gauge,
+            pending: None,
+            generation: 0,
+            known: Arc::default(),
+            patience: PATIENCE,
+        }
+    }
+
+    /// A copy to try things on, in memory only; the inference goes on from what was concluded.
+    #[must_use]
+    pub fn fork(&self) -> Self {
+        Self {
+            site: Arc::clone(&self.site),
+            inputs: Arc::clone(&self.inputs),
+            told: self.told.clone(),
+            attached: self.attached.clone(),
+            planned: self.planned.clone(),
+            knowledge: self.knowledge.fork(),
+            twin: self.twin.fork(),
+            gauge: Arc::clone(&self.gauge),
+            pending: None,
+            generation: self.generation,
+            known: Arc::clone(&self.known),
+            patience: self.patience,
+        }
+    }
+
+    /// Looks for routes between places for so long in a preview; what is not found by then is not compared.
+    #[must_use]
+    pub fn with_patience(mut self, patience: Duration) -> Self {
+        self.patience = patience;
+        self
+    }
+
+    /// Rooms, doors and places, with what rules say of them.
+    pub(crate) fn graph(&self) -> &Arc<SiteGraph> {
+        self.twin.shown()
+    }
+
+    /// Keeps ways between any two rooms ready.
+    pub(crate) fn prepare(&mut self) {
+        self.twin.prepare();
+    }
+
+    /// The robots, in the order of their names.
+    pub(crate) fn robots(&self) -> Vec<String> {
+        self.told.robots()
+    }
+
+    /// The route of least hardness, as [`Live::route`](crate::Live::route) gives it.
+    pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        let robot = answer::pick(&self.robots(), robot)?;
+        let blank = Answer::blank(&robot, start, goals, self.generation);
+        self.basis().search(goals, blank)
+    }
+
+    pub(crate) fn basis(&self) -> answer::Basis<'_> {
+        answer::Basis {
+            knowledge: &self.site,
+            graph: self.graph(),
+            rules: &self.inputs.rule_names,
+            world: &self.inputs.world,
+            gauge: &self.gauge,
+        }
+    }
+}

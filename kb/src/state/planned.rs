@@ -1,0 +1,104 @@
+//! What planners gave, and from what.
+
+use std::collections::BTreeMap;
+use std::hash::{Hash, Hasher};
+
+use adit_engine::Value;
+use adit_planners::facts::{Column, Facts, Table};
+use adit_planners::planner::Planner;
+use adit_planners::world::World;
+use siphasher::sip::SipHasher13;
+
+use crate::error::{Error, Result};
+use crate::graph::SiteGraph;
+use crate::rows;
+
+/// Facts of planners, by class, and the fingerprint of what each planner worked from.
+#[derive(Clone, Default)]
+pub struct Planned {
+    /// Of classes other than rooms and doors, which the graph has.
+    pub facts: Facts,
+    /// By the planner's name.
+    pub fingerprints: BTreeMap<String, u64>,
+}
+
+impl Planned {
+    /// What a planner said of a property of the object in a row.
+    pub fn value(&self, graph: &SiteGraph, (class, row, property): (&str, usize, &str)) -> Option<Value> {
+        let made;
+        let table = match class {
+            "ROOMS" => {
+                made = rows::rooms_table(graph.rooms.get(row..=row)?);
+                return value_of(made.column(property)?, 0);
+            }
+            "DOORS" => {
+                made = rows::doors_table(graph.doors.get(row..=row)?);
+                return value_of(made.column(property)?, 0);
+            }
+            _ => self.facts.get(class)?,
+        };
+        value_of(table.column(property)?, row)
+    }
+}
+
+/// A value of a column as it is told.
+fn value_of(column: &Column, row: usize) -> Option<Value> {
+    match column {
+        Column::Number(values) => values[row].map(Value::Number),
+        Column::Text(values) => values[row].as_deref().map(Value::from),
+        Column::Truth(values) => values[row].map(Value::Truth),
+    }
+}
+
+/// What planners made earlier, if it still holds.
+pub trait Recall {
+    /// The facts that a planner gave, if what it worked from had this fingerprint.
+    fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>>;
+}
+
+/// Nothing was made earlier.
+pub struct Nothing;
+
+impl Recall for Nothing {
+    fn recall(&mut self, _: &dyn Planner, _: u64) -> Result<Option<Facts>> {
+        Ok(None)
+    }
+}
+
+/// What a planner may know, and its fingerprint: two runs of a planner of one version on equal inputs have equal ones.
+pub fn fingerprint(world: &World, known: &Facts) -> u64 {
+    let mut hasher = SipHasher13::new();
+    (env!("CARGO_PKG_VERSION"), world.fingerprint()).hash(&mut hasher);
+    for (class, table) in known {
+        class.hash(&mut hasher);
+        hash_table(table, &mut hasher);
+    }
+    hasher.finish()
+}
+
+/// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
+/// does in a database.
+pub fn content(tables: &[Table]) -> u64 {
+    let mut hasher = SipHasher13::new();
+    for table in tables {
+        hash_table(table, &mut hasher);
+    }
+    hasher.finish()
+}
+
+fn hash_table(table: &Table, hasher: &mut impl Hasher) {
+    for (property, column) in &table.columns {
+        property.hash(hasher);
+        match column {
+            Column::Number(values) => values.iter().for_each(|v| v.map(|v| (v + 0.0).to_bits()).hash(hasher)),
+            Column::Text(values) => values.hash(hasher),
+            Column::Truth(values) => values.hash(hasher),
+        }
+    }
+}
+
+/// What a planner gives for what it knows.
+pub fn facts(planner: &dyn Planner, world: &World, known: &Facts) -> Result<Facts> {
+    let given = planner.facts(world, known);
+    given.map_err(|error| Error::said("planner/failed", error.to_string(), None))
+}

@@ -1,0 +1,395 @@
+//! The step: what is told now, what planners give for it, what rules conclude, and what rooms and doors weigh then.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
+use adit_planners::facts::{Column, Facts, Table};
+use adit_planners::planner::Planner;
+
+use super::planned::{self, Planned};
+pub use super::planned::{Nothing, Recall};
+use super::weighed::{Look, Weighed, Which, is_same_cut};
+use super::State;
+use super::twin::Twin;
+use crate::error::{Error, Result};
+use crate::gauge::{Gauge, sizes};
+use crate::graph::SiteGraph;
+use crate::grounds::Reasons;
+use crate::progress::Progress;
+use crate::told::{Attached, Told};
+use crate::{classes, rows, weights};
+
+/// A stage of the work and how long it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Its name.
+    pub name: String,
+    /// Its time.
+    pub took: Duration,
+    /// Whether its result was kept from before, because nothing that it needs has changed.
+    pub kept: bool,
+}
+
+/// What a step changes. The state shows it once it is [accepted](State::accept).
+pub struct Step {
+    /// What is told now.
+    pub told: Told,
+    /// Which objects facts are about.
+    pub attached: Attached,
+    /// What planners gave, and from what.
+    pub planned: Planned,
+    /// All rooms and doors, where planners gave facts anew.
+    pub cut: Option<Arc<SiteGraph>>,
+    /// Whether rooms or doors are cut otherwise than before: then their numbers mean others.
+    pub is_cut_anew: bool,
+    /// Where they are not: those of which rules say something else.
+    pub weighed: Weighed,
+    /// What the inference changed.
+    pub changes: Changes,
+    /// The facts that rules chose for rooms and doors, by number, as far as they were looked at.
+    pub facts: BTreeMap<i64, String>,
+    /// What was done, in order.
+    pub stages: Vec<Stage>,
+    gauge: Option<Arc<Gauge>>,
+}
+
+/// What has to be undone where a step is not accepted.
+pub struct Pending {
+    attached: Attached,
+    /// The inference before planners gave it other classes.
+    inference: Option<Inference>,
+}
+
+impl State {
+    /// What follows where all this is told. It counts once it is [accepted](Self::accept); if it fails, or is
+    /// [taken back](Self::take_back), the state is as before.
+    ///
+    /// It costs what depends on the change; planners are asked again where what they work from is another.
+    pub(crate) fn step(
+        &mut self,
+        told: Told,
+        recall: &mut dyn Recall,
+        progress: &dyn Progress,
+    ) -> Result<Step> {
+        let step = self.follow(told, recall, progress);
+        if step.is_err() {
+            self.take_back()?;
+        }
+        step
+    }
+
+    fn follow(&mut self, told: Told, recall: &mut dyn Recall, progress: &dyn Progress) -> Result<Step> {
+        let inputs = Arc::clone(&self.inputs);
+        if !has_same_columns(&self.told, &told) {
+            self.site.vet(&inputs.rules, &inputs.tests, &told)?;
+        }
+        let mut clock = Clock::new();
+        let mut attached = self.tell(&told)?;
+        let mut changes = self.conclude()?;
+        clock.lap("rules");
+        let given = self.ask_planners(&told, &mut changes, (recall, progress, &mut clock))?;
+        if given.is_any {
+            attached = Attached::default();
+            told.attach(&self.knowledge, |_| true, &mut attached);
+        }
+        let mut reasons = Reasons::new(&self.knowledge, &inputs.rules);
+        let (knowledge, rules) = (&self.knowledge, &inputs.rules);
+        let before = self.twin.shown();
+        let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
+        if given.is_any {
+            let bare = |class: &str| given.made.get(class).cloned();
+            let mut rooms = bare("ROOMS").map_or_else(|| Ok(before.rooms.clone()), |table| rows::rooms(&table))?;
+            let mut doors = bare("DOORS").map_or_else(|| Ok(before.doors.clone()), |table| rows::doors(&table))?;
+            weights::check(knowledge, (&rooms, &doors), None)?;
+            let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
+            look.rooms().into_iter().for_each(|(row, weight)| rooms[row].weigh(weight));
+            look.doors().into_iter().for_each(|(row, weight)| doors[row].weigh(weight));
+            let (old, new) = ((&*before.rooms, &*before.doors), (&*rooms, &*doors));
+            is_cut_anew = !is_same_cut(old, new);
+            if !is_cut_anew {
+                weighed = Weighed::between(old, new);
+            }
+            cut = Some(Arc::new(SiteGraph::new(rooms, doors, before.places.clone())));
+        } else {
+            weights::check(knowledge, (&before.rooms, &before.doors), Some(&changes))?;
+            let which = Which::Touched(&changes);
+            let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
+            weighed = look.weighed(&before.rooms, &before.doors);
+        }
+        let facts = reasons.into_facts();
+        if cut.is_none() && !weighed.is_empty() {
+            self.twin.write(&weighed);
+        }
+        let needed = ["ROBOTS.width".to_owned(), "ROBOTS.height".to_owned()];
+        let is_resized = needs_changed(&needed, &changes);
+        let gauge = is_resized.then(|| Arc::new(self.gauge.resized(sizes(&self.knowledge))));
+        clock.lap("graph");
+        let (planned, stages) = (given.planned, clock.stages);
+        Ok(Step { told, attached, planned, cut, is_cut_anew, weighed, changes, facts, stages, gauge })
+    }
+
+    /// Makes what a step changed what is known.
+    pub(crate) fn accept(&mut self, step: Step) {
+        (self.told, self.attached, self.planned) = (step.told, step.attached, step.planned);
+        if let Some(graph) = step.cut {
+            self.twin = Twin::of(graph);
+        } else if !step.weighed.is_empty() {
+            self.twin.turn();
+        }
+        if let Some(gauge) = step.gauge {
+            self.gauge = gauge;
+        }
+        self.known = Arc::default();
+        self.pending = None;
+    }
+
+    /// Forgets a step that is not accepted.
+    pub(crate) fn take_back(&mut self) -> Result<()> {
+        let Some(Pending { attached, inference }) = self.pending.take() else { return Ok(()) };
+        if self.told.classes.is_empty() {
+            self.knowledge = Inference::new();
+            return Ok(());
+        }
+        if let Some(inference) = inference {
+            self.knowledge = inference;
+        }
+        let told = self.told.clone();
+        self.tell_of_planned(&attached, &self.attached.clone(), &told)?;
+        for (class, table) in &told.classes {
+            classes::assert(&mut self.knowledge, class, table)?;
+            told.tell(&mut self.knowledge, class, &mut Attached::default())?;
+        }
+        self.knowledge.update(&self.inputs.rules);
+        Ok(())
+    }
+
+    /// The graph as it is once a step is accepted.
+    pub(crate) fn graph_after<'s>(&'s self, step: &'s Step) -> &'s Arc<SiteGraph> {
+        match &step.cut {
+            Some(graph) => graph,
+            None if step.weighed.is_empty() => self.twin.shown(),
+            None => self.twin.written(),
+        }
+    }
+
+    /// What is solid, for robots of the sizes that they have once a step is accepted.
+    pub(crate) fn gauge_after<'s>(&'s self, step: &'s Step) -> &'s Gauge {
+        step.gauge.as_ref().unwrap_or(&self.gauge)
+    }
+
+    /// Tells the classes and facts that differ; which objects facts are now about.
+    fn tell(&mut self, told: &Told) -> Result<Attached> {
+        let mut attached = Attached::default();
+        told.attach(&self.knowledge, |class| !told.classes.contains_key(class), &mut attached);
+        self.pending = Some(Pending { attached: attached.clone(), inference: None });
+        self.tell_of_planned(&self.attached.clone(), &attached, told)?;
+        for gone in self.told.classes.keys().filter(|class| !told.classes.contains_key(*class)) {
+            self.knowledge.retract(gone);
+        }
+        for (class, table) in &told.classes {
+            let is_same = self.told.classes.get(class) == Some(table);
+            if !is_same || !self.told.facts_of(class).eq(told.facts_of(class)) {
+                classes::assert(&mut self.knowledge, class, table)?;
+            }
+            told.tell(&mut self.knowledge, class, &mut attached)?;
+        }
+        Ok(attached)
+    }
+
+    /// Tells of each object of a planner's class what counts now instead of before.
+    fn tell_of_planned(&mut self, before: &Attached, now: &Attached, told: &Told) -> Result<()> {
+        let is_planned = |class: &str| !told.classes.contains_key(class);
+        for ((class, row, property), fact) in now.cells().iter().filter(|(cell, _)| is_planned(&cell.0)) {
+            fact.tell_row(&mut self.knowledge, class, *row, property)?;
+        }
+        let is_over = |cell: &&(String, usize, String)| is_planned(&cell.0) && !now.cells().contains_key(*cell);
+        for (class, row, property) in before.cells().keys().filter(is_over) {
+            let value = self.planned.value(self.twin.shown(), (class, *row, property));
+            let told = self.knowledge.tell_row(class, *row, property, value);
+            told.map_err(|error| Error::said("tell/refused", error.to_string(), None))?;
+        }
+        Ok(())
+    }
+
+    /// Concludes what follows, as far as it depends on what changed.
+    fn conclude(&mut self) -> Result<Changes> {
+        let changes = self.knowledge.update(&self.inputs.rules);
+        let failed = self.knowledge.problems(&self.inputs.rules);
+        let failed: Vec<_> = failed.into_iter().filter(|found| found.severity == Severity::Error).collect();
+        if failed.is_empty() { Ok(changes) } else { Err(Error::all(failed)) }
+    }
+
+    /// Has planners give facts anew, as far as what they work from is another, in the order in which it is there.
+    fn ask_planners(
+        &mut self,
+        told: &Told,
+        changes: &mut Changes,
+        (recall, progress, clock): (&mut dyn Recall, &dyn Progress, &mut Clock),
+    ) -> Result<Given> {
+        let (site, inputs) = (Arc::clone(&self.site), Arc::clone(&self.inputs));
+        let planners = site.planners();
+        let mut given = Given { planned: self.planned.clone(), made: Facts::new(), is_any: false };
+        let is_new = |planner: &dyn Planner| !self.planned.fingerprints.contains_key(planner.name());
+        let mut waiting: Vec<usize> = (0..planners.len())
+            .filter(|&at| {
+                let planner = planners[at].as_ref();
+                is_new(planner) || needs_changed(&planner.signature().needs, changes)
+            })
+            .collect();
+        let mut runs = 0;
+        while let Some(ready) = waiting.iter().position(|&at| self.missing(planners[at].as_ref()).is_empty()) {
+            let at = waiting.remove(ready);
+            let planner = planners[at].as_ref();
+            let name = planner.name();
+            progress.stage(name);
+            let known = classes::known(&self.knowledge, &planner.signature().needs);
+            let fingerprint = planned::fingerprint(&inputs.world, &known);
+            if given.planned.fingerprints.insert(name.to_owned(), fingerprint) == Some(fingerprint) {
+                clock.kept(name);
+                continue;
+            }
+            runs += 1;
+            if runs > planners.len() * planners.len() {
+                return Err(circle(planner));
+            }
+            let recalled = recall.recall(planner, fingerprint)?;
+            let is_kept = recalled.is_some();
+            let facts = match recalled {
+                Some(facts) => facts,
+                None => planned::facts(planner, &inputs.world, &known)?,
+            };
+            self.save_inference();
+            for (class, table) in facts {
+                classes::assert(&mut self.knowledge, &class, &table)?;
+                told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
+                given.take(class, table);
+            }
+            clock.lap_of(name, is_kept);
+            progress.stage("rules");
+            let more = self.conclude()?;
+            let is_due = |other: &usize| needs_changed(&planners[*other].signature().needs, &more);
+            let due: Vec<usize> = (0..planners.len())
+                .filter(|other| *other != at && !waiting.contains(other) && is_due(other))
+                .collect();
+            waiting.extend(due);
+            waiting.sort_unstable();
+            changes.absorb(more);
+            clock.lap("rules");
+        }
+        match waiting.first() {
+            Some(&at) => Err(stuck(planners[at].as_ref(), &self.missing(planners[at].as_ref()))),
+            None => Ok(given),
+        }
+    }
+
+    fn save_inference(&mut self) {
+        let is_empty = self.told.classes.is_empty();
+        if let Some(pending) = &mut self.pending
+            && pending.inference.is_none()
+            && !is_empty
+        {
+            pending.inference = Some(self.knowledge.fork());
+        }
+    }
+
+    /// What a planner needs and nobody has given yet.
+    fn missing(&self, planner: &dyn Planner) -> Vec<String> {
+        let is_known = |need: &String| {
+            let (class, property) = classes::split(need);
+            classes::column(&self.knowledge, class, property).is_some()
+        };
+        planner.signature().needs.into_iter().filter(|need| !is_known(need)).collect()
+    }
+}
+
+/// What planners gave in a step.
+struct Given {
+    planned: Planned,
+    /// Rooms and doors.
+    made: Facts,
+    /// Whether any planner gave anything.
+    is_any: bool,
+}
+
+impl Given {
+    fn take(&mut self, class: String, table: Table) {
+        let is_of_graph = ["ROOMS", "DOORS"].contains(&class.as_str());
+        let facts = if is_of_graph { &mut self.made } else { &mut self.planned.facts };
+        facts.insert(class, table);
+        self.is_any = true;
+    }
+}
+
+/// Whether both tell classes of the same columns, so that rules that were right for the one are for the other.
+fn has_same_columns(one: &Told, other: &Told) -> bool {
+    let kinds = |facts: &Facts| -> Vec<_> {
+        let kind = |(name, column): &(String, Column)| (name.clone(), std::mem::discriminant(column));
+        facts.iter().map(|(class, table)| (class.clone(), table.columns.iter().map(kind).collect::<Vec<_>>())).collect()
+    };
+    kinds(&one.classes) == kinds(&other.classes)
+}
+
+/// Whether something changed that a planner works from.
+pub(crate) fn needs_changed(needs: &[String], changes: &Changes) -> bool {
+    needs.iter().any(|need| {
+        let (class, property) = classes::split(need);
+        changes.classes.get(class).is_some_and(|class| {
+            class.moved.is_some() || !class.added.is_empty() || class.changed.contains_key(property)
+        })
+    })
+}
+
+/// The complaint that a planner lacks what nobody gives.
+fn stuck(planner: &dyn Planner, missing: &[String]) -> Error {
+    Error::said(
+        "rules/missing",
+        format!("{} cannot be made: no rule, table or planner gives {}", planner.name(), missing.join(", ")),
+        Some("the shipped rule bases have such rules: copy the missing one from there".to_owned()),
+    )
+}
+
+/// The complaint that what a planner gives changes what it works from, again and again.
+fn circle(planner: &dyn Planner) -> Error {
+    let message = format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
+    let help = "a rule concludes something that this planner works from out of what it gives".to_owned();
+    Error::said("rules/circle", message, Some(help))
+}
+
+/// Times stages; one that comes again adds to its time.
+pub struct Clock {
+    began: Instant,
+    /// What was done.
+    pub stages: Vec<Stage>,
+}
+
+impl Clock {
+    /// It runs.
+    pub fn new() -> Self {
+        Self { began: Instant::now(), stages: Vec::new() }
+    }
+
+    /// What was done since the last stage ended.
+    pub fn lap(&mut self, name: &str) {
+        self.lap_of(name, false);
+    }
+
+    /// What was done since the last stage ended was timed by somebody else.
+    pub fn skip(&mut self) {
+        self.began = Instant::now();
+    }
+
+    fn kept(&mut self, name: &str) {
+        self.lap_of(name, true);
+    }
+
+    fn lap_of(&mut self, name: &str, kept: bool) {
+        let took = self.began.elapsed();
+        self.began = Instant::now();
+        match self.stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => (stage.took, stage.kept) = (stage.took + took, stage.kept && kept),
+            None => self.stages.push(Stage { name: name.to_owned(), took, kept }),
+        }
+    }
+}

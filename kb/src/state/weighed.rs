@@ -1,0 +1,188 @@
+//! What rules say of rooms and doors after an inference, and in what it differs from what they said.
+
+use adit_db::Derived;
+use adit_db::door::Door;
+use adit_db::room::Room;
+use adit_db::weight::Weight;
+use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
+
+use crate::grounds::{Reason, Reasons};
+
+/// Rooms and doors by index, with what rules now say of them: those that differ from what they said, ascending.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Weighed {
+    /// Rooms.
+    pub rooms: Vec<(usize, Weight)>,
+    /// Doors.
+    pub doors: Vec<(usize, Weight)>,
+}
+
+impl Weighed {
+    /// Whether rules say of everything what they said.
+    pub fn is_empty(&self) -> bool {
+        self.rooms.is_empty() && self.doors.is_empty()
+    }
+
+    /// In what rooms and doors differ, row by row.
+    pub fn between(before: (&[Room], &[Door]), after: (&[Room], &[Door])) -> Self {
+        fn differing<T>(before: &[T], after: &[T], weight: impl Fn(&T) -> Weight) -> Vec<(usize, Weight)> {
+            let pairs = before.iter().zip(after).enumerate();
+            let pairs = pairs.map(|(row, (old, new))| (row, weight(old), weight(new)));
+            pairs.filter(|(_, old, new)| old != new).map(|(row, _, new)| (row, new)).collect()
+        }
+        Self {
+            rooms: differing(before.0, after.0, Room::weight),
+            doors: differing(before.1, after.1, Door::weight),
+        }
+    }
+}
+
+/// Whether rooms and doors are cut as they were: what rules say of them may differ.
+pub fn is_same_cut(before: (&[Room], &[Door]), after: (&[Room], &[Door])) -> bool {
+    let is_same_room = |(old, new): (&Room, &Room)| {
+        (old.room, &old.name, &old.layer) == (new.room, &new.name, &new.layer)
+            && old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
+            && (old.facing, old.height, old.width) == (new.facing, new.height, new.width)
+    };
+    let is_same_door = |(old, new): (&Door, &Door)| {
+        (old.door, old.kind, old.side1, old.side2) == (new.door, new.kind, new.side1, new.side2)
+            && old.segment.map(f64::to_bits) == new.segment.map(f64::to_bits)
+            && (old.at, old.width, old.one_way) == (new.at, new.width, new.one_way)
+    };
+    before.0.len() == after.0.len()
+        && before.1.len() == after.1.len()
+        && before.0.iter().zip(after.0).all(is_same_room)
+        && before.1.iter().zip(after.1).all(is_same_door)
+}
+
+/// Whether rules say which rooms are entered. A rule base without a rule about it lets all of them be.
+pub fn decides_rooms(rules: &RuleBase) -> bool {
+    rules
+        .concluded()
+        .iter()
+        .any(|name| name.class.as_str() == "ROOMS" && name.property.as_str() == "passable")
+}
+
+/// Which objects are looked at.
+#[derive(Clone, Copy)]
+pub enum Which<'a> {
+    /// All there are.
+    All,
+    /// Those of which something may have changed.
+    Touched(&'a Changes),
+}
+
+/// Looks at what an inference concluded.
+pub struct Look<'a, 'r> {
+    /// What was concluded.
+    pub knowledge: &'a Inference,
+    /// By which rules.
+    pub rules: &'a RuleBase,
+    /// Of which objects.
+    pub which: Which<'a>,
+    /// Why; `None` where nobody asks.
+    pub reasons: Option<&'r mut Reasons<'a>>,
+}
+
+impl Look<'_, '_> {
+    /// What rules say of rooms: of those that are looked at, by row.
+    pub fn rooms(&mut self) -> Vec<(usize, Weight)> {
+        let mut rooms = self.weights("ROOMS");
+        if !decides_rooms(self.rules) {
+            for (_, weight) in &mut rooms {
+                weight.passable.value = weight.passable.value.or(Some(true));
+            }
+        }
+        rooms
+    }
+
+    /// What rules say of doors: of those that are looked at, by row.
+    pub fn doors(&mut self) -> Vec<(usize, Weight)> {
+        self.weights("DOORS")
+    }
+
+    /// In what rules say something else of these rooms and doors than they did.
+    pub fn weighed(&mut self, rooms: &[Room], doors: &[Door]) -> Weighed {
+        let mut weighed = Weighed { rooms: self.rooms(), doors: self.doors() };
+        weighed.rooms.retain(|(row, weight)| *weight != rooms[*row].weight());
+        weighed.doors.retain(|(row, weight)| *weight != doors[*row].weight());
+        weighed
+    }
+
+    fn weights(&mut self, class: &str) -> Vec<(usize, Weight)> {
+        let mut rows: Vec<u32> =
+            ["hardness", "action", "passable"].iter().flat_map(|property| self.rows(class, property)).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let hardness = self.values((class, "hardness"), &rows, number);
+        let action = self.values((class, "action"), &rows, text);
+        let passable = self.values((class, "passable"), &rows, truth);
+        let weights = hardness.into_iter().zip(action).zip(passable);
+        let weights = weights.map(|((hardness, action), passable)| Weight { hardness, action, passable });
+        rows.into_iter().map(|row| row as usize).zip(weights).collect()
+    }
+
+    /// One property of the objects that are looked at, by row.
+    pub fn each<T>(
+        &mut self,
+        (class, property): (&str, &str),
+        value: fn(&Value) -> Option<T>,
+    ) -> Vec<(usize, Derived<T>)> {
+        let rows = self.rows(class, property);
+        let values = self.values((class, property), &rows, value);
+        rows.into_iter().map(|row| row as usize).zip(values).collect()
+    }
+
+    fn values<T>(
+        &mut self,
+        (class, property): (&str, &str),
+        rows: &[u32],
+        value: fn(&Value) -> Option<T>,
+    ) -> Vec<Derived<T>> {
+        let reasons = match &mut self.reasons {
+            Some(reasons) => reasons.of_rows(class, property, rows),
+            None => vec![(None, None); rows.len()],
+        };
+        let derived = |(row, (rule, witness)): (&u32, Reason)| {
+            let value = self.knowledge.value_at(class, *row as usize, property).as_ref().and_then(value);
+            Derived { value, rule, witness }
+        };
+        rows.iter().zip(reasons).map(derived).collect()
+    }
+
+    /// The rows of a property whose value or reason may differ, ascending.
+    fn rows(&self, class: &str, property: &str) -> Vec<u32> {
+        match self.which {
+            Which::All => (0..self.knowledge.len(class).unwrap_or(0) as u32).collect(),
+            Which::Touched(changes) => {
+                let mut rows = changes.rows(class, property).to_vec();
+                rows.extend(changes.reasons(class, property));
+                rows.sort_unstable();
+                rows.dedup();
+                rows
+            }
+        }
+    }
+
+    /// Whether any value of a property may differ.
+    pub fn may_differ(&self, class: &str, property: &str) -> bool {
+        let Which::Touched(changes) = self.which else { return true };
+        let moved = |class: &adit_engine::ClassChanges| class.moved.is_some() || !class.added.is_empty();
+        !changes.rows(class, property).is_empty()
+            || !changes.reasons(class, property).is_empty()
+            || changes.classes.get(class).is_some_and(moved)
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    if let Value::Number(number) = value { Some(*number) } else { None }
+}
+
+fn text(value: &Value) -> Option<String> {
+    if let Value::Text(text) = value { Some(text.to_string()) } else { None }
+}
+
+/// The truth value that a value is.
+pub fn truth(value: &Value) -> Option<bool> {
+    if let Value::Truth(truth) = value { Some(*truth) } else { None }
+}
