@@ -132,10 +132,11 @@ impl Live {
             return Ok(outcome);
         }
         self.reopen()?;
-        self.follow(Some((edit, author)))?.ok_or_else(|| {
+        let outcome = self.follow(Some((edit, author)))?.ok_or_else(|| {
             let help = Some("try again".to_owned());
             Error::said("live/stale", "the site's tables were edited meanwhile", help)
-        })
+        })?;
+        Ok(Outcome { anew: true, ..outcome })
     }
 
     /// Writes what follows from an edit, or from the clock alone, in one transaction; `None` where somebody else edited the
