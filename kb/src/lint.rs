@@ -78,7 +78,7 @@ pub fn ignored(
     site: &Site,
     instead: Option<&Path>,
     rules: &RuleBase,
-    planners: &[Box<dyn Planner>],
+    planners: &[Arc<dyn Planner>],
 ) -> Vec<miette::Report> {
     let mut found: Vec<miette::Report> =
         unread(rules, planners).into_iter().map(miette::Report::new).collect();

@@ -18,7 +18,7 @@ use super::settings::Settings;
 use super::token::Tokens;
 use super::waiting::Waiting;
 use crate::error::Result;
-use crate::fork::Fork;
+use crate::state::State;
 use crate::live::View;
 use crate::problem::Problem;
 
@@ -101,7 +101,7 @@ impl Shared {
     }
 
     /// A copy of what is known after all edits that were asked for before, to try others on.
-    pub async fn fork(&self) -> Answered<Fork> {
+    pub async fn fork(&self) -> Answered<State> {
         self.edit_at_desk(&Waiting::default(), |desk| Ok(desk.live.fork())).await
     }
 
