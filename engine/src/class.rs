@@ -11,19 +11,14 @@ use crate::value::{Cell, Truth, Type, Value};
 /// Why a class cannot be asserted.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub enum ClassError {
     /// A property was given twice.
     #[error("class {class} has the property `{property}` twice")]
-    Twice {
-        /// The class.
-        class: String,
-        /// The property.
-        property: String,
-    },
+    Twice { class: String, property: String },
     /// Columns differ in length.
     #[error("class {class} has {expected} objects, but `{property}` has {found} values")]
     Ragged {
-        /// The class.
         class: String,
         /// The property that differs from the first.
         property: String,
@@ -34,16 +29,10 @@ pub enum ClassError {
     },
     /// The key, or what NULL means, names no property.
     #[error("class {class} has no property `{property}`")]
-    Missing {
-        /// The class.
-        class: String,
-        /// The property.
-        property: String,
-    },
+    Missing { class: String, property: String },
     /// An object has no key.
     #[error("class {class}: the key of object {row} is unknown")]
     UnknownKey {
-        /// The class.
         class: String,
         /// Row from 0.
         row: usize,
@@ -51,29 +40,16 @@ pub enum ClassError {
     /// Two objects have one key.
     #[error("class {class} has two objects with the key {key}")]
     SameKey {
-        /// The class.
         class: String,
         /// The key, its parts joined with `/`.
         key: String,
     },
     /// What NULL means is of another type than the property.
     #[error("class {class}: NULL of `{property}` cannot mean {value}: it holds {}", holds.plural())]
-    NullType {
-        /// The class.
-        class: String,
-        /// The property.
-        property: String,
-        /// The value.
-        value: String,
-        /// The property's type.
-        holds: Type,
-    },
+    NullType { class: String, property: String, value: String, holds: Type },
     /// More objects than a row number holds.
     #[error("class {class} has more than 4 billion objects")]
-    TooLarge {
-        /// The class.
-        class: String,
-    },
+    TooLarge { class: String },
 }
 
 #[derive(Clone, Debug)]

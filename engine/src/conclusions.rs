@@ -34,10 +34,9 @@ pub struct Waiting {
 
 /// A property of one object that rules set to different values.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Conflict {
-    /// The property.
     pub property: PropertyName,
-    /// The object's key.
     pub key: String,
     /// The rules and the values that they gave, in the order of the rules.
     pub values: Vec<(String, Value)>,
@@ -57,42 +56,20 @@ pub struct Gap {
 /// Why an object has no value of a property.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub enum Reason {
     /// Rules disagree.
     Conflict,
     /// A clause of the rule was met by no candidate.
-    Unmet {
-        /// The rule.
-        rule: String,
-        /// The clause's variable.
-        variable: String,
-    },
+    Unmet { rule: String, variable: String },
     /// A `none` of the rule was not met: there is such an object.
-    Found {
-        /// The rule.
-        rule: String,
-        /// The clause's variable.
-        variable: String,
-    },
+    Found { rule: String, variable: String },
     /// An `all` of the rule was not met: an object that passes lacks what it asks.
-    NotAll {
-        /// The rule.
-        rule: String,
-        /// The clause's variable.
-        variable: String,
-    },
+    NotAll { rule: String, variable: String },
     /// A clause of the rule was not met, and for some candidates that could not be decided.
-    Undecided {
-        /// The rule.
-        rule: String,
-        /// The clause's variable.
-        variable: String,
-    },
+    Undecided { rule: String, variable: String },
     /// The rule gave a value that is unknown.
-    Unknown {
-        /// The rule.
-        rule: String,
-    },
+    Unknown { rule: String },
     /// No rule applied to the object.
     NoRule,
 }
@@ -119,12 +96,10 @@ impl fmt::Display for Reason {
 
 /// Objects of a clause's class that were no candidates, since what is asked of them is unknown.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct LeftOut {
-    /// The rule.
     pub rule: String,
-    /// The clause's variable.
     pub variable: String,
-    /// Its class.
     pub class: String,
     /// How many.
     pub objects: usize,
@@ -132,25 +107,20 @@ pub struct LeftOut {
 
 /// An object that a conclusion rests on.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Witness {
-    /// The rule's variable.
     pub variable: String,
-    /// The class.
     pub class: String,
-    /// The object's key.
     pub key: String,
 }
 
 /// The rule and the objects behind a value.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Support {
-    /// The rule.
     pub rule: String,
-    /// Its version.
     pub version: String,
-    /// Its file.
     pub file: String,
-    /// Its line.
     pub line: usize,
     /// What its variables stand for.
     pub witnesses: Vec<Witness>,
@@ -181,10 +151,9 @@ pub struct Revision {
 
 /// Why a property of an object has its value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Justification {
-    /// The property.
     pub property: PropertyName,
-    /// The object's key.
     pub key: String,
     /// The value; `None` is unknown.
     pub value: Option<Value>,

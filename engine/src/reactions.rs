@@ -28,12 +28,11 @@ impl Reactions {
 
 /// A rule that was carried out for the objects that its clauses bound.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Firing {
     /// The number of the state that it left: one more than that before.
     pub generation: u64,
-    /// The rule.
     pub rule: String,
-    /// Its version.
     pub version: String,
     /// The objects, as they were called then.
     pub witnesses: Vec<Witness>,
@@ -43,14 +42,11 @@ pub struct Firing {
 
 /// A rule that may be carried out for the objects that its clauses bind.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Activation {
-    /// The rule.
     pub rule: String,
-    /// Its version.
     pub version: String,
-    /// Its priority.
     pub priority: i64,
-    /// The objects.
     pub witnesses: Vec<Witness>,
 }
 
@@ -58,30 +54,16 @@ pub struct Activation {
 /// its row from 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub enum Told {
     /// A new object.
     Object {
-        /// The class.
         class: String,
         /// Its properties that are known.
         properties: BTreeMap<String, Value>,
     },
     /// A value of an object; `None` takes back what was told.
-    Value {
-        /// The class.
-        class: String,
-        /// The object's key.
-        key: String,
-        /// The property.
-        property: String,
-        /// The value.
-        value: Option<Value>,
-    },
+    Value { class: String, key: String, property: String, value: Option<Value> },
     /// An object that is forgotten.
-    Gone {
-        /// The class.
-        class: String,
-        /// The object's key.
-        key: String,
-    },
+    Gone { class: String, key: String },
 }

@@ -7,10 +7,9 @@ use crate::value::Value;
 
 /// Why a property of an object has no other value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct WhyNot {
-    /// The property.
     pub property: PropertyName,
-    /// The object's key.
     pub key: String,
     /// The value that it has; `None` is unknown.
     pub value: Option<Value>,
@@ -22,18 +21,14 @@ pub struct WhyNot {
 
 /// An object that a clause of a rule did not take, or a clause or rule that as a whole did not hold.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Rejected {
-    /// The rule.
     pub rule: String,
-    /// Its version.
     pub version: String,
-    /// Its file.
     pub file: String,
-    /// Its line.
     pub line: usize,
     /// The clause's variable; `None`: the rule as a whole.
     pub variable: Option<String>,
-    /// The clause's class.
     pub class: Option<String>,
     /// The object's key; `None`: the clause as a whole.
     pub key: Option<String>,

@@ -15,10 +15,9 @@ use crate::value::Cell;
 
 /// A property of a class, as rules name it: `DOORS.hardness`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct PropertyName {
-    /// The class.
     pub class: String,
-    /// The property.
     pub property: String,
 }
 

@@ -47,10 +47,9 @@ pub struct RuleTests {
 
 /// What became of a test.
 #[derive(Clone, Debug, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct TestOutcome {
-    /// Its name.
     pub test: String,
-    /// Its file.
     pub file: String,
     /// Its line, from 1.
     pub line: usize,
@@ -62,14 +61,12 @@ pub struct TestOutcome {
 
 /// A value that is not as a test expects it.
 #[derive(Clone, Debug, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct TestFailure {
     /// Number of the edit (`[[test.then]]`) after which it was expected; 0 before all edits.
     pub step: usize,
-    /// The class.
     pub class: String,
-    /// The object's key.
     pub key: String,
-    /// The property.
     pub property: String,
     /// What the test expects; `None` is unknown.
     pub expected: Option<Value>,

@@ -35,10 +35,9 @@ pub enum Answer {
 
 /// A question to the user.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Question {
-    /// The property.
     pub property: PropertyName,
-    /// The object's key.
     pub key: String,
     /// The question as the property's declaration words it.
     pub text: String,

@@ -21,12 +21,10 @@ const MOST_OBJECTS: usize = 1_000;
 
 /// An object that a `least` or `most` can never choose.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Dominated {
-    /// The rule.
     pub rule: String,
-    /// The clause's variable.
     pub variable: String,
-    /// Its class.
     pub class: String,
     /// The key of the object that is never chosen.
     pub key: String,

@@ -11,17 +11,14 @@ use crate::value::{Cell, Type, Value};
 /// Why a fact cannot be told.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[allow(missing_docs)] // the names of the fields say what they are
 pub enum FactError {
     /// No such class.
     #[error("there is no class {class}")]
-    NoClass {
-        /// The class.
-        class: String,
-    },
+    NoClass { class: String },
     /// No such object.
     #[error("class {class} has no object {key}")]
     NoObject {
-        /// The class.
         class: String,
         /// Its key, or its row from 0.
         key: String,
@@ -29,23 +26,15 @@ pub enum FactError {
     /// The value is of another type than the property.
     #[error("{class}.{property} holds {}, not {value}", holds.plural())]
     Type {
-        /// The class.
         class: String,
-        /// The property.
         property: String,
         /// What the property holds.
         holds: Type,
-        /// The value.
         value: String,
     },
     /// A property of the key says which object it is and does not change.
     #[error("{class}.{property} is part of the key, which does not change")]
-    Key {
-        /// The class.
-        class: String,
-        /// The property.
-        property: String,
-    },
+    Key { class: String, property: String },
     /// An object that cannot be added.
     #[error(transparent)]
     Class(#[from] ClassError),
