@@ -49,11 +49,6 @@ impl Declarations {
         self.classes.get(class).map_or(class, |subclass| &subclass.root)
     }
 
-    /// The class whose objects a property names.
-    pub fn linked(&self, property: &PropertyName) -> Option<&str> {
-        self.links.get(property).map(|link| link.class.as_str())
-    }
-
     /// Whether rules are heard before the table, as no declaration means otherwise.
     pub(crate) fn rules_first(&self, property: &PropertyName) -> bool {
         let place = |declaration: &Declaration, of: &Source| {

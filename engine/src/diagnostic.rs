@@ -7,130 +7,82 @@ use miette::{LabeledSpan, NamedSource, SourceCode};
 
 use crate::script::source::{Place, SourceFile};
 
-/// Stable names of what can be wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum Code {
-    /// The file does not read as rules.
-    Syntax,
-    /// A file is larger than is accepted.
-    TooLarge,
-    /// Something other than a rule, a function or a constant stands in the file.
-    Statement,
-    /// Two rules have one name.
-    DuplicateName,
-    /// No such class.
-    UnknownClass,
-    /// No such property of a class.
-    UnknownProperty,
-    /// No such variable in the rule.
-    UnknownVariable,
-    /// No such function.
-    UnknownFunction,
-    /// A value of the wrong type.
-    Type,
-    /// Something that cannot be set, or not like this.
-    Assignment,
-    /// Rules that need each other's conclusions.
-    Cycle,
-    /// A declaration that cannot be, or that a rule does not keep to.
-    Declaration,
-    /// A table that does not read as one.
-    Table,
-    /// Rows of a table that match the same.
-    Overlap,
-    /// Inputs without a row.
-    Gap,
-    /// A row, or a rule, that never counts.
-    Unreachable,
-    /// What is named and never used.
-    Unused,
-    /// A hypothesis that is concluded in another way too, or is not the first object's.
-    Hypothesis,
-    /// Two operators at one level of revision.
-    Operator,
-    /// Two rules set one property of one object to different values.
-    Conflict,
-    /// A part that the interpreter runs has failed.
-    Evaluation,
-    /// A rule took longer, or did more, than it may.
-    Deadline,
-    /// Reactions without an end.
-    Loop,
-    /// A rule that reacts has more matches than are kept.
-    Matches,
-    /// The engine itself failed.
-    Panic,
-    /// A file of rule tests does not read as tests.
-    TestSyntax,
-    /// A rule test does not hold.
-    TestFailed,
+/// The codes with the names that users and programs see.
+macro_rules! codes {
+    ($($(#[$doc:meta])* $code:ident = $name:literal,)*) => {
+        /// Stable names of what can be wrong.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Code {
+            $($(#[$doc])* $code,)*
+        }
+
+        impl Code {
+            /// The name that users and programs see.
+            pub const fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$code => $name,)*
+                }
+            }
+        }
+    };
 }
 
-impl Code {
-    /// All codes, in the order of the documentation.
-    pub const ALL: [Self; 27] = [
-        Self::Syntax,
-        Self::TooLarge,
-        Self::Statement,
-        Self::DuplicateName,
-        Self::UnknownClass,
-        Self::UnknownProperty,
-        Self::UnknownVariable,
-        Self::UnknownFunction,
-        Self::Type,
-        Self::Assignment,
-        Self::Cycle,
-        Self::Declaration,
-        Self::Table,
-        Self::Overlap,
-        Self::Gap,
-        Self::Unreachable,
-        Self::Unused,
-        Self::Hypothesis,
-        Self::Operator,
-        Self::Conflict,
-        Self::Evaluation,
-        Self::Deadline,
-        Self::Loop,
-        Self::Matches,
-        Self::Panic,
-        Self::TestSyntax,
-        Self::TestFailed,
-    ];
-
-    /// The name that users and programs see.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Syntax => "rule/syntax",
-            Self::TooLarge => "rule/too-large",
-            Self::Statement => "rule/statement",
-            Self::DuplicateName => "rule/duplicate-name",
-            Self::UnknownClass => "rule/unknown-class",
-            Self::UnknownProperty => "rule/unknown-property",
-            Self::UnknownVariable => "rule/unknown-variable",
-            Self::UnknownFunction => "rule/unknown-function",
-            Self::Type => "rule/type",
-            Self::Assignment => "rule/assignment",
-            Self::Cycle => "rule/cycle",
-            Self::Declaration => "rule/declaration",
-            Self::Table => "rule/table",
-            Self::Overlap => "rule/overlap",
-            Self::Gap => "rule/gap",
-            Self::Unreachable => "rule/unreachable",
-            Self::Unused => "rule/unused",
-            Self::Hypothesis => "rule/hypothesis",
-            Self::Operator => "rule/operator",
-            Self::Conflict => "rule/conflict",
-            Self::Evaluation => "rule/evaluation",
-            Self::Deadline => "rule/deadline",
-            Self::Loop => "rule/loop",
-            Self::Matches => "rule/matches",
-            Self::Panic => "rule/panic",
-            Self::TestSyntax => "test/syntax",
-            Self::TestFailed => "test/failed",
-        }
-    }
+codes! {
+    /// The file does not read as rules.
+    Syntax = "rule/syntax",
+    /// A file is larger than is accepted.
+    TooLarge = "rule/too-large",
+    /// Something other than a rule, a function or a constant stands in the file.
+    Statement = "rule/statement",
+    /// Two rules have one name.
+    DuplicateName = "rule/duplicate-name",
+    /// No such class.
+    UnknownClass = "rule/unknown-class",
+    /// No such property of a class.
+    UnknownProperty = "rule/unknown-property",
+    /// No such variable in the rule.
+    UnknownVariable = "rule/unknown-variable",
+    /// No such function.
+    UnknownFunction = "rule/unknown-function",
+    /// A value of the wrong type.
+    Type = "rule/type",
+    /// Something that cannot be set, or not like this.
+    Assignment = "rule/assignment",
+    /// Rules that need each other's conclusions.
+    Cycle = "rule/cycle",
+    /// A declaration that cannot be, or that a rule does not keep to.
+    Declaration = "rule/declaration",
+    /// A table that does not read as one.
+    Table = "rule/table",
+    /// Rows of a table that match the same.
+    Overlap = "rule/overlap",
+    /// Inputs without a row.
+    Gap = "rule/gap",
+    /// A row, or a rule, that never counts.
+    Unreachable = "rule/unreachable",
+    /// What is named and never used.
+    Unused = "rule/unused",
+    /// A hypothesis that is concluded in another way too, or is not the first object's.
+    Hypothesis = "rule/hypothesis",
+    /// Two operators at one level of revision.
+    Operator = "rule/operator",
+    /// Two rules set one property of one object to different values.
+    Conflict = "rule/conflict",
+    /// A part that the interpreter runs has failed.
+    Evaluation = "rule/evaluation",
+    /// A rule took longer, or did more, than it may.
+    Deadline = "rule/deadline",
+    /// Reactions without an end.
+    Loop = "rule/loop",
+    /// A rule that reacts has more matches than are kept.
+    Matches = "rule/matches",
+    /// The engine itself failed.
+    Panic = "rule/panic",
+    /// A file of rule tests does not read as tests.
+    TestSyntax = "test/syntax",
+    /// A rule test does not hold.
+    TestFailed = "test/failed",
 }
 
 impl serde::Serialize for Code {

@@ -68,29 +68,6 @@ impl KnowledgeBase {
         Some(Justifications { rules, of_row: (0..merged.len()).map(writer).collect() })
     }
 
-    /// For a property that rules conclude: the row that a variable of its rule stands for, for each object.
-    /// `None` where another rule, or no rule, gave the value.
-    pub fn witness_rows(
-        &self,
-        rule: &Rule,
-        class: &str,
-        property: &str,
-        variable: &str,
-    ) -> Option<Vec<Option<u32>>> {
-        let name = PropertyName::new(class, property);
-        let derived = self.derived.get(&name).filter(|derived| !derived.stages.is_empty())?;
-        let clause = rule.clauses.iter().position(|clause| clause.variable == variable)?;
-        let number = self.network.nodes.iter().position(|node| node.name == rule.name())?;
-        let memory = self.network.nodes[number].memory.as_ref()?;
-        let witness = |row: u32| match self.source(&name, derived, row) {
-            Source::Rule { rule, firing } if rule == number => {
-                Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW)
-            }
-            _ => None,
-        };
-        Some((0..derived.stages[0].len() as u32).map(witness).collect())
-    }
-
     /// For a property that rules conclude: for each of these rows the number of its rule in the rule base, and the
     /// rows that the variables after the first stand for; `None` where the value was told or is unknown.
     pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> Vec<Option<Grounds>> {

@@ -25,10 +25,7 @@ pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
                         sets.push(Setting { variable, property: property.to_owned(), position, value });
                     }
                 }
-                Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) => {
-                    tells.extend(telling(call));
-                }
-                _ => {}
+                _ => tells.extend(call(path).and_then(telling)),
             }
             true
         });
@@ -40,13 +37,18 @@ pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
 pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
     let mut tells = vec![];
     AST::new(Vec::<Stmt>::new(), Shared::clone(functions)).walk(&mut |path| {
-        if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) = path.last()
-        {
-            tells.extend(telling(call));
-        }
+        tells.extend(call(path).and_then(telling));
         true
     });
     tells
+}
+
+/// The call at which a walk has come.
+fn call<'a>(path: &[ASTNode<'a>]) -> Option<&'a FnCallExpr> {
+    match path.last() {
+        Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) => Some(call),
+        _ => None,
+    }
 }
 
 fn telling(call: &FnCallExpr) -> Option<Telling> {
@@ -114,22 +116,13 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             });
         }
     };
-    calls(reaction, &mut look);
-    problems
-}
-
-/// Every call in a body.
-fn calls(reaction: &Reaction, look: &mut dyn FnMut(&FnCallExpr)) {
     for stmt in reaction.body.statements() {
         stmt.walk(&mut vec![], &mut |path| {
-            if let Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) =
-                path.last()
-            {
-                look(call);
-            }
+            call(path).into_iter().for_each(&mut look);
             true
         });
     }
+    problems
 }
 
 /// `tell` and `forget` are the engine's own.

@@ -46,9 +46,9 @@ fn a_whole_column_of_justifications_is_numbers() {
     let why = base.justifications("THINGS", "state").unwrap();
     assert_eq!(why.rules[0].0, "who fits");
     assert_eq!(why.of_row, [Some(0), None, Some(0)]);
-    let base_rules = rules(RULE);
-    let witnesses = base.witness_rows(&base_rules.rules()[0], "THINGS", "state", "s").unwrap();
-    assert_eq!(witnesses, [Some(3), None, Some(0)]);
+    let grounds = base.grounds("THINGS", "state", &[0, 1, 2]);
+    let witnesses: Vec<_> = grounds.into_iter().map(|grounds| grounds.map(|by| by.witnesses)).collect();
+    assert_eq!(witnesses, [Some(vec![Some(3)]), None, Some(vec![Some(0)])]);
 }
 
 #[test]
