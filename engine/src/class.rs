@@ -217,14 +217,7 @@ impl Table {
 
     /// The key of a row as bits; `None` where a part of it is unknown.
     pub(crate) fn key_bits(&self, row: usize) -> Option<Vec<u64>> {
-        let bits = |&column: &usize| match self.columns[column].cell(row) {
-            Cell::Unknown => None,
-            // Minus zero equals zero.
-            Cell::Number(number) => Some((number + 0.0).to_bits()),
-            Cell::Text(symbol) => Some(u64::from(symbol.id())),
-            Cell::Truth(truth) => Some(u64::from(truth)),
-        };
-        self.key.iter().map(bits).collect()
+        self.key.iter().map(|&column| self.columns[column].cell(row).bits()).collect()
     }
 
     /// Whether an object with these cells may be added: its key is known, and no other has it.

@@ -6,9 +6,9 @@ pub(crate) mod check;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use rhai::{Expr, Position};
+use rhai::Position;
 
-use crate::rule::{FileScope, PropertyName, Rule};
+use crate::rule::{Condition, FileScope, PropertyName, Rule};
 
 /// Where a property may come from.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -69,13 +69,6 @@ impl Declarations {
         };
         self.properties.iter().filter(move |(_, declared)| supplied(declared)).map(|(name, _)| name)
     }
-}
-
-/// A condition that makes an object one of a class. Bare names are the object's properties.
-#[derive(Clone, Debug)]
-pub(crate) struct Condition {
-    pub(crate) expr: Expr,
-    pub(crate) file: Arc<FileScope>,
 }
 
 /// A class declared by a condition.

@@ -38,14 +38,7 @@ use crate::symbols::Symbols;
 use crate::value::{Cell, Value};
 use derived::Derived;
 use network::Network;
-use pending::Pending;
-
-/// A class as it was told, and what was told since the last inference.
-#[derive(Clone, Debug)]
-struct Held {
-    table: Table,
-    pending: Pending,
-}
+use pending::{Held, Pending};
 
 /// Classes of objects with what is told and concluded of them.
 ///

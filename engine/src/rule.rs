@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use rhai::{Expr, Module, Position, Shared, StmtBlock};
 
-use crate::declared::Condition;
 use crate::script::source::SourceFile;
 use crate::script::syntax::Quantifier;
 use crate::table::Table;
@@ -98,6 +97,13 @@ pub(crate) struct Clause {
     pub(crate) conditions: Vec<Condition>,
     /// Of a hidden clause: what names the object.
     pub(crate) link: Option<LinkUse>,
+}
+
+/// A condition that makes an object one of a class. Bare names are the object's properties.
+#[derive(Clone, Debug)]
+pub(crate) struct Condition {
+    pub(crate) expr: Expr,
+    pub(crate) file: Arc<FileScope>,
 }
 
 /// How a hidden clause finds its object: the property of another clause's object names it.

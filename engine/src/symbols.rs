@@ -3,8 +3,6 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::value::{Cell, Value};
-
 /// A text of a knowledge base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Symbol(u32);
@@ -44,15 +42,6 @@ impl Symbols {
     /// The symbol of a text that is known.
     pub(crate) fn find(&self, text: &str) -> Option<Symbol> {
         self.ids.get(text).copied().map(Symbol)
-    }
-
-    /// A host's value as the engine keeps it.
-    pub(crate) fn cell(&mut self, value: &Value) -> Cell {
-        match value {
-            Value::Number(number) => Cell::number(*number),
-            Value::Text(text) => Cell::Text(self.intern(text)),
-            Value::Truth(truth) => Cell::Truth(*truth),
-        }
     }
 
     /// The text of a symbol; `None` for the unknown one.

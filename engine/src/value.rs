@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::symbols::Symbol;
+use crate::symbols::{Symbol, Symbols};
 
 /// What a property holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -133,11 +133,33 @@ impl Cell {
         if number.is_nan() { Self::Unknown } else { Self::Number(number) }
     }
 
+    /// The value as bits, by which those of one type are told apart; `None` if it is unknown.
+    pub(crate) fn bits(self) -> Option<u64> {
+        match self {
+            Self::Unknown => None,
+            // Minus zero equals zero.
+            Self::Number(number) => Some((number + 0.0).to_bits()),
+            Self::Text(symbol) => Some(u64::from(symbol.id())),
+            Self::Truth(truth) => Some(u64::from(truth)),
+        }
+    }
+
     /// Equal to the bit: what a change is told by.
     pub(crate) fn same(self, other: Self) -> bool {
         match (self, other) {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
             (a, b) => a == b,
+        }
+    }
+}
+
+impl Symbols {
+    /// A host's value as the engine keeps it.
+    pub(crate) fn cell(&mut self, value: &Value) -> Cell {
+        match value {
+            Value::Number(number) => Cell::number(*number),
+            Value::Text(text) => Cell::Text(self.intern(text)),
+            Value::Truth(truth) => Cell::Truth(*truth),
         }
     }
 }

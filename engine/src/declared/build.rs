@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use rhai::{ASTNode, Expr, Position};
 
-use super::{Condition, Declaration, Declarations, Link, Source, Subclass};
+use super::{Declaration, Declarations, Link, Source, Subclass};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, Clause, FileScope, PropertyName, Rule};
+use crate::rule::{Action, Clause, Condition, FileScope, PropertyName, Rule};
 use crate::script::resolve::resolve;
 use crate::script::syntax::Quantifier;
 use crate::suggest::nearest;

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use super::{Held, KnowledgeBase};
+use super::KnowledgeBase;
+use super::pending::Held;
 use crate::class::{Class, ClassError, Table};
 use crate::column::Column;
 use crate::rule::PropertyName;

@@ -1,11 +1,13 @@
-//! The rules of a base with what is kept of each between inferences.
+//! The rules of a base with what is kept of each between inferences: a part of the knowledge base, whose methods keep
+//! it; so the two import each other.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::KnowledgeBase;
 use super::derived::{Derived, Writer};
 use super::dirty::Dirty;
 use super::memory::Memory;
-use super::{Held, KnowledgeBase};
+use super::pending::Held;
 use crate::diagnostic::Diagnostic;
 use crate::plan::Plan;
 use crate::plan::uses::Uses;

@@ -3,6 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::dirty::Dirty;
+use crate::class::Table;
+
+/// A class as it was told, and what was told since the last inference.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    pub(super) table: Table,
+    pub(super) pending: Pending,
+}
 
 /// Edits of one class, brought together.
 #[derive(Clone, Debug, Default)]

@@ -1,4 +1,4 @@
-//! The grammar of `class` and `property`.
+//! The grammar of `class` and `property`: a part of the one state machine, so it and `syntax` import each other.
 
 use super::{At, Next, Shape, Slot, Word, found, wrong};
 

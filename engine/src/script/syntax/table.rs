@@ -1,4 +1,4 @@
-//! The grammar of `table`.
+//! The grammar of `table`: a part of the one state machine, so it and `syntax` import each other.
 
 use super::{At, Next, Shape, Slot, found, wrong};
 use crate::suggest::nearest;
