@@ -5,38 +5,25 @@
 //! for the matches that such an object matters to.
 
 mod conflict_set;
-mod evaluate;
 mod follow;
-mod index;
+mod matching;
 mod program;
 mod rebuild;
-pub(crate) mod script;
-mod search;
 pub(crate) mod world;
 
-use std::cell::RefCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
-use std::time::Instant;
-
-use rhai::Engine;
 
 use crate::changes::Changes;
-use crate::diagnostic::Diagnostic;
 use crate::plan::fragment::Fragment;
-use crate::plan::{Kind, Kinds};
+use crate::plan::{Effect, Kind};
 use crate::rule::Rule;
-use crate::rule_base::RuleBase;
-use crate::symbols::Symbols;
 pub(crate) use conflict_set::Binding;
 use conflict_set::ConflictSet;
-pub(crate) use evaluate::Bound;
-use evaluate::Evaluator;
-use program::{Program, Visit};
-use script::Scripts;
-pub(crate) use search::Halt;
-use search::Search;
-use world::{Facts, World};
+use matching::Matching;
+pub(crate) use matching::{Halt, Outside};
+use program::Program;
+use world::{Difference, World};
 
 /// The matches of all rules that react.
 #[derive(Debug, Default)]
@@ -66,20 +53,6 @@ struct MadeFor {
     version: String,
     /// The kinds of what it reads; `None` while something is not there.
     kinds: Option<Vec<Kind>>,
-}
-
-/// What matching needs from outside.
-pub(crate) struct Outside<'o> {
-    pub(crate) rules: &'o RuleBase,
-    pub(crate) facts: &'o dyn Facts,
-    pub(crate) kinds: Box<dyn Kinds + 'o>,
-    pub(crate) symbols: &'o RefCell<Symbols>,
-    pub(crate) runner: &'o Engine,
-    pub(crate) deadline: Instant,
-    /// Most matches that are kept.
-    pub(crate) matches: usize,
-    /// By rule: what is wrong with it, or failed in a condition.
-    pub(crate) troubles: RefCell<BTreeMap<usize, Vec<Diagnostic>>>,
 }
 
 /// A state of the agenda that it can go back to.
@@ -118,9 +91,12 @@ impl Agenda {
         if self.stale || self.world.scrambled || self.world.is_sparse() || !wanted.iter().all(as_wanted) {
             return self.rebuild(outside, wanted.unwrap_or_else(|| self::wanted(outside)));
         }
-        let differences = self.world.fetch(outside.facts);
+        let differences = self.world.differences(outside.facts);
+        if differences.iter().all(Difference::is_empty) {
+            self.world.fetch(&differences, outside.facts);
+            return Ok(());
+        }
         let done = self.follow_each(outside, &differences);
-        self.world.settle();
         self.stale |= done.is_err();
         done
     }
@@ -158,18 +134,11 @@ impl Agenda {
         outside: &Outside,
         rule: usize,
         binding: &Binding,
-    ) -> Option<(&Fragment, &[usize], Bound)> {
+    ) -> Option<(&Fragment, &[usize], Vec<f64>)> {
         let program = self.rules.iter().find(|reacting| reacting.rule == rule)?.program.as_ref()?;
-        let scripts = scripts(outside, rule);
-        let mut search = searching(outside, &self.world, program, &scripts);
-        let mut bound = search.unbound();
-        bound.ids.copy_from_slice(binding);
-        for step in program.full.steps.iter().filter(|step| step.visit == Visit::Decide) {
-            if program.clauses[step.clause].quantifier.counts() {
-                search.decide(step, &mut bound).ok()?;
-            }
-        }
-        Some((&program.body, &program.columns, bound))
+        let Effect::React(Some(body)) = &program.plan.effect else { return None };
+        let numbers = Matching::new(outside, &self.world, rule, program).numbers(binding).ok()?;
+        Some((body, &program.columns, numbers))
     }
 
     /// The class that a clause of a rule ranges over, by number.
@@ -188,10 +157,7 @@ impl Agenda {
     pub(crate) fn go_back(&mut self, checkpoint: Checkpoint) {
         for reacting in &mut self.rules {
             let fired = reacting.set.fired_before();
-            reacting.set = ConflictSet::new(reacting.set.variables());
-            for binding in &fired {
-                reacting.set.insert(binding, true);
-            }
+            reacting.set = ConflictSet::of_fired(reacting.set.variables(), &fired);
         }
         self.world.go_back(checkpoint.0);
         self.stale = true;
@@ -216,25 +182,6 @@ fn wanted(outside: &Outside) -> Vec<(usize, MadeFor)> {
     wanted
 }
 
-fn scripts<'o>(outside: &Outside<'o>, rule: usize) -> Scripts<'o> {
-    Scripts {
-        rule: &outside.rules.rules[rule],
-        runner: outside.runner,
-        deadline: outside.deadline,
-        trouble: RefCell::default(),
-    }
-}
-
-fn searching<'s>(
-    outside: &Outside<'s>,
-    world: &'s World,
-    program: &'s Program,
-    scripts: &'s Scripts<'s>,
-) -> Search<'s> {
-    let evaluator = Evaluator { world, columns: &program.columns, symbols: outside.symbols, scripts };
-    Search { evaluator, program, deadline: outside.deadline, looked_at: 0, lenient: None }
-}
-
 impl Agenda {
     /// How many matches all rules but one have.
     fn others(&self, at: usize) -> usize {
@@ -245,18 +192,4 @@ impl Agenda {
             .map(|(_, reacting)| reacting.set.len())
             .sum()
     }
-}
-
-impl Outside<'_> {
-    fn trouble(&self, rule: usize, problem: Diagnostic) {
-        let mut troubles = self.troubles.borrow_mut();
-        let known = troubles.entry(rule).or_default();
-        if known.iter().all(|other| (other.code, other.span) != (problem.code, problem.span)) {
-            known.push(problem);
-        }
-    }
-}
-
-fn within(outside: &Outside, set: &ConflictSet, others: usize) -> Result<(), Halt> {
-    if set.len() + others > outside.matches { Err(Halt::Full) } else { Ok(()) }
 }

@@ -1,4 +1,4 @@
-//! Names and types of a rule base against a schema.
+//! Names and types of a rule base against a schema. A rule base has itself checked, so the two import each other.
 
 mod told;
 
@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
-use crate::plan::reaction::reaction;
 use crate::plan::{Effect, Key, Kind, Kinds, plan};
 use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::RuleBase;
@@ -70,14 +69,11 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
         }
     }
     for (index, rule) in base.rules.iter().enumerate() {
-        let Some(action) = rule.reaction() else { continue };
-        let wrong = unknown_classes(rule, base, schema, &told);
-        let wrong = if wrong.is_empty() {
-            reaction(rule, action, &known, &symbols).err().unwrap_or_default()
-        } else {
-            wrong
-        };
-        problems.push((index, wrong));
+        if rule.reacts() {
+            let wrong = unknown_classes(rule, base, schema, &told);
+            let planned = || plan(rule, &known, &symbols).err().unwrap_or_default();
+            problems.push((index, if wrong.is_empty() { planned() } else { wrong }));
+        }
     }
     for (rule, slip) in told::slips(base, &told, &known) {
         let index = base.rules.iter().position(|other| other.name == rule.name).unwrap_or(0);

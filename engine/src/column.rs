@@ -36,6 +36,15 @@ impl Column {
         }
     }
 
+    /// Makes it this long; new rows are unknown.
+    pub(crate) fn resize(&mut self, len: usize) {
+        match self {
+            Self::Numbers(values) => values.resize(len, f64::NAN),
+            Self::Texts(values) => values.resize(len, Symbol::UNKNOWN),
+            Self::Truths(values) => values.resize(len, Truth::Unknown),
+        }
+    }
+
     /// The value of a row; unknown past the end.
     pub(crate) fn cell(&self, row: usize) -> Cell {
         match self {

@@ -21,10 +21,14 @@ use rhai::Engine;
 use crate::column::Column;
 use crate::diagnostic::Diagnostic;
 use crate::rule::Rule;
+use crate::script::interpreter::runner;
 use crate::symbols::Symbols;
 
 /// Bindings that are looked at together: small enough that a batch stays in the cache.
 pub(crate) const BATCH: usize = 1024;
+
+/// Of so many small steps one looks at the clock, which takes as long as a step.
+const BETWEEN_LOOKS: u32 = 16;
 
 /// A rule was stopped; the reason is among the machine's troubles.
 #[derive(Clone, Copy, Debug)]
@@ -40,13 +44,36 @@ pub(crate) struct Machine<'a> {
     /// The first failure of an interpreted part, and how many there were.
     pub(crate) trouble: RefCell<Option<Diagnostic>>,
     pub(crate) troubles: Cell<usize>,
+    /// Whether a limit was reached: nothing is interpreted any more.
     pub(crate) stopped: Cell<bool>,
+    /// Whether matching goes on without the interpreter, what it would have said being unknown.
+    pub(crate) goes_on: bool,
+    ticks: Cell<u32>,
+}
+
+impl<'a> Machine<'a> {
+    pub(crate) fn new(
+        rule: &'a Rule,
+        columns: Vec<&'a Column>,
+        symbols: &'a RefCell<Symbols>,
+        deadline: Instant,
+        goes_on: bool,
+    ) -> Self {
+        let (trouble, troubles, stopped, ticks) = Default::default();
+        let runner = runner();
+        Self { rule, columns, symbols, runner, deadline, trouble, troubles, stopped, goes_on, ticks }
+    }
 }
 
 impl Machine<'_> {
-    /// Looks at the clock.
+    /// Looks at the clock, every now and then.
     pub(crate) fn tick(&self) -> Result<(), Stopped> {
-        if self.stopped.get() || Instant::now() > self.deadline {
+        if self.stopped.get() && !self.goes_on {
+            return Err(Stopped);
+        }
+        let ticks = self.ticks.get();
+        self.ticks.set(ticks.wrapping_add(1));
+        if ticks.is_multiple_of(BETWEEN_LOOKS) && Instant::now() > self.deadline {
             self.stopped.set(true);
             return Err(Stopped);
         }

@@ -8,6 +8,7 @@ pub(crate) mod link;
 pub(crate) mod lower;
 pub(crate) mod node;
 pub(crate) mod reaction;
+pub(crate) mod seeded;
 mod table;
 pub(crate) mod uses;
 
@@ -19,6 +20,7 @@ use crate::symbols::Symbols;
 use crate::value::Type;
 use action::ActionPlan;
 use clause::ClausePlan;
+use fragment::Fragment;
 use lower::Lowering;
 use node::Node;
 
@@ -67,6 +69,8 @@ pub(crate) enum Effect {
         value: Node,
         kind: Option<Type>,
     },
+    /// What the interpreter runs for what the clauses bind.
+    React(Option<Box<Fragment>>),
 }
 
 /// A rule ready to run.
@@ -94,8 +98,7 @@ pub(crate) fn plan(
             then: action::action(&mut lowering, then),
             otherwise: otherwise.as_ref().map(|block| action::action(&mut lowering, block)),
         },
-        // Reactions have plans of their own; as a rule they conclude nothing.
-        Action::React(_) => Effect::Conclude { then: ActionPlan::default(), otherwise: None },
+        Action::React(reaction) => reaction::effect(&mut lowering, reaction, symbols),
         Action::Default { property, value, position } => {
             action::default(&mut lowering, property, value.as_ref(), *position)
         }
@@ -116,7 +119,7 @@ impl Plan {
     /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         let clause = |clause: &ClausePlan| {
-            let nodes = clause.own.iter().chain(&clause.test).chain(&clause.by).chain(&clause.have);
+            let nodes = clause.parts.iter().chain(&clause.by).chain(&clause.have);
             nodes.chain(clause.joins.iter().map(|join| &join.key)).any(Node::interprets)
         };
         let effect = match &self.effect {
@@ -125,6 +128,7 @@ impl Plan {
             }
             Effect::Revise { amount, .. } => amount.interprets(),
             Effect::Default { value, .. } => value.interprets(),
+            Effect::React(_) => true,
         };
         effect || self.clauses.iter().any(clause)
     }

@@ -6,7 +6,8 @@ pub(crate) mod region;
 
 use rhai::{Expr, Position};
 
-use crate::value::Type;
+use crate::symbols::Symbols;
+use crate::value::{Cell, Type};
 
 /// Which rows of a table count where several match (DMN's hit policies).
 #[derive(Clone, Debug, PartialEq)]
@@ -154,6 +155,16 @@ pub(crate) struct Table {
 }
 
 impl Table {
+    /// For each row the first cell whose input does not pass.
+    pub(crate) fn misses(&self, inputs: &[Cell], symbols: &Symbols) -> Vec<Option<usize>> {
+        let known: Vec<Option<Literal>> = inputs.iter().map(|&cell| literal(cell, symbols)).collect();
+        let passes = |(test, _): &(Test, Position), found: &Option<Literal>| {
+            found.as_ref().map_or(test.asks_nothing(), |found| test.passes(found))
+        };
+        let miss = |row: &Row| row.tests.iter().zip(&known).position(|(test, found)| !passes(test, found));
+        self.rows.iter().map(miss).collect()
+    }
+
     /// The rows in the order in which they are heard: where one has matched, later ones do not count.
     pub(crate) fn heard(&self) -> Vec<usize> {
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
@@ -181,4 +192,13 @@ pub(crate) fn plain(expr: &Expr) -> Option<Literal> {
         },
         _ => return None,
     })
+}
+
+fn literal(cell: Cell, symbols: &Symbols) -> Option<Literal> {
+    match cell {
+        Cell::Unknown => None,
+        Cell::Number(number) => Some(Literal::Number(number)),
+        Cell::Text(symbol) => symbols.text(symbol).map(|text| Literal::Text(text.to_string())),
+        Cell::Truth(truth) => Some(Literal::Truth(truth)),
+    }
 }

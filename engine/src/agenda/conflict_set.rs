@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Bound;
 use std::sync::Arc;
 
-use crate::machine::lane::NO_ROW;
+use super::matching::Halt;
+use crate::machine::lane::{Frame, NO_ROW};
 
 /// Numbers of the objects that the clauses bind, in their order; [`NO_ROW`] for clauses that bind none.
 pub(crate) type Binding = Arc<[u32]>;
@@ -53,11 +54,32 @@ impl ConflictSet {
         self.all.insert(binding, fired);
     }
 
-    /// Adds bindings that were carried out.
-    pub(crate) fn restore(&mut self, fired: &BTreeSet<Vec<u32>>) {
-        for binding in fired {
-            self.insert(binding, true);
+    /// Adds what a search found, up to so many bindings in all; `fired` are those that were carried out.
+    pub(crate) fn take_in(
+        &mut self,
+        found: &[Frame],
+        fired: &BTreeSet<Binding>,
+        most: usize,
+    ) -> Result<(), Halt> {
+        for frame in found {
+            for index in 0..frame.len {
+                let binding = frame.binding(index);
+                self.insert(&binding, fired.contains(binding.as_slice()));
+            }
+            if self.all.len() > most {
+                return Err(Halt::Full);
+            }
         }
+        Ok(())
+    }
+
+    /// Only bindings that were carried out.
+    pub(crate) fn of_fired(variables: usize, fired: &BTreeSet<Binding>) -> Self {
+        let mut set = Self::new(variables);
+        for binding in fired {
+            set.insert(binding, true);
+        }
+        set
     }
 
     /// Takes a binding out; whether it was carried out, if it was there.

@@ -4,13 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::conflict_set::{Binding, ConflictSet};
 use super::follow::drop_changed;
+use super::matching::Matching;
 use super::program::{Clause, Program};
 use super::world::World;
-use super::{Agenda, MadeFor, Outside, Reacting, Stopped, scripts, searching, within};
-use crate::plan::reaction::reaction;
+use super::{Agenda, MadeFor, Outside, Reacting, Stopped};
+use crate::plan::plan;
 
 /// By name and version of a rule the rows of what was carried out.
-type CarriedOut = BTreeMap<(String, String), BTreeSet<Vec<u32>>>;
+type CarriedOut = BTreeMap<(String, String), BTreeSet<Binding>>;
 
 impl Agenda {
     /// All matches from scratch. What was carried out stays carried out, if nothing that it rests on has changed.
@@ -30,30 +31,21 @@ impl Agenda {
         }
         let mut stopped = Ok(());
         for at in 0..self.rules.len() {
-            let others = self.others(at);
+            let most = outside.matches.saturating_sub(self.others(at));
             let Reacting { rule, made_for, program, set } = &mut self.rules[at];
             let Some(program) = program else { continue };
             let fired = fired.remove(&(made_for.name.clone(), made_for.version.clone())).unwrap_or_default();
-            if stopped.is_err() {
+            let mut done = Ok(());
+            if stopped.is_ok() {
+                let matching = Matching::new(outside, &self.world, *rule, program);
+                done = matching.all().and_then(|found| set.take_in(&found, &fired, most));
+                matching.report(outside, *rule);
+            }
+            if stopped.is_err() || done.is_err() {
                 // Matches are left out, but not what was carried out.
-                set.restore(&fired);
-                continue;
+                *set = ConflictSet::of_fired(set.variables(), &fired);
             }
-            let scripts = scripts(outside, *rule);
-            let mut search = searching(outside, &self.world, program, &scripts);
-            let done = search.all(&mut |bound| {
-                set.insert(&bound.ids, fired.contains(&bound.ids));
-                within(outside, set, others)
-            });
-            let rule = *rule;
-            if let Some(problem) = scripts.trouble.take() {
-                outside.trouble(rule, problem);
-            }
-            if let Err(halt) = done {
-                stopped = Err(Stopped { rule, halt });
-                *set = ConflictSet::new(set.variables());
-                set.restore(&fired);
-            }
+            stopped = stopped.and(done.map_err(|halt| Stopped { rule: *rule, halt }));
         }
         self.stale = stopped.is_err();
         stopped
@@ -62,7 +54,7 @@ impl Agenda {
     fn program(&mut self, outside: &Outside, number: usize) -> Option<Program> {
         let rule = &outside.rules.rules[number];
         let action = rule.reaction()?;
-        match reaction(rule, action, &*outside.kinds, outside.symbols) {
+        match plan(rule, &*outside.kinds, outside.symbols) {
             Ok(plan) => Some(Program::new(rule, action, plan, &mut self.world, outside.facts)),
             Err(problems) => {
                 for problem in problems {
@@ -75,8 +67,7 @@ impl Agenda {
 
     /// What was carried out and still holds, by rule and rows.
     fn carried_out(&mut self, outside: &Outside) -> CarriedOut {
-        let differences = self.world.fetch(outside.facts);
-        self.world.settle();
+        let differences = self.world.differences(outside.facts);
         let mut rows: Vec<BTreeMap<u32, u32>> = vec![];
         for objects in &self.world.classes {
             rows.push(objects.ids.iter().copied().zip(0..).collect());
@@ -90,7 +81,7 @@ impl Agenda {
                 };
                 let by_rows =
                     |binding: &Binding| program.clauses.iter().zip(binding.iter()).map(row).collect();
-                let kept: BTreeSet<Vec<u32>> = set.fired().filter_map(by_rows).collect();
+                let kept: BTreeSet<Binding> = set.fired().filter_map(by_rows).collect();
                 all.insert((made_for.name.clone(), made_for.version.clone()), kept);
             }
         }

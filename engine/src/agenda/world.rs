@@ -1,14 +1,14 @@
-//! What the rules that react see of the knowledge base: their own copy of the columns, by object, with the values
-//! of before where they have just changed.
+//! What the rules that react see of the knowledge base: their own copy of the columns, by object, which stays as it was
+//! until the matches that rest on it are found.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::index::Index;
 use crate::changes::ClassChanges;
 use crate::column::Column;
+use crate::machine::candidates::Candidates;
 use crate::rule::PropertyName;
-use crate::value::Cell;
+use crate::value::{Cell, Type};
 
 /// Where the values come from.
 pub(crate) trait Facts {
@@ -29,9 +29,6 @@ pub(crate) struct Objects {
     next: u32,
     /// Its columns by their numbers in the world.
     columns: Vec<usize>,
-    indexes: Vec<usize>,
-    /// Whether a clause other than `each` ranges over it: then what an object was before counts too.
-    pub(crate) watched: bool,
     added: BTreeSet<u32>,
     removed: BTreeSet<u32>,
     changed: BTreeSet<(u32, usize)>,
@@ -41,10 +38,17 @@ pub(crate) struct Objects {
 #[derive(Debug, Default)]
 pub(crate) struct Difference {
     pub(crate) added: Vec<u32>,
-    /// Objects that are gone, and what they were: an object with their values, which is in no index.
-    pub(crate) removed: Vec<(u32, Option<u32>)>,
-    /// Objects with other values, the columns, and what they were.
-    pub(crate) changed: Vec<(u32, Vec<usize>, Option<u32>)>,
+    pub(crate) removed: Vec<u32>,
+    /// Objects with other values, and the columns.
+    pub(crate) changed: Vec<(u32, Vec<usize>)>,
+}
+
+/// The objects of a class, found by the values in some columns.
+#[derive(Debug)]
+pub(crate) struct Found {
+    class: usize,
+    columns: Vec<usize>,
+    pub(crate) candidates: Candidates,
 }
 
 /// All objects that the rules look at.
@@ -52,9 +56,9 @@ pub(crate) struct Difference {
 pub(crate) struct World {
     pub(crate) classes: Vec<Objects>,
     numbers: BTreeMap<String, usize>,
-    pub(crate) columns: Vec<Vec<Cell>>,
+    pub(crate) columns: Vec<Column>,
     names: Vec<PropertyName>,
-    pub(crate) indexes: Vec<Index>,
+    pub(crate) candidates: Vec<Found>,
     /// Whether rows were put in another order, so that numbers have to be given anew.
     pub(crate) scrambled: bool,
 }
@@ -70,8 +74,6 @@ impl World {
             ids: Arc::new((0..count).collect()),
             next: count,
             columns: vec![],
-            indexes: vec![],
-            watched: false,
             added: BTreeSet::new(),
             removed: BTreeSet::new(),
             changed: BTreeSet::new(),
@@ -86,31 +88,26 @@ impl World {
             return number;
         }
         let class = self.class(&name.class, facts);
-        let column = facts.column(name);
-        let cell = |row| column.map_or(Cell::Unknown, |column| column.cell(row));
-        self.columns.push((0..self.classes[class].ids.len()).map(cell).collect());
+        // A property that is not there yet may hold anything once it is.
+        let unknown = || Column::unknown(Type::Truth, self.classes[class].ids.len());
+        self.columns.push(facts.column(name).cloned().unwrap_or_else(unknown));
         self.names.push(name.clone());
         self.classes[class].columns.push(self.columns.len() - 1);
         self.columns.len() - 1
     }
 
-    /// The number of the index over these columns of a class.
-    pub(crate) fn index(&mut self, class: usize, columns: &[usize]) -> usize {
-        if let Some(number) = self.indexes.iter().position(|index| index.columns == columns) {
+    /// The number of a class's candidates by these columns.
+    pub(crate) fn candidates(&mut self, class: usize, columns: Vec<usize>) -> usize {
+        let known = |found: &Found| found.class == class && found.columns == columns;
+        if let Some(number) = self.candidates.iter().position(known) {
             return number;
         }
-        let mut index = Index::new(columns.to_vec());
+        let mut candidates = Candidates::empty(columns.len());
         for &id in self.classes[class].ids.iter() {
-            index.insert(id, &self.columns);
+            candidates.insert(id, columns.iter().map(|&column| self.columns[column].cell(id as usize)));
         }
-        self.indexes.push(index);
-        self.classes[class].indexes.push(self.indexes.len() - 1);
-        self.indexes.len() - 1
-    }
-
-    /// One value; unknown where nothing is bound.
-    pub(crate) fn cell(&self, column: usize, id: u32) -> Cell {
-        self.columns[column].get(id as usize).copied().unwrap_or(Cell::Unknown)
+        self.candidates.push(Found { class, columns, candidates });
+        self.candidates.len() - 1
     }
 
     /// The row of an object.
@@ -157,93 +154,68 @@ impl World {
         }
     }
 
-    /// Fetches what was noted, and tells what happened, by class. Afterwards [`World::settle`] drops what was.
-    pub(crate) fn fetch(&mut self, facts: &dyn Facts) -> Vec<Difference> {
-        (0..self.classes.len()).map(|class| self.fetch_class(class, facts)).collect()
+    /// What happened since the values were fetched, by class.
+    pub(crate) fn differences(&self, facts: &dyn Facts) -> Vec<Difference> {
+        (0..self.classes.len()).map(|class| self.difference(class, facts)).collect()
     }
 
-    fn fetch_class(&mut self, class: usize, facts: &dyn Facts) -> Difference {
-        let objects = &mut self.classes[class];
-        let mut difference = Difference::default();
-        if objects.added.is_empty() && objects.removed.is_empty() && objects.changed.is_empty() {
-            return difference;
-        }
-        let (added, removed) = (std::mem::take(&mut objects.added), std::mem::take(&mut objects.removed));
+    fn difference(&self, class: usize, facts: &dyn Facts) -> Difference {
+        let objects = &self.classes[class];
         let mut changed: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-        for (id, column) in std::mem::take(&mut objects.changed) {
-            if !added.contains(&id) {
+        for &(id, column) in objects.changed.iter().filter(|(id, _)| !objects.added.contains(id)) {
+            let Some(row) = self.row(class, id) else { continue };
+            if self.now(column, row, facts) != self.columns[column].cell(id as usize) {
                 changed.entry(id).or_default().push(column);
             }
         }
-        let (next, watched) = (objects.next as usize, objects.watched);
-        for &column in &objects.columns {
-            self.columns[column].resize(next, Cell::Unknown);
+        Difference {
+            added: objects.added.iter().copied().collect(),
+            removed: objects.removed.iter().copied().collect(),
+            changed: changed.into_iter().collect(),
         }
-        for &id in &removed {
-            let before = watched.then(|| self.copy(class, id));
-            self.unindex(class, id);
-            difference.removed.push((id, before));
-        }
-        for (id, mut columns) in changed {
-            let Some(row) = self.row(class, id) else { continue };
-            columns.retain(|&column| self.now(column, row, facts) != self.cell(column, id));
-            if columns.is_empty() {
+    }
+
+    /// Fetches the values of what happened.
+    pub(crate) fn fetch(&mut self, differences: &[Difference], facts: &dyn Facts) {
+        for (class, difference) in differences.iter().enumerate() {
+            let objects = &mut self.classes[class];
+            (objects.added, objects.removed, objects.changed) = Default::default();
+            if difference.is_empty() {
                 continue;
             }
-            let before = watched.then(|| self.copy(class, id));
-            self.unindex(class, id);
-            for &column in &columns {
-                self.columns[column][id as usize] = self.now(column, row, facts);
+            let changed = || difference.changed.iter().map(|(id, _)| *id);
+            for found in self.candidates.iter_mut().filter(|found| found.class == class) {
+                for id in difference.removed.iter().copied().chain(changed()) {
+                    let values = found.columns.iter().map(|&column| self.columns[column].cell(id as usize));
+                    found.candidates.remove(id, values);
+                }
             }
-            self.reindex(class, id);
-            difference.changed.push((id, columns, before));
-        }
-        for &id in &added {
-            let Some(row) = self.row(class, id) else { continue };
             for at in 0..self.classes[class].columns.len() {
-                let column = self.classes[class].columns[at];
-                self.columns[column][id as usize] = self.now(column, row, facts);
+                let (column, next) = (self.classes[class].columns[at], self.classes[class].next);
+                self.columns[column].resize(next as usize);
+                let of_column = |(id, columns): &(u32, Vec<usize>)| columns.contains(&column).then_some(*id);
+                let changed = difference.changed.iter().filter_map(of_column);
+                for id in difference.added.iter().copied().chain(changed) {
+                    let Some(row) = self.row(class, id) else { continue };
+                    let cell = self.now(column, row, facts);
+                    if let (Some(kind), false) = (cell.kind(), self.columns[column].set(id as usize, cell)) {
+                        // It holds another type now, so every value of before is gone.
+                        self.columns[column] = Column::unknown(kind, next as usize);
+                        self.columns[column].set(id as usize, cell);
+                    }
+                }
             }
-            self.reindex(class, id);
-            difference.added.push(id);
+            for found in self.candidates.iter_mut().filter(|found| found.class == class) {
+                for id in difference.added.iter().copied().chain(changed()) {
+                    let values = found.columns.iter().map(|&column| self.columns[column].cell(id as usize));
+                    found.candidates.insert(id, values);
+                }
+            }
         }
-        difference
     }
 
     fn now(&self, column: usize, row: usize, facts: &dyn Facts) -> Cell {
         facts.column(&self.names[column]).map_or(Cell::Unknown, |column| column.cell(row))
-    }
-
-    /// A new object with the values of another.
-    fn copy(&mut self, class: usize, id: u32) -> u32 {
-        let mut copy = id;
-        for &column in &self.classes[class].columns {
-            let cell = self.columns[column][id as usize];
-            copy = self.columns[column].len() as u32;
-            self.columns[column].push(cell);
-        }
-        copy
-    }
-
-    fn unindex(&mut self, class: usize, id: u32) {
-        for &index in &self.classes[class].indexes {
-            self.indexes[index].remove(id, &self.columns);
-        }
-    }
-
-    fn reindex(&mut self, class: usize, id: u32) {
-        for &index in &self.classes[class].indexes {
-            self.indexes[index].insert(id, &self.columns);
-        }
-    }
-
-    /// Drops what objects were before they changed.
-    pub(crate) fn settle(&mut self) {
-        for objects in &self.classes {
-            for &column in &objects.columns {
-                self.columns[column].truncate(objects.next as usize);
-            }
-        }
     }
 
     /// The objects are again those of before.

@@ -2,7 +2,6 @@
 //! told without evaluating it.
 
 use std::cmp::Ordering;
-use std::collections::HashSet;
 
 use super::KnowledgeBase;
 use super::conclude::Run;
@@ -11,8 +10,7 @@ use super::evaluate::below;
 use super::memory::{Memory, Shape};
 use super::network::Planned;
 use crate::machine::candidates::Candidates;
-use crate::machine::evaluate::Batch;
-use crate::machine::index::bits;
+use crate::machine::index::Index;
 use crate::machine::lane::{Frame, NO_ROW, Rows};
 use crate::machine::output::Status;
 use crate::machine::{BATCH, Machine};
@@ -196,8 +194,8 @@ fn reached(
         (_, Quantifier::None) => vec![false; size],
         (Some(by), quantifier) if clause.by_own => {
             let all: Vec<u32> = (0..size as u32).collect();
-            let frame = one(number, memory.witnesses.len(), &all);
-            let values = machine.evaluate(by, batch(&frame)).numbers();
+            let frame = Frame::of(memory.witnesses.len(), number, &all);
+            let values = machine.values(by, &frame).numbers();
             let value = |row: u32| values.at(row as usize) + 0.0;
             let before = |a: u32, b: u32| match (quantifier, value(a).partial_cmp(&value(b))) {
                 (Quantifier::Most, Some(Ordering::Greater)) | (Quantifier::Least, Some(Ordering::Less)) => {
@@ -251,10 +249,10 @@ fn tried(
         dirty.extend(reached.iter().copied());
         return;
     }
-    let own = one(number, memory.witnesses.len(), matching);
+    let own = Frame::of(memory.witnesses.len(), number, matching);
     let passing: Vec<u32> = match &clause.own {
         Some(test) => {
-            let truths = machine.evaluate(test, batch(&own)).truths();
+            let truths = machine.values(test, &own).truths();
             (0..own.len).filter(|&at| truths.at(at) != Truth::False).map(|at| matching[at]).collect()
         }
         None => matching.to_vec(),
@@ -267,7 +265,7 @@ fn tried(
                 break;
             };
             frame.rows[number] = Rows::Same(row);
-            let truths = machine.evaluate(test, batch(&frame)).truths();
+            let truths = machine.values(test, &frame).truths();
             dirty.extend(
                 chunk
                     .iter()
@@ -289,35 +287,15 @@ fn joined(
     reached: &[u32],
     dirty: &mut Dirty,
 ) {
-    let key = |row: u32| {
-        let cell = |join: &crate::plan::clause::Join| bits(machine.columns[join.column].cell(row as usize));
-        clause.joins.iter().map(cell).collect::<Option<Vec<u64>>>()
-    };
-    // Only looked up, never walked.
-    let keys: HashSet<Vec<u64>> = matching.iter().filter_map(|&row| key(row)).collect();
+    let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
+    let index = Index::new(&columns, matching);
     for chunk in reached.chunks(BATCH) {
         let frame = bound(memory, number, chunk);
-        let parts: Vec<_> =
-            clause.joins.iter().map(|join| machine.evaluate(&join.key, batch(&frame))).collect();
-        for (at, &driver) in chunk.iter().enumerate() {
-            let wanted: Option<Vec<u64>> = parts.iter().map(|part| bits(part.cell(at))).collect();
-            // An unknown key finds nothing, now as before.
-            if wanted.is_some_and(|wanted| keys.contains(&wanted)) {
-                dirty.add(driver);
-            }
-        }
+        let keys = machine.keys(clause, &frame);
+        // An unknown key finds nothing, now as before.
+        let found = |&at: &usize| !index.rows(keys.iter().map(|key| key.cell(at))).is_empty();
+        dirty.extend((0..chunk.len()).filter(found).map(|at| chunk[at]));
     }
-}
-
-const fn batch(frame: &Frame) -> Batch<'_> {
-    Batch { frame, slots: &[], mask: None }
-}
-
-/// These rows bound to one variable.
-fn one(variable: usize, clauses: usize, rows: &[u32]) -> Frame {
-    let mut bound = vec![Rows::Unbound; clauses];
-    bound[variable] = Rows::Each(rows.to_vec());
-    Frame { len: rows.len(), rows: bound }
 }
 
 /// These objects of the first clause, with what the clauses before this one are bound to.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use super::KnowledgeBase;
-use super::conclude::Run;
+use super::conclude::{Asked, Run};
 use super::dirty::Dirty;
 use super::facts::FactError;
 use super::memory::{Memory, Shape};
@@ -12,8 +12,7 @@ use super::network::Planned;
 use crate::changes::Changes;
 use crate::declared::{Declaration, Source};
 use crate::machine::candidates::Candidates;
-use crate::machine::evaluate::Batch;
-use crate::machine::lane::{Frame, Rows};
+use crate::machine::lane::Frame;
 use crate::machine::output::{Buffer, Status};
 use crate::order::Step;
 use crate::plan::plan;
@@ -42,9 +41,6 @@ pub struct Question {
     /// The question as the property's declaration words it.
     pub text: String,
 }
-
-/// For each rule the objects of its first clause that are asked for.
-pub(super) type Asked = BTreeMap<usize, Dirty>;
 
 impl KnowledgeBase {
     /// Asks for a value. Of what nobody asked for yet, only what it needs is computed, source by source in the order
@@ -189,11 +185,8 @@ impl KnowledgeBase {
         let Some(index) = memory.candidates[number].as_ref().and_then(|found| found.index.as_ref()) else {
             return Dirty::All;
         };
-        let mut bound = vec![Rows::Unbound; planned.plan.clauses.len()];
-        bound[0] = Rows::Each(rows.clone());
-        let frame = Frame { len: rows.len(), rows: bound };
-        let batch = Batch { frame: &frame, slots: &[], mask: None };
-        let keys: Vec<_> = clause.joins.iter().map(|join| machine.evaluate(&join.key, batch)).collect();
+        let frame = Frame::of(planned.plan.clauses.len(), 0, rows);
+        let keys = machine.keys(clause, &frame);
         let mut found = Dirty::Rows(vec![]);
         for at in 0..rows.len() {
             found.extend(index.rows(keys.iter().map(|key| key.cell(at))).iter().copied());
@@ -215,15 +208,14 @@ impl KnowledgeBase {
     /// Whether an object is one of those that a declaration speaks of.
     fn is_of(&self, declaration: &Declaration, row: u32) -> bool {
         let rule = &declaration.rule;
-        let known = super::evaluate::Known { base: self, rule };
+        let known = super::evaluate::Known { base: self, rule: Some(rule), told: None };
         let Ok(plan) = plan(rule, &known, &self.symbols) else { return false };
         let machine = self.machine(rule, &plan, self.limits.end(self.limits.rule));
-        let frame = Frame { len: 1, rows: vec![Rows::Same(row)] };
-        let batch = Batch { frame: &frame, slots: &[], mask: None };
+        let frame = Frame::of(1, 0, &[row]);
         plan.clauses[0]
             .own
             .as_ref()
-            .is_none_or(|own| machine.evaluate(own, batch).truths().at(0) == Truth::True)
+            .is_none_or(|own| machine.values(own, &frame).truths().at(0) == Truth::True)
     }
 
     /// A question with the properties of the object where they stand in braces.

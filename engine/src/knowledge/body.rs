@@ -6,24 +6,24 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use rhai::{Dynamic, Scope};
 
 use super::KnowledgeBase;
+use super::evaluate::Known;
 use super::react::Run;
 use super::undo::Edit;
 use crate::agenda::Binding;
-use crate::agenda::script::{dynamic, plain};
 use crate::agenda::world::Facts;
 use crate::class::Class;
 use crate::column::Column;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::machine::interpret::{dynamic, plain};
 use crate::plan::fragment::{Fragment, Source};
 use crate::plan::reaction::told;
-use crate::plan::{Key, Kind, Kinds};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::script::failure::failure;
 use crate::script::interpreter::start_run;
 use crate::script::reactor::{Object, Write, reactor, with_run};
 use crate::told::NamesTold;
-use crate::value::{Type, Value};
+use crate::value::Value;
 
 impl Facts for KnowledgeBase {
     fn has(&self, class: &str) -> bool {
@@ -36,34 +36,6 @@ impl Facts for KnowledgeBase {
 
     fn column(&self, name: &PropertyName) -> Option<&Column> {
         Self::column(self, name)
-    }
-}
-
-/// The properties that there are, and those that rules may tell some day.
-pub(crate) struct Tellable<'k> {
-    pub(crate) base: &'k KnowledgeBase,
-    pub(crate) told: &'k NamesTold<'k>,
-}
-
-impl Kinds for Tellable<'_> {
-    fn kind(&self, name: &PropertyName) -> Kind {
-        match self.base.view(name, None) {
-            Some(column) => Kind::Holds(Some(column.kind())),
-            None if self.told.properties.contains_key(name) => Kind::Holds(None),
-            None => Kind::Missing,
-        }
-    }
-
-    fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.base.told_type(name)
-    }
-
-    fn key(&self, class: &str) -> Key {
-        self.base.told_key(class)
-    }
-
-    fn properties(&self, class: &str) -> Vec<String> {
-        self.base.told_properties(class)
     }
 }
 
@@ -84,7 +56,7 @@ impl KnowledgeBase {
         }
         for rule in &rules.rules {
             let Some(reaction) = rule.reaction() else { continue };
-            let kinds = Tellable { base: self, told: &names };
+            let kinds = Known { base: self, rule: None, told: Some(&names) };
             for (name, kind, _) in told(rule, reaction, &kinds, &self.symbols) {
                 let Some(kind) = kind.filter(|_| self.view(&name, None).is_none()) else { continue };
                 if let Some(held) = self.held.get_mut(&name.class) {
@@ -105,16 +77,16 @@ impl KnowledgeBase {
     ) -> Result<Vec<Edit>, Box<Diagnostic>> {
         let rule = &run.rules.rules[number];
         let outside = self.outside(run);
-        let Some((body, columns, bound)) = self.agenda.body(&outside, number, binding) else {
+        let Some((body, columns, numbers)) = self.agenda.body(&outside, number, binding) else {
             return Ok(vec![]);
         };
-        let known = self.known(rule, body, columns, &bound.ids);
+        let known = self.known(rule, body, columns, binding);
         let mut scope = Scope::new();
         for (name, constant) in &body.constants {
             scope.push_dynamic(name.as_str(), constant.clone());
         }
         for (name, clause) in &body.numbers {
-            let number = bound.numbers[*clause];
+            let number = numbers[*clause];
             scope.push_dynamic(name.as_str(), if number.is_nan() { Dynamic::UNIT } else { number.into() });
         }
         let bound = rule.clauses.iter().enumerate().filter(|(_, clause)| clause.quantifier.binds());
@@ -152,7 +124,7 @@ impl KnowledgeBase {
         for object in body.objects.values() {
             for (property, source) in &object.properties {
                 let Source::Column(column) = source else { continue };
-                let cell = self.agenda.world.cell(columns[*column], ids[object.variable]);
+                let cell = self.agenda.world.columns[columns[*column]].cell(ids[object.variable] as usize);
                 let value = dynamic(cell, &symbols).map(|value| (property.clone(), value));
                 known[object.variable].extend(value);
             }

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use super::KnowledgeBase;
-use super::ask::Asked;
 use super::dirty::Dirty;
 use super::evaluate::below;
 use super::memory::{Memory, Shape};
@@ -14,6 +13,9 @@ use crate::conclusions::Conclusions;
 use crate::order::Step;
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
+
+/// For each rule the objects of its first clause that are asked for.
+pub(super) type Asked = BTreeMap<usize, Dirty>;
 
 /// One inference on its way.
 pub(super) struct Run<'b> {
@@ -245,7 +247,7 @@ impl KnowledgeBase {
                 _ => memory.statuses.len(),
             };
             run.evaluated.push((index, rows));
-            let output = self.evaluate(run, rule, &planned.plan, &mut memory, &dirty);
+            let output = self.evaluate(run.until, rule, &planned.plan, &mut memory, &dirty);
             // Nothing is left of a rule that was stopped, for no object.
             let dirty = if output.stopped { Dirty::All } else { dirty };
             let touched = memory.replace(&dirty, output);

@@ -3,17 +3,13 @@
 mod direct;
 mod explain;
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use super::KnowledgeBase;
 use crate::class::{Class, ClassError, value};
 use crate::conclusions::Conclusions;
-use crate::machine::scalar::Binding;
-use crate::plan::fragment::Fragment;
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
-use crate::symbols::Symbols;
 use crate::value::{Cell, Type, Value};
 use direct::Direct;
 pub use explain::{Considered, Miss};
@@ -233,31 +229,5 @@ impl Consultation {
             }
         }
         self.base.update(&self.rules);
-    }
-}
-
-/// The one object, as nodes see it.
-struct Object<'a> {
-    /// For each column of a plan the property.
-    columns: &'a [usize],
-    cells: &'a [Cell],
-    symbols: &'a RefCell<Symbols>,
-}
-
-impl Binding for Object<'_> {
-    fn property(&self, _variable: usize, column: usize) -> Cell {
-        self.cells[self.columns[column]]
-    }
-
-    fn aggregate(&self, _clause: usize) -> f64 {
-        f64::NAN
-    }
-
-    fn interpret(&self, _fragment: &Fragment) -> Cell {
-        Cell::Unknown
-    }
-
-    fn symbols(&self) -> &RefCell<Symbols> {
-        self.symbols
     }
 }

@@ -6,8 +6,7 @@ use std::time::Instant;
 use super::KnowledgeBase;
 use crate::machine::Machine;
 use crate::machine::candidates::Candidates;
-use crate::machine::evaluate::Batch;
-use crate::machine::lane::{Frame, Rows};
+use crate::machine::lane::Frame;
 use crate::plan::Plan;
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Comparison;
@@ -109,11 +108,9 @@ fn compares_alone(clause: &ClausePlan) -> bool {
 
 /// For each comparison the candidates' side of it.
 fn hurdles(machine: &Machine, plan: &Plan, number: usize, rows: &[u32]) -> Vec<(Comparison, Vec<Cell>)> {
-    let mut bound = vec![Rows::Unbound; plan.clauses.len()];
-    bound[number] = Rows::Each(rows.to_vec());
-    let frame = Frame { len: rows.len(), rows: bound };
+    let frame = Frame::of(plan.clauses.len(), number, rows);
     let cells = |candidate| {
-        let lane = machine.evaluate(candidate, Batch { frame: &frame, slots: &[], mask: None }).cells();
+        let lane = machine.values(candidate, &frame).cells();
         (0..frame.len).map(|at| lane.at(at)).collect()
     };
     let thresholds = plan.clauses[number].thresholds.iter();

@@ -4,10 +4,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use super::KnowledgeBase;
-use super::conclude::Run;
 use super::dirty::Dirty;
 use super::memory::{Memory, Shape};
 use super::network::Planned;
+use crate::class::Table;
 use crate::column::Column;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::machine::Machine;
@@ -18,7 +18,7 @@ use crate::plan::uses::Uses;
 use crate::plan::{Key, Kind, Kinds, Plan, plan};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
-use crate::script::interpreter::runner;
+use crate::told::NamesTold;
 use crate::value::Type;
 
 impl KnowledgeBase {
@@ -33,8 +33,9 @@ impl KnowledgeBase {
             return;
         }
         self.drop_memory(index);
-        let outcome =
-            catch_unwind(AssertUnwindSafe(|| plan(rule, &Known { base: self, rule }, &self.symbols)));
+        let outcome = catch_unwind(AssertUnwindSafe(|| {
+            plan(rule, &Known { base: self, rule: Some(rule), told: None }, &self.symbols)
+        }));
         let outcome = outcome.unwrap_or_else(|_| Err(vec![failed_inside(rule)]));
         let (planned, problems) = match outcome {
             Ok(plan) => {
@@ -57,13 +58,13 @@ impl KnowledgeBase {
     /// What a rule gives for some objects of its first clause.
     pub(super) fn evaluate(
         &self,
-        run: &Run,
+        until: Instant,
         rule: &Rule,
         plan: &Plan,
         memory: &mut Memory,
         drivers: &Dirty,
     ) -> Output {
-        let outcome = catch_unwind(AssertUnwindSafe(|| self.search(run, rule, plan, memory, drivers)));
+        let outcome = catch_unwind(AssertUnwindSafe(|| self.search(until, rule, plan, memory, drivers)));
         let mut output = outcome.unwrap_or_else(|_| Output {
             problem: Some(failed_inside(rule)),
             stopped: true,
@@ -82,8 +83,15 @@ impl KnowledgeBase {
         output
     }
 
-    fn search(&self, run: &Run, rule: &Rule, plan: &Plan, memory: &mut Memory, drivers: &Dirty) -> Output {
-        let machine = self.machine(rule, plan, run.until);
+    fn search(
+        &self,
+        until: Instant,
+        rule: &Rule,
+        plan: &Plan,
+        memory: &mut Memory,
+        drivers: &Dirty,
+    ) -> Output {
+        let machine = self.machine(rule, plan, until);
         for (number, clause) in rule.clauses.iter().enumerate() {
             let needed = number > 0 || memory.shape == Shape::Whole;
             if needed && memory.candidates[number].is_none() {
@@ -104,34 +112,8 @@ impl KnowledgeBase {
     pub(super) fn machine<'m>(&'m self, rule: &'m Rule, plan: &Plan, until: Instant) -> Machine<'m> {
         static NONE: Column = Column::Truths(vec![]);
         let column = |name| self.view(name, below(rule, name)).unwrap_or(&NONE);
-        Machine {
-            rule,
-            columns: plan.columns.iter().map(column).collect(),
-            symbols: &self.symbols,
-            runner: runner(),
-            deadline: until.min(self.limits.end(self.limits.rule)),
-            trouble: None.into(),
-            troubles: 0.into(),
-            stopped: false.into(),
-        }
-    }
-}
-
-impl KnowledgeBase {
-    /// The type that a property was told with.
-    pub(super) fn told_type(&self, name: &PropertyName) -> Option<Type> {
-        self.held.get(&name.class)?.table.column(&name.property).map(Column::kind)
-    }
-
-    pub(super) fn told_key(&self, class: &str) -> Key {
-        self.held.get(class).map_or(Key::Unsaid, |held| {
-            let table = &held.table;
-            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
-        })
-    }
-
-    pub(super) fn told_properties(&self, class: &str) -> Vec<String> {
-        self.held.get(class).map(|held| held.table.names.clone()).unwrap_or_default()
+        let columns = plan.columns.iter().map(column).collect();
+        Machine::new(rule, columns, &self.symbols, until.min(self.limits.end(self.limits.rule)), false)
     }
 }
 
@@ -145,29 +127,40 @@ pub(super) fn below(rule: &Rule, name: &PropertyName) -> Option<i64> {
     rule.level().filter(|_| rule.sets.contains_key(name))
 }
 
-/// The properties that there are when a rule is planned.
+/// The properties that there are when a rule is planned, and those that reactions may tell some day.
 pub(super) struct Known<'k> {
     pub(super) base: &'k KnowledgeBase,
-    pub(super) rule: &'k Rule,
+    /// The rule, where it may be a revision.
+    pub(super) rule: Option<&'k Rule>,
+    pub(super) told: Option<&'k NamesTold<'k>>,
+}
+
+impl Known<'_> {
+    fn table(&self, class: &str) -> Option<&Table> {
+        self.base.held.get(class).map(|held| &held.table)
+    }
 }
 
 impl Kinds for Known<'_> {
     fn kind(&self, name: &PropertyName) -> Kind {
-        match self.base.view(name, below(self.rule, name)) {
+        match self.base.view(name, self.rule.and_then(|rule| below(rule, name))) {
             Some(column) => Kind::Holds(Some(column.kind())),
+            None if self.told.is_some_and(|told| told.properties.contains_key(name)) => Kind::Holds(None),
             None => Kind::Missing,
         }
     }
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.base.told_type(name)
+        self.table(&name.class)?.column(&name.property).map(Column::kind)
     }
 
     fn key(&self, class: &str) -> Key {
-        self.base.told_key(class)
+        self.table(class).map_or(Key::Unsaid, |table| {
+            Key::Properties(table.key.iter().map(|&column| table.names[column].clone()).collect())
+        })
     }
 
     fn properties(&self, class: &str) -> Vec<String> {
-        self.base.told_properties(class)
+        self.table(class).map(|table| table.names.clone()).unwrap_or_default()
     }
 }

@@ -327,25 +327,28 @@ impl Memory {
             .collect();
         let kept: Vec<usize> =
             (0..self.ways.len()).filter(|&firing| !stale(self.witnesses[0][firing])).collect();
-        self.ways = kept.iter().map(|&firing| self.ways[firing]).chain(output.statuses).collect();
+        self.select(&kept);
+        self.ways.extend(output.statuses);
         for (column, more) in self.witnesses.iter_mut().zip(&output.witnesses) {
-            *column = kept.iter().map(|&firing| column[firing]).chain(more.iter().copied()).collect();
+            column.extend(more);
         }
         for (given, more) in self.given.iter_mut().zip(&output.given) {
-            given.written = kept
-                .iter()
-                .map(|&firing| given.written[firing])
-                .chain(more.written.iter().copied())
-                .collect();
-            let mut values = given.values.empty();
-            for &firing in &kept {
-                values.push(given.values.cell(firing));
-            }
-            values.append(&more.values);
-            given.values = values;
+            given.written.extend(&more.written);
+            given.values.append(&more.values);
         }
         self.sort();
         touched
+    }
+
+    /// Keeps these firings, in this order.
+    fn select(&mut self, firings: &[usize]) {
+        self.ways = firings.iter().map(|&firing| self.ways[firing]).collect();
+        for column in &mut self.witnesses {
+            *column = firings.iter().map(|&firing| column[firing]).collect();
+        }
+        for given in &mut self.given {
+            *given = given.select(firings);
+        }
     }
 
     /// Firings in the order of the objects of the first clause, however they were found.
@@ -355,18 +358,7 @@ impl Memory {
         }
         let mut order: Vec<usize> = (0..self.ways.len()).collect();
         order.sort_by_key(|&firing| self.witnesses[0][firing]);
-        self.ways = order.iter().map(|&firing| self.ways[firing]).collect();
-        for column in &mut self.witnesses {
-            *column = order.iter().map(|&firing| column[firing]).collect();
-        }
-        for given in &mut self.given {
-            given.written = order.iter().map(|&firing| given.written[firing]).collect();
-            let mut values = given.values.empty();
-            for &firing in &order {
-                values.push(given.values.cell(firing));
-            }
-            given.values = values;
-        }
+        self.select(&order);
     }
 
     /// Objects of the first clause's class moved; new ones wait to be asked for. Of [`Shape::Single`] only.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use super::KnowledgeBase;
-use super::body::Tellable;
+use super::evaluate::Known;
 use super::facts::FactError;
 use super::undo::Undo;
 use crate::agenda::{Binding, Halt, Outside, Stopped};
@@ -15,7 +15,6 @@ use crate::machine::lane::NO_ROW;
 use crate::reactions::{Activation, Firing, Reactions};
 use crate::rule::{Clause, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
-use crate::script::interpreter::runner;
 use crate::told::NamesTold;
 
 /// Firings at the end of a run that is too long, among which the rules of a loop are looked for.
@@ -147,9 +146,8 @@ impl KnowledgeBase {
         Outside {
             rules: run.rules,
             facts: self,
-            kinds: Box::new(Tellable { base: self, told: &run.told }),
+            kinds: Box::new(Known { base: self, rule: None, told: Some(&run.told) }),
             symbols: &self.symbols,
-            runner: runner(),
             deadline: run.until,
             matches: self.limits.matches,
             troubles: RefCell::default(),

@@ -12,7 +12,6 @@ use crate::machine::Machine;
 use crate::rejection::{Rejected, Rejection, WhyNot};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
-use crate::script::interpreter::runner;
 use tests_of::TestsOfRule;
 use walk::Walk;
 
@@ -58,21 +57,15 @@ impl KnowledgeBase {
         let Some(planned) = self.network.nodes.get(number).and_then(|node| node.planned.as_ref()) else {
             return walked;
         };
-        let Some((tests, columns)) = TestsOfRule::new(rule, &Known { base: self, rule }, &self.symbols)
+        let Some((tests, columns)) =
+            TestsOfRule::new(rule, &Known { base: self, rule: Some(rule), told: None }, &self.symbols)
         else {
             return walked;
         };
         let column = |name| self.view(name, below(rule, name)).unwrap_or(&NONE);
-        let machine = Machine {
-            rule,
-            columns: columns.iter().map(column).collect(),
-            symbols: &self.symbols,
-            runner: runner(),
-            deadline: self.limits.end(self.limits.rule),
-            trouble: None.into(),
-            troubles: 0.into(),
-            stopped: false.into(),
-        };
+        let columns = columns.iter().map(column).collect();
+        let until = self.limits.end(self.limits.rule);
+        let machine = Machine::new(rule, columns, &self.symbols, until, false);
         for (_, target, _) in planned.plan.targets(rule).into_iter().filter(|(set, ..)| *set == name) {
             let mut walk = Walk::new(self, &machine, &tests, (target, row), MOST_OBJECTS);
             let applied = walk.run();

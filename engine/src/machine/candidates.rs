@@ -1,13 +1,12 @@
 //! The objects of a clause's class that may be bound, and how to find them.
 
-use super::evaluate::Batch;
 use super::index::Index;
-use super::lane::{Frame, Rows, Values};
+use super::lane::{Frame, Values};
 use super::{BATCH, Machine, Stopped};
 use crate::plan::Plan;
 use crate::plan::clause::Threshold;
 use crate::script::syntax::Quantifier;
-use crate::value::Truth;
+use crate::value::{Cell, Truth};
 
 /// What of a clause holds for every binding of the clauses before it.
 #[derive(Clone, Debug)]
@@ -26,6 +25,36 @@ pub(crate) struct Candidates {
 }
 
 impl Candidates {
+    pub(crate) const NONE: Self =
+        Self { rows: vec![], all: false, index: None, undecided: vec![], thresholds: vec![], left_out: 0 };
+
+    /// For objects that come and go, in the order of their rows, by so many columns.
+    pub(crate) fn empty(columns: usize) -> Self {
+        Self { index: (columns > 0).then(|| Index::empty(columns)), all: true, ..Self::NONE }
+    }
+
+    /// Takes in an object with these values in the columns of the index.
+    pub(crate) fn insert(&mut self, row: u32, values: impl Iterator<Item = Cell>) {
+        let known = self.index.as_mut().is_none_or(|index| index.insert(row, values));
+        let rows = if known { &mut self.rows } else { &mut self.undecided };
+        let at = rows.partition_point(|&other| other < row);
+        rows.insert(at, row);
+        self.all = self.rows.last().is_none_or(|&last| last as usize + 1 == self.rows.len());
+    }
+
+    /// Takes out an object that was taken in with these values.
+    pub(crate) fn remove(&mut self, row: u32, values: impl Iterator<Item = Cell>) {
+        if let Some(index) = &mut self.index {
+            index.remove(row, values);
+        }
+        for rows in [&mut self.rows, &mut self.undecided] {
+            if let Ok(at) = rows.binary_search(&row) {
+                rows.remove(at);
+            }
+        }
+        self.all = self.rows.last().is_none_or(|&last| last as usize + 1 == self.rows.len());
+    }
+
     /// The candidates of a clause whose class has `size` objects.
     pub(crate) fn of(machine: &Machine, plan: &Plan, number: usize, size: usize) -> Result<Self, Stopped> {
         let clause = &plan.clauses[number];
@@ -38,9 +67,9 @@ impl Candidates {
                 left_out += undecided.len();
             }
         } else if let Some(own) = &clause.own {
-            rows = keep(machine, plan, number, &rows, |batch, keep| {
-                let truths = machine.evaluate(own, batch).truths();
-                (0..batch.frame.len).for_each(|index| {
+            rows = keep(machine, plan, number, &rows, |frame, keep| {
+                let truths = machine.values(own, frame).truths();
+                (0..frame.len).for_each(|index| {
                     let truth = truths.at(index);
                     left_out += usize::from(truth == Truth::Unknown);
                     keep.push(truth == Truth::True);
@@ -50,9 +79,9 @@ impl Candidates {
         if let (Some(by), true) = (&clause.by, clause.by_own) {
             let mut values: Vec<f64> = vec![];
             let before = rows.clone();
-            rows = keep(machine, plan, number, &rows, |batch, keep| {
-                let numbers = machine.evaluate(by, batch).numbers();
-                for number in (0..batch.frame.len).map(|index| numbers.at(index)) {
+            rows = keep(machine, plan, number, &rows, |frame, keep| {
+                let numbers = machine.values(by, frame).numbers();
+                for number in (0..frame.len).map(|index| numbers.at(index)) {
                     keep.push(!number.is_nan());
                     left_out += usize::from(number.is_nan());
                     values.extend(Some(number).filter(|number| !number.is_nan()));
@@ -92,17 +121,14 @@ fn keep(
     plan: &Plan,
     variable: usize,
     rows: &[u32],
-    mut test: impl FnMut(Batch, &mut Vec<bool>),
+    mut test: impl FnMut(&Frame, &mut Vec<bool>),
 ) -> Result<Vec<u32>, Stopped> {
     let mut kept = vec![];
     let mut flags = vec![];
     for chunk in rows.chunks(BATCH) {
         machine.tick()?;
-        let mut bound = vec![Rows::Unbound; plan.clauses.len()];
-        bound[variable] = Rows::Each(chunk.to_vec());
-        let frame = Frame { len: chunk.len(), rows: bound };
         flags.clear();
-        test(Batch { frame: &frame, slots: &[], mask: None }, &mut flags);
+        test(&Frame::of(plan.clauses.len(), variable, chunk), &mut flags);
         kept.extend(chunk.iter().zip(&flags).filter(|(_, keep)| **keep).map(|(&row, _)| row));
     }
     Ok(kept)
@@ -120,10 +146,10 @@ fn decided(
     let mut truths = vec![Truth::True; rows.len()];
     if let Some(own) = &clause.own {
         truths.clear();
-        keep(machine, plan, number, &rows, |batch, keep| {
-            let lane = machine.evaluate(own, batch).truths();
-            truths.extend((0..batch.frame.len).map(|index| lane.at(index)));
-            keep.resize(batch.frame.len, false);
+        keep(machine, plan, number, &rows, |frame, keep| {
+            let lane = machine.values(own, frame).truths();
+            truths.extend((0..frame.len).map(|index| lane.at(index)));
+            keep.resize(frame.len, false);
         })?;
     }
     let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
@@ -147,15 +173,10 @@ fn thresholds(machine: &Machine, plan: &Plan, number: usize, rows: &[u32]) -> Ve
     if rows.len() > FEW || !clause.joins.is_empty() || !clause.by_own {
         return vec![];
     }
-    let mut bound = vec![Rows::Unbound; plan.clauses.len()];
-    bound[number] = Rows::Each(rows.to_vec());
-    let frame = Frame { len: rows.len(), rows: bound };
-    let numbers = |threshold: &Threshold| {
-        let batch = Batch { frame: &frame, slots: &[], mask: None };
-        match machine.evaluate(&threshold.candidate, batch) {
-            Values::Numbers(lane) => Some((0..frame.len).map(|at| lane.at(at)).collect()),
-            _ => None,
-        }
+    let frame = Frame::of(plan.clauses.len(), number, rows);
+    let numbers = |threshold: &Threshold| match machine.values(&threshold.candidate, &frame) {
+        Values::Numbers(lane) => Some((0..frame.len).map(|at| lane.at(at)).collect()),
+        _ => None,
     };
     clause.thresholds.iter().map(numbers).collect::<Option<_>>().unwrap_or_default()
 }

@@ -7,6 +7,7 @@ use std::cmp::Ordering;
 use super::Machine;
 use super::lane::{Frame, Lane, Rows, Values};
 use crate::column::Column;
+use crate::plan::clause::ClausePlan;
 use crate::plan::node::{Arithmetic, Comparison, Function, Node};
 use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth, Type};
@@ -23,6 +24,16 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Machine<'_> {
+    /// What a node gives for each binding, outside of an action.
+    pub(crate) fn values<'b>(&'b self, node: &Node, frame: &'b Frame) -> Values<'b> {
+        self.evaluate(node, Batch { frame, slots: &[], mask: None })
+    }
+
+    /// What a clause's joins look for, for each binding.
+    pub(crate) fn keys<'b>(&'b self, clause: &ClausePlan, frame: &'b Frame) -> Vec<Values<'b>> {
+        clause.joins.iter().map(|join| self.values(&join.key, frame)).collect()
+    }
+
     pub(crate) fn evaluate<'b>(&'b self, node: &Node, batch: Batch<'b>) -> Values<'b> {
         match node {
             Node::Unknown => Values::UNKNOWN,
@@ -179,7 +190,12 @@ fn gather_lane<'b, T: Copy>(values: &'b [T], rows: &Rows, len: usize, unknown: T
     match rows {
         Rows::Unbound | Rows::Numbers(_) => Lane::Same(unknown),
         Rows::Same(row) => Lane::Same(values.get(*row as usize).copied().unwrap_or(unknown)),
-        Rows::From(first) => Lane::Each(Cow::Borrowed(&values[*first as usize..*first as usize + len])),
+        Rows::From(first) => {
+            let from = values.get(*first as usize..).unwrap_or_default();
+            // Objects may have been added that no rule has seen yet.
+            let missing = || from.iter().copied().chain(std::iter::repeat(unknown)).take(len).collect();
+            Lane::Each(from.get(..len).map_or_else(missing, Cow::Borrowed))
+        }
         Rows::Each(rows) => {
             Lane::Each(rows.iter().map(|&row| values.get(row as usize).copied().unwrap_or(unknown)).collect())
         }

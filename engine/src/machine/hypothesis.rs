@@ -1,12 +1,12 @@
 //! What a rule says of each object of its first clause: proved, refuted, or undecided.
+//!
+//! It is a part of the search, which keeps the verdicts; so the two files import each other.
 
 use std::collections::HashSet;
 
-use super::evaluate::Batch;
-use super::lane::{Frame, Rows};
+use super::lane::Frame;
 use super::output::Status;
-use super::search::Search;
-use super::tally::pairs;
+use super::search::{Search, pairs};
 use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::value::{Cell, Truth};
@@ -33,28 +33,14 @@ impl Search<'_> {
         let mut open: Vec<u32> = vec![];
         let candidates = self.candidates(number);
         let unknown_key = self.unknown_keys(clause, frame);
-        let mut pairs = pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
-        loop {
-            let (bindings, rows): (Vec<u32>, Vec<u32>) = pairs.by_ref().take(BATCH).unzip();
-            if bindings.is_empty() {
-                break;
-            }
-            self.machine.tick()?;
-            let mut tried = frame.select(&bindings);
-            tried.rows[number] = Rows::Each(rows);
-            let batch = Batch { frame: &tried, slots: &[], mask: None };
-            let truths = clause.whole.as_ref().map(|whole| self.machine.evaluate(whole, batch).truths());
+        let pairs = pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
+        self.in_batches(clause, frame, pairs, |tried, pairs| {
+            let truths = clause.whole.as_ref().map(|whole| self.machine.values(whole, tried).truths());
             let may_pass =
                 |index: usize| truths.as_ref().is_none_or(|truths| truths.at(index) != Truth::False);
-            open.extend(
-                bindings
-                    .iter()
-                    .enumerate()
-                    .filter(|&(index, _)| may_pass(index))
-                    .map(|(_, &binding)| frame.rows[0].at(binding as usize)),
-            );
-        }
-        drop(pairs);
+            let open_now = pairs.iter().enumerate().filter(|&(index, _)| may_pass(index));
+            open.extend(open_now.map(|(_, &(binding, _))| frame.rows[0].at(binding as usize)));
+        })?;
         self.verdicts.leave_open(open.into_iter());
         Ok(())
     }
@@ -74,9 +60,7 @@ impl Search<'_> {
         let Verdicts { proved, open } = std::mem::take(&mut self.verdicts);
         let others: Vec<u32> = looked_at.filter(|row| !proved.contains(row)).collect();
         for chunk in others.chunks(BATCH) {
-            let mut rows = vec![Rows::Unbound; self.plan.clauses.len()];
-            rows[0] = Rows::Each(chunk.to_vec());
-            self.record(&Frame { len: chunk.len(), rows }, Status::SILENT)?;
+            self.record(&Frame::of(self.plan.clauses.len(), 0, chunk), Status::SILENT)?;
             for given in &mut self.output.given {
                 if Some(&given.name) == self.plan.hypothesis.as_ref() {
                     for row in chunk {

@@ -13,79 +13,132 @@ pub(crate) struct Index {
     dense: Option<Vec<u32>>,
     /// One map for each column: group so far and value to group. Only looked up, never walked.
     groups: Vec<HashMap<(u32, u64), u32, BuildHasherDefault<Folded>>>,
-    starts: Vec<u32>,
+    /// How many groups there are by the first column, by the first two, and so on.
+    counts: Vec<u32>,
+    spans: Vec<Span>,
     rows: Vec<u32>,
 }
 
+/// Where the rows of a group stand.
+#[derive(Clone, Copy, Debug, Default)]
+struct Span {
+    start: u32,
+    len: u32,
+    /// How many rows there is room for.
+    room: u32,
+}
+
+impl Span {
+    const fn rows(self) -> std::ops::Range<usize> {
+        self.start as usize..(self.start + self.len) as usize
+    }
+}
+
 impl Index {
+    /// An index over so many columns for rows that come and go.
+    pub(crate) fn empty(columns: usize) -> Self {
+        let groups = (0..columns).map(|_| HashMap::default()).collect();
+        Self { groups, counts: vec![0; columns], ..Self::default() }
+    }
+
     pub(crate) fn new(columns: &[&Column], rows: &[u32]) -> Self {
-        let mut index =
-            Self { groups: columns.iter().map(|_| HashMap::default()).collect(), ..Self::default() };
+        let mut index = Self::empty(columns.len());
         if let [column, ..] = columns {
             index.dense = dense(column, rows);
         }
-        let mut counts = vec![0_u32; columns.len()];
         let mut members: Vec<(u32, u32)> = vec![];
-        'rows: for &row in rows {
-            let mut group = 0;
-            for (nth, column) in columns.iter().enumerate() {
-                let Some(part) = bits(column.cell(row as usize)) else { continue 'rows };
-                let next = counts[nth];
-                group = match (&mut index.dense, nth) {
-                    (Some(dense), 0) => {
-                        let Some(place) = whole(column.cell(row as usize)).and_then(|at| dense.get_mut(at))
-                        else {
-                            continue 'rows;
-                        };
-                        if *place == NO_GROUP {
-                            *place = next;
-                        }
-                        *place
-                    }
-                    _ => *index.groups[nth].entry((group, part)).or_insert(next),
-                };
-                counts[nth] += u32::from(group == next);
-            }
-            members.push((group, row));
+        for &row in rows {
+            let group = index.make(columns.iter().map(|column| column.cell(row as usize)));
+            members.extend(group.map(|group| (group, row)));
         }
-        let groups = counts.last().copied().unwrap_or(0) as usize;
-        index.starts = vec![0; groups + 1];
+        index.spans = vec![Span::default(); index.counts.last().copied().unwrap_or(0) as usize];
         for &(group, _) in &members {
-            index.starts[group as usize + 1] += 1;
+            index.spans[group as usize].room += 1;
         }
-        for group in 0..groups {
-            index.starts[group + 1] += index.starts[group];
+        let mut start = 0;
+        for span in &mut index.spans {
+            span.start = start;
+            start += span.room;
         }
-        let mut next = index.starts.clone();
         index.rows = vec![0; members.len()];
         for (group, row) in members {
-            let at = &mut next[group as usize];
-            index.rows[*at as usize] = row;
-            *at += 1;
+            let span = &mut index.spans[group as usize];
+            index.rows[span.rows().end] = row;
+            span.len += 1;
         }
         index
     }
 
-    /// The rows whose columns hold these values; none where a value is unknown.
-    pub(crate) fn rows(&self, values: impl Iterator<Item = Cell>) -> &[u32] {
+    /// The group of these values, made where there is none; `None` where a value is unknown.
+    fn make(&mut self, values: impl Iterator<Item = Cell>) -> Option<u32> {
         let mut group = 0;
-        let mut values = values;
+        for (nth, cell) in values.enumerate() {
+            // A join has one type, so values of two types never meet.
+            let part = cell.bits()?;
+            let next = self.counts[nth];
+            group = match (&mut self.dense, nth) {
+                (Some(dense), 0) => {
+                    let place = whole(cell).and_then(|at| dense.get_mut(at))?;
+                    if *place == NO_GROUP {
+                        *place = next;
+                    }
+                    *place
+                }
+                _ => *self.groups[nth].entry((group, part)).or_insert(next),
+            };
+            self.counts[nth] += u32::from(group == next);
+        }
+        Some(group)
+    }
+
+    fn find(&self, mut values: impl Iterator<Item = Cell>) -> Option<u32> {
+        let mut group = 0;
         let mut groups = self.groups.iter();
         if let Some(dense) = &self.dense {
             groups.next();
-            match values.next().and_then(whole).and_then(|at| dense.get(at)) {
-                Some(&next) if next != NO_GROUP => group = next,
-                _ => return &[],
-            }
+            let next = values.next().and_then(whole).and_then(|at| dense.get(at));
+            group = *next.filter(|&&next| next != NO_GROUP)?;
         }
         for (map, value) in groups.zip(values) {
-            match bits(value).and_then(|part| map.get(&(group, part))) {
-                Some(&next) => group = next,
-                None => return &[],
-            }
+            group = *map.get(&(group, value.bits()?))?;
         }
-        let (start, end) = (self.starts[group as usize], self.starts[group as usize + 1]);
-        &self.rows[start as usize..end as usize]
+        Some(group)
+    }
+
+    /// The rows whose columns hold these values; none where a value is unknown.
+    pub(crate) fn rows(&self, values: impl Iterator<Item = Cell>) -> &[u32] {
+        self.find(values).map_or(&[], |group| &self.rows[self.spans[group as usize].rows()])
+    }
+
+    /// Takes in a row with these values, in its place among the others of its group; `false` where one is unknown. Of
+    /// an index that was [`empty`](Self::empty).
+    pub(crate) fn insert(&mut self, row: u32, values: impl Iterator<Item = Cell>) -> bool {
+        let Some(group) = self.make(values) else { return false };
+        self.spans.resize(self.spans.len().max(group as usize + 1), Span::default());
+        let span = &mut self.spans[group as usize];
+        if span.len == span.room {
+            let start = self.rows.len();
+            self.rows.extend_from_within(span.rows());
+            (span.start, span.room) = (start as u32, (2 * span.room).max(2));
+            self.rows.resize(start + span.room as usize, 0);
+        }
+        let at = self.rows[span.rows()].partition_point(|&other| other < row);
+        span.len += 1;
+        let rows = &mut self.rows[span.rows()];
+        rows.copy_within(at..rows.len() - 1, at + 1);
+        rows[at] = row;
+        true
+    }
+
+    /// Takes out a row that was taken in with these values.
+    pub(crate) fn remove(&mut self, row: u32, values: impl Iterator<Item = Cell>) {
+        let Some(group) = self.find(values) else { return };
+        let span = &mut self.spans[group as usize];
+        let rows = &mut self.rows[span.rows()];
+        if let Ok(at) = rows.binary_search(&row) {
+            rows.copy_within(at + 1.., at);
+            span.len -= 1;
+        }
     }
 }
 
@@ -140,16 +193,5 @@ impl Hasher for Folded {
         const ODD: u128 = 0x9e37_79b9_7f4a_7c15;
         let product = u128::from(self.0 ^ number ^ 0x2545_f491_4f6c_dd1d) * ODD;
         self.0 = (product as u64) ^ ((product >> 64) as u64);
-    }
-}
-
-/// A value as bits; values of different types never meet, since a join has one type.
-pub(crate) fn bits(cell: Cell) -> Option<u64> {
-    match cell {
-        Cell::Unknown => None,
-        // Minus zero equals zero.
-        Cell::Number(number) => Some((number + 0.0).to_bits()),
-        Cell::Text(symbol) => Some(u64::from(symbol.id())),
-        Cell::Truth(truth) => Some(u64::from(truth)),
     }
 }

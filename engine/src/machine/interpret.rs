@@ -10,7 +10,8 @@ use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
 use crate::script::failure::failure;
 use crate::script::interpreter::start_run;
-use crate::value::Cell;
+use crate::symbols::Symbols;
+use crate::value::{Cell, Value};
 
 impl Machine<'_> {
     /// The fragment's value for each binding: unknown where anything that it looks at is unknown.
@@ -51,7 +52,7 @@ impl Machine<'_> {
     }
 
     fn run(&self, fragment: &Fragment, scope: &mut Scope) -> Option<Dynamic> {
-        if self.tick().is_err() {
+        if self.stopped.get() || self.tick().is_err() {
             return None;
         }
         start_run(self.deadline);
@@ -109,37 +110,51 @@ impl Machine<'_> {
     }
 
     fn dynamic(&self, cell: Cell) -> Option<Dynamic> {
-        Some(match cell {
-            Cell::Unknown => return None,
-            Cell::Number(number) => number.into(),
-            Cell::Truth(truth) => truth.into(),
-            Cell::Text(symbol) => {
-                let text: &str = &self.symbols.borrow().text(symbol)?.clone();
-                Dynamic::from(ImmutableString::from(text))
-            }
-        })
+        dynamic(cell, &self.symbols.borrow())
     }
 
     fn cell(&self, value: &Dynamic, fragment: &Fragment) -> Cell {
-        let kind = value.type_name();
-        if let Ok(number) = value.as_float() {
-            Cell::number(number)
-        } else if let Ok(number) = value.as_int() {
-            Cell::Number(number as f64)
-        } else if let Ok(truth) = value.as_bool() {
-            Cell::Truth(truth)
-        } else if value.is_unit() {
-            Cell::Unknown
-        } else if value.is_string() || value.is_char() {
-            Cell::Text(self.symbols.borrow_mut().intern(&value.to_string()))
-        } else {
-            let place = fragment.file.source.place(fragment.position);
-            let message =
-                format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
-            self.troubles.set(self.troubles.get() + 1);
-            let problem = Diagnostic::error(Code::Evaluation, &place, message);
-            self.trouble.borrow_mut().get_or_insert(problem);
-            Cell::Unknown
+        match plain(value) {
+            Ok(value) => value.map_or(Cell::Unknown, |value| self.symbols.borrow_mut().cell(&value)),
+            Err(kind) => {
+                let place = fragment.file.source.place(fragment.position);
+                let message =
+                    format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
+                self.troubles.set(self.troubles.get() + 1);
+                let problem = Diagnostic::error(Code::Evaluation, &place, message);
+                self.trouble.borrow_mut().get_or_insert(problem);
+                Cell::Unknown
+            }
         }
+    }
+}
+
+/// A value as scripts see it; `None` is unknown.
+pub(crate) fn dynamic(cell: Cell, symbols: &Symbols) -> Option<Dynamic> {
+    Some(match cell {
+        Cell::Unknown => return None,
+        Cell::Number(number) => number.into(),
+        Cell::Truth(truth) => truth.into(),
+        Cell::Text(symbol) => {
+            let text: &str = symbols.text(symbol)?;
+            Dynamic::from(ImmutableString::from(text))
+        }
+    })
+}
+
+/// What a script gave as a property can hold it; the name of its type if it cannot.
+pub(crate) fn plain(value: &Dynamic) -> Result<Option<Value>, &str> {
+    if let Ok(number) = value.as_float() {
+        Ok(Some(Value::Number(number)).filter(|_| !number.is_nan()))
+    } else if let Ok(number) = value.as_int() {
+        Ok(Some(Value::Number(number as f64)))
+    } else if let Ok(truth) = value.as_bool() {
+        Ok(Some(Value::Truth(truth)))
+    } else if value.is_unit() {
+        Ok(None)
+    } else if value.is_string() || value.is_char() {
+        Ok(Some(Value::from(value.to_string().as_str())))
+    } else {
+        Err(value.type_name())
     }
 }

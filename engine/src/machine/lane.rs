@@ -270,6 +270,12 @@ pub(crate) enum Rows {
 pub(crate) const NO_ROW: u32 = u32::MAX;
 
 impl Rows {
+    /// One row for each binding.
+    pub(crate) fn each(rows: Vec<u32>) -> Self {
+        // What is the same for the whole batch is looked at once, which counts where it is small.
+        if let [row] = rows.as_slice() { Self::Same(*row) } else { Self::Each(rows) }
+    }
+
     pub(crate) fn at(&self, index: usize) -> u32 {
         match self {
             Self::Unbound | Self::Numbers(_) => NO_ROW,
@@ -277,6 +283,11 @@ impl Rows {
             Self::Same(row) => *row,
             Self::Each(rows) => rows[index],
         }
+    }
+
+    /// The number that a clause gives; NaN where it is unknown, or the clause gives none.
+    pub(crate) fn number(&self, index: usize) -> f64 {
+        if let Self::Numbers(numbers) = self { numbers.at(index) } else { f64::NAN }
     }
 
     pub(crate) fn extend(&self, out: &mut Vec<u32>, len: usize) {
@@ -292,8 +303,8 @@ impl Rows {
         match self {
             Self::Unbound => Self::Unbound,
             Self::Same(row) => Self::Same(*row),
-            Self::From(first) => Self::Each(chosen.iter().map(|&index| first + index).collect()),
-            Self::Each(rows) => Self::Each(chosen.iter().map(|&index| rows[index as usize]).collect()),
+            Self::From(first) => Self::each(chosen.iter().map(|&index| first + index).collect()),
+            Self::Each(rows) => Self::each(chosen.iter().map(|&index| rows[index as usize]).collect()),
             Self::Numbers(Lane::Same(number)) => Self::Numbers(Lane::Same(*number)),
             Self::Numbers(Lane::Each(numbers)) => {
                 Self::Numbers(Lane::Each(chosen.iter().map(|&index| numbers[index as usize]).collect()))
@@ -310,9 +321,34 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// These objects of one variable, of so many; the others are not bound.
+    pub(crate) fn of(variables: usize, variable: usize, rows: &[u32]) -> Self {
+        let mut bound = vec![Rows::Unbound; variables];
+        bound[variable] = Rows::each(rows.to_vec());
+        Self { len: rows.len(), rows: bound }
+    }
+
     /// The bindings with these numbers, in this order.
     pub(crate) fn select(&self, chosen: &[u32]) -> Self {
         Self { len: chosen.len(), rows: self.rows.iter().map(|rows| rows.select(chosen)).collect() }
+    }
+
+    /// The rows of one binding, by variable.
+    pub(crate) fn binding(&self, index: usize) -> Vec<u32> {
+        self.rows.iter().map(|rows| rows.at(index)).collect()
+    }
+
+    /// Bindings by their numbers, each with the row that a variable is bound to.
+    pub(crate) fn paired(&self, variable: usize, pairs: &[(u32, u32)]) -> Self {
+        if let [(binding, row)] = *pairs {
+            let mut next = self.repeat(binding as usize, 1);
+            next.rows[variable] = Rows::Same(row);
+            return next;
+        }
+        let (bindings, rows): (Vec<u32>, Vec<u32>) = pairs.iter().copied().unzip();
+        let mut next = self.select(&bindings);
+        next.rows[variable] = Rows::Each(rows);
+        next
     }
 
     /// One binding, repeated.

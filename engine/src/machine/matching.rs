@@ -1,8 +1,7 @@
 //! Finds one witness for each binding: the least, the most, or the first that passes.
 
-use super::evaluate::Batch;
 use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
-use super::search::Search;
+use super::search::{Search, pairs};
 use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Comparison;
@@ -87,10 +86,9 @@ impl Search<'_> {
         frame: &Frame,
     ) -> Result<Option<Found>, Stopped> {
         let candidates = self.candidates(number);
-        let batch = Batch { frame, slots: &[], mask: None };
         let mut sides = vec![];
         for threshold in &clause.thresholds {
-            match self.machine.evaluate(&threshold.binding, batch) {
+            match self.machine.values(&threshold.binding, frame) {
                 Values::Numbers(lane) => sides.push((threshold.comparison, lane)),
                 _ => return Ok(None),
             }
@@ -137,39 +135,12 @@ impl Search<'_> {
             }
             return Ok(());
         }
-        let mut pairs: Vec<(u32, u32)> = vec![];
-        for (binding, rows) in (0..).zip(groups) {
-            for &row in rows {
-                pairs.push((binding, row));
-                if pairs.len() == BATCH {
-                    self.pairs_considered(number, clause, frame, &pairs, found)?;
-                    pairs.clear();
-                }
+        self.in_batches(clause, frame, pairs(frame, |binding| groups[binding].iter()), |tried, pairs| {
+            let (truths, values) = self.tried(clause, tried);
+            for (index, &(binding, row)) in pairs.iter().enumerate() {
+                found.consider(binding as usize, row, truths.at(index), values.at(index));
             }
-        }
-        self.pairs_considered(number, clause, frame, &pairs, found)
-    }
-
-    fn pairs_considered(
-        &self,
-        number: usize,
-        clause: &ClausePlan,
-        frame: &Frame,
-        pairs: &[(u32, u32)],
-        found: &mut Found,
-    ) -> Result<(), Stopped> {
-        if pairs.is_empty() {
-            return Ok(());
-        }
-        self.machine.tick()?;
-        let bindings: Vec<u32> = pairs.iter().map(|&(binding, _)| binding).collect();
-        let mut tried = frame.select(&bindings);
-        tried.rows[number] = Rows::Each(pairs.iter().map(|&(_, row)| row).collect());
-        let (truths, values) = self.tried(clause, &tried);
-        for (index, &(binding, row)) in pairs.iter().enumerate() {
-            found.consider(binding as usize, row, truths.at(index), values.at(index));
-        }
-        Ok(())
+        })
     }
 
     /// One candidate after the other, each for the whole batch: for classes of few objects.
@@ -183,7 +154,7 @@ impl Search<'_> {
         let mut tried = frame.clone();
         for &row in &self.candidates(number).rows {
             self.machine.tick()?;
-            tried.rows[number] = Rows::Same(row);
+            tried.rows[clause.variable] = Rows::Same(row);
             let (truths, values) = self.tried(clause, &tried);
             for index in 0..frame.len {
                 found.consider(index, row, truths.at(index), values.at(index));
@@ -208,10 +179,10 @@ impl Search<'_> {
             for (nth, chunk) in candidates.rows.chunks(BATCH).enumerate() {
                 self.machine.tick()?;
                 let mut tried = frame.repeat(binding, chunk.len());
-                tried.rows[number] = if candidates.all {
+                tried.rows[clause.variable] = if candidates.all {
                     Rows::From((nth * BATCH) as u32)
                 } else {
-                    Rows::Each(chunk.to_vec())
+                    Rows::each(chunk.to_vec())
                 };
                 let (truths, values) = self.tried(clause, &tried);
                 for (index, &row) in chunk.iter().enumerate() {
@@ -226,13 +197,12 @@ impl Search<'_> {
     }
 
     fn tried<'f>(&'f self, clause: &ClausePlan, frame: &'f Frame) -> (Lane<'f, Truth>, Lane<'f, f64>) {
-        let batch = Batch { frame, slots: &[], mask: None };
         let truths = clause
             .test
             .as_ref()
-            .map_or(Lane::Same(Truth::True), |test| self.machine.evaluate(test, batch).truths());
+            .map_or(Lane::Same(Truth::True), |test| self.machine.values(test, frame).truths());
         let values = match &clause.by {
-            Some(by) if !clause.by_own => self.machine.evaluate(by, batch).numbers(),
+            Some(by) if !clause.by_own => self.machine.values(by, frame).numbers(),
             _ => Lane::Same(f64::NAN),
         };
         (truths, values)

@@ -4,8 +4,7 @@ use super::lane::Values;
 use crate::column::Column;
 use crate::diagnostic::Diagnostic;
 use crate::rule::PropertyName;
-use crate::symbols::Symbol;
-use crate::value::{Cell, Truth, Type};
+use crate::value::{Cell, Type};
 
 /// Values side by side, of one type where it is known before running.
 #[derive(Clone, Debug)]
@@ -60,9 +59,7 @@ impl Buffer {
     /// Makes it this long; new places are unknown.
     pub(crate) fn resize(&mut self, len: usize) {
         match self {
-            Self::Typed(Column::Numbers(values)) => values.resize(len, f64::NAN),
-            Self::Typed(Column::Texts(values)) => values.resize(len, Symbol::UNKNOWN),
-            Self::Typed(Column::Truths(values)) => values.resize(len, Truth::Unknown),
+            Self::Typed(column) => column.resize(len),
             Self::Cells(cells) => cells.resize(len, Cell::Unknown),
         }
     }
@@ -95,6 +92,18 @@ pub(crate) struct Given {
     pub(crate) variable: usize,
     pub(crate) values: Buffer,
     pub(crate) written: Vec<bool>,
+}
+
+impl Given {
+    /// What some of the firings give, in this order.
+    pub(crate) fn select(&self, firings: &[usize]) -> Self {
+        let mut values = self.values.empty();
+        for &firing in firings {
+            values.push(self.values.cell(firing));
+        }
+        let written = firings.iter().map(|&firing| self.written[firing]).collect();
+        Self { name: self.name.clone(), variable: self.variable, values, written }
+    }
 }
 
 /// A binding of the clauses before, for which a clause was not met.

@@ -1,59 +1,54 @@
-//! Evaluates nodes for one binding, with the meaning that [`Machine`](super::Machine) has for batches.
+//! Evaluates nodes for one object, with the meaning that [`Machine`](super::Machine) has for batches.
 
 use std::cell::RefCell;
 
 use super::evaluate::{apply, compare_cells, compute, concat};
 use crate::plan::action::Step;
-use crate::plan::fragment::Fragment;
 use crate::plan::node::Node;
 use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth};
 
-/// Where a node's values come from.
-pub(crate) trait Binding {
-    /// A property of the object that a variable is bound to.
-    fn property(&self, variable: usize, column: usize) -> Cell;
-    /// The number that a clause of `count` or `sum` gives.
-    fn aggregate(&self, clause: usize) -> f64;
-    /// What an interpreted part gives.
-    fn interpret(&self, fragment: &Fragment) -> Cell;
-    /// The texts.
-    fn symbols(&self) -> &RefCell<Symbols>;
+/// One object, and no other.
+pub(crate) struct Object<'a> {
+    /// For each column of a plan the property.
+    pub(crate) columns: &'a [usize],
+    pub(crate) cells: &'a [Cell],
+    pub(crate) symbols: &'a RefCell<Symbols>,
 }
 
-/// Evaluates nodes of one binding; `slots` is what an action has written so far.
-pub(crate) struct Scalar<'b, B> {
-    pub(crate) binding: &'b B,
+/// Evaluates nodes of one object; `slots` is what an action has written so far.
+#[derive(Clone, Copy)]
+pub(crate) struct Scalar<'b> {
+    pub(crate) object: &'b Object<'b>,
     pub(crate) slots: &'b [Cell],
 }
 
-impl<B> Clone for Scalar<'_, B> {
-    fn clone(&self) -> Self {
-        *self
+impl Scalar<'_> {
+    fn property(self, column: usize) -> Cell {
+        self.object.cells[self.object.columns[column]]
     }
-}
 
-impl<B> Copy for Scalar<'_, B> {}
-
-impl<B: Binding> Scalar<'_, B> {
     /// [`cell`](Self::cell), with what most nodes are looked at where it is wanted.
     #[inline]
     fn operand(self, node: &Node) -> Cell {
         match node {
             Node::Local(slot) => self.slots.get(*slot).copied().unwrap_or(Cell::Unknown),
-            Node::Property { variable, column } => self.binding.property(*variable, *column),
+            Node::Property { column, .. } => self.property(*column),
             other => self.cell(other),
         }
     }
 
     pub(crate) fn cell(self, node: &Node) -> Cell {
         match node {
-            Node::Unknown | Node::Text(Symbol::UNKNOWN) => Cell::Unknown,
+            // No rule that looks at one object alone has numbers of clauses, or parts for the interpreter.
+            Node::Unknown | Node::Text(Symbol::UNKNOWN) | Node::Aggregate(_) | Node::Interpret(_) => {
+                Cell::Unknown
+            }
             Node::Number(number) => Cell::number(*number),
             Node::Text(symbol) => Cell::Text(*symbol),
-            Node::Property { variable, column } => self.binding.property(*variable, *column),
+            Node::Property { column, .. } => self.property(*column),
             Node::Local(slot) => self.slots.get(*slot).copied().unwrap_or(Cell::Unknown),
-            Node::Aggregate(_) | Node::Arithmetic(..) | Node::Function(..) => Cell::number(self.number(node)),
+            Node::Arithmetic(..) | Node::Function(..) => Cell::number(self.number(node)),
             Node::Truth(_)
             | Node::Compare(..)
             | Node::And(_)
@@ -62,7 +57,7 @@ impl<B: Binding> Scalar<'_, B> {
             | Node::Known(_) => self.truth(node).known().map_or(Cell::Unknown, Cell::Truth),
             Node::Concat(a, b) => {
                 let (a, b) = (self.cell(a), self.cell(b));
-                match concat(a, b, self.binding.symbols()) {
+                match concat(a, b, self.object.symbols) {
                     None | Some(Symbol::UNKNOWN) => Cell::Unknown,
                     Some(whole) => Cell::Text(whole),
                 }
@@ -80,7 +75,6 @@ impl<B: Binding> Scalar<'_, B> {
                 cell if cell.kind() == Some(*kind) => cell,
                 _ => Cell::Unknown,
             },
-            Node::Interpret(fragment) => self.binding.interpret(fragment),
         }
     }
 
@@ -88,7 +82,6 @@ impl<B: Binding> Scalar<'_, B> {
     pub(crate) fn number(self, node: &Node) -> f64 {
         match node {
             Node::Number(number) => *number,
-            Node::Aggregate(clause) => self.binding.aggregate(*clause),
             Node::Arithmetic(operator, a, b) => compute(*operator, self.number(a), self.number(b)),
             Node::Function(function, a) => apply(*function, self.number(a)),
             other => match self.cell(other) {
@@ -102,7 +95,7 @@ impl<B: Binding> Scalar<'_, B> {
         match node {
             Node::Truth(truth) => *truth,
             Node::Compare(comparison, a, b) => {
-                compare_cells(*comparison, self.operand(a), self.operand(b), self.binding.symbols())
+                compare_cells(*comparison, self.operand(a), self.operand(b), self.object.symbols)
             }
             Node::And(parts) => self.connect(parts, Truth::False),
             Node::Or(parts) => self.connect(parts, Truth::True),
@@ -129,7 +122,7 @@ impl<B: Binding> Scalar<'_, B> {
     }
 }
 
-/// The slots of an action for one binding: what they hold, and which were written.
+/// The slots of an action for one object: what they hold, and which were written.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Written {
     pub(crate) cells: Vec<Cell>,
@@ -146,14 +139,14 @@ impl Written {
     }
 
     /// Runs the steps of an action that has no interpreted step.
-    pub(crate) fn act<B: Binding>(&mut self, steps: &[Step], binding: &B) {
+    pub(crate) fn act(&mut self, steps: &[Step], object: &Object) {
         for step in steps {
-            let scalar = Scalar { binding, slots: &self.cells };
+            let scalar = Scalar { object, slots: &self.cells };
             match step {
                 Step::Put { slot, value } => self.put(*slot, scalar.operand(value)),
                 Step::If { condition, then, otherwise, changes } => match scalar.truth(condition) {
-                    Truth::True => self.act(then, binding),
-                    Truth::False => self.act(otherwise, binding),
+                    Truth::True => self.act(then, object),
+                    Truth::False => self.act(otherwise, object),
                     Truth::Unknown => changes.iter().for_each(|&slot| self.put(slot, Cell::Unknown)),
                 },
                 Step::Interpret(_) => {}

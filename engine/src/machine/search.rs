@@ -2,7 +2,6 @@
 
 use super::action::Slots;
 use super::candidates::Candidates;
-use super::evaluate::Batch;
 use super::hypothesis::Verdicts;
 use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
 use super::output::{Failure, Output, Status};
@@ -10,6 +9,7 @@ use super::{BATCH, Machine, Stopped};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::action::{ActionPlan, Target};
 use crate::plan::clause::ClausePlan;
+use crate::plan::node::Node;
 use crate::plan::{Effect, Plan};
 use crate::rule::PropertyName;
 use crate::script::syntax::Quantifier;
@@ -19,20 +19,29 @@ use crate::value::{Truth, Type};
 pub(crate) const MAX_FIRINGS: usize = 20_000_000;
 
 /// The objects of the first clause from which a search starts.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Drivers<'d> {
     /// Rows from and up to.
     Range(u32, u32),
     Rows(&'d [u32]),
     /// The first clause binds one object, or none, of so many.
     Whole(u32),
+    /// What the clauses before this one bind is given.
+    Bound(usize, Frame),
 }
 
-/// The evaluation of one rule.
+/// A search through the clauses of one rule.
 pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
-    pub(crate) candidates: &'s [Option<Candidates>],
+    /// The clauses in the order in which they are gone through.
+    clauses: &'s [ClausePlan],
+    /// For each of them, but for the one that drives.
+    candidates: Vec<Option<&'s Candidates>>,
+    /// Most firings, or bindings.
+    most: usize,
+    /// What the clauses bind, where that alone is wanted.
+    bindings: Option<Vec<Frame>>,
     pub(super) verdicts: Verdicts,
     pub(super) output: Output,
 }
@@ -46,7 +55,7 @@ pub(crate) fn search(
     drivers: Drivers,
 ) -> Output {
     let mut search =
-        Search { machine, plan, candidates, verdicts: Verdicts::default(), output: Output::default() };
+        Search::new(machine, plan, &plan.clauses, candidates.iter().map(Option::as_ref).collect());
     search.output.witnesses = vec![vec![]; plan.clauses.len()];
     search.output.failed = vec![vec![]; plan.clauses.len()];
     search.expect();
@@ -69,6 +78,30 @@ pub(crate) fn search(
 }
 
 impl<'s> Search<'s> {
+    pub(crate) fn new(
+        machine: &'s Machine<'s>,
+        plan: &'s Plan,
+        clauses: &'s [ClausePlan],
+        candidates: Vec<Option<&'s Candidates>>,
+    ) -> Self {
+        Self {
+            machine,
+            plan,
+            clauses,
+            candidates,
+            most: MAX_FIRINGS,
+            bindings: None,
+            verdicts: Verdicts::default(),
+            output: Output::default(),
+        }
+    }
+
+    /// What the clauses bind; more than `most` are too many.
+    pub(crate) fn bindings(mut self, drivers: Drivers, most: usize) -> Result<Vec<Frame>, Stopped> {
+        (self.most, self.bindings) = (most, Some(vec![]));
+        self.start(drivers).map(|()| self.bindings.unwrap_or_default())
+    }
+
     /// Makes room for what may be concluded, so that a type is known even where nothing is.
     fn expect(&mut self) {
         for (name, variable, kind) in self.plan.targets(self.machine.rule) {
@@ -77,7 +110,8 @@ impl<'s> Search<'s> {
     }
 
     fn start(&mut self, drivers: Drivers) -> Result<(), Stopped> {
-        let unbound = || vec![Rows::Unbound; self.plan.clauses.len()];
+        let unbound = || vec![Rows::Unbound; self.machine.rule.clauses.len()];
+        let first = self.clauses.first().map_or(0, |clause| clause.variable);
         match drivers {
             Drivers::Whole(objects) => {
                 self.advance(0, Frame { len: 1, rows: unbound() })?;
@@ -85,22 +119,21 @@ impl<'s> Search<'s> {
                 self.settle(0..objects)?;
             }
             Drivers::Range(from, to) => {
-                for first in (from..to).step_by(BATCH) {
-                    let len = (to - first).min(BATCH as u32) as usize;
+                for start in (from..to).step_by(BATCH) {
+                    let len = (to - start).min(BATCH as u32) as usize;
                     let mut frame = Frame { len, rows: unbound() };
-                    frame.rows[0] = Rows::From(first);
+                    frame.rows[first] = Rows::From(start);
                     self.drive(frame)?;
                 }
                 self.settle(from..to)?;
             }
             Drivers::Rows(rows) => {
                 for chunk in rows.chunks(BATCH) {
-                    let mut frame = Frame { len: chunk.len(), rows: unbound() };
-                    frame.rows[0] = Rows::Each(chunk.to_vec());
-                    self.drive(frame)?;
+                    self.drive(Frame::of(self.machine.rule.clauses.len(), first, chunk))?;
                 }
                 self.settle(rows.iter().copied())?;
             }
+            Drivers::Bound(clause, frame) => self.advance(clause, frame)?,
         }
         Ok(())
     }
@@ -108,15 +141,15 @@ impl<'s> Search<'s> {
     /// A batch of objects of the first clause.
     fn drive(&mut self, frame: Frame) -> Result<(), Stopped> {
         self.machine.tick()?;
-        let Some(own) = &self.plan.clauses[0].own else { return self.advance(1, frame) };
-        let truths = self.machine.evaluate(own, Batch { frame: &frame, slots: &[], mask: None }).truths();
+        let Some(own) = &self.clauses[0].own else { return self.advance(1, frame) };
+        let truths = self.machine.values(own, &frame).truths();
         let truths = match truths {
             Lane::Same(Truth::True) => return self.advance(1, frame),
             truths => truths.into_static(),
         };
         let passing = self.passing(&truths, frame.len);
         for index in (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown) {
-            let row = frame.rows[0].at(index);
+            let row = frame.rows[self.clauses[0].variable].at(index);
             self.output.left_out.push(row);
             self.verdicts.leave_open(std::iter::once(row));
         }
@@ -134,8 +167,7 @@ impl<'s> Search<'s> {
 
     fn advance(&mut self, number: usize, frame: Frame) -> Result<(), Stopped> {
         self.machine.tick()?;
-        let plan = self.plan;
-        let Some(clause) = plan.clauses.get(number) else { return self.fire(&frame) };
+        let Some(clause) = self.clauses.get(number) else { return self.fire(frame) };
         if clause.quantifier == Quantifier::Each {
             self.each(number, clause, &frame)?;
             return self.doubt(number, clause, &frame);
@@ -143,8 +175,8 @@ impl<'s> Search<'s> {
         if clause.quantifier.counts() {
             let numbers = self.tally(number, clause, &frame)?.numbers(clause.quantifier);
             let mut next = frame;
-            next.rows[number] = Rows::Numbers(Lane::Each(numbers.into()));
-            return self.advance(number + 1, next);
+            next.rows[clause.variable] = Rows::Numbers(Lane::Each(numbers.into()));
+            return self.filtered(number, clause.after.as_ref(), next);
         }
         if clause.quantifier == Quantifier::Link {
             let rows = match self.candidates(number).index {
@@ -153,8 +185,8 @@ impl<'s> Search<'s> {
             };
             let first = rows.into_iter().map(|rows| rows.first().copied().unwrap_or(NO_ROW)).collect();
             let mut next = frame;
-            next.rows[number] = Rows::Each(first);
-            return self.filtered(number, clause, next);
+            next.rows[clause.variable] = Rows::each(first);
+            return self.filtered(number, clause.after.as_ref(), next);
         }
         if clause.quantifier == Quantifier::All {
             return self.all(number, clause, frame);
@@ -163,8 +195,8 @@ impl<'s> Search<'s> {
         let wanted = clause.quantifier != Quantifier::None;
         if wanted && !found.rows.contains(&NO_ROW) {
             let mut next = frame;
-            next.rows[number] = Rows::Each(found.rows);
-            return self.advance(number + 1, next);
+            next.rows[clause.variable] = Rows::each(found.rows);
+            return self.filtered(number, clause.after.as_ref(), next);
         }
         let met = |index: &u32| (found.rows[*index as usize] != NO_ROW) == wanted;
         let (passing, failing): (Vec<u32>, Vec<u32>) = (0..frame.len as u32).partition(met);
@@ -181,12 +213,12 @@ impl<'s> Search<'s> {
             return Ok(());
         }
         let mut next = if failing.is_empty() { frame } else { frame.select(&passing) };
-        next.rows[number] = if wanted {
-            Rows::Each(passing.iter().map(|&index| found.rows[index as usize]).collect())
+        next.rows[clause.variable] = if wanted {
+            Rows::each(passing.iter().map(|&index| found.rows[index as usize]).collect())
         } else {
             Rows::Unbound
         };
-        self.advance(number + 1, next)
+        self.filtered(number, clause.after.as_ref(), next)
     }
 
     /// Goes on with the bindings of which it is known that all objects have what is asked.
@@ -201,8 +233,8 @@ impl<'s> Search<'s> {
         }
         match passing.len() {
             0 => Ok(()),
-            all if all == frame.len => self.advance(number + 1, frame),
-            _ => self.advance(number + 1, frame.select(&passing)),
+            all if all == frame.len => self.filtered(number, clause.after.as_ref(), frame),
+            _ => self.filtered(number, clause.after.as_ref(), frame.select(&passing)),
         }
     }
 
@@ -210,91 +242,93 @@ impl<'s> Search<'s> {
     fn each(&mut self, number: usize, clause: &'s ClausePlan, frame: &Frame) -> Result<(), Stopped> {
         let candidates = self.candidates(number);
         if candidates.index.is_some() {
-            let groups: Vec<Vec<u32>> =
-                self.groups(number, clause, frame).into_iter().map(<[u32]>::to_vec).collect();
-            let mut pairs: Vec<(u32, u32)> = vec![];
-            for (binding, rows) in (0..).zip(groups) {
-                for row in rows {
-                    pairs.push((binding, row));
-                    if pairs.len() == BATCH {
-                        self.pairs(number, clause, frame, &std::mem::take(&mut pairs))?;
-                    }
+            let groups = self.groups(number, clause, frame);
+            let unknown_key = if clause.perhaps { self.unknown_keys(clause, frame) } else { vec![] };
+            let perhaps = |binding: usize| unknown_key.get(binding).map(|&key| candidates.perhaps(key));
+            let rows = |binding: usize| groups[binding].iter().chain(perhaps(binding).into_iter().flatten());
+            let mut pairs = pairs(frame, rows);
+            loop {
+                let batch: Vec<(u32, u32)> = pairs.by_ref().take(BATCH).collect();
+                if batch.is_empty() {
+                    return Ok(());
                 }
+                self.filtered(number, clause.test.as_ref(), frame.paired(clause.variable, &batch))?;
             }
-            return self.pairs(number, clause, frame, &pairs);
         }
         for binding in 0..frame.len {
             let mut from = 0;
             while from < candidates.rows.len() {
                 let to = (from + BATCH).min(candidates.rows.len());
                 let mut next = frame.repeat(binding, to - from);
-                next.rows[number] = if candidates.all {
+                next.rows[clause.variable] = if candidates.all {
                     Rows::From(from as u32)
                 } else {
-                    Rows::Each(candidates.rows[from..to].to_vec())
+                    Rows::each(candidates.rows[from..to].to_vec())
                 };
-                self.filtered(number, clause, next)?;
+                self.filtered(number, clause.test.as_ref(), next)?;
                 from = to;
             }
         }
         Ok(())
     }
 
-    fn pairs(
-        &mut self,
-        number: usize,
-        clause: &'s ClausePlan,
+    /// Bindings with the rows that may be bound to a clause's variable, so many at a time.
+    pub(super) fn in_batches(
+        &self,
+        clause: &ClausePlan,
         frame: &Frame,
-        pairs: &[(u32, u32)],
+        mut pairs: impl Iterator<Item = (u32, u32)>,
+        mut look: impl FnMut(&Frame, &[(u32, u32)]),
     ) -> Result<(), Stopped> {
-        if pairs.is_empty() {
-            return Ok(());
+        loop {
+            let batch: Vec<(u32, u32)> = pairs.by_ref().take(BATCH).collect();
+            if batch.is_empty() {
+                return Ok(());
+            }
+            self.machine.tick()?;
+            look(&frame.paired(clause.variable, &batch), &batch);
         }
-        let bindings: Vec<u32> = pairs.iter().map(|&(binding, _)| binding).collect();
-        let mut next = frame.select(&bindings);
-        next.rows[number] = Rows::Each(pairs.iter().map(|&(_, row)| row).collect());
-        self.filtered(number, clause, next)
     }
 
-    fn filtered(&mut self, number: usize, clause: &'s ClausePlan, frame: Frame) -> Result<(), Stopped> {
-        let Some(test) = &clause.test else { return self.advance(number + 1, frame) };
-        let truths = self.machine.evaluate(test, Batch { frame: &frame, slots: &[], mask: None }).truths();
+    /// Goes on with the bindings that pass.
+    fn filtered(&mut self, number: usize, test: Option<&Node>, frame: Frame) -> Result<(), Stopped> {
+        let Some(test) = test else { return self.advance(number + 1, frame) };
+        let truths = self.machine.values(test, &frame).truths().into_static();
         if self.plan.hypothesis.is_some() {
             let unknown = (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown);
             self.verdicts.leave_open(unknown.map(|index| frame.rows[0].at(index)));
         }
-        let passing = self.passing(&truths, frame.len);
+        let passing = match &truths {
+            Lane::Same(Truth::True) => return self.advance(number + 1, frame),
+            Lane::Same(_) => return Ok(()),
+            Lane::Each(_) => self.passing(&truths, frame.len),
+        };
         if passing.is_empty() {
             return Ok(());
         }
-        let next = if passing.len() == frame.len { frame.clone() } else { frame.select(&passing) };
+        let next = if passing.len() == frame.len { frame } else { frame.select(&passing) };
         self.advance(number + 1, next)
     }
 
     /// For each binding the rows that the index gives.
-    pub(crate) fn groups(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Vec<&[u32]> {
+    pub(crate) fn groups(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Vec<&'s [u32]> {
         let Some(index) = &self.candidates(number).index else { return vec![] };
-        let batch = Batch { frame, slots: &[], mask: None };
-        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
+        let keys = self.machine.keys(clause, frame);
         (0..frame.len).map(|binding| index.rows(keys.iter().map(|key| key.cell(binding)))).collect()
     }
 
     /// The candidates of a clause, which are made before a search.
     pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
-        static NONE: Candidates = Candidates {
-            rows: vec![],
-            all: false,
-            index: None,
-            undecided: vec![],
-            thresholds: vec![],
-            left_out: 0,
-        };
-        self.candidates.get(number).and_then(Option::as_ref).unwrap_or(&NONE)
+        static NONE: Candidates = Candidates::NONE;
+        self.candidates.get(number).copied().flatten().unwrap_or(&NONE)
     }
 
     /// `found` is for each binding what a `none` found, and how many candidates an unknown kept out.
     fn fail(&mut self, number: usize, mut frame: Frame, found: &[(u32, u32)]) -> Result<(), Stopped> {
         let plan = self.plan;
+        if self.bindings.is_some() {
+            return Ok(());
+        }
         // A `none` that found one is decided, whatever else is unknown.
         let undecided = |(row, unknown): &(u32, u32)| *row == NO_ROW && *unknown > 0;
         for (index, &(_, unknown)) in found.iter().enumerate().filter(|(_, found)| undecided(found)) {
@@ -316,31 +350,28 @@ impl<'s> Search<'s> {
         Ok(())
     }
 
-    fn fire(&mut self, frame: &Frame) -> Result<(), Stopped> {
-        let plan = self.plan;
+    fn fire(&mut self, frame: Frame) -> Result<(), Stopped> {
+        if let Some(bindings) = &mut self.bindings {
+            self.output.firings += frame.len;
+            bindings.push(frame);
+            return if self.output.firings > self.most { Err(Stopped) } else { Ok(()) };
+        }
+        let (plan, frame) = (self.plan, &frame);
         match &plan.effect {
             Effect::Conclude { then, .. } => {
                 self.prove(frame);
                 self.conclude(then, frame, Status::THEN)
             }
-            Effect::Default { value, .. } => {
+            Effect::Default { value: node, .. } | Effect::Revise { amount: node, .. } => {
                 self.record(frame, Status::THEN)?;
-                let values = self.machine.evaluate(value, Batch { frame, slots: &[], mask: None });
+                let values = self.machine.values(node, frame);
                 for given in &mut self.output.given {
                     given.values.extend(&values, frame.len);
                     given.written.resize(given.values.len(), true);
                 }
                 Ok(())
             }
-            Effect::Revise { amount, .. } => {
-                self.record(frame, Status::THEN)?;
-                let amounts = self.machine.evaluate(amount, Batch { frame, slots: &[], mask: None });
-                for given in &mut self.output.given {
-                    given.values.extend(&amounts, frame.len);
-                    given.written.resize(given.values.len(), true);
-                }
-                Ok(())
-            }
+            Effect::React(_) => Ok(()),
         }
     }
 
@@ -369,7 +400,7 @@ impl<'s> Search<'s> {
 
     /// Keeps what the bindings rest on.
     pub(super) fn record(&mut self, frame: &Frame, status: Status) -> Result<(), Stopped> {
-        if self.output.firings > MAX_FIRINGS {
+        if self.output.firings > self.most {
             return Err(Stopped);
         }
         for (column, rows) in self.output.witnesses.iter_mut().zip(&frame.rows) {
@@ -402,10 +433,19 @@ impl Plan {
                 out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
             }
             Effect::Default { name, kind, .. } => out.push((name, 0, *kind)),
+            Effect::React(_) => {}
             Effect::Revise { variable, .. } => {
                 out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));
             }
         }
         out
     }
+}
+
+/// Each binding with each of its rows.
+pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
+    frame: &Frame,
+    rows: impl Fn(usize) -> I,
+) -> impl Iterator<Item = (u32, u32)> {
+    (0..frame.len).flat_map(move |binding| rows(binding).map(move |&row| (binding as u32, row)))
 }

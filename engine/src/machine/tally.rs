@@ -1,16 +1,16 @@
 //! Counts, adds up and checks all objects that pass, for each binding.
 
+use super::Stopped;
 use super::evaluate::Batch;
-use super::lane::{Frame, Rows};
-use super::search::Search;
-use super::{BATCH, Stopped};
+use super::lane::Frame;
+use super::search::{Search, pairs};
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Node;
 use crate::script::syntax::Quantifier;
 use crate::value::{Cell, Truth};
 
 /// What came together for each binding.
-pub(super) struct Tally {
+pub(crate) struct Tally {
     /// What is added up, for each binding.
     amounts: Vec<Vec<f64>>,
     passed: Vec<u32>,
@@ -31,7 +31,7 @@ impl Tally {
     }
 
     /// The number for each binding, NaN where it is unknown.
-    pub(super) fn numbers(mut self, quantifier: Quantifier) -> Vec<f64> {
+    pub(crate) fn numbers(mut self, quantifier: Quantifier) -> Vec<f64> {
         let number = |binding: usize| match quantifier {
             _ if self.undecided[binding] > 0 => f64::NAN,
             Quantifier::Sum => {
@@ -61,50 +61,41 @@ impl Tally {
 
 impl Search<'_> {
     /// Goes through the candidates of each binding, the undecided ones too.
-    pub(super) fn tally(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Tally, Stopped> {
+    pub(crate) fn tally(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Result<Tally, Stopped> {
         let mut tally = Tally::new(frame.len);
         let candidates = self.candidates(number);
         if candidates.index.is_none() {
             let pairs = pairs(frame, |_| candidates.rows.iter());
-            self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
+            self.tallied(clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
             let pairs = self::pairs(frame, |_| candidates.undecided.iter());
-            self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
+            self.tallied(clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
             return Ok(tally);
         }
         let groups = self.groups(number, clause, frame);
         let pairs = pairs(frame, |binding| groups[binding].iter());
-        self.tallied(number, clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
+        self.tallied(clause, clause.test.as_ref(), frame, pairs, &mut tally)?;
         let unknown_key = self.unknown_keys(clause, frame);
         let pairs = self::pairs(frame, |binding| candidates.perhaps(unknown_key[binding]));
-        self.tallied(number, clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
+        self.tallied(clause, clause.whole.as_ref(), frame, pairs, &mut tally)?;
         Ok(tally)
     }
 
     /// For each binding whether a key of the clause's joins is unknown; it may equal every value then.
     pub(super) fn unknown_keys(&self, clause: &ClausePlan, frame: &Frame) -> Vec<bool> {
-        let batch = Batch { frame, slots: &[], mask: None };
-        let keys: Vec<_> = clause.joins.iter().map(|join| self.machine.evaluate(&join.key, batch)).collect();
+        let keys = self.machine.keys(clause, frame);
         (0..frame.len).map(|binding| keys.iter().any(|key| key.cell(binding) == Cell::Unknown)).collect()
     }
 
     fn tallied(
         &self,
-        number: usize,
         clause: &ClausePlan,
         condition: Option<&Node>,
         frame: &Frame,
-        mut pairs: impl Iterator<Item = (u32, u32)>,
+        pairs: impl Iterator<Item = (u32, u32)>,
         tally: &mut Tally,
     ) -> Result<(), Stopped> {
-        loop {
-            let (bindings, rows): (Vec<u32>, Vec<u32>) = pairs.by_ref().take(BATCH).unzip();
-            if bindings.is_empty() {
-                return Ok(());
-            }
-            self.machine.tick()?;
-            let mut tried = frame.select(&bindings);
-            tried.rows[number] = Rows::Each(rows);
-            let batch = Batch { frame: &tried, slots: &[], mask: None };
+        self.in_batches(clause, frame, pairs, |tried, pairs| {
+            let batch = Batch { frame: tried, slots: &[], mask: None };
             let truths = |node: &Node| self.machine.evaluate(node, batch).truths().into_static();
             let passes = condition.map(truths);
             // What does not pass is not asked further.
@@ -114,7 +105,7 @@ impl Search<'_> {
             let batch = Batch { mask: open.as_deref(), ..batch };
             let has = clause.have.as_ref().map(|have| self.machine.evaluate(have, batch).truths());
             let amounts = clause.by.as_ref().map(|by| self.machine.evaluate(by, batch).numbers());
-            for (index, &binding) in bindings.iter().enumerate() {
+            for (index, &(binding, _)) in pairs.iter().enumerate() {
                 let binding = binding as usize;
                 let passes = passes.as_ref().map_or(Truth::True, |passes| passes.at(index));
                 if let Some(has) = &has {
@@ -137,14 +128,6 @@ impl Search<'_> {
                     _ => tally.undecided[binding] += 1,
                 }
             }
-        }
+        })
     }
-}
-
-/// Each binding with each of its rows.
-pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
-    frame: &Frame,
-    rows: impl Fn(usize) -> I,
-) -> impl Iterator<Item = (u32, u32)> {
-    (0..frame.len).flat_map(move |binding| rows(binding).map(move |&row| (binding as u32, row)))
 }

@@ -2,17 +2,11 @@
 
 use std::sync::Arc;
 
+use super::link::{self, Join};
 use super::lower::Lowering;
 use super::node::{Comparison, Node};
 use crate::script::syntax::Quantifier;
 use crate::value::Type;
-
-/// An equation that an index answers: this column of the clause's class equals this value.
-#[derive(Clone, Debug)]
-pub(crate) struct Join {
-    pub(crate) column: usize,
-    pub(crate) key: Node,
-}
 
 /// A comparison that has the candidate on its left side alone, and the variables before it on its right.
 #[derive(Clone, Debug)]
@@ -25,12 +19,20 @@ pub(crate) struct Threshold {
 /// A clause ready to run.
 #[derive(Clone, Debug)]
 pub(crate) struct ClausePlan {
+    /// Its number among the clauses of the rule, which is that of its variable too.
+    pub(crate) variable: usize,
     pub(crate) quantifier: Quantifier,
+    /// The parts of `where`, as the rule writes them.
+    pub(crate) parts: Vec<Node>,
     pub(crate) joins: Vec<Join>,
     /// The part of `where` that looks at this clause's object alone.
     pub(crate) own: Option<Node>,
     /// The part of `where` that looks at others too.
     pub(crate) test: Option<Node>,
+    /// What must be true once an object is bound, whichever was chosen.
+    pub(crate) after: Option<Node>,
+    /// Whether an `each` also takes objects that the joins may find as far as is known.
+    pub(crate) perhaps: bool,
     pub(crate) by: Option<Node>,
     /// Whether `by` looks at this clause's object alone. Never of `sum`, where `by` does not rank.
     pub(crate) by_own: bool,
@@ -40,6 +42,13 @@ pub(crate) struct ClausePlan {
     pub(crate) have: Option<Node>,
     /// `test`, where it is such comparisons and nothing else.
     pub(crate) thresholds: Vec<Threshold>,
+}
+
+impl ClausePlan {
+    /// Whether an object counts of which it is unknown whether it passes.
+    pub(crate) fn minds_unknowns(&self) -> bool {
+        self.quantifier.counts() || self.quantifier == Quantifier::All
+    }
 }
 
 pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
@@ -55,28 +64,32 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
             node
         });
         let condition = clause.condition.as_ref().map(|condition| lowering.wanted(condition, Type::Truth));
-        let condition = all(of_class.into_iter().chain(condition).flat_map(parts).collect());
+        let parts: Vec<Node> = of_class.into_iter().chain(condition).flat_map(parts).collect();
         let have = clause.have.as_ref().map(|have| lowering.wanted(have, Type::Truth));
         let undecided_counts =
             clause.quantifier.counts() || clause.quantifier == Quantifier::All || rule.hypothesis.is_some();
         let mut plan = ClausePlan {
+            variable: index,
             quantifier: clause.quantifier,
             joins: vec![],
             own: None,
             test: None,
+            after: None,
+            perhaps: false,
             by_own: clause.quantifier != Quantifier::Sum
                 && by.as_ref().is_none_or(|by| by.variables() & !(1 << index) == 0),
             by,
-            whole: condition.clone().filter(|_| undecided_counts),
+            whole: if undecided_counts { all(parts.clone()) } else { None },
             have,
             thresholds: vec![],
+            parts,
         };
         if let Some(link) = &clause.link {
             // A link's condition looks at the object before, which is bound; it is tested after the link.
-            plan.joins.extend(super::link::join(lowering, index, link));
-            plan.test = condition;
+            plan.joins.extend(link::join(lowering, index, link));
+            plan.after = all(plan.parts.clone());
         } else {
-            split(condition, index, &mut plan);
+            split(index, &mut plan);
         }
         plan.thresholds = plan.test.as_ref().and_then(|test| thresholds(test, index)).unwrap_or_default();
         plans.push(plan);
@@ -101,17 +114,17 @@ pub(crate) fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
     nodes
 }
 
-fn parts(condition: Node) -> Vec<Node> {
+/// The parts of a condition that all must be true.
+pub(crate) fn parts(condition: Node) -> Vec<Node> {
     match condition {
         Node::And(parts) => parts,
         other => vec![other],
     }
 }
 
-fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
-    let Some(condition) = condition else { return };
+fn split(index: usize, plan: &mut ClausePlan) {
     let (mut own, mut test) = (vec![], vec![]);
-    for part in parts(condition) {
+    for part in plan.parts.clone() {
         match part {
             part if part.variables() & !(1 << index) == 0 => own.push(part),
             Node::Compare(Comparison::Equal, a, b) => match join(*a, *b, index) {
@@ -125,7 +138,8 @@ fn split(condition: Option<Node>, index: usize, plan: &mut ClausePlan) {
     plan.test = all(test);
 }
 
-fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
+/// The equation as a join, if one of its sides is a property of the clause's object and the other does without it.
+pub(super) fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
     let free = |node: &Node| node.variables() & (1 << index) == 0 && !node.interprets();
     match (a, b) {
         (Node::Property { variable, column }, key) if variable == index && free(&key) => {
@@ -138,7 +152,7 @@ fn join(a: Node, b: Node, index: usize) -> Result<Join, (Node, Node)> {
     }
 }
 
-fn all(mut parts: Vec<Node>) -> Option<Node> {
+pub(super) fn all(mut parts: Vec<Node>) -> Option<Node> {
     if parts.len() > 1 { Some(Node::And(parts)) } else { parts.pop() }
 }
 

@@ -1,11 +1,17 @@
-//! How a link finds its object.
+//! Equations that an index answers; and how a link finds its object by one.
 
-use super::clause::Join;
 use super::lower::Lowering;
 use super::node::Node;
 use super::{Key, Kind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{LinkUse, PropertyName};
+
+/// An equation that an index answers: this column of the clause's class equals this value.
+#[derive(Clone, Debug)]
+pub(crate) struct Join {
+    pub(crate) column: usize,
+    pub(crate) key: Node,
+}
 
 /// The equation that finds the object; `None` where it is not known yet, or is wrong.
 pub(crate) fn join(lowering: &mut Lowering, index: usize, link: &LinkUse) -> Option<Join> {

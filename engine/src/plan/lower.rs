@@ -1,4 +1,7 @@
 //! From rhai's expression trees to typed nodes.
+//!
+//! Whoever makes a part of a plan ready gets a [`Lowering`]; what a plan is made of, and what is known of properties,
+//! stands above. So `plan` and the files in it import each other.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,40 +1,21 @@
-//! An `on` rule made ready: clauses as in every rule, and a body for the interpreter.
+//! The body of an `on` rule, made ready for the interpreter.
 
 use std::cell::RefCell;
 
 use rhai::{Expr, Position, Stmt};
 
-use super::Kinds;
-use super::clause::{self, ClausePlan};
-use super::fragment::Fragment;
-use super::lower::{Lowering, Stop};
-use crate::diagnostic::{Code, Diagnostic};
+use super::lower::Lowering;
+use super::{Effect, Kinds};
+use crate::diagnostic::Code;
 use crate::rule::{PropertyName, Reaction, Rule};
 use crate::script::names::{Names, Patterns};
 use crate::symbols::Symbols;
 use crate::value::Type;
 
-/// An `on` rule ready to run.
-#[derive(Debug)]
-pub(crate) struct ReactionPlan {
-    pub(crate) clauses: Vec<ClausePlan>,
-    pub(crate) body: Fragment,
-    /// The columns that the nodes name by number.
-    pub(crate) columns: Vec<PropertyName>,
-}
-
-/// Compiles an `on` rule, or tells everything that is wrong with its names and types.
-pub(crate) fn reaction(
-    rule: &Rule,
-    reaction: &Reaction,
-    kinds: &dyn Kinds,
-    symbols: &RefCell<Symbols>,
-) -> Result<ReactionPlan, Vec<Diagnostic>> {
-    let mut lowering = Lowering::new(rule, kinds, symbols);
-    let clauses = clause::clauses(&mut lowering);
-    lowering.enter(None);
-    for (name, kind, position) in told(rule, reaction, kinds, symbols) {
-        if let (Some(holds), Some(kind)) = (kinds.declared(&name), kind)
+/// What an `on` rule does; `None` where its body cannot be run, which is on the list of problems.
+pub(super) fn effect(lowering: &mut Lowering, reaction: &Reaction, symbols: &RefCell<Symbols>) -> Effect {
+    for (name, kind, position) in told(lowering.rule, reaction, lowering.kinds, symbols) {
+        if let (Some(holds), Some(kind)) = (lowering.kinds.declared(&name), kind)
             && holds != kind
         {
             let message = format!("{name} holds {}, and this gives {}", holds.plural(), kind.plural());
@@ -45,11 +26,7 @@ pub(crate) fn reaction(
     names.block(&reaction.body, &Patterns(&lowering.variables()));
     let statements = vec![Stmt::Block(Box::new(reaction.body.clone()))];
     let body = lowering.fragment(statements, &names, reaction.body.position());
-    let (columns, problems) = lowering.finish();
-    match body {
-        Ok(body) if problems.is_empty() => Ok(ReactionPlan { clauses, body, columns }),
-        Ok(_) | Err(Stop::Interpret | Stop::Wrong) => Err(problems),
-    }
+    Effect::React(body.ok().map(Box::new))
 }
 
 /// The properties that the body tells, as far as they are named in it, with the types that can be seen.

@@ -30,7 +30,7 @@ impl Uses {
                 found.push((number, join.column));
                 properties(&join.key, &mut found);
             }
-            for node in clause.own.iter().chain(&clause.test).chain(&clause.have) {
+            for node in clause.own.iter().chain(&clause.test).chain(&clause.after).chain(&clause.have) {
                 properties(node, &mut found);
             }
             let own = found.iter().filter(|(variable, _)| *variable == number);
@@ -54,6 +54,7 @@ impl Uses {
             }
             Effect::Revise { amount, .. } => properties(amount, &mut found),
             Effect::Default { value, .. } => properties(value, &mut found),
+            Effect::React(_) => {}
         }
         uses.add(&found);
         uses

@@ -92,6 +92,20 @@ fn a_body_that_loops_is_stopped_and_the_others_go_on() {
 }
 
 #[test]
+fn a_condition_that_loops_is_named_and_the_others_go_on() {
+    let text = r#"
+        fn stuck(x) { loop { } }
+        on "stuck" priority 1 each t in THINGS where stuck(t.x) then { tell("LOG", #{ stuck: true }); }
+        on "fine" each t in THINGS then { tell("LOG", #{ fine: true }); }
+    "#;
+    let (base, run) = react(text, limits());
+    assert_eq!(run.diagnostics.len(), 1);
+    assert_eq!(run.diagnostics[0].code, Code::Deadline);
+    assert!(run.diagnostics[0].message.starts_with("rule \"stuck\""));
+    assert_eq!((run.firings.len(), base.len("LOG")), (2, Some(2)));
+}
+
+#[test]
 fn what_a_body_may_not_call_fails_alone() {
     let text = r#"on "sleepy" each t in THINGS then { sleep(5); }"#;
     let (_, run) = react(text, limits());

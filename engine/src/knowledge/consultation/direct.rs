@@ -1,8 +1,10 @@
 //! The rules of one class, run for one object without the bookkeeping of an inference.
+//!
+//! A consultation keeps the direct way, which is found by looking at the consultation: the two import each other.
 
-use super::{Consultation, Object};
+use super::Consultation;
 use crate::knowledge::KnowledgeBase;
-use crate::machine::scalar::{Scalar, Written};
+use crate::machine::scalar::{Object, Scalar, Written};
 use crate::order::Step;
 use crate::plan::clause::ClausePlan;
 use crate::plan::{Effect, Plan};
@@ -81,6 +83,7 @@ impl Consultation {
                     let sets = match &planned.plan.effect {
                         Effect::Conclude { then, .. } => then.targets.iter().map(|set| set.slot).collect(),
                         Effect::Revise { .. } | Effect::Default { .. } => vec![0],
+                        Effect::React(_) => vec![],
                     };
                     let claims = vec![None; sets.len()];
                     steps.push(Do::Run(rules.len()));
@@ -135,6 +138,7 @@ impl Consultation {
         match &self.base.network.nodes[rule].planned.as_ref()?.plan.effect {
             Effect::Conclude { then, .. } => then.targets.iter().position(|target| target.name == *name),
             Effect::Revise { .. } | Effect::Default { .. } => Some(0),
+            Effect::React(_) => None,
         }
     }
 }
@@ -190,7 +194,7 @@ impl Direct {
 }
 
 fn claims(plan: &Plan, object: &Object, sets: &[usize], slots: &mut Written, claims: &mut [Option<Cell>]) {
-    let scalar = Scalar { binding: object, slots: &[] };
+    let scalar = Scalar { object, slots: &[] };
     if plan.clauses[0].own.as_ref().is_some_and(|own| scalar.truth(own) != Truth::True) {
         return;
     }
@@ -205,6 +209,7 @@ fn claims(plan: &Plan, object: &Object, sets: &[usize], slots: &mut Written, cla
         Effect::Revise { amount: node, .. } | Effect::Default { value: node, .. } => {
             claims[0] = Some(scalar.cell(node));
         }
+        Effect::React(_) => {}
     }
 }
 

@@ -1,14 +1,16 @@
-//! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it.
+//! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it: answers of a
+//! consultation, which hosts find beside it; so the two import each other.
 
 use std::cell::RefCell;
 use std::fmt;
 
-use super::{Consultation, Object};
-use crate::machine::scalar::{Scalar, Written};
+use super::Consultation;
+use crate::class::value;
+use crate::machine::scalar::{Object, Scalar, Written};
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, PropertyName, Rule};
 use crate::symbols::Symbols;
-use crate::table::{Literal, Table};
+use crate::table::Table;
 use crate::value::{Cell, Truth, Value};
 
 /// A rule, or one row of a decision table, and whether it spoke of an object.
@@ -81,7 +83,7 @@ fn of_rule(rule: &Rule, plan: &Plan, object: &Object) -> Vec<Considered> {
         row: None,
         miss,
     };
-    let scalar = Scalar { binding: object, slots: &[] };
+    let scalar = Scalar { object, slots: &[] };
     if plan.clauses[0].own.as_ref().is_some_and(|own| scalar.truth(own) != Truth::True) {
         let miss = Miss { given: String::new(), found: None, wanted: String::new() };
         return vec![whole(Some(miss))];
@@ -103,24 +105,16 @@ fn of_rule(rule: &Rule, plan: &Plan, object: &Object) -> Vec<Considered> {
     .collect()
 }
 
-/// For each row the first cell that its input does not pass.
+/// For each row what kept it from speaking.
 fn rows(table: &Table, inputs: &[Cell], symbols: &RefCell<Symbols>) -> Vec<Option<Miss>> {
-    let known: Vec<Option<Literal>> = inputs.iter().map(|&cell| literal(cell, &symbols.borrow())).collect();
-    let miss = |row: &crate::table::Row| {
-        let mut cells = row.tests.iter().zip(&table.given).zip(&known);
-        cells.find_map(|(((test, _), (_, given)), found)| {
-            if found.as_ref().map_or(test.asks_nothing(), |found| test.passes(found)) {
-                return None;
-            }
-            let found = found.as_ref().map(|found| match found {
-                Literal::Number(number) => Value::Number(*number),
-                Literal::Text(text) => Value::from(text.as_str()),
-                Literal::Truth(truth) => Value::Truth(*truth),
-            });
-            Some(Miss { given: given.clone(), found, wanted: test.to_string() })
-        })
+    let symbols = symbols.borrow();
+    let miss = |(row, column): (&crate::table::Row, Option<usize>)| {
+        let column = column?;
+        let (given, found) = (table.given[column].1.clone(), value(inputs[column], &symbols));
+        Some(Miss { given, found, wanted: row.tests[column].0.to_string() })
     };
-    let mut misses: Vec<Option<Miss>> = table.rows.iter().map(miss).collect();
+    let mut misses: Vec<Option<Miss>> =
+        table.rows.iter().zip(table.misses(inputs, &symbols)).map(miss).collect();
     // Where the first row that matches counts, those after it were not asked.
     if table.hit.takes_one() {
         let heard = table.heard();
@@ -134,13 +128,4 @@ fn rows(table: &Table, inputs: &[Cell], symbols: &RefCell<Symbols>) -> Vec<Optio
         }
     }
     misses
-}
-
-fn literal(cell: Cell, symbols: &Symbols) -> Option<Literal> {
-    match cell {
-        Cell::Unknown => None,
-        Cell::Number(number) => Some(Literal::Number(number)),
-        Cell::Text(symbol) => symbols.text(symbol).map(|text| Literal::Text(text.to_string())),
-        Cell::Truth(truth) => Some(Literal::Truth(truth)),
-    }
 }

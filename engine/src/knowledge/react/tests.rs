@@ -10,7 +10,7 @@ use crate::script::source::SourceFile;
 use crate::value::Value;
 
 /// Clauses of every kind; `f` is a function of the file, so it stays with the interpreter.
-const CLAUSES: [&str; 15] = [
+const CLAUSES: [&str; 17] = [
     "each a in A where a.x > 1 each b in B where b.k == a.k && b.y != a.y",
     "each a in A none b in B where b.k == a.k && b.x > a.x",
     "each a in A least b in B by x where b.k == a.k each c in A where c.x == b.x",
@@ -26,6 +26,8 @@ const CLAUSES: [&str; 15] = [
     "each a in A where known(a.y) && a.y + \"p\" != \"pp\" count n of b in A where b.k == a.k && n_less(b.x, a.x)",
     "each a in A none b in B where b.y == a.y none c in B where c.k == a.x most d in B by x each e in A where e.k == d.k",
     "each a in A least b in A by k where b.x != a.x all c in B where c.y == a.y have c.k != b.k",
+    "each a in A count n of b in B where b.k == a.k && b.x == a.x each c in A where c.x == n none d in B where d.k == c.k && d.x == n",
+    "each a in A each b in B where b.k == a.k sum n of c in A by x where c.y == b.y && c.k == a.x none d in B where d.x == n",
 ];
 
 const FILE: &str = "fn f(a, b) { a <= b } fn n_less(a, b) { a < b }

@@ -5,8 +5,8 @@ use std::cell::RefCell;
 use rhai::Expr;
 
 use crate::plan::Kinds;
-use crate::plan::clause::{Join, of_class};
-use crate::plan::link::join;
+use crate::plan::clause::of_class;
+use crate::plan::link::{Join, join};
 use crate::plan::lower::Lowering;
 use crate::plan::node::{Comparison, Node};
 use crate::rule::{Action, PropertyName, Rule};
