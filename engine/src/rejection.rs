@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::rule::PropertyName;
+use crate::rule::{PropertyName, Rule};
 use crate::value::Value;
 
 /// Why a property of an object has no other value.
@@ -35,6 +35,22 @@ pub struct Rejected {
     /// What for.
     #[serde(flatten)]
     pub reason: Rejection,
+}
+
+impl Rejected {
+    /// The rule as a whole.
+    pub(crate) fn of_rule(rule: &Rule, reason: Rejection) -> Self {
+        Self {
+            rule: rule.name.clone(),
+            version: rule.version.clone(),
+            file: rule.file().to_owned(),
+            line: rule.line,
+            variable: None,
+            class: None,
+            key: None,
+            reason,
+        }
+    }
 }
 
 /// What something is rejected for.

@@ -1,18 +1,14 @@
-//! Why not: each rule that could set a property is gone through by hand for one object, and what it rejects is noted.
+//! Why not: each rule that could set a property is gone through for one object, and what it rejects is noted.
 
-mod rows;
-mod tests_of;
 mod walk;
 
 use super::KnowledgeBase;
-use super::evaluate::{Known, below};
-use crate::column::Column;
 use crate::conclusions::Origin;
-use crate::machine::Machine;
+use crate::machine::candidates::Candidates;
 use crate::rejection::{Rejected, Rejection, WhyNot};
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
-use tests_of::TestsOfRule;
+use crate::script::syntax::Quantifier;
 use walk::Walk;
 
 /// Objects of which it is said why one rule did not take them.
@@ -35,7 +31,7 @@ impl KnowledgeBase {
             let needs = self.network.nodes.get(number).map_or(&[][..], |node| &node.needs);
             if !needs.is_empty() {
                 let reason = Rejection::Waiting { needs: needs.to_vec() };
-                rejected.push(of_rule(rule, reason));
+                rejected.push(Rejected::of_rule(rule, reason));
                 continue;
             }
             // The interpreter may need more stack than the caller has.
@@ -52,24 +48,35 @@ impl KnowledgeBase {
     }
 
     fn walk(&mut self, number: usize, rule: &Rule, name: &PropertyName, row: u32) -> Walked {
-        static NONE: Column = Column::Truths(vec![]);
         let mut walked = Walked::default();
-        let Some(planned) = self.network.nodes.get(number).and_then(|node| node.planned.as_ref()) else {
-            return walked;
+        let Some(node) = self.network.nodes.get(number) else { return walked };
+        let Some(planned) = &node.planned else { return walked };
+        let machine = self.machine(rule, &planned.plan, self.limits.end(self.limits.rule));
+        let kept = |number: usize| node.memory.as_ref()?.candidates[number].as_ref();
+        let made = |number: usize| {
+            let size = self.len(&rule.clauses[number].class).unwrap_or(0);
+            let drives = number == 0 && rule.clauses[0].quantifier == Quantifier::Each;
+            if drives || kept(number).is_some() {
+                None
+            } else {
+                Candidates::of(&machine, &planned.plan, number, size).ok()
+            }
         };
-        let Some((tests, columns)) =
-            TestsOfRule::new(rule, &Known { base: self, rule: Some(rule), told: None }, &self.symbols)
-        else {
-            return walked;
-        };
-        let column = |name| self.view(name, below(rule, name)).unwrap_or(&NONE);
-        let columns = columns.iter().map(column).collect();
-        let until = self.limits.end(self.limits.rule);
-        let machine = Machine::new(rule, columns, &self.symbols, until, false);
+        let made: Vec<Option<Candidates>> = (0..rule.clauses.len()).map(made).collect();
+        let candidates: Vec<Option<&Candidates>> =
+            made.iter().enumerate().map(|(number, made)| kept(number).or(made.as_ref())).collect();
         for (_, target, _) in planned.plan.targets(rule).into_iter().filter(|(set, ..)| *set == name) {
-            let mut walk = Walk::new(self, &machine, &tests, (target, row), MOST_OBJECTS);
-            let applied = walk.run();
-            walked.applied |= applied;
+            let mut walk = Walk {
+                knowledge: self,
+                machine: &machine,
+                plan: &planned.plan,
+                candidates: &candidates,
+                target: (target, row),
+                budget: MOST_OBJECTS,
+                rejected: vec![],
+                truncated: false,
+            };
+            walked.applied |= walk.run();
             walked.truncated |= walk.truncated;
             walked.rejected.extend(walk.rejected);
         }
@@ -88,7 +95,7 @@ impl KnowledgeBase {
             Origin::Rule(support) if support.rule == rule.name => return None,
             Origin::Rule(support) => Some(support.rule),
         };
-        Some(of_rule(rule, Rejection::Overruled { by }))
+        Some(Rejected::of_rule(rule, Rejection::Overruled { by }))
     }
 }
 
@@ -98,17 +105,4 @@ struct Walked {
     rejected: Vec<Rejected>,
     applied: bool,
     truncated: bool,
-}
-
-fn of_rule(rule: &Rule, reason: Rejection) -> Rejected {
-    Rejected {
-        rule: rule.name.clone(),
-        version: rule.version.clone(),
-        file: rule.file().to_owned(),
-        line: rule.line,
-        variable: None,
-        class: None,
-        key: None,
-        reason,
-    }
 }

@@ -23,6 +23,16 @@ pub(crate) enum Step {
     Interpret(Box<Fragment>),
 }
 
+impl Step {
+    /// What it writes, where it writes one slot.
+    pub(crate) const fn value(&self) -> &Node {
+        match self {
+            Self::Put { value, .. } => value,
+            Self::If { .. } | Self::Interpret(_) => &Node::Unknown,
+        }
+    }
+}
+
 /// A property that an action sets.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {

@@ -98,7 +98,7 @@ pub(crate) fn clauses(lowering: &mut Lowering) -> Vec<ClausePlan> {
 }
 
 /// What makes the clause's object one of the class that the rule names.
-pub(crate) fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
+fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
     let rule = lowering.rule;
     let own_file = Arc::clone(&lowering.file);
     lowering.own = Some(index);
