@@ -28,8 +28,8 @@ use serde::Serialize;
 
 use crate::answer;
 use crate::error::{Error, Result};
-use crate::state::State;
 use crate::live::Live;
+use crate::state::State;
 use crate::suggest::did_you_mean;
 pub(crate) use cells::Lever;
 pub(crate) use path::{Path, Routes};

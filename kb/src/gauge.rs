@@ -41,9 +41,8 @@ pub fn sizes(knowledge: &Inference) -> Sizes {
 
 /// The sizes of states as the database has them.
 pub fn sizes_of(states: &[State]) -> Sizes {
-    let size = |state: &State| {
-        ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height))
-    };
+    let size =
+        |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
     states.iter().map(size).collect()
 }
 

@@ -7,9 +7,9 @@ use adit_engine::RuleBase;
 use adit_planners::world::World;
 use siphasher::sip::SipHasher13;
 
-use crate::state::content;
 use crate::error::Result;
 use crate::site::Site;
+use crate::state::content;
 use crate::told::Told;
 
 /// The number of the state that the database is in; 0 where it was never built.

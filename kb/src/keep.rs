@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use adit_db::Tx;
 use adit_db::area::Area;
 use adit_db::conclusion::{Derivation, Rule, Witness};
 use adit_db::place::{Frame, Place};
 use adit_db::weight::Weight;
-use adit_db::Tx;
 use adit_engine::RuleBase;
 use adit_planners::facts::{Facts, Table};
 use adit_planners::planner::Planner;
@@ -121,12 +121,14 @@ impl Kept {
     }
 
     fn count(&self, graph: &SiteGraph) -> BTreeMap<i64, usize> {
-        let rooms = graph.rooms.iter().flat_map(|room| {
-            [room.hardness.witness, room.action.witness, room.passable.witness]
-        });
-        let doors = graph.doors.iter().flat_map(|door| {
-            [door.hardness.witness, door.action.witness, door.passable.witness]
-        });
+        let rooms = graph
+            .rooms
+            .iter()
+            .flat_map(|room| [room.hardness.witness, room.action.witness, room.passable.witness]);
+        let doors = graph
+            .doors
+            .iter()
+            .flat_map(|door| [door.hardness.witness, door.action.witness, door.passable.witness]);
         let areas = self.areas.iter().map(|area| area.open.witness);
         let others = self.derivations.iter().map(|derivation| derivation.witness);
         let mut uses = BTreeMap::new();
@@ -152,7 +154,10 @@ impl Kept {
         let frame =
             Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
         tx.replace_frames(&[frame])?;
-        tx.replace_rules(&rule_rows(&state.inputs.rules), &witnesses(facts, |at| kept.uses.contains_key(&at)))?;
+        tx.replace_rules(
+            &rule_rows(&state.inputs.rules),
+            &witnesses(facts, |at| kept.uses.contains_key(&at)),
+        )?;
         tx.replace_derivations(&kept.derivations)?;
         let members = |class: &str| planned.get(class).cloned().unwrap_or_default();
         let made = [

@@ -76,6 +76,6 @@ pub use live::{Live, Outcome, Renewal, View};
 pub use problem::Problem;
 pub use progress::{Progress, Silent, Spinner};
 pub use report::{Change, Counts, Report, Routes};
-pub use state::{Stage, State};
 pub use site::{Rooms, Site, Starts};
+pub use state::{Stage, State};
 pub use told::Tell;

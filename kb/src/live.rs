@@ -7,8 +7,8 @@ mod view;
 
 use std::sync::Arc;
 
-use adit_db::history::Author;
 use adit_db::Store;
+use adit_db::history::Author;
 
 use crate::answer::Answer;
 use crate::edit::{Done, Edit};

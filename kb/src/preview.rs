@@ -11,10 +11,10 @@ use serde::Serialize;
 use crate::answer::Answer;
 use crate::edit::Edit;
 use crate::error::Result;
-use crate::state::{Cell, Nothing, State, Weighed};
 use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::progress::Silent;
+use crate::state::{Cell, Nothing, State, Weighed};
 pub use routes::{PlaceRoute, PlaceRoutes};
 
 /// How many rooms, doors or routes are listed.

@@ -11,10 +11,10 @@ use adit_planners::world::World;
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
-use siphasher::sip::SipHasher13;
 use crate::error::{Error, Result};
 use crate::hours;
 use crate::suggest::did_you_mean;
+use siphasher::sip::SipHasher13;
 
 /// How a map is cut into rooms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

@@ -213,9 +213,8 @@ pub fn keep(
             for (tree, rows) in &numbered {
                 new.extend(plan.place_costs(graph, *tree, rows));
             }
-            let rows = numbered
-                .into_iter()
-                .flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
+            let rows =
+                numbered.into_iter().flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
             routes.rows += tx.put_trees(rows)?;
         }
     }

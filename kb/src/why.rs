@@ -7,8 +7,8 @@ use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
 use crate::error::{Error, Result};
-use crate::state::State;
 use crate::live::Live;
+use crate::state::State;
 use crate::subject::Subject;
 use crate::suggest::did_you_mean;
 pub use facts::Facts;

@@ -1,8 +1,8 @@
 //! Routes beyond the paper's example: several doors between two rooms, layers, places with nodes of their own.
 
-use adit_db::weight::Weight;
 use adit_db::door::DoorKind;
 use adit_db::tree::{End, EndKind, Start, TreeRow};
+use adit_db::weight::Weight;
 use adit_db::{Derived, Error, Store};
 
 use crate::paper::{self, START, door, step};

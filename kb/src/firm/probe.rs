@@ -7,8 +7,8 @@ use adit_planners::routes::Walking;
 use super::Lever;
 use crate::classes;
 use crate::error::{Error, Result};
-use crate::state::{Look, State, Which, needs_changed};
 use crate::graph::{SiteGraph, walking};
+use crate::state::{Look, State, Which, needs_changed};
 
 /// What rooms and doors weigh, by index.
 #[derive(Clone, Debug, PartialEq)]

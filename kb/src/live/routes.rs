@@ -87,9 +87,8 @@ impl KeptRoutes {
         if weighed.is_empty() {
             return Some(Renewed { changes: Vec::new(), trees: None, is_due: false });
         }
-        let is_on_doors = |(_, room): &(usize, Weight)| {
-            room.hardness.value.is_none() && room.passable.value == Some(true)
-        };
+        let is_on_doors =
+            |(_, room): &(usize, Weight)| room.hardness.value.is_none() && room.passable.value == Some(true);
         match &mut self.trees {
             Trees::Now { graph, trees, places } if weighed.rooms.iter().all(is_on_doors) => {
                 for (door, weight) in &weighed.doors {

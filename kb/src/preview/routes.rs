@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::LISTED;
-use crate::pairs::{self, Found, From, Known};
 use crate::graph::SiteGraph;
+use crate::pairs::{self, Found, From, Known};
 
 /// How the routes between places would change.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, utoipa::ToSchema)]

@@ -18,9 +18,9 @@ use super::settings::Settings;
 use super::token::Tokens;
 use super::waiting::Waiting;
 use crate::error::Result;
-use crate::state::State;
 use crate::live::View;
 use crate::problem::Problem;
+use crate::state::State;
 
 mod parking;
 

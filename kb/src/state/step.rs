@@ -8,11 +8,11 @@ use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
 
+use super::State;
 use super::planned::{self, Planned};
 pub use super::planned::{Nothing, Recall};
-use super::weighed::{Look, Weighed, Which, is_same_cut};
-use super::State;
 use super::twin::Twin;
+use super::weighed::{Look, Weighed, Which, is_same_cut};
 use crate::error::{Error, Result};
 use crate::gauge::{Gauge, sizes};
 use crate::graph::SiteGraph;
@@ -100,8 +100,10 @@ impl State {
         let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
         if given.is_any {
             let bare = |class: &str| given.made.get(class).cloned();
-            let mut rooms = bare("ROOMS").map_or_else(|| Ok(before.rooms.clone()), |table| rows::rooms(&table))?;
-            let mut doors = bare("DOORS").map_or_else(|| Ok(before.doors.clone()), |table| rows::doors(&table))?;
+            let mut rooms =
+                bare("ROOMS").map_or_else(|| Ok(before.rooms.clone()), |table| rows::rooms(&table))?;
+            let mut doors =
+                bare("DOORS").map_or_else(|| Ok(before.doors.clone()), |table| rows::doors(&table))?;
             weights::check(knowledge, (&rooms, &doors), None)?;
             let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
             look.rooms().into_iter().for_each(|(row, weight)| rooms[row].weigh(weight));
@@ -204,7 +206,8 @@ impl State {
         for ((class, row, property), fact) in now.cells().iter().filter(|(cell, _)| is_planned(&cell.0)) {
             fact.tell_row(&mut self.knowledge, class, *row, property)?;
         }
-        let is_over = |cell: &&(String, usize, String)| is_planned(&cell.0) && !now.cells().contains_key(*cell);
+        let is_over =
+            |cell: &&(String, usize, String)| is_planned(&cell.0) && !now.cells().contains_key(*cell);
         for (class, row, property) in before.cells().keys().filter(is_over) {
             let value = self.planned.value(self.twin.shown(), (class, *row, property));
             let told = self.knowledge.tell_row(class, *row, property, value);
@@ -239,7 +242,8 @@ impl State {
             })
             .collect();
         let mut runs = 0;
-        while let Some(ready) = waiting.iter().position(|&at| self.missing(planners[at].as_ref()).is_empty()) {
+        while let Some(ready) = waiting.iter().position(|&at| self.missing(planners[at].as_ref()).is_empty())
+        {
             let at = waiting.remove(ready);
             let planner = planners[at].as_ref();
             let name = planner.name();
@@ -326,7 +330,10 @@ impl Given {
 fn has_same_columns(one: &Told, other: &Told) -> bool {
     let kinds = |facts: &Facts| -> Vec<_> {
         let kind = |(name, column): &(String, Column)| (name.clone(), std::mem::discriminant(column));
-        facts.iter().map(|(class, table)| (class.clone(), table.columns.iter().map(kind).collect::<Vec<_>>())).collect()
+        facts
+            .iter()
+            .map(|(class, table)| (class.clone(), table.columns.iter().map(kind).collect::<Vec<_>>()))
+            .collect()
     };
     kinds(&one.classes) == kinds(&other.classes)
 }
@@ -352,7 +359,8 @@ fn stuck(planner: &dyn Planner, missing: &[String]) -> Error {
 
 /// The complaint that what a planner gives changes what it works from, again and again.
 fn circle(planner: &dyn Planner) -> Error {
-    let message = format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
+    let message =
+        format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
     let help = "a rule concludes something that this planner works from out of what it gives".to_owned();
     Error::said("rules/circle", message, Some(help))
 }

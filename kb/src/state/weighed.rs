@@ -110,8 +110,10 @@ impl Look<'_, '_> {
     }
 
     fn weights(&mut self, class: &str) -> Vec<(usize, Weight)> {
-        let mut rows: Vec<u32> =
-            ["hardness", "action", "passable"].iter().flat_map(|property| self.rows(class, property)).collect();
+        let mut rows: Vec<u32> = ["hardness", "action", "passable"]
+            .iter()
+            .flat_map(|property| self.rows(class, property))
+            .collect();
         rows.sort_unstable();
         rows.dedup();
         let hardness = self.values((class, "hardness"), &rows, number);

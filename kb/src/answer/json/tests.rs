@@ -1,10 +1,10 @@
 use std::time::Instant;
 
-use adit_db::weight::Weight;
 use adit_db::Derived;
 use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
+use adit_db::weight::Weight;
 use adit_planners::geometry::Rect;
 use adit_planners::world::World;
 
