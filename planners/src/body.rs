@@ -21,10 +21,7 @@ pub enum Command {
     #[default]
     Stop,
     /// To turn on the spot: radians, counter-clockwise above 0.
-    Turn {
-        /// How far.
-        by: f64,
-    },
+    Turn { by: f64 },
     /// To go straight: ahead, or back where the distance is below 0. It ends early where the skirt touches something.
     Move {
         /// How far, metres.

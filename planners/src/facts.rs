@@ -5,11 +5,8 @@ use std::collections::BTreeMap;
 /// One property of all objects of a class; `None` is unknown, or what the class declares NULL to mean.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Column {
-    /// Numbers.
     Number(Vec<Option<f64>>),
-    /// Texts.
     Text(Vec<Option<String>>),
-    /// Truth values.
     Truth(Vec<Option<bool>>),
 }
 
@@ -67,19 +64,16 @@ pub struct Table {
 }
 
 impl Table {
-    /// Adds a property.
     #[must_use]
     pub fn with(mut self, property: &str, column: impl Into<Column>) -> Self {
         self.columns.push((property.to_owned(), column.into()));
         self
     }
 
-    /// The property's values.
     pub fn column(&self, property: &str) -> Option<&Column> {
         self.columns.iter().find(|(name, _)| name == property).map(|(_, column)| column)
     }
 
-    /// Number of objects.
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, |(_, column)| column.len())
     }

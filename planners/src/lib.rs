@@ -1,6 +1,8 @@
 //! Geometry and search for Adit: pure functions from a world to typed records (rooms, doors), and from
 //! weighted records to routes. No SQL, no rules.
 
+#![allow(missing_docs, reason = "a name that says it all needs no sentence that repeats it")]
+
 pub mod adapt;
 pub mod body;
 pub mod bridges;

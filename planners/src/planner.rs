@@ -29,7 +29,6 @@ pub enum PlannerError {
     /// A fact that it needs is missing or of the wrong type.
     #[error("planner `{planner}`: {class}: {what}")]
     Fact {
-        /// Its name.
         planner: String,
         /// Class of the fact.
         class: String,
@@ -39,7 +38,6 @@ pub enum PlannerError {
     /// The world does not suit it.
     #[error("planner `{planner}`: {what}")]
     World {
-        /// Its name.
         planner: String,
         /// What is wrong, in one sentence.
         what: String,

@@ -43,7 +43,6 @@ pub use way::{Leg, Way};
 /// A room as the search sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RouteRoom {
-    /// Its rectangle.
     pub rect: Rect,
     /// What walking in it weighs.
     pub walking: Walking,

@@ -142,7 +142,6 @@ impl Simulator {
         &self.touches
     }
 
-    /// The walls.
     pub fn walls(&self) -> &[Segment] {
         &self.building.walls
     }

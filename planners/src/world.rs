@@ -16,13 +16,11 @@ use crate::geometry::{Point, Rect};
 /// Everything a geometric planner may look at. Metres, in the map's frame; the edge of `bounds` is a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct World {
-    /// The environment.
     pub bounds: Rect,
     /// What no state passes.
     pub obstacles: Vec<Obstacle>,
     /// What only low states pass: rectangles with a clear height under them.
     pub bridges: Vec<Bridge>,
-    /// Named points.
     pub places: Vec<Place>,
     /// Parts of the floor with a name; they may overlap.
     pub areas: Vec<Area>,
@@ -114,17 +112,14 @@ impl World {
     }
 }
 
-/// Something solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
-    /// Its outline.
     pub shape: Shape,
 }
 
 /// The outline of an obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// An axis-parallel rectangle.
     Rect(Rect),
     /// A simple polygon, at least three corners, not closed by a repeated one.
     Polygon(Vec<Point>),
@@ -168,18 +163,15 @@ fn to_geo(corners: &[Point]) -> Polygon<f64> {
 /// A bridge: the robot may pass under it where its state is lower than `height`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bridge {
-    /// Its outline.
     pub rect: Rect,
     /// Clear height under it, metres; positive.
     pub height: f64,
 }
 
-/// A named point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Its name, unique in the map.
     pub name: String,
-    /// Where it is.
     pub at: Point,
 }
 

@@ -14,14 +14,12 @@ pub enum Clearance {
     Free {
         /// Where the axis of a link lay.
         axis: Segment,
-        /// Metres.
         within_m: f64,
     },
     /// Everything nearer to this point than so many metres belongs to the object; 0 for a point of its outline.
     Taken {
         /// A point of the object.
         at: Point,
-        /// Metres.
         within_m: f64,
     },
 }

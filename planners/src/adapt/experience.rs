@@ -29,7 +29,6 @@ pub struct TagPoint {
 /// A subgoal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vertex {
-    /// Its number.
     pub id: VertexId,
     /// The robot's configuration there, in the cell as it is now.
     pub at: Configuration,
@@ -42,7 +41,6 @@ pub struct Vertex {
 /// A connection that Reach can follow, or could when it was verified.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Its number.
     pub id: EdgeId,
     /// The vertices that it connects, the lower number first.
     pub ends: (VertexId, VertexId),

@@ -12,7 +12,6 @@ use super::workcell::{Workcell, WorkcellError};
 
 /// What an experiment is made with.
 pub struct Experiment<'e> {
-    /// The tasks.
     pub scenario: &'e Scenario,
     /// The two planners that are joined.
     pub plugins: &'e Plugins,

@@ -18,9 +18,7 @@ pub enum Strategy {
 pub struct ChangeFacts {
     /// Objects in the cell, after the change.
     pub objects: u32,
-    /// Objects that came.
     pub appeared: u32,
-    /// Objects that went.
     pub gone: u32,
     /// Objects that were moved or turned.
     pub moved: u32,
@@ -51,7 +49,6 @@ pub struct ChangeFacts {
 /// An object to which a subgoal may be attached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LandmarkFacts<'o> {
-    /// Its name.
     pub object: &'o str,
     /// Metres from the tool to the origin of the object's frame.
     pub distance_m: f64,

@@ -14,18 +14,12 @@ pub enum Noted {
     VertexAdded(Vertex),
     /// A subgoal went along with its object.
     VertexMoved {
-        /// Which one.
         id: VertexId,
         /// The configuration there now.
         at: Configuration,
     },
     /// A subgoal was taken out, after its edges.
-    VertexRemoved {
-        /// Which one.
-        id: VertexId,
-        /// Why.
-        why: Removal,
-    },
+    VertexRemoved { id: VertexId, why: Removal },
     /// A connection was added.
     EdgeAdded(Edge),
     /// A connection was verified again, or found another path: it is now as told.
@@ -34,11 +28,8 @@ pub enum Noted {
     EdgeLoosened(Edge),
     /// A connection was taken out.
     EdgeRemoved {
-        /// Which one.
         id: EdgeId,
-        /// Its ends.
         ends: (VertexId, VertexId),
-        /// Why.
         why: Removal,
         /// In which task.
         task: u32,
@@ -62,38 +53,22 @@ pub enum Noted {
         revision: Revision,
     },
     /// An evaluation taught something about an object.
-    Learned {
-        /// Its name.
-        object: String,
-        /// What.
-        clearance: Clearance,
-    },
+    Learned { object: String, clearance: Clearance },
     /// Nothing is known any more of an object, since it has another shape or is gone.
-    ClearancesForgotten {
-        /// Its name.
-        object: String,
-    },
+    ClearancesForgotten { object: String },
     /// An object came, went or changed.
     ObjectChanged {
-        /// Its name.
         object: String,
-        /// How.
         how: ObjectChange,
         /// The state of the cell from now on.
         revision: Revision,
     },
     /// The judge was asked what becomes of the experience.
-    StrategyChosen {
-        /// What was asked.
-        facts: Box<ChangeFacts>,
-        /// What was answered.
-        strategy: Strategy,
-    },
+    StrategyChosen { facts: Box<ChangeFacts>, strategy: Strategy },
     /// All experience was forgotten: vertices, edges, clearances. Each of them is out; no other note says so.
     Forgotten,
     /// The robot is somewhere else, next to a vertex where one is told.
     Stands {
-        /// Its configuration.
         at: Configuration,
         /// A vertex that Reach connects with it (the paper's u with a hat).
         vertex: Option<VertexId>,
@@ -103,9 +78,7 @@ pub enum Noted {
 /// How an object changed. One that has another shape and was moved, too, counts as reshaped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ObjectChange {
-    /// It came.
     Appeared,
-    /// It went.
     Gone,
     /// It was moved or turned.
     Moved,
@@ -125,7 +98,6 @@ pub enum Removal {
     Refused,
     /// It hangs on nothing that the robot reaches (A1's home component; step 3 of T).
     CutOff,
-    /// Its object went.
     LandmarkGone,
     /// Its object was moved to where the robot cannot follow.
     OutOfReach,

@@ -98,7 +98,6 @@ impl Adapt {
         &self.cell
     }
 
-    /// The experience.
     pub fn experience(&self) -> &Experience {
         &self.experience
     }

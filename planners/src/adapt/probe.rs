@@ -93,7 +93,6 @@ impl<'c> Probe<'c> {
         Self(cell)
     }
 
-    /// The robot.
     pub fn robot(&self) -> &dyn Robot {
         self.0.robot().as_ref()
     }

@@ -25,9 +25,7 @@ pub type Links = SmallVec<[Link; 4]>;
 /// How far a joint or axis goes, radians or metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
-    /// The least value.
     pub low: f64,
-    /// The greatest value.
     pub high: f64,
 }
 

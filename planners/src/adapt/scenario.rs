@@ -15,7 +15,6 @@ use crate::geometry::Point;
 pub struct Scenario {
     /// What it is called.
     pub name: String,
-    /// The robot.
     pub robot: Arc<dyn Robot>,
     /// The objects before the change.
     pub objects: Vec<Object>,
@@ -62,7 +61,6 @@ pub struct ArmScenario {
     pub tasks: u32,
     /// Where the robot is at first.
     pub home: Configuration,
-    /// The goals.
     pub goals: Vec<Configuration>,
     /// The goal that comes with the change, where only one comes.
     #[serde(default)]

@@ -13,7 +13,6 @@ pub type Revision = u32;
 /// An object as the cell has it now.
 #[derive(Clone, Debug)]
 pub struct Placed {
-    /// The object.
     pub object: Object,
     /// Since when it is where it is, and as it is.
     pub since: Revision,
@@ -77,7 +76,6 @@ impl Workcell {
         })
     }
 
-    /// The robot.
     pub fn robot(&self) -> &Arc<dyn Robot> {
         &self.robot
     }

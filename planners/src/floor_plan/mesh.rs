@@ -11,7 +11,6 @@ use crate::geometry::Point;
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// No triangle.
 const NONE: u32 = u32::MAX;
 
 /// Whether an edge of the mesh lies on a doorway is told by its middle, metres.
@@ -46,7 +45,6 @@ impl Opening {
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
-    /// Region by region.
     triangles: Vec<Triangle>,
     /// For each region its first triangle, and one more.
     begins: Vec<u32>,

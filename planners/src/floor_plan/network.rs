@@ -16,7 +16,6 @@ pub struct Adit {
     pub doorway: usize,
     /// The region that it lies in, by index.
     pub region: usize,
-    /// Where it is.
     pub at: Point,
     /// The adit on the other side, by index.
     pub twin: usize,
@@ -38,9 +37,7 @@ pub enum Spot {
 /// A way that a disc can go, in both directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Way {
-    /// One end.
     pub from: Spot,
-    /// The other end.
     pub to: Spot,
     /// Metres.
     pub length: f64,

@@ -31,7 +31,6 @@ pub struct Drawn {
     pub walls: Vec<[Point; 2]>,
     /// Pillars and walls with a thickness, by their corners in order. They may overlap walls and one another.
     pub solids: Vec<Vec<Point>>,
-    /// Points with names.
     pub places: Vec<Place>,
 }
 
@@ -128,7 +127,6 @@ impl FloorPlan {
         &self.solids
     }
 
-    /// The named places.
     pub fn places(&self) -> &[Place] {
         &self.places
     }

@@ -26,7 +26,6 @@ pub(super) struct Planar {
     pub next: Vec<u32>,
     /// For each half-edge the outline that it belongs to.
     pub cycle_of: Vec<u32>,
-    /// The outlines.
     pub cycles: Vec<Cycle>,
 }
 

@@ -35,9 +35,7 @@ impl Region {
 pub struct Doorway {
     /// The regions: left of the way from `from` to `to`, and right of it.
     pub regions: [usize; 2],
-    /// One end.
     pub from: Point,
-    /// The other end.
     pub to: Point,
 }
 

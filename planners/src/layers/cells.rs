@@ -35,7 +35,6 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// The empty set.
     pub(super) fn none(columns: u32, rows: u32) -> Self {
         let words_a_row = (columns as usize).div_ceil(64);
         Self { columns, rows, words_a_row, words: vec![0; words_a_row * rows as usize] }

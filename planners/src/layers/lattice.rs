@@ -47,12 +47,10 @@ impl Lattice {
         self.side
     }
 
-    /// Cells along x.
     pub fn columns(&self) -> u32 {
         self.columns
     }
 
-    /// Cells along y.
     pub fn rows(&self) -> u32 {
         self.rows
     }

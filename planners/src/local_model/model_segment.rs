@@ -11,7 +11,6 @@ pub struct SegmentId(pub u32);
 /// A surface that the model believes in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelSegment {
-    /// Its name.
     pub id: SegmentId,
     /// Where it is, in the frame of the estimated pose.
     pub line: Segment,

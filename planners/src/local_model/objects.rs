@@ -12,7 +12,6 @@ pub struct ObjectId(pub u32);
 /// Something small that the model did not explain when it was seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Object {
-    /// Its name.
     pub id: ObjectId,
     /// The middle of what is seen of it.
     pub at: Point,

@@ -33,7 +33,6 @@ pub struct Driven {
     pub places: Vec<Place>,
     /// Where the robot thinks that it is.
     pub estimate: Pose,
-    /// Where it is.
     pub truth: Pose,
     /// Metres that it really went.
     pub path_m: f64,

@@ -5,28 +5,20 @@ use crate::geometry::Point;
 use crate::local_model::{Estimate, SegmentId};
 use crate::pose::Pose;
 
-/// Something that happened.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
     /// When, by the body's clock, seconds.
     pub time_s: f64,
     /// Where the robot thought that it was.
     pub pose: Pose,
-    /// What it was.
     pub what: Happening,
 }
 
-/// Kinds of events.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Happening {
     /// The judge was asked, and the state changed or something was done.
-    State {
-        /// What was asked.
-        facts: Box<StateFacts>,
-        /// What was answered.
-        decision: StateDecision,
-    },
+    State { facts: Box<StateFacts>, decision: StateDecision },
     /// A whole scan was taken, and the estimated position set.
     SetEstimatedPosition(Estimate),
     /// Segments came into the local model or left it.
@@ -45,7 +37,6 @@ pub enum Happening {
     Planned {
         /// From where the robot is to the goal.
         points: Vec<Point>,
-        /// Metres.
         length_m: f64,
         /// Whether it was found through free space as it is known, the network having none.
         is_off_network: bool,
@@ -54,7 +45,6 @@ pub enum Happening {
     Detour {
         /// From where the robot is back to its path.
         points: Vec<Point>,
-        /// Metres.
         length_m: f64,
         /// Metres of the other one; `None` where it is not free.
         other_m: Option<f64>,

@@ -60,7 +60,6 @@ pub enum Action {
 pub struct StateFacts {
     /// Who drives.
     pub mode: Mode,
-    /// The state now.
     pub state: State,
     /// Whether there is a goal point to go to.
     pub has_goal: bool,
@@ -102,7 +101,6 @@ pub struct StateFacts {
     pub retries: u32,
     /// Seconds since the goal was given.
     pub time_s: f64,
-    /// The tolerances.
     pub settings: Settings,
 }
 

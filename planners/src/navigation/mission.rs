@@ -26,11 +26,8 @@ pub struct Mission {
 /// How a robot and its navigator are set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outfit {
-    /// The robot.
     pub robot: simulator::Settings,
-    /// Its local model.
     pub model: local_model::Settings,
-    /// Its navigator.
     pub navigation: Settings,
     /// How sure it is of the place where it begins: standard deviation, metres.
     pub start_sigma_m: f64,
@@ -66,7 +63,6 @@ pub struct Entry {
 /// What came of a mission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// How it ended.
     pub ending: Ending,
     /// Metres that the robot really went.
     pub path_m: f64,

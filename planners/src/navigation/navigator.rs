@@ -173,12 +173,10 @@ impl<'b> Navigator<'b> {
         self.model.estimate()
     }
 
-    /// The local model.
     pub fn model(&self) -> &LocalModel {
         &self.model
     }
 
-    /// The state now.
     pub fn state(&self) -> State {
         self.state
     }

@@ -123,7 +123,6 @@ pub struct Problem {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
-    /// Error or advice.
     pub severity: Severity,
     text: Option<Text>,
     labels: Vec<LabeledSpan>,
@@ -213,7 +212,6 @@ impl Text {
         Self(Arc::new(NamedSource::new(name, text.to_owned())))
     }
 
-    /// The file's name.
     pub fn name(&self) -> &str {
         self.0.name()
     }

@@ -41,9 +41,7 @@ impl<'i> Document<'i> {
 /// A value with its place in the text, in bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located<T> {
-    /// The value.
     pub value: T,
-    /// Where it stands.
     pub span: Range<usize>,
 }
 
@@ -51,11 +49,9 @@ pub struct Located<T> {
 pub struct Fields<'a, 'i> {
     /// How messages call it: `[[obstacle]]`.
     pub what: &'a str,
-    /// The table itself.
     pub table: &'a DeTable<'i>,
     /// Where it stands in the text, bytes.
     pub span: Range<usize>,
-    /// The whole text.
     pub text: &'a Text,
 }
 

@@ -16,7 +16,6 @@ use super::ros_map::{MapFile, Pixel};
 /// is taken.
 pub const MAX_PIXELS: u64 = 100_000_000;
 
-/// A decoded image.
 pub(crate) struct Image {
     /// Pixels along x.
     pub(crate) columns: usize,

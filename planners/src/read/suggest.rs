@@ -8,7 +8,6 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     distances.min_by_key(|&(distance, _)| distance).filter(|&(d, _)| d <= allowed).map(|(_, c)| c)
 }
 
-/// Levenshtein's distance.
 fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -26,8 +26,10 @@ pub(super) enum View {
     /// All.
     All,
     /// To one side of the line on which it was reached from `from`.
-    Side { from: Point, left: bool },
-    /// Through a gap.
+    Side {
+        from: Point,
+        left: bool,
+    },
     Through(Gap),
 }
 

@@ -9,45 +9,28 @@ pub enum SimulationError {
     Setting {
         /// Its name in the settings.
         name: &'static str,
-        /// What it is.
         value: f64,
     },
     /// A coordinate that is no number, or the start.
     #[error("{what} is at {x}, {y}; expected two finite numbers")]
-    NotFinite {
-        /// What is there.
-        what: String,
-        /// To the right.
-        x: f64,
-        /// Up.
-        y: f64,
-    },
+    NotFinite { what: String, x: f64, y: f64 },
     /// An obstacle with too few corners.
     #[error("obstacle {number} has {corners} corners; expected 3 or more")]
     Outline {
-        /// Which one.
         number: usize,
         /// How many it has.
         corners: usize,
     },
     /// A course without a speed.
     #[error("obstacle {number} moves at {speed_m_s} m/s; expected a speed of 0 or more")]
-    Speed {
-        /// Which one.
-        number: usize,
-        /// What was given.
-        speed_m_s: f64,
-    },
+    Speed { number: usize, speed_m_s: f64 },
     /// A robot that begins in something solid.
     #[error("the robot begins at {x}, {y}, {gap_m:.3} m from {what}; its radius is {radius_m} m")]
     Start {
-        /// To the right.
         x: f64,
-        /// Up.
         y: f64,
         /// How far from its middle.
         gap_m: f64,
-        /// What is there.
         what: String,
         /// Half the width of the robot.
         radius_m: f64,

@@ -27,7 +27,6 @@ pub struct NamedDoor {
     pub name: String,
     /// What it is, where that is said.
     pub kind: Option<String>,
-    /// One end.
     pub from: Point,
     /// The other end; not the same point.
     pub to: Point,
@@ -38,11 +37,8 @@ pub struct NamedDoor {
 /// A value that a site gives to an area or a door, for its rules.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Property {
-    /// A finite number.
     Number(f64),
-    /// A text.
     Text(String),
-    /// A truth value.
     Truth(bool),
 }
 

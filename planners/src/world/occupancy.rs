@@ -9,9 +9,7 @@ pub struct Occupancy {
     pub origin: Point,
     /// Side of a cell, metres.
     pub resolution: f64,
-    /// Cells along x.
     pub columns: usize,
-    /// Cells along y.
     pub rows: usize,
     /// `columns * rows` cells, row by row; `true` is a wall.
     pub blocked: Vec<bool>,
@@ -30,7 +28,6 @@ impl Occupancy {
         inside && self.is_blocked(x as usize, y as usize)
     }
 
-    /// The cell's square.
     pub fn cell(&self, column: usize, row: usize) -> Rect {
         self.block(column, row, column + 1, row + 1)
     }

@@ -13,7 +13,6 @@ use crate::pose::wrapped;
 pub struct Changed {
     /// What the judge was told.
     pub facts: ChangeFacts,
-    /// What it answered.
     pub strategy: Strategy,
     /// Evaluations that the repair took at once.
     pub evaluations: u64,

@@ -21,15 +21,11 @@ pub enum Outcome {
 /// Calls and what they cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Tally {
-    /// Calls of Solve.
     pub solves: u64,
     /// Those of them that found nothing.
     pub failed_solves: u64,
-    /// Evaluations in them.
     pub solve_evaluations: u64,
-    /// Calls of Reach.
     pub reaches: u64,
-    /// Evaluations in them.
     pub reach_evaluations: u64,
     /// Edges that were added.
     pub edges_added: u64,
@@ -78,7 +74,6 @@ impl Tally {
 pub struct Report {
     /// The number of the task, from 1.
     pub task: u32,
-    /// How it ended.
     pub outcome: Outcome,
     /// From where the robot was to the goal, in straight motions; empty where no path was found.
     pub path: Vec<Configuration>,

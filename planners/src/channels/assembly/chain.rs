@@ -148,31 +148,20 @@ fn check_part<const D: usize>(
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AssemblyError<const D: usize> {
-    /// Nothing leads out.
     #[error("no channel is given; the first one leads out along +z")]
     NoChannel,
     /// A channel without an interior.
     #[error("channel {channel} is {found}; expected finite numbers, each minimum below its maximum")]
-    NotABox {
-        /// Its number.
-        channel: usize,
-        /// What was given.
-        found: Cuboid<D>,
-    },
+    NotABox { channel: usize, found: Cuboid<D> },
     /// A part without an interior.
     #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
-    PartIsNoBox {
-        /// What was given.
-        found: Cuboid<D>,
-    },
+    PartIsNoBox { found: Cuboid<D> },
     /// The first channel would not lead out of this one.
     #[error(
         "channel {channel} reaches up to z = {height}, above channel 1, which leads out and ends at {top}"
     )]
     HigherThanTheFirst {
-        /// Its number.
         channel: usize,
-        /// Where it ends.
         height: f64,
         /// Where the first channel ends.
         top: f64,
@@ -182,11 +171,9 @@ pub enum AssemblyError<const D: usize> {
     Disconnected {
         /// The number of the outer one.
         channel: usize,
-        /// It.
         outer: Cuboid<D>,
         /// The number of the inner one.
         next: usize,
-        /// It.
         inner: Cuboid<D>,
     },
     /// Two neighbours in line, one within the other, or sharing a corner only.
@@ -197,11 +184,9 @@ pub enum AssemblyError<const D: usize> {
     NotOrthogonal {
         /// The number of the outer one.
         channel: usize,
-        /// It.
         outer: Cuboid<D>,
         /// The number of the inner one.
         next: usize,
-        /// It.
         inner: Cuboid<D>,
         /// What they share.
         junction: Cuboid<D>,
@@ -212,11 +197,9 @@ pub enum AssemblyError<const D: usize> {
         lies_in(*holder)
     )]
     PartOutside {
-        /// The part.
         part: Cuboid<D>,
         /// The number of the last channel.
         last: usize,
-        /// It.
         channel: Cuboid<D>,
         /// By how much, in metres.
         by: f64,

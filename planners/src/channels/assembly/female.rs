@@ -49,30 +49,20 @@ pub enum FemaleError {
     Outline(#[from] OutlineError),
     /// A part without an interior.
     #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
-    PartIsNoBox {
-        /// What was given.
-        found: Cuboid<2>,
-    },
+    PartIsNoBox { found: Cuboid<2> },
     /// The part and the female part share an interior.
     #[error("the part {part} and the female part overlap: {wall} is solid")]
     PartInWall {
-        /// The part.
         part: Cuboid<2>,
         /// What of the female part it meets.
         wall: Cuboid<2>,
     },
     /// The part is beside or below the female part, at least in part.
     #[error("the part {part} sticks out of the box {female} around the female part, to a side or below")]
-    PartOutside {
-        /// The part.
-        part: Cuboid<2>,
-        /// The box.
-        female: Cuboid<2>,
-    },
+    PartOutside { part: Cuboid<2>, female: Cuboid<2> },
     /// There is nothing to take out.
     #[error("the part {part} is above the female part, which ends at z = {top}: it is disassembled")]
     AlreadyOut {
-        /// The part.
         part: Cuboid<2>,
         /// The upper side of the female part.
         top: f64,
@@ -86,7 +76,6 @@ pub enum FemaleError {
     Sloped {
         /// The sloped edge.
         edge: Edge,
-        /// The part.
         part: Cuboid<2>,
         /// How far up the free space around the part reaches; `None` where the part itself is in that box.
         height: Option<f64>,
@@ -97,7 +86,6 @@ pub enum FemaleError {
          and a way out leads along +z"
     )]
     Closed {
-        /// The part.
         part: Cuboid<2>,
         /// How far up it reaches.
         height: f64,

@@ -24,9 +24,7 @@ pub(super) fn hull(edges: &[Edge]) -> Cuboid<2> {
 pub struct Edge {
     /// The numbers of the corners that it joins.
     pub corners: [usize; 2],
-    /// Where it starts.
     pub from: [f64; 2],
-    /// Where it ends.
     pub to: [f64; 2],
 }
 
@@ -114,23 +112,11 @@ pub enum OutlineError {
     NotFinite {
         /// Its number, from 1.
         corner: usize,
-        /// What was given.
         found: [f64; 2],
     },
-    /// No polygon.
     #[error("the outline has {corners} distinct corners; expected at least 3")]
-    TooFew {
-        /// How many.
-        corners: usize,
-    },
+    TooFew { corners: usize },
     /// It crosses or touches itself.
     #[error("the outline crosses or touches itself at ({}, {}): the edge {first} and the edge {second}", at[0], at[1])]
-    CrossesItself {
-        /// The one edge.
-        first: Edge,
-        /// The other.
-        second: Edge,
-        /// Where.
-        at: [f64; 2],
-    },
+    CrossesItself { first: Edge, second: Edge, at: [f64; 2] },
 }

@@ -50,7 +50,6 @@ impl<const D: usize> PartPath<D> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PathError<const D: usize, E> {
-    /// Nothing was decided.
     #[error("at junction {junction}: {reason}")]
     Undecided {
         /// The number of the junction.
@@ -65,7 +64,6 @@ pub enum PathError<const D: usize, E> {
         junction: usize,
         /// The axis, from 0.
         axis: usize,
-        /// What was decided.
         gap: f64,
     },
     /// The part would hit a wall: it was sent out of the channel.
@@ -75,7 +73,6 @@ pub enum PathError<const D: usize, E> {
         junction: usize,
         /// Where the part is then.
         part: Cuboid<D>,
-        /// What it hits.
         wall: Cuboid<D>,
     },
     /// The final position is not outside.

@@ -42,7 +42,6 @@ pub struct Decision<const D: usize> {
     pub rule: Option<f64>,
     /// What is kept between part and junction along each axis, in metres.
     pub gap: [f64; D],
-    /// On which side.
     pub margin: [Margin; D],
 }
 

@@ -22,7 +22,6 @@ impl Axis {
         }
     }
 
-    /// The other one.
     #[must_use]
     pub fn across(self) -> Self {
         match self {

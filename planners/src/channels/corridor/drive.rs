@@ -27,9 +27,7 @@ pub struct Drive {
 pub enum Primitive {
     /// Straight. Only on the first one, and only where the robot starts with another heading, does the heading change.
     Line {
-        /// Where it starts.
         a: Point,
-        /// Where it ends.
         b: Point,
         /// Heading at `a`.
         from_heading: f64,
@@ -42,15 +40,11 @@ pub enum Primitive {
     Arc {
         /// Number of the junction.
         junction: usize,
-        /// The corner.
         centre: Point,
         /// From the corner to the robot's middle.
         radius: f64,
-        /// The sense.
         turn: Turn,
-        /// Where it starts.
         a: Point,
-        /// Where it ends.
         b: Point,
         /// Heading at `a`.
         from_heading: f64,
@@ -64,7 +58,6 @@ pub enum Primitive {
 /// What was decided at a junction, and what came of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnMade {
-    /// What was known.
     pub facts: StepFacts,
     /// What was said to do.
     pub steer: Steer,

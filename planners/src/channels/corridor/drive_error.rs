@@ -16,16 +16,10 @@ use crate::geometry::Point;
 pub enum DriveError<E> {
     /// No robot has this size.
     #[error("the robot is {} m wide and {} m long, expected two finite numbers above 0", robot.width, robot.length)]
-    BadRobot {
-        /// What was given.
-        robot: Robot,
-    },
+    BadRobot { robot: Robot },
     /// No robot has this heading.
     #[error("the robot's heading at the start is {heading}, expected a finite number of radians")]
-    BadHeading {
-        /// What was given.
-        heading: f64,
-    },
+    BadHeading { heading: f64 },
     /// It could not be told what to do at a junction.
     #[error("{0}")]
     Steer(E),
@@ -40,7 +34,6 @@ pub enum DriveError<E> {
         junction: usize,
         /// The rule that said so.
         rule: Option<u32>,
-        /// What was given.
         gap: f64,
         /// Width of the narrower channel.
         width: f64,
@@ -83,9 +76,7 @@ pub enum DriveError<E> {
         rule: Option<u32>,
         /// Which of the two ends.
         what: End,
-        /// Where it is.
         point: Point,
-        /// The corner.
         corner: Point,
         /// Metres between the two.
         distance: f64,
@@ -105,7 +96,6 @@ pub enum DriveError<E> {
         rule: Option<u32>,
         /// Which of the two ends.
         what: End,
-        /// Where it is.
         point: Point,
         /// Metres to the line on which the inner wall lies.
         distance: f64,
@@ -142,15 +132,12 @@ pub enum DriveError<E> {
         Coords(wall.a), Coords(wall.b), from, Coords(*a), to, Coords(*b)
     )]
     HitsOnLine {
-        /// The wall.
         wall: Wall,
         /// What it comes from.
         from: End,
-        /// Where that is.
         a: Point,
         /// What it drives to.
         to: End,
-        /// Where that is.
         b: Point,
     },
     /// The robot hits a wall while it turns.
@@ -171,7 +158,6 @@ pub enum DriveError<E> {
         corner: Point,
         /// Metres from there to the outermost point of the robot.
         reach: f64,
-        /// The wall.
         wall: Wall,
         /// Metres from the corner to the wall.
         distance: f64,

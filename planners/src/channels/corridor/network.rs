@@ -39,17 +39,11 @@ pub enum CorridorError {
     /// There is none.
     #[error("there are no channels, expected at least one rectangle")]
     NoChannels,
-    /// Not a rectangle.
     #[error(
         "channel {channel} is [{}, {}, {}, {}], expected x0 < x1 and y0 < y1, all finite",
         rect.x0, rect.y0, rect.x1, rect.y1
     )]
-    NotARectangle {
-        /// Its number.
-        channel: usize,
-        /// What was given.
-        rect: Rect,
-    },
+    NotARectangle { channel: usize, rect: Rect },
     /// Two overlap, and a robot could not tell where to turn.
     #[error(
         "channels {first} and {second} overlap, but are not orthogonal: {how}; they share [{}, {}, {}, {}], and one of \
@@ -57,7 +51,6 @@ pub enum CorridorError {
         rect.x0, rect.y0, rect.x1, rect.y1
     )]
     NotOrthogonal {
-        /// Number of one.
         first: usize,
         /// Number of the other.
         second: usize,
@@ -73,7 +66,6 @@ pub enum CorridorError {
         axis.across()
     )]
     TwoAxes {
-        /// Its number.
         channel: usize,
         /// Its axis at the first junction.
         axis: Axis,

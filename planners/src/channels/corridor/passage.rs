@@ -5,11 +5,9 @@ use std::fmt;
 /// Where a passage starts or ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum End {
-    /// The robot's start.
     Start,
     /// A junction, by number.
     Junction(usize),
-    /// The goal.
     Goal,
 }
 

@@ -20,12 +20,10 @@ pub struct Route<'a> {
 }
 
 impl Route<'_> {
-    /// Where it starts.
     pub fn start(&self) -> Point {
         self.start
     }
 
-    /// Where it ends.
     pub fn goal(&self) -> Point {
         self.goal
     }

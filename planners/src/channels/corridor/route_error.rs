@@ -15,23 +15,13 @@ use crate::geometry::{Point, Rect};
 pub enum RouteError<E> {
     /// Start or goal are in no channel.
     #[error("{what} ({}, {}) lies in no channel", point.x, point.y)]
-    Outside {
-        /// Which of them.
-        what: End,
-        /// Where it is.
-        point: Point,
-    },
+    Outside { what: End, point: Point },
     /// The weights could not be told.
     #[error("{0}")]
     Weigh(E),
     /// A weight that no path can be weighed by.
     #[error("the weight of {passage} is {weight}, expected a finite number that is not negative")]
-    BadWeight {
-        /// Of which passage.
-        passage: Passage,
-        /// What was given.
-        weight: f64,
-    },
+    BadWeight { passage: Passage, weight: f64 },
     /// No way leads from the start to the goal.
     #[error("{0}")]
     NoRoute(NoRoute),

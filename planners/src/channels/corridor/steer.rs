@@ -11,7 +11,6 @@ use crate::geometry::{Point, Rect};
 pub struct StepFacts {
     /// Number of the junction.
     pub junction: usize,
-    /// The junction itself.
     pub rect: Rect,
     /// Number of the channel that is left there.
     pub channel: usize,
@@ -31,7 +30,6 @@ pub struct StepFacts {
     /// `(W² - w² - h²/4) / (2 (W + w))` for channels `W` wide and a robot `w` wide and `h` long. Negative where the robot
     /// cannot turn here at all.
     pub safest: f64,
-    /// The robot.
     pub robot: Robot,
 }
 
@@ -76,7 +74,6 @@ pub enum Turn {
 pub struct Offset {
     /// Whether it is taken off.
     pub is_negative: bool,
-    /// Which part.
     pub part: Part,
 }
 

@@ -6,9 +6,7 @@ use crate::geometry::{Point, Rect};
 /// A piece of wall, along x or y; `a` is its end with the smaller coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// One end.
     pub a: Point,
-    /// The other end.
     pub b: Point,
 }
 
