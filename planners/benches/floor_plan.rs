@@ -8,8 +8,8 @@ mod random_plan;
 
 use std::path::Path;
 
-use adit_planners::floor_plan::{Disc, FloorPlan, Network, Regions, Rule, Visibility, read_floor_plan};
-use adit_planners::geometry::Point;
+use adit_planners::floor_plan::{Disc, FloorPlan, Network, Regions, Rule, read_floor_plan};
+use adit_planners::geometry::{Point, RayGrid, Segment};
 use divan::Bencher;
 
 const DISC: Disc = Disc { radius: 0.25, margin: 0.0 };
@@ -49,12 +49,12 @@ fn tight_path_between_the_first_and_the_last_place(bencher: Bencher, name: &str)
 #[divan::bench(args = ["plant", "furnished"])]
 fn scan_of_120_rays(bencher: Bencher, name: &str) {
     let plan = plan(name);
-    let visibility = Visibility::new(plan.barriers());
+    let grid = RayGrid::new(plan.barriers().into_iter().map(Segment::from).collect());
     let from = plan.places()[0].at;
     bencher.bench_local(|| {
         let ray = |i: u32| {
             Point::new((f64::from(i) * 3.0).to_radians().cos(), (f64::from(i) * 3.0).to_radians().sin())
         };
-        (0..120).filter_map(|i| visibility.cast(from, ray(i), 8.0)).map(|echo| echo.distance).sum::<f64>()
+        (0..120).filter_map(|i| grid.cast(from, ray(i), 8.0)).map(|echo| echo.distance).sum::<f64>()
     });
 }

@@ -6,9 +6,9 @@
 mod walls;
 
 use adit_planners::body::{Body, Reading};
+use adit_planners::geometry::Segment;
 use adit_planners::local_model::{Estimate, LocalModel, SegmentFacts, Settings, Transition};
 use adit_planners::pose::Pose;
-use adit_planners::segment::Segment;
 use adit_planners::simulator::{self, Simulator};
 use divan::Bencher;
 use walls::{building, within_hearing};

@@ -10,7 +10,6 @@
 //! keeps what it taught, so that nothing is evaluated twice.
 
 pub(crate) mod arm;
-mod chance;
 mod clearance;
 mod execution;
 mod experience;
@@ -31,7 +30,6 @@ mod ways;
 mod workcell;
 
 pub use arm::{Arm, ArmError};
-pub use chance::Chance;
 pub use clearance::Clearance;
 pub use execution::{Collision, collision};
 pub use experience::{Edge, EdgeId, Experience, ExperienceError, TagPoint, Vertex, VertexId};
@@ -43,7 +41,7 @@ pub use planner::{Adapt, Changed, Heuristic, Outcome, Plugins, Progress, Report,
 pub use point_robot::PointRobot;
 pub use probe::Probe;
 pub use reach::{Reach, Sliding, Straight};
-pub use robot::{Configuration, Limit, Link, Links, Robot, between, distance, length};
+pub use robot::{Configuration, Limit, Link, Links, Robot, any_configuration, between, distance, length};
 pub use scenario::{ArmScenario, Scenario, ScenarioError};
 pub use shape::{Shape, ShapeError};
 pub use solve::{RrtConnect, Solve, Taught, TwoStep};

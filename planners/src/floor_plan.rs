@@ -3,9 +3,9 @@
 
 mod check;
 pub mod clear;
-mod dice;
 pub mod disc;
-mod hall;
+mod face;
+mod funnel;
 mod layout;
 mod merged;
 mod mesh;
@@ -14,13 +14,11 @@ mod noding;
 pub mod path;
 pub mod plan;
 mod planar;
-mod pull;
 mod read;
 pub mod regions;
 mod search;
 mod solids;
 mod trees;
-pub mod visibility;
 
 pub use disc::Disc;
 pub use network::{Adit, Network, Spot, Way};
@@ -28,4 +26,3 @@ pub use path::{NoPath, Path, Rule};
 pub use plan::{Drawn, FloorPlan};
 pub use read::{parse_floor_plan, read_floor_plan};
 pub use regions::{Doorway, Region, Regions};
-pub use visibility::{Echo, Visibility};

@@ -59,9 +59,8 @@ pub use update::Update;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::body::Contact;
-use crate::geometry::Point;
+use crate::geometry::Segment;
 use crate::pose::Pose;
-use crate::segment::Segment;
 
 /// The composite local model with the estimated pose.
 #[derive(Clone, Debug)]
@@ -161,7 +160,7 @@ impl LocalModel {
     ) -> SegmentId {
         let pose = &self.estimate.pose;
         let towards = pose.direction(contact.bearing);
-        let at = Point::new(pose.at.x + radius_m * towards.x, pose.at.y + radius_m * towards.y);
+        let at = pose.at + towards * radius_m;
         let far = |segment: &ModelSegment| segment.line.distance(at);
         let nearest = self.segments.iter().enumerate().min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
         let reach = self.settings.match_sigmas * self.estimate.sigma_m() + self.settings.join_m / 2.0;
@@ -182,7 +181,7 @@ impl LocalModel {
         }
         let across = pose.direction(contact.bearing + FRAC_PI_2);
         let half = self.settings.contact_length_m / 2.0;
-        let end = |side: f64| Point::new(at.x + side * across.x, at.y + side * across.y);
+        let end = |side: f64| at + across * side;
         let (sigma_m, sigma_angle) = (self.estimate.sigma_m(), FRAC_PI_2 / 3.0);
         let id = self.add(Segment::new(end(-half), end(half)), sigma_m, sigma_angle, Source::CONTACT, None);
         self.ask_about_last(true, &mut decide);

@@ -22,25 +22,13 @@ impl Pose {
     /// This pose, moved by a step that is told as seen from it.
     #[must_use]
     pub fn then(&self, step: &Self) -> Self {
-        let (sin, cos) = self.heading.sin_cos();
-        Self {
-            at: Point::new(
-                self.at.x + cos * step.at.x - sin * step.at.y,
-                self.at.y + sin * step.at.x + cos * step.at.y,
-            ),
-            heading: wrapped(self.heading + step.heading),
-        }
+        Self { at: Frame::from(self).place(step.at), heading: wrapped(self.heading + step.heading) }
     }
 
     /// The other pose as seen from this one: `self.then(&self.to(other))` is `other`.
     #[must_use]
     pub fn to(&self, other: &Self) -> Self {
-        let (sin, cos) = self.heading.sin_cos();
-        let (dx, dy) = (other.at.x - self.at.x, other.at.y - self.at.y);
-        Self {
-            at: Point::new(cos * dx + sin * dy, cos * dy - sin * dx),
-            heading: wrapped(other.heading - self.heading),
-        }
+        Self { at: Frame::from(self).seen(other.at), heading: wrapped(other.heading - self.heading) }
     }
 
     /// The pose so many metres ahead.
@@ -51,13 +39,39 @@ impl Pose {
 
     /// The direction of a bearing (radians from the heading), of length 1.
     pub fn direction(&self, bearing: f64) -> Point {
-        let (sin, cos) = (self.heading + bearing).sin_cos();
-        Point::new(cos, sin)
+        Point::towards(self.heading + bearing)
     }
 
     /// The bearing of a point: radians from the heading, above -PI up to PI.
     pub fn bearing(&self, of: Point) -> f64 {
-        wrapped((of.y - self.at.y).atan2(of.x - self.at.x) - self.heading)
+        wrapped((of - self.at).angle() - self.heading)
+    }
+}
+
+/// The frame of a pose, made ready to carry many points into it and out of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    pub at: Point,
+    /// The direction of the heading, of length 1.
+    pub ahead: Point,
+}
+
+impl From<&Pose> for Frame {
+    fn from(pose: &Pose) -> Self {
+        Self { at: pose.at, ahead: Point::towards(pose.heading) }
+    }
+}
+
+impl Frame {
+    /// A point of the map as it is seen from here.
+    pub fn seen(&self, p: Point) -> Point {
+        (p - self.at).seen_along(self.ahead)
+    }
+
+    /// Where on the map a point is that is told as seen from here.
+    pub fn place(&self, own: Point) -> Point {
+        let Point { x: cos, y: sin } = self.ahead;
+        Point::new(self.at.x + cos * own.x - sin * own.y, self.at.y + sin * own.x + cos * own.y)
     }
 }
 

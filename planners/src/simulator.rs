@@ -10,7 +10,7 @@
 //! use adit_planners::body::{Body, Command};
 //! use adit_planners::geometry::Point;
 //! use adit_planners::pose::Pose;
-//! use adit_planners::segment::Segment;
+//! use adit_planners::geometry::Segment;
 //! use adit_planners::simulator::{Settings, Simulator};
 //!
 //! let wall = Segment::new(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
@@ -22,8 +22,6 @@
 //! # Ok::<(), adit_planners::simulator::SimulationError>(())
 //! ```
 
-mod building;
-mod chance;
 mod disc;
 mod error;
 mod film;
@@ -37,23 +35,21 @@ pub use settings::Settings;
 
 use std::f64::consts::TAU;
 
-use building::Building;
-use chance::Chance;
 use disc::{HAIR_M, Touch, touch};
 use obstacle::Mover;
 
 use crate::body::{Body, Command, Contact, Reading, Sensed};
-use crate::geometry::Point;
+use crate::geometry::{Point, RayGrid, Segment, polygon};
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
+use crate::random::Random;
 
 /// A robot in a building, with the truth about it.
 #[derive(Clone, Debug)]
 pub struct Simulator {
     settings: Settings,
-    building: Building,
+    walls: RayGrid,
     movers: Vec<Mover>,
-    chance: Chance,
+    random: Random,
     pose: Pose,
     odometry: Pose,
     readings: u64,
@@ -110,9 +106,9 @@ impl Simulator {
         check(walls, &obstacles, &settings, &start)?;
         let simulator = Self {
             settings,
-            building: Building::new(walls),
+            walls: RayGrid::new(walls.to_vec()),
             movers: obstacles.into_iter().map(Mover::new).collect(),
-            chance: Chance::new(seed),
+            random: Random::new(seed),
             pose: start,
             odometry: Pose::default(),
             readings: 0,
@@ -143,7 +139,7 @@ impl Simulator {
     }
 
     pub fn walls(&self) -> &[Segment] {
-        &self.building.walls
+        self.walls.segments()
     }
 
     /// The outlines of the obstacles where they are now, by their sides.
@@ -159,7 +155,7 @@ impl Simulator {
     /// Metres from a point in a direction (of length 1) to the first wall or obstacle; `None` beyond the sonar's hearing.
     pub fn range(&self, from: Point, towards: Point) -> Option<f64> {
         let reach = self.settings.sonar_range_m;
-        let wall = self.building.range(from, towards, reach);
+        let wall = self.walls.cast(from, towards, reach).map(|echo| echo.distance);
         let sides = self.movers.iter().flat_map(|mover| &mover.sides);
         let hits = sides.filter_map(|side| side.hit(from, towards)).map(|(range, _)| range);
         hits.filter(|range| *range <= reach).chain(wall).min_by(f64::total_cmp)
@@ -167,11 +163,14 @@ impl Simulator {
 
     fn start_is_free(&self) -> Result<(), SimulationError> {
         let (at, radius_m) = (self.pose.at, self.settings.radius_m);
-        let walls = self.building.walls.iter().enumerate();
+        let walls = self.walls.segments().iter().enumerate();
         let walls = walls.map(|(i, wall)| (wall.distance(at), format!("wall {}", i + 1)));
         let obstacles = self.movers.iter().enumerate().map(|(i, mover)| {
             let gap = mover.sides.iter().map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
-            (if is_inside(at, &mover.sides) { 0.0 } else { gap }, format!("obstacle {}", i + 1))
+            (
+                if polygon::encloses(mover.sides.iter().copied(), at) { 0.0 } else { gap },
+                format!("obstacle {}", i + 1),
+            )
         });
         let near = walls.chain(obstacles).find(|(gap, _)| *gap < radius_m + HAIR_M);
         near.map_or(Ok(()), |(gap_m, what)| {
@@ -192,7 +191,7 @@ impl Simulator {
                 let most = speed_m_s * period;
                 let counted_m = left_m.clamp(-most, most);
                 let far = counted_m.abs();
-                let turn = self.settings.heading_noise * self.chance.normal() * far.sqrt()
+                let turn = self.settings.heading_noise * self.random.normal() * far.sqrt()
                     + self.settings.heading_bias * far;
                 let towards = self.pose.direction(turn / 2.0);
                 let true_m = counted_m * scale;
@@ -213,11 +212,10 @@ impl Simulator {
             // A robot that stands is not moved by what touches it; one that moves stops there.
             share = if robot_moved { touch.share } else { 1.0 };
             let time_s = now + touch.share * period;
-            let ahead =
-                (touch.at.x - self.pose.at.x) * step.way.x + (touch.at.y - self.pose.at.y) * step.way.y;
+            let ahead = (touch.at - self.pose.at).dot(step.way);
             self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, by_robot: ahead > 0.0 });
         }
-        self.pose.at = Point::new(self.pose.at.x + share * step.way.x, self.pose.at.y + share * step.way.y);
+        self.pose.at = self.pose.at + step.way * share;
         self.pose.heading = wrapped(self.pose.heading + share * step.turn);
         for (i, way) in ways.iter().enumerate() {
             let robot_way = Point::new(share * step.way.x, share * step.way.y);
@@ -230,15 +228,15 @@ impl Simulator {
     /// What the robot touches first, if each went on as it wants to; what it touches is at its place at that time.
     fn first_touch(&self, step: &Step, ways: &[Point]) -> Option<(Touch, Option<usize>)> {
         let (at, radius) = (self.pose.at, self.settings.radius_m);
-        let reach = radius + step.way.x.hypot(step.way.y) + 1e-6;
-        let walls = self.building.around(at, reach);
+        let reach = radius + step.way.length() + 1e-6;
+        let walls = self.walls.around(at, reach);
         let walls = walls.filter_map(|wall| Some((touch(at, radius, step.way, wall)?, None)));
         let obstacles = self.movers.iter().zip(ways).enumerate().flat_map(|(i, (mover, way))| {
-            let relative = Point::new(step.way.x - way.x, step.way.y - way.y);
+            let relative = step.way - *way;
             let way = *way;
             mover.sides.iter().filter_map(move |side| {
                 let touch = touch(at, radius, relative, side)?;
-                let moved = Point::new(touch.at.x + touch.share * way.x, touch.at.y + touch.share * way.y);
+                let moved = touch.at + way * touch.share;
                 Some((Touch { at: moved, ..touch }, Some(i)))
             })
         });
@@ -253,7 +251,7 @@ impl Simulator {
         }
         let (at, radius) = (self.pose.at, self.settings.radius_m);
         let sides = &self.movers[mover].sides;
-        let begin = Point::new(at.x - robot_way.x, at.y - robot_way.y);
+        let begin = at - robot_way;
         let together = Point::new(robot_way.x - robot_share * way.x, robot_way.y - robot_share * way.y);
         let least = |from: Point, relative: Point| {
             let touches = sides.iter().filter_map(|side| touch(from, radius, relative, side));
@@ -264,7 +262,7 @@ impl Simulator {
             return first * robot_share;
         }
         let rest = Point::new(-(1.0 - robot_share) * way.x, -(1.0 - robot_share) * way.y);
-        let from = Point::new(begin.x + together.x, begin.y + together.y);
+        let from = begin + together;
         robot_share + (1.0 - robot_share) * least(from, rest).min(1.0)
     }
 
@@ -272,7 +270,7 @@ impl Simulator {
     fn way(&self, mover: usize, now_s: f64, step_s: f64) -> Point {
         let way = self.movers[mover].way(now_s, step_s);
         let (at, radius) = (self.pose.at, self.settings.radius_m);
-        let back = Point::new(-way.x, -way.y);
+        let back = -way;
         let mut touches = self.movers[mover].sides.iter().filter_map(|side| touch(at, radius, back, side));
         if touches.any(|touch| touch.share <= 0.0) { Point::default() } else { way }
     }
@@ -296,7 +294,7 @@ impl Simulator {
     fn read(&mut self) -> Reading {
         let turn = u64::from(self.settings.readings_a_turn);
         let bearing = wrapped(TAU * (self.readings % turn) as f64 / turn as f64);
-        let (kind, noise, place) = (self.chance.share(), self.chance.normal(), self.chance.share());
+        let (kind, noise, place) = (self.random.share(), self.random.normal(), self.random.share());
         let reach = self.settings.sonar_range_m;
         let range_m = if kind < self.settings.missed {
             None
@@ -313,7 +311,7 @@ impl Simulator {
     /// What the skirt feels now.
     fn contact(&self) -> Option<Contact> {
         let (at, radius) = (self.pose.at, self.settings.radius_m);
-        let walls = self.building.around(at, radius + 1e-6);
+        let walls = self.walls.around(at, radius + 1e-6);
         let sides = self.movers.iter().flat_map(|mover| &mover.sides);
         let points = walls.chain(sides).map(|side| at.nearest_on(side.a, side.b));
         let nearest = points.min_by(|a, b| at.distance(*a).total_cmp(&at.distance(*b)))?;
@@ -332,7 +330,7 @@ impl Body for Simulator {
             Command::Turn { by } if by.is_finite() && by != 0.0 => Task::Turn { left: by },
             Command::Move { distance_m, speed_m_s } if distance_m.is_finite() && speed_m_s > 0.0 => {
                 let speed_m_s = speed_m_s.min(self.settings.greatest_speed_m_s);
-                let scale = 1.0 + self.settings.distance_noise * self.chance.normal();
+                let scale = 1.0 + self.settings.distance_noise * self.random.normal();
                 Task::Move { left_m: distance_m, speed_m_s, scale }
             }
             _ => Task::Rest,
@@ -387,13 +385,4 @@ fn check(
         }
     }
     Ok(())
-}
-
-/// Whether a point lies in an outline: a ray from it leaves the outline an odd number of times.
-fn is_inside(p: Point, sides: &[Segment]) -> bool {
-    let crosses = |side: &&Segment| {
-        let (a, b) = (side.a, side.b);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    };
-    sides.iter().filter(crosses).count() % 2 == 1
 }

@@ -130,10 +130,7 @@ impl Shape {
     pub fn enclosing_rect(&self) -> Rect {
         match self {
             Self::Rect(rect) => *rect,
-            Self::Polygon(corners) => corners.iter().fold(
-                Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
-                |r, p| Rect::new(r.x0.min(p.x), r.y0.min(p.y), r.x1.max(p.x), r.y1.max(p.y)),
-            ),
+            Self::Polygon(corners) => Rect::around(corners.iter().copied()),
         }
     }
 

@@ -7,9 +7,8 @@ use adit_planners::adapt::{
     Adapt, Clearance, Edge, EdgeId, Experience, Object, Placed, Plugins, Progress, Settings, Shape, TagPoint,
     Vertex, VertexId, Workcell,
 };
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::pose::Pose;
-use adit_planners::segment::Segment;
 
 use super::cell::Cell;
 use crate::error::{Error, Result};

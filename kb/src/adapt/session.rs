@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use adit_db::Store;
 use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Chance, Changed, Configuration, Outcome, Report, Settings, Strategy, TOUCHING_M, Workcell,
-    distance,
+    Adapt, Changed, Configuration, Outcome, Report, Settings, Strategy, TOUCHING_M, Workcell, distance,
 };
+use adit_planners::random::Random;
 
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
@@ -179,7 +179,7 @@ impl Session {
         };
         let goals: Vec<&Goal> = cell.goals.iter().filter(is_elsewhere).collect();
         let drawn = seed.wrapping_add(u64::from(progress.tasks).wrapping_mul(FAR_APART));
-        goals.get(Chance::new(drawn).below(goals.len())).map(|goal| (*goal).clone())
+        goals.get(Random::new(drawn).below(goals.len())).map(|goal| (*goal).clone())
     }
 
     fn configurations(&self, goal: &Goal) -> Vec<Configuration> {

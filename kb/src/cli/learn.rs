@@ -7,10 +7,10 @@ use std::sync::Arc;
 use adit_db::Store;
 use adit_db::learned::Learned as Record;
 use adit_engine::RuleBase;
+use adit_planners::geometry::Segment;
 use adit_planners::navigation::learn::Exploration;
 use adit_planners::navigation::{Outfit, drive as drive_by};
 use adit_planners::pose::Pose;
-use adit_planners::segment::Segment;
 use serde_json::json;
 
 use super::SimulateArgs;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use adit_engine::RuleBase;
+use adit_planners::geometry::Segment;
 use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, draw};
-use adit_planners::segment::Segment;
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
 use serde::Serialize;

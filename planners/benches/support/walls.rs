@@ -1,7 +1,6 @@
 //! Walls for measurements: how many there are is what is varied.
 
-use adit_planners::geometry::Point;
-use adit_planners::segment::Segment;
+use adit_planners::geometry::{Point, Segment};
 
 /// Rooms of 5 m by 5 m with a door of 1 m in the middle of each wall, in a spiral about the first until there are so many
 /// walls: six of a room are its own.

@@ -3,9 +3,8 @@
 mod inverse;
 
 use super::robot::{Configuration, Limit, Link, Links, Robot};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
 
 /// An arm of n links in the plane. Joint i turns link i against link i - 1, the first one against the x axis of the cell;
 /// radians, counter-clockwise. The tool is at the end of the last link and looks along it.

@@ -4,8 +4,8 @@
 
 use super::robot::Link;
 use super::shape::Distance;
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, Segment};
 
 /// One thing learned, in the frame of the object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,16 +43,15 @@ struct Room {
 
 impl Room {
     fn new(axis: Segment, within_m: f64) -> Self {
-        let along = Point::new(axis.b.x - axis.a.x, axis.b.y - axis.a.y);
-        let square = along.x * along.x + along.y * along.y;
+        let along = axis.b - axis.a;
+        let square = along.dot(along);
         Self { axis, within_m, along, per_square: if square > 0.0 { 1.0 / square } else { 0.0 } }
     }
 
     fn squared(&self, p: Point) -> f64 {
-        let (dx, dy) = (p.x - self.axis.a.x, p.y - self.axis.a.y);
-        let share = ((dx * self.along.x + dy * self.along.y) * self.per_square).clamp(0.0, 1.0);
-        let (x, y) = (dx - share * self.along.x, dy - share * self.along.y);
-        x * x + y * y
+        let out = p - self.axis.a;
+        let off = out - self.along * (out.dot(self.along) * self.per_square).clamp(0.0, 1.0);
+        off.dot(off)
     }
 
     /// Square of the distance to the farther end of an axis. The room is convex, so what holds both ends holds the axis.
@@ -67,8 +66,6 @@ impl Room {
 
 /// Places that are taken are kept no closer than this: what lies between them is met on the way from one to the next.
 const SPACING_M: f64 = 0.03;
-
-const ROUNDING_M: f64 = 1e-9;
 
 impl Known {
     /// By how many metres the known free room exceeds a link there, and which room that is; the slack is negative or
@@ -97,7 +94,7 @@ impl Known {
     pub fn takes(&self, link: &Link) -> bool {
         let is_taken = |(at, within_m): &(Point, f64)| {
             let near = within_m + link.radius - ROUNDING_M;
-            near > 0.0 && squared(&link.axis, *at) < near * near
+            near > 0.0 && link.axis.squared_distance(*at) < near * near
         };
         self.taken.iter().any(is_taken)
     }
@@ -132,10 +129,4 @@ impl Known {
         let free = self.free.iter().map(|room| Clearance::Free { axis: room.axis, within_m: room.within_m });
         free.chain(self.taken.iter().map(|&(at, within_m)| Clearance::Taken { at, within_m }))
     }
-}
-
-/// Square of the distance from a segment to a point.
-fn squared(segment: &Segment, p: Point) -> f64 {
-    let near = p.nearest_on(segment.a, segment.b);
-    (near.x - p.x).powi(2) + (near.y - p.y).powi(2)
 }

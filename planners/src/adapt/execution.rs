@@ -2,8 +2,8 @@
 
 use super::object::Object;
 use super::robot::{Configuration, Link, Robot, links_between};
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, polygon};
 
 /// Where a path is in collision.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,9 +18,6 @@ pub struct Collision {
 
 /// The resolution, metres: what touches by less than this between two points of the check may pass.
 const FINE_M: f64 = 1e-4;
-
-/// What touches overlaps by no more than this in floating point.
-const ROUNDING_M: f64 = 1e-9;
 
 /// The first collision on a path of straight motions, by conservative advancement (Mirtich 1996): from each configuration
 /// on, the path is free for as far as no point of the robot can come to the object. Touching is no collision.
@@ -62,46 +59,9 @@ fn hit(robot: &dyn Robot, from: &[f64], to: &[f64], travel: f64, outline: &[Poin
 
 /// Metres between a link and an outline; negative where they overlap.
 fn gap(link: &Link, outline: &[Point]) -> f64 {
-    let Segment { a, b } = link.axis;
-    if winds_round(outline, a) {
+    let sides = polygon::sides(outline);
+    if polygon::encloses(sides.clone(), link.axis.a) || sides.clone().any(|side| side.crosses(&link.axis)) {
         return -f64::INFINITY;
     }
-    let mut squared = f64::INFINITY;
-    for (index, &c) in outline.iter().enumerate() {
-        let d = outline[(index + 1) % outline.len()];
-        if side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0 {
-            return -f64::INFINITY;
-        }
-        let ends = [apart(a, c, d), apart(b, c, d), apart(c, a, b), apart(d, a, b)];
-        squared = ends.into_iter().fold(squared, f64::min);
-    }
-    squared.sqrt() - link.radius
-}
-
-/// On which side of the line through `a` and `b` a point is.
-fn side(a: Point, b: Point, p: Point) -> f64 {
-    (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)
-}
-
-/// Square of the distance from a point to a segment.
-fn apart(p: Point, a: Point, b: Point) -> f64 {
-    let (along, out) = ((b.x - a.x, b.y - a.y), (p.x - a.x, p.y - a.y));
-    let squared = along.0 * along.0 + along.1 * along.1;
-    let share = if squared > 0.0 { (out.0 * along.0 + out.1 * along.1) / squared } else { 0.0 };
-    let share = share.clamp(0.0, 1.0);
-    (out.0 - share * along.0).powi(2) + (out.1 - share * along.1).powi(2)
-}
-
-/// Whether an outline goes round a point, by its winding number (Sunday 2001).
-fn winds_round(outline: &[Point], p: Point) -> bool {
-    let mut turns = 0;
-    for (index, &a) in outline.iter().enumerate() {
-        let b = outline[(index + 1) % outline.len()];
-        if a.y <= p.y && b.y > p.y && side(a, b, p) > 0.0 {
-            turns += 1;
-        } else if a.y > p.y && b.y <= p.y && side(a, b, p) < 0.0 {
-            turns -= 1;
-        }
-    }
-    turns != 0
+    sides.map(|side| side.gap(&link.axis)).fold(f64::INFINITY, f64::min) - link.radius
 }

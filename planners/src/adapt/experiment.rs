@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::chance::Chance;
 use super::judge::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 use super::planner::{Adapt, Outcome, Plugins, Settings};
 use super::probe::Probe;
 use super::robot::{Configuration, length};
 use super::scenario::Scenario;
 use super::workcell::{Workcell, WorkcellError};
+use crate::random::Random;
 
 /// What an experiment is made with.
 pub struct Experiment<'e> {
@@ -95,7 +95,7 @@ impl Experiment<'_> {
     /// The goals of a run: each differs from the one before.
     fn goals(&self, seed: u64) -> Vec<&Configuration> {
         let scenario = self.scenario;
-        let mut chance = Chance::new(seed);
+        let mut random = Random::new(seed);
         let all: Vec<&Configuration> = scenario.goals.iter().chain(&scenario.added_goals).collect();
         let mut here = &scenario.home;
         let mut goals = Vec::new();
@@ -103,7 +103,7 @@ impl Experiment<'_> {
             let has_changed = task >= scenario.change_after_task;
             let known = if has_changed { &all[..] } else { &all[..scenario.goals.len()] };
             let others: Vec<&Configuration> = known.iter().copied().filter(|goal| *goal != here).collect();
-            let Some(goal) = others.get(chance.below(others.len())) else { break };
+            let Some(goal) = others.get(random.below(others.len())) else { break };
             here = goal;
             goals.push(here);
         }
@@ -147,14 +147,14 @@ impl Experiment<'_> {
     fn solve_alone(&self, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
         let scenario = self.scenario;
         let began = (self.clock)();
-        let mut chance = Chance::new(seed ^ 0x5eed);
+        let mut random = Random::new(seed ^ 0x5eed);
         let mut here = &scenario.home;
         let (mut evaluations, mut samples) = (0, Vec::new());
         for (task, goal) in (0..).zip(self.goals(seed)) {
             let objects =
                 if task < scenario.change_after_task { &scenario.objects } else { &scenario.changed };
             let mut cell = Workcell::new(scenario.robot.clone(), objects.clone(), self.touching_m)?;
-            let path = self.plugins.solve.solve(&mut Probe::new(&mut cell), here, goal, &mut chance);
+            let path = self.plugins.solve.solve(&mut Probe::new(&mut cell), here, goal, &mut random);
             evaluations += cell.evaluations();
             here = goal;
             samples.push(Sample {

@@ -3,9 +3,8 @@
 use smallvec::smallvec;
 
 use super::robot::{Configuration, Limit, Link, Links, Robot};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::pose::Pose;
-use crate::segment::Segment;
 
 /// A robot that is a disc, or a point where its radius is 0; its configuration is `[x, y]`, metres.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,8 +4,9 @@ use std::fmt;
 
 use smallvec::SmallVec;
 
+use crate::geometry::Segment;
 use crate::pose::Pose;
-use crate::segment::Segment;
+use crate::random::Random;
 
 /// One number a joint or axis: radians or metres.
 pub type Configuration = Vec<f64>;
@@ -58,6 +59,11 @@ pub trait Robot: fmt::Debug + Send + Sync {
         at.len() == limits.len()
             && at.iter().zip(limits).all(|(q, limit)| limit.low <= *q && *q <= limit.high)
     }
+}
+
+/// A configuration anywhere within the limits of a robot.
+pub fn any_configuration(robot: &dyn Robot, random: &mut Random) -> Configuration {
+    robot.limits().iter().map(|limit| random.between(limit.low, limit.high)).collect()
 }
 
 /// Distance of two configurations: Euclidean over the joints.

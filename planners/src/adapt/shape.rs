@@ -1,7 +1,6 @@
 //! The outline of an object, in its own frame, and how far a link is from it.
 
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment, polygon};
 
 /// A simple polygon, convex or not, in the frame of its object, metres.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,12 +51,8 @@ impl Shape {
         if let Some(same) = sides.iter().position(|side| side.length() <= 0.0) {
             return Err(ShapeError::SameCorner(same, (same + 1) % count));
         }
-        for first in 0..count {
-            for second in first + 1..count {
-                if meet_wrongly(&sides, first, second) {
-                    return Err(ShapeError::SelfCrossing(first, second));
-                }
-            }
+        if let Some((first, second)) = polygon::self_crossing(&shape.corners) {
+            return Err(ShapeError::SelfCrossing(first, second));
         }
         Ok(shape)
     }
@@ -68,17 +63,11 @@ impl Shape {
     }
 
     fn sides(&self) -> impl Iterator<Item = Segment> + '_ {
-        let next = self.corners.iter().cycle().skip(1);
-        self.corners.iter().zip(next).map(|(&a, &b)| Segment::new(a, b))
+        polygon::sides(&self.corners)
     }
 
-    /// Whether the point is inside (by the parity of the sides above it).
     pub(super) fn encloses(&self, p: Point) -> bool {
-        let is_crossed = |side: &Segment| {
-            (side.a.y > p.y) != (side.b.y > p.y)
-                && p.x < (side.b.x - side.a.x) * (p.y - side.a.y) / (side.b.y - side.a.y) + side.a.x
-        };
-        self.sides().filter(is_crossed).count() % 2 == 1
+        polygon::encloses(self.sides(), p)
     }
 
     /// How far the axis of a link, given in the frame of the object, is from the object.
@@ -91,8 +80,8 @@ impl Shape {
             }
             for (witness, metres) in [
                 (side.a, axis.distance(side.a)),
-                (axis.a.nearest_on(side.a, side.b), side.distance(axis.a)),
-                (axis.b.nearest_on(side.a, side.b), side.distance(axis.b)),
+                (side.nearest_to(axis.a), side.distance(axis.a)),
+                (side.nearest_to(axis.b), side.distance(axis.b)),
             ] {
                 if metres < nearest.metres {
                     nearest = Distance { metres, witness };
@@ -109,13 +98,13 @@ impl Shape {
     fn deepest(&self, axis: &Segment, cuts: &mut [f64]) -> Distance {
         const PROBES: u32 = 8;
         cuts.sort_unstable_by(f64::total_cmp);
-        let mut deepest = Distance { metres: 0.0, witness: at(axis, cuts[1]) };
+        let mut deepest = Distance { metres: 0.0, witness: axis.at(cuts[1]) };
         for pair in cuts.windows(2) {
-            if !self.encloses(at(axis, f64::midpoint(pair[0], pair[1]))) {
+            if !self.encloses(axis.at(f64::midpoint(pair[0], pair[1]))) {
                 continue;
             }
             for probe in 0..=PROBES {
-                let witness = at(axis, pair[0] + (pair[1] - pair[0]) * f64::from(probe) / f64::from(PROBES));
+                let witness = axis.at(pair[0] + (pair[1] - pair[0]) * f64::from(probe) / f64::from(PROBES));
                 let depth = self.sides().map(|side| side.distance(witness)).fold(f64::INFINITY, f64::min);
                 if -depth < deepest.metres {
                     deepest = Distance { metres: -depth, witness };
@@ -126,40 +115,11 @@ impl Shape {
     }
 }
 
-fn at(axis: &Segment, share: f64) -> Point {
-    Point::new(axis.a.x + share * (axis.b.x - axis.a.x), axis.a.y + share * (axis.b.y - axis.a.y))
-}
-
-fn cross(origin: Point, a: Point, b: Point) -> f64 {
-    (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x)
-}
-
-/// Where on the axis a side crosses it, as a share of its length.
+/// Where on the axis a side crosses it, as a share of its length; where that is a corner, one of its two sides does.
 fn crossing(axis: &Segment, side: &Segment) -> Option<f64> {
-    let (from, to) = (cross(side.a, side.b, axis.a), cross(side.a, side.b, axis.b));
-    let (one, other) = (cross(axis.a, axis.b, side.a), cross(axis.a, axis.b, side.b));
+    let [from, to] = side.sides_of(axis);
+    let [one, other] = axis.sides_of(side);
     ((from > 0.0) != (to > 0.0) && (one > 0.0) != (other > 0.0)).then(|| from / (from - to))
-}
-
-/// Whether two sides have a point in common that is not the corner between neighbours.
-fn meet_wrongly(sides: &[Segment], first: usize, second: usize) -> bool {
-    let (one, other) = (&sides[first], &sides[second]);
-    let folds_back = |corner: Point, end: Point, back: Point| {
-        cross(corner, end, back) == 0.0
-            && (end.x - corner.x) * (back.x - corner.x) + (end.y - corner.y) * (back.y - corner.y) > 0.0
-    };
-    if second == first + 1 {
-        return folds_back(one.b, one.a, other.b);
-    }
-    if first == 0 && second == sides.len() - 1 {
-        return folds_back(one.a, one.b, other.a);
-    }
-    let touch = |side: &Segment, p: Point| side.distance(p) <= 0.0;
-    crossing(one, other).is_some()
-        || touch(one, other.a)
-        || touch(one, other.b)
-        || touch(other, one.a)
-        || touch(other, one.b)
 }
 
 #[cfg(test)]

@@ -10,9 +10,9 @@ pub use rrt_connect::RrtConnect;
 pub use taught::Taught;
 pub use two_step::TwoStep;
 
-use super::chance::Chance;
 use super::probe::Probe;
 use super::robot::Configuration;
+use crate::random::Random;
 
 /// Much more effective than Reach, and slow; it may even be the human operator.
 pub trait Solve: fmt::Debug + Send + Sync {
@@ -22,6 +22,6 @@ pub trait Solve: fmt::Debug + Send + Sync {
         probe: &mut Probe<'_>,
         from: &[f64],
         to: &[f64],
-        chance: &mut Chance,
+        random: &mut Random,
     ) -> Option<Vec<Configuration>>;
 }

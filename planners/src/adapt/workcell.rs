@@ -4,8 +4,10 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::clearance::{Clearance, Known};
-use super::object::{Frame, Object};
+use super::object::Object;
 use super::robot::{Link, Robot};
+use crate::geometry::Segment;
+use crate::pose::Frame;
 
 /// Number of the state of a cell: 0 at first, one more with each change.
 pub type Revision = u32;
@@ -167,7 +169,7 @@ impl Placed {
 
     /// An object that has been as it is since a state of the cell, and was moved so often.
     pub fn with(object: Object, since: Revision, times_moved: u32) -> Self {
-        let frame = Frame::new(&object.pose);
+        let frame = Frame::from(&object.pose);
         Self { object, since, times_moved, frame, known: Known::default() }
     }
 
@@ -177,7 +179,8 @@ impl Placed {
     }
 
     pub(super) fn inward(&self, link: &Link) -> Link {
-        Link { axis: self.frame.inward(&link.axis), radius: link.radius }
+        let Segment { a, b } = link.axis;
+        Link { axis: Segment::new(self.frame.seen(a), self.frame.seen(b)), radius: link.radius }
     }
 
     pub(super) fn is_known_to_touch(&self, links: &[Link]) -> bool {

@@ -70,7 +70,7 @@ mod route;
 mod route_error;
 mod steer;
 mod sweep;
-mod taut;
+mod tangents;
 mod turning;
 mod walls;
 

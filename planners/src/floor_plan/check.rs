@@ -5,10 +5,11 @@ use std::ops::Range;
 
 use geo::{Intersects, Validation};
 
-use super::noding::{Clash, Noded, SNAP_M, node};
+use super::noding::{Clash, Noded, node};
 use super::plan::{Source, Space};
 use super::solids::{outside, polygon, rims, union};
 use crate::geometry::Point;
+use crate::geometry::tolerance::SNAP_M;
 use crate::read::{Code, MapErrors, Problem};
 use crate::world::Place;
 

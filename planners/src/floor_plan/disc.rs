@@ -7,13 +7,12 @@ use geo::{Coord, LineString, MultiPolygon, Polygon};
 use super::plan::FloorPlan;
 use super::solids::polygon;
 use crate::geometry::Point;
+use crate::geometry::polygon::sides;
+use crate::geometry::tolerance::SNAP_M;
 use crate::read::{Code, MapErrors, Problem};
 
 /// An arc about the end of a wall is drawn as so many edges a whole turn.
 const EDGES: usize = 32;
-
-/// Joining outlines may move their corners by less than this, metres.
-const ROUNDING_M: f64 = 1e-6;
 
 /// A round robot, and what it keeps free around itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,11 +48,9 @@ impl Disc {
     /// Walls and solids grown by the reach: nowhere by less, about ends of walls by up to a half percent more.
     pub(super) fn grown(&self, plan: &FloorPlan) -> MultiPolygon {
         let solids = plan.solids();
-        let rims = solids
-            .iter()
-            .flat_map(|solid| solid.iter().zip(solid.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]));
+        let rims = solids.iter().flat_map(|solid| sides(solid)).map(|side| [side.a, side.b]);
         let walls = plan.walls().iter().copied().chain(rims);
-        let mut shapes: Vec<Polygon> = walls.map(|wall| around(wall, self.reach() + ROUNDING_M)).collect();
+        let mut shapes: Vec<Polygon> = walls.map(|wall| around(wall, self.reach() + SNAP_M)).collect();
         shapes.extend(solids.iter().map(|solid| polygon(solid)));
         geo::unary_union(&shapes)
     }
@@ -63,7 +60,7 @@ impl Disc {
 fn around([a, b]: [Point; 2], distance: f64) -> Polygon {
     let step = TAU / EDGES as f64;
     let out = distance / (step / 2.0).cos();
-    let ahead = (b.y - a.y).atan2(b.x - a.x);
+    let ahead = (b - a).angle();
     let half = |centre: Point, middle: f64| {
         (0..EDGES / 2).map(move |corner| {
             let angle = middle - PI / 2.0 + (corner as f64 + 0.5) * step;

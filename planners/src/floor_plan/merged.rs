@@ -1,12 +1,12 @@
-//! A hall as merged triangles (Hertel and Mehlhorn 1983): so many regions cuts for large regions may not exceed.
+//! A face as merged triangles (Hertel and Mehlhorn 1983): so many regions cuts for large regions may not exceed.
 
 use std::f64::consts::{PI, TAU};
 
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-use super::dice::Dice;
-use super::hall::{ANGLE, Hall};
+use super::face::{ANGLE, Face};
+use crate::random::Xorshift;
 
 /// Diagonals are dropped in so many random orders at least, and in more where they are few.
 const FEWEST_ORDERS: usize = 20;
@@ -19,16 +19,16 @@ type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 pub(super) struct Merged {
     /// How many regions are left.
     pub regions: usize,
-    /// The diagonals that stay, by the hall's nodes.
+    /// The diagonals that stay, by the face's nodes.
     pub diagonals: Vec<[u32; 2]>,
 }
 
-/// Merges triangles; `None` where the hall cannot be triangulated as it is.
-pub(super) fn merged(hall: &Hall) -> Option<Merged> {
-    let (cdt, handles) = triangulate(hall)?;
+/// Merges triangles; `None` where the face cannot be triangulated as it is.
+pub(super) fn merged(face: &Face) -> Option<Merged> {
+    let (cdt, handles) = triangulate(face)?;
     let mut is_free = vec![false; cdt.num_all_faces()];
     let mut next = Vec::new();
-    for side in &hall.sides {
+    for side in &face.sides {
         let [a, b] = side.ends.map(|node| handles[node as usize]);
         let edge = cdt.get_edge_from_neighbors(a, b)?;
         let faces = [edge.face(), edge.rev().face()];
@@ -52,11 +52,11 @@ pub(super) fn merged(hall: &Hall) -> Option<Merged> {
     diagonals.sort_unstable();
     diagonals.dedup();
     let merging = Merging::new(&cdt, &diagonals);
-    let mut dice = Dice::new();
+    let mut random = Xorshift::new();
     let mut order: Vec<usize> = (0..diagonals.len()).collect();
     let orders = (DIAGONALS_TRIED / diagonals.len().max(1)).clamp(FEWEST_ORDERS, MOST_ORDERS);
     let tries = (0..orders).map(|_| {
-        dice.shuffle(&mut order);
+        random.shuffle(&mut order);
         merging.kept(&order)
     });
     let kept = tries.min_by_key(Vec::len)?;
@@ -68,11 +68,11 @@ pub(super) fn merged(hall: &Hall) -> Option<Merged> {
     Some(Merged { regions, diagonals: kept.iter().map(ends).collect::<Option<_>>()? })
 }
 
-fn triangulate(hall: &Hall) -> Option<(Cdt, Vec<FixedVertexHandle>)> {
+fn triangulate(face: &Face) -> Option<(Cdt, Vec<FixedVertexHandle>)> {
     let mut cdt = Cdt::new();
     let insert = |point: &crate::geometry::Point| cdt.insert(Point2::new(point.x, point.y)).ok();
-    let handles: Vec<FixedVertexHandle> = hall.points.iter().map(insert).collect::<Option<_>>()?;
-    for side in &hall.sides {
+    let handles: Vec<FixedVertexHandle> = face.points.iter().map(insert).collect::<Option<_>>()?;
+    for side in &face.sides {
         let [a, b] = side.ends.map(|node| handles[node as usize]);
         if !cdt.can_add_constraint(a, b) {
             return None;

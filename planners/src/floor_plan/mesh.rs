@@ -7,14 +7,14 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use super::disc::Disc;
 use super::plan::FloorPlan;
 use super::regions::Regions;
-use crate::geometry::Point;
+use crate::geometry::polygon::{self, is_in_convex};
+use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
+use crate::geometry::{Point, Segment};
+use crate::search::Csr;
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 const NONE: u32 = u32::MAX;
-
-/// Whether an edge of the mesh lies on a doorway is told by its middle, metres.
-const NEAR_M: f64 = 1e-6;
 
 #[derive(Clone, Copy, Debug)]
 struct Triangle {
@@ -36,18 +36,14 @@ pub(super) struct Opening {
 
 impl Opening {
     pub fn middle(&self) -> Point {
-        Point::new(
-            f64::midpoint(self.ends[0].x, self.ends[1].x),
-            f64::midpoint(self.ends[0].y, self.ends[1].y),
-        )
+        self.ends[0].midpoint(self.ends[1])
     }
 }
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Mesh {
-    triangles: Vec<Triangle>,
-    /// For each region its first triangle, and one more.
-    begins: Vec<u32>,
+    /// For each region its triangles; they are numbered through all regions.
+    triangles: Csr<Triangle>,
     pub openings: Vec<Opening>,
 }
 
@@ -63,15 +59,10 @@ impl Mesh {
             (0..cdt.num_all_faces() as u32).filter(|&f| region_of[f as usize] != NONE).collect();
         order.sort_by_key(|&face| region_of[face as usize]);
         let mut number = vec![NONE; cdt.num_all_faces()];
-        let mut begins = vec![0; regions.regions.len() + 1];
         for (index, &face) in (0..).zip(&order) {
             number[face as usize] = index;
-            begins[region_of[face as usize] as usize + 1] = index + 1;
         }
-        for region in 1..begins.len() {
-            begins[region] = begins[region].max(begins[region - 1]);
-        }
-        let mut mesh = Self { triangles: Vec::with_capacity(order.len()), begins, openings: Vec::new() };
+        let (mut triangles, mut openings) = (Vec::with_capacity(order.len()), Vec::new());
         let by_number = cdt.inner_faces().filter(|face| number[face.fix().index()] != NONE);
         let mut faces: Vec<_> = by_number.collect();
         faces.sort_by_key(|face| number[face.fix().index()]);
@@ -85,28 +76,24 @@ impl Mesh {
                 } else if region_of[other] != NONE {
                     let ends = edge.positions().map(at);
                     let sides = [own, other].map(|face| (region_of[face] as usize, number[face]));
-                    mesh.openings.extend(opening(regions, ends, sides));
+                    openings.extend(opening(regions, ends, sides));
                 }
             }
-            mesh.triangles.push(triangle);
+            triangles.push((region_of[own] as usize, triangle));
         }
-        mesh.openings.sort_by_key(|opening| opening.doorway);
-        mesh
+        openings.sort_by_key(|opening: &Opening| opening.doorway);
+        Self { triangles: Csr::new(regions.regions.len(), triangles), openings }
     }
 
     fn of_region(&self, region: usize) -> std::ops::Range<u32> {
-        self.begins[region]..self.begins[region + 1]
+        let range = self.triangles.range(region);
+        range.start as u32..range.end as u32
     }
 
     /// The triangle of a region that holds a point.
     pub fn locate(&self, region: usize, p: Point) -> Option<u32> {
-        let holds = |corners: &[Point; 3]| {
-            (0..3).all(|i| {
-                let (a, b) = (corners[i], corners[(i + 1) % 3]);
-                (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= -1e-9 * a.distance(b)
-            })
-        };
-        self.of_region(region).find(|&triangle| holds(&self.triangles[triangle as usize].corners))
+        self.of_region(region)
+            .find(|&triangle| is_in_convex(&self.triangles.items()[triangle as usize].corners, p, ROUNDING_M))
     }
 
     /// The gates on the way from one triangle of a region to another one; `None` where they are not joined in it.
@@ -118,9 +105,11 @@ impl Mesh {
         let mut next = std::collections::VecDeque::from([to]);
         while before[place(from)].0 == NONE {
             let triangle = next.pop_front()?;
-            for &other in self.triangles[triangle as usize].beside.iter().filter(|&&other| other != NONE) {
+            for &other in
+                self.triangles.items()[triangle as usize].beside.iter().filter(|&&other| other != NONE)
+            {
                 if before[place(other)].0 == NONE {
-                    let beside = self.triangles[other as usize].beside;
+                    let beside = self.triangles.items()[other as usize].beside;
                     let edge = beside.iter().position(|&b| b == triangle)? as u32;
                     before[place(other)] = (triangle, edge);
                     next.push_back(other);
@@ -130,7 +119,7 @@ impl Mesh {
         let (mut gates, mut at) = (Vec::new(), from);
         while at != to {
             let (towards, edge) = before[place(at)];
-            let corners = self.triangles[at as usize].corners;
+            let corners = self.triangles.items()[at as usize].corners;
             // The triangle lies left of its edges, so a way out of it has the edge's end to the left.
             gates.push([corners[(edge as usize + 1) % 3], corners[edge as usize]]);
             at = towards;
@@ -202,22 +191,18 @@ fn regions_of_faces(cdt: &Cdt, grown: &MultiPolygon, plan: &FloorPlan, regions: 
     region_of
 }
 
-/// Whether a point lies in a ring, by the parity of the edges to its right.
 fn is_inside(ring: &LineString, p: Point) -> bool {
-    let is_crossed = |line: geo::Line| {
-        let (a, b) = (line.start, line.end);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    };
-    ring.lines().filter(|&line| is_crossed(line)).count() % 2 == 1
+    let point = |c: geo::Coord| Point::new(c.x, c.y);
+    polygon::encloses(ring.lines().map(|line| Segment::new(point(line.start), point(line.end))), p)
 }
 
 /// The opening on an edge of the mesh, seen from its left side, if that is the doorway's first region.
 fn opening(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Option<Opening> {
-    let middle = Point::new(f64::midpoint(ends[0].x, ends[1].x), f64::midpoint(ends[0].y, ends[1].y));
+    let middle = ends[0].midpoint(ends[1]);
     let is_own = |doorway: &&(usize, &super::regions::Doorway)| {
         let (_, doorway) = doorway;
         doorway.regions == sides.map(|side| side.0)
-            && middle.distance(middle.nearest_on(doorway.from, doorway.to)) <= NEAR_M
+            && middle.distance(middle.nearest_on(doorway.from, doorway.to)) <= SNAP_M
     };
     let all: Vec<_> = regions.doorways.iter().enumerate().collect();
     let &(doorway, _) = all.iter().find(is_own)?;

@@ -2,11 +2,12 @@
 
 use super::clear::wall_distance;
 use super::disc::Disc;
+use super::funnel::funnel;
 use super::mesh::{Mesh, Opening};
 use super::plan::FloorPlan;
-use super::pull::{length, pull};
 use super::regions::Regions;
-use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, path_length};
 use crate::read::{Code, MapErrors, Problem};
 
 /// A point beside a doorway where a disc can be.
@@ -152,11 +153,11 @@ impl Network {
         let reach = self.disc.reach();
         let spots = [1.0, 0.75, 0.5, 0.25].map(|share| {
             let metres = share * reach;
-            Point::new(middle.x + metres * inward.x, middle.y + metres * inward.y)
+            middle + inward * metres
         });
         let can_stand = |at: &Point| {
             self.mesh.locate(region, *at).is_some()
-                && wall_distance(&[middle, *at], &self.barriers) >= reach - 1e-9
+                && wall_distance(&[middle, *at], &self.barriers) >= reach - ROUNDING_M
         };
         spots.into_iter().find(can_stand).unwrap_or(middle)
     }
@@ -222,12 +223,12 @@ impl Network {
     /// The way between two points of a region; `None` where walls close it within the region.
     pub(super) fn inside(&self, ends: [Spot; 2], from: Standing, to: Standing) -> Option<Way> {
         let gates = self.mesh.gates(from.region, from.triangle, to.triangle)?;
-        Some(self.way(ends, pull(from.at, &gates, to.at), None, Some(from.region)))
+        Some(self.way(ends, funnel(from.at, &gates, to.at), None, Some(from.region)))
     }
 
     fn way(&self, ends: [Spot; 2], points: Vec<Point>, doorway: Option<usize>, region: Option<usize>) -> Way {
         let [from, to] = ends;
         let clearance = wall_distance(&points, &self.barriers) - self.disc.radius;
-        Way { from, to, length: length(&points), clearance, doorway, region, points }
+        Way { from, to, length: path_length(&points), clearance, doorway, region, points }
     }
 }

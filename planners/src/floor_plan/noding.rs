@@ -6,10 +6,8 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::planar::Edge;
-use crate::geometry::Point;
-
-/// Points closer than this are one, metres.
-pub(super) const SNAP_M: f64 = 1e-6;
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Point, Segment};
 
 /// How two walls must not meet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -124,11 +122,8 @@ fn clashes(points: &[Point], ends: &[[u32; 2]]) -> Vec<Clash> {
 /// Where two segments cross, if at no end of either.
 pub(super) fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let ends_apart = [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])].iter().all(|&(p, s)| !is_on(p, s));
-    let side = |p: Point, q: Point, r: Point| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-    let (c_side, d_side) = (side(a, b, c), side(a, b, d));
-    let crosses = c_side * d_side < 0.0 && side(c, d, a) * side(c, d, b) < 0.0;
-    let share = c_side / (c_side - d_side);
-    (ends_apart && crosses).then(|| Point::new(c.x + share * (d.x - c.x), c.y + share * (d.y - c.y)))
+    let crossing = || Segment::new(c, d).crossing(&Segment::new(a, b));
+    if ends_apart { crossing() } else { None }
 }
 
 /// Whether two segments have a part of some length in common: two points that are ends, apart, and on both.

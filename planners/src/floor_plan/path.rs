@@ -1,10 +1,10 @@
 //! Paths over the network of places: by the nearest adits, over all adits, and pulled tight.
 
+use super::funnel::{funnel, straightened};
 use super::mesh::Gate;
 use super::network::{Network, Spot, Standing, Way};
-use super::pull::{length, pull, straightened};
 use super::trees::Trees;
-use crate::geometry::Point;
+use crate::geometry::{Point, path_length};
 
 /// Paths over adits that are longer than the shortest by at most this share are pulled tight, too: straightened they
 /// may be shorter.
@@ -212,9 +212,9 @@ impl<W: FnMut(&Way) -> Option<f64>> Query<'_, W> {
             at = Standing { region, triangle: opening.triangles[far], at: opening.middle() };
         }
         gates.extend(network.mesh.gates(at.region, at.triangle, self.ends[1].triangle)?);
-        let points = pull(self.ends[0].at, &gates, self.ends[1].at);
+        let points = funnel(self.ends[0].at, &gates, self.ends[1].at);
         let untightened = self.over_adits(route).length;
-        let weight = (route.weight - untightened + length(&points)).max(0.0);
+        let weight = (route.weight - untightened + path_length(&points)).max(0.0);
         Some(path_of(points, weight, &route.adits, network))
     }
 }
@@ -226,5 +226,5 @@ fn weight_to(open: &[(usize, f64)], adit: usize) -> Option<f64> {
 fn path_of(points: Vec<Point>, weight: f64, adits: &[usize], network: &Network) -> Path {
     let passed = adits.windows(2).filter(|pair| network.adits[pair[0]].twin == pair[1]);
     let doorways = passed.map(|pair| network.adits[pair[0]].doorway).collect();
-    Path { length: length(&points), points, weight, doorways, adits: adits.to_vec() }
+    Path { length: path_length(&points), points, weight, doorways, adits: adits.to_vec() }
 }

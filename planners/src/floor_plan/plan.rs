@@ -4,9 +4,10 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::check::Check;
-use super::noding::{Noded, SNAP_M};
+use super::noding::Noded;
 use super::planar::Planar;
-use crate::geometry::{Point, Rect};
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Point, Rect, Segment};
 use crate::read::{Code, MapErrors, Problem, Text};
 use crate::world::{Bridge, Occupancy, Place, Shape, World};
 
@@ -91,13 +92,14 @@ impl FloorPlan {
     /// `height` of the robot, metres: a bridge that it does not pass under is solid to it. Unknown, it passes under none.
     pub fn of_world(world: &World, height: Option<f64>) -> Result<Self, MapErrors> {
         let corners = |shape: &Shape| match shape {
-            Shape::Rect(r) => rectangle(r),
+            Shape::Rect(rect) => rect.corners().to_vec(),
             Shape::Polygon(corners) => corners.clone(),
         };
         let mut solids: Vec<Vec<Point>> = world.obstacles.iter().map(|item| corners(&item.shape)).collect();
-        solids.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(|rect| rectangle(&rect)));
         let is_low = |bridge: &&Bridge| height.is_none_or(|height| height >= bridge.height);
-        solids.extend(world.bridges.iter().filter(is_low).map(|bridge| rectangle(&bridge.rect)));
+        let pictured = world.occupancy.iter().flat_map(Occupancy::rectangles);
+        let low = world.bridges.iter().filter(is_low).map(|bridge| bridge.rect);
+        solids.extend(pictured.chain(low).map(|rect| rect.corners().to_vec()));
         solids.extend(frame(&world.bounds));
         Self::new(Drawn { solids, places: world.places.clone(), ..Drawn::default() })
     }
@@ -209,22 +211,18 @@ impl Space {
 
 /// Whether an edge is a part of a wall.
 fn is_on([p, q]: [Point; 2], [a, b]: [Point; 2]) -> bool {
-    [p, q].iter().all(|end| end.distance(end.nearest_on(a, b)) <= 2.0 * SNAP_M)
-}
-
-fn rectangle(r: &Rect) -> Vec<Point> {
-    [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(|(x, y)| Point::new(x, y)).to_vec()
+    [p, q].iter().all(|end| Segment::new(a, b).distance(*end) <= 2.0 * SNAP_M)
 }
 
 /// Something solid all around, as thick as the rectangle's smaller side.
 fn frame(r: &Rect) -> Vec<Vec<Point>> {
     let thick = r.smaller_side();
-    let (x0, y0, x1, y1) = (r.x0 - thick, r.y0 - thick, r.x1 + thick, r.y1 + thick);
+    let Rect { x0, y0, x1, y1 } = r.grown(thick);
     let bars = [
         Rect::new(x0, y0, x1, r.y0),
         Rect::new(x0, r.y1, x1, y1),
         Rect::new(x0, r.y0, r.x0, r.y1),
         Rect::new(r.x1, r.y0, x1, r.y1),
     ];
-    bars.iter().map(rectangle).collect()
+    bars.iter().map(|bar| bar.corners().to_vec()).collect()
 }

@@ -1,6 +1,9 @@
 //! Edges that meet only at their ends, with what lies to the left of each: the faces of a plane map.
 
-use crate::geometry::Point;
+use petgraph::unionfind::UnionFind;
+
+use crate::geometry::{Point, Segment, cross, polygon};
+use crate::search::Csr;
 
 /// An edge between two nodes, with the direction of the straight line that it is a part of: parts of one line are
 /// parallel to the bit, however short they are.
@@ -13,7 +16,7 @@ pub(super) struct Edge {
 impl Edge {
     pub fn between(points: &[Point], a: u32, b: u32) -> Self {
         let (p, q) = (points[a as usize], points[b as usize]);
-        Self { ends: [a, b], direction: Point::new(q.x - p.x, q.y - p.y) }
+        Self { ends: [a, b], direction: q - p }
     }
 }
 
@@ -64,7 +67,7 @@ impl Planar {
         let outline = self.along(cycle).filter(|&half| self.cycle_of[(half ^ 1) as usize] != cycle);
         let twice = outline.map(|half| {
             let (p, q) = (self.from(half), self.to(half));
-            (p.x - origin.x) * (q.y - origin.y) - (q.x - origin.x) * (p.y - origin.y)
+            cross(origin, p, q)
         });
         twice.sum::<f64>() / 2.0
     }
@@ -100,11 +103,8 @@ impl Planar {
 
     /// Whether a point lies inside an outline.
     pub fn is_inside(&self, cycle: u32, p: Point) -> bool {
-        let is_crossed = |half: u32| {
-            let (a, b) = (self.from(half), self.to(half));
-            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-        };
-        self.along(cycle).filter(|&half| is_crossed(half)).count() % 2 == 1
+        let sides = self.along(cycle).map(|half| Segment::new(self.from(half), self.to(half)));
+        polygon::encloses(sides, p)
     }
 
     /// For each outline the outer outline of its face; `None` where that is the unbounded one.
@@ -122,63 +122,32 @@ impl Planar {
             |(number, cycle): (u32, &Cycle)| if cycle.area > 0.0 { Some(number) } else { inner(number) };
         (0..).zip(&self.cycles).map(face).collect()
     }
-}
 
-impl Planar {
-    /// For each node a node that stands for all that edges join with it.
+    /// For each node the same number as for all that edges join with it.
     fn parts(&self) -> Vec<u32> {
-        let mut above: Vec<u32> = (0..self.points.len() as u32).collect();
-        let top = |above: &[u32], mut node: u32| {
-            while above[node as usize] != node {
-                node = above[node as usize];
-            }
-            node
-        };
-        for edge in &self.edges {
-            let [a, b] = edge.ends.map(|node| top(&above, node));
-            above[a.max(b) as usize] = a.min(b);
+        let mut parts = UnionFind::new(self.points.len());
+        for Edge { ends: [a, b], .. } in &self.edges {
+            parts.union(*a, *b);
         }
-        (0..above.len() as u32).map(|node| top(&above, node)).collect()
+        parts.into_labeling()
     }
 }
 
 fn directed(edge: &Edge, half: u32) -> Point {
     let d = edge.direction;
-    if half.is_multiple_of(2) { d } else { Point::new(-d.x, -d.y) }
-}
-
-/// Grows with the angle of a direction, from 0 to 4.
-fn turn_of(d: Point) -> f64 {
-    let share = d.y / (d.x.abs() + d.y.abs());
-    if d.x < 0.0 {
-        2.0 - share
-    } else if d.y < 0.0 {
-        4.0 + share
-    } else {
-        share
-    }
+    if half.is_multiple_of(2) { d } else { -d }
 }
 
 fn successors(nodes: usize, edges: &[Edge]) -> Vec<u32> {
-    let mut begins = vec![0_u32; nodes + 1];
     let halves = 0..2 * edges.len() as u32;
-    let tail = |half: u32| edges[half as usize / 2].ends[half as usize % 2] as usize;
-    for half in halves.clone() {
-        begins[tail(half) + 1] += 1;
-    }
+    let around = halves.map(|half| {
+        let edge = &edges[half as usize / 2];
+        (edge.ends[half as usize % 2] as usize, (directed(edge, half).diamond_angle(), half))
+    });
+    let mut around = Csr::new(nodes, around);
+    let mut next = vec![0; 2 * edges.len()];
     for node in 0..nodes {
-        begins[node + 1] += begins[node];
-    }
-    let mut place = begins.clone();
-    let mut around = vec![(0.0, 0_u32); halves.len()];
-    for half in halves.clone() {
-        let at = &mut place[tail(half)];
-        around[*at as usize] = (turn_of(directed(&edges[half as usize / 2], half)), half);
-        *at += 1;
-    }
-    let mut next = vec![0; halves.len()];
-    for node in 0..nodes {
-        let leaving = &mut around[begins[node] as usize..begins[node + 1] as usize];
+        let leaving = around.of_mut(node);
         leaving.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         for (index, &(_, half)) in leaving.iter().enumerate() {
             let clockwise = leaving[(index + leaving.len() - 1) % leaving.len()].1;

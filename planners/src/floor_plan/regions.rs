@@ -3,12 +3,13 @@
 use rayon::prelude::*;
 
 use super::FloorPlan;
-use super::hall::Hall;
+use super::face::Face;
 use super::layout::{Cut, Layout};
-use super::noding::SNAP_M;
 use super::planar::{Edge, Planar};
 use super::search::best_order;
 use crate::geometry::Point;
+use crate::geometry::polygon::is_in_convex;
+use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
 
 /// A convex part of the free space.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,11 +23,7 @@ pub struct Region {
 impl Region {
     /// Whether a point lies inside or on the outline, up to a nanometre.
     pub fn contains(&self, p: Point) -> bool {
-        let corners = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
-        corners.into_iter().all(|(a, b)| {
-            let cross = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-            cross >= -1e-9 * a.distance(*b)
-        })
+        is_in_convex(&self.outline, p, ROUNDING_M)
     }
 }
 
@@ -47,7 +44,7 @@ impl Doorway {
 
     /// The point half way between its ends.
     pub fn middle(&self) -> Point {
-        Point::new(f64::midpoint(self.from.x, self.to.x), f64::midpoint(self.from.y, self.to.y))
+        self.from.midpoint(self.to)
     }
 }
 
@@ -78,16 +75,16 @@ impl Regions {
         let count = plan.edges.len();
         let mut cutting =
             Cutting { points: plan.points.clone(), lines: plan.edges.clone(), stops: Vec::new() };
-        for hall in halls(plan, &free_half) {
-            cutting.cut_doors(&hall);
+        for face in non_convex_faces(plan, &free_half) {
+            cutting.cut_doors(&face);
         }
         free_half.resize(2 * cutting.lines.len(), true);
         let plan = Planar::new(cutting.points.clone(), cutting.lines.clone());
-        let mut halls = halls(&plan, &free_half);
-        halls.par_iter_mut().for_each(Hall::look_around);
-        let orders: Vec<Vec<Cut>> = halls.par_iter().map(best_order).collect();
-        for (hall, order) in halls.iter().zip(&orders) {
-            cutting.cut_hall(hall, &Layout::new(hall, order));
+        let mut faces = non_convex_faces(&plan, &free_half);
+        faces.par_iter_mut().for_each(Face::look_around);
+        let orders: Vec<Vec<Cut>> = faces.par_iter().map(best_order).collect();
+        for (face, order) in faces.iter().zip(&orders) {
+            cutting.cut_face(face, &Layout::new(face, order));
         }
         free_half.resize(2 * cutting.lines.len(), true);
         cutting.regions(&free_half, count)
@@ -95,38 +92,38 @@ impl Regions {
 }
 
 /// The free faces that are not convex.
-fn halls(plan: &Planar, free_half: &[bool]) -> Vec<Hall> {
+fn non_convex_faces(plan: &Planar, free_half: &[bool]) -> Vec<Face> {
     let mut of_face: Vec<Vec<u32>> = vec![Vec::new(); plan.cycles.len()];
     for (cycle, face) in (0..).zip(plan.faces()) {
         if let Some(face) = face.filter(|_| free_half[plan.cycles[cycle as usize].first as usize]) {
             of_face[face as usize].push(cycle);
         }
     }
-    let halls = of_face.iter().filter(|cycles| !cycles.is_empty()).map(|cycles| Hall::new(plan, cycles));
-    halls.filter(|hall| !hall.corners.is_empty()).collect()
+    let faces = of_face.iter().filter(|cycles| !cycles.is_empty()).map(|cycles| Face::new(plan, cycles));
+    faces.filter(|face| !face.corners.is_empty()).collect()
 }
 
 impl Cutting {
-    /// Cuts between two corners that mend each other and nothing else: the doors between rooms. What is left are
-    /// smaller halls, which can be cut one by one.
-    fn cut_doors(&mut self, hall: &Hall) {
-        let chords = hall.chords();
+    /// Cuts between two corners that resolve each other and nothing else: the doors between rooms. What is left are
+    /// smaller faces, which can be cut one by one.
+    fn cut_doors(&mut self, face: &Face) {
+        let chords = face.chords();
         for (place, &chord) in chords.iter().enumerate() {
             let rivals = chords.iter().enumerate().filter(|(other, _)| *other != place);
-            if rivals.into_iter().all(|(_, &other)| !hall.do_hinder(chord, other)) {
-                let [a, b] = chord.map(|corner| hall.nodes[hall.corners[corner as usize].node as usize]);
+            if rivals.into_iter().all(|(_, &other)| !face.do_hinder(chord, other)) {
+                let [a, b] = chord.map(|corner| face.nodes[face.corners[corner as usize].node as usize]);
                 self.lines.push(Edge::between(&self.points, a, b));
             }
         }
     }
 
-    fn cut_hall(&mut self, hall: &Hall, layout: &Layout) {
-        let known = hall.points.len();
+    fn cut_face(&mut self, face: &Face, layout: &Layout) {
+        let known = face.points.len();
         let made = self.points.len();
         self.points.extend(&layout.points[known..]);
         let node = |local: u32| match (local as usize).checked_sub(known) {
             Some(beyond) => (made + beyond) as u32,
-            None => hall.nodes[local as usize],
+            None => face.nodes[local as usize],
         };
         let first_cut = self.lines.len();
         for &[a, b] in &layout.cuts {
@@ -134,9 +131,9 @@ impl Cutting {
             self.lines.push(Edge::between(&self.points, a, b));
         }
         for &(line, distance, stop) in &layout.stops {
-            let line = match (line as usize).checked_sub(hall.sides.len()) {
+            let line = match (line as usize).checked_sub(face.sides.len()) {
                 Some(cut) => (first_cut + cut) as u32,
-                None => hall.sides[line as usize].edge,
+                None => face.sides[line as usize].edge,
             };
             self.stops.push((line, distance, node(stop)));
         }

@@ -1,28 +1,26 @@
-//! Which cuts make the largest region of a hall, then the next, with no more regions than merged triangles give.
+//! Which cuts make the largest region of a face, then the next, with no more regions than merged triangles give.
 
 use std::cmp::Ordering;
 
-use super::dice::Dice;
-use super::hall::Hall;
+use super::face::Face;
 use super::layout::{Cut, Layout};
 use super::merged::merged;
+use crate::geometry::tolerance::ROUNDING;
+use crate::random::Xorshift;
 
 /// Layouts are tried in rounds; so many at least, and so many more for each corner.
 const TRIALS: usize = 24;
 const TRIALS_PER_CORNER: usize = 8;
 const MOST_TRIALS: usize = 300;
 
-/// Areas that differ by a smaller share count as equal.
-const SAME: f64 = 1e-9;
-
 /// The order of cuts that was found best.
-pub(super) fn best_order(hall: &Hall) -> Vec<Cut> {
-    let mut best = first_order(hall);
-    let mut areas = Layout::new(hall, &best).areas();
-    let most = match merged(hall) {
+pub(super) fn best_order(face: &Face) -> Vec<Cut> {
+    let mut best = first_order(face);
+    let mut areas = Layout::new(face, &best).areas();
+    let most = match merged(face) {
         Some(merged) => {
-            let order = order_of(hall, &merged.diagonals);
-            let found = Layout::new(hall, &order).areas();
+            let order = order_of(face, &merged.diagonals);
+            let found = Layout::new(face, &order).areas();
             if compare(&found, &areas, merged.regions) == Ordering::Greater {
                 (best, areas) = (order, found);
             }
@@ -30,14 +28,14 @@ pub(super) fn best_order(hall: &Hall) -> Vec<Cut> {
         }
         None => areas.len(),
     };
-    let mut dice = Dice::new();
-    let trials = TRIALS + TRIALS_PER_CORNER * hall.corners.len();
+    let mut random = Xorshift::new();
+    let trials = TRIALS + TRIALS_PER_CORNER * face.corners.len();
     for _ in 0..trials.min(MOST_TRIALS) {
         let mut other = best.clone();
-        for _ in 0..=dice.below(2) {
-            change(hall, &mut other, &mut dice);
+        for _ in 0..=random.below(2) {
+            change(face, &mut other, &mut random);
         }
-        let found = Layout::new(hall, &other).areas();
+        let found = Layout::new(face, &other).areas();
         if compare(&found, &areas, most) != Ordering::Less {
             (best, areas) = (other, found);
         }
@@ -48,42 +46,42 @@ pub(super) fn best_order(hall: &Hall) -> Vec<Cut> {
 /// Greater is better: no more regions than `most`, then the larger one at the first place where they differ.
 fn compare(a: &[f64], b: &[f64], most: usize) -> Ordering {
     let by_area = || {
-        let differ = a.iter().zip(b).find(|(x, y)| (*x - *y).abs() > SAME * x.max(**y));
+        let differ = a.iter().zip(b).find(|(x, y)| (*x - *y).abs() > ROUNDING * x.max(**y));
         differ.map_or(Ordering::Equal, |(x, y)| x.total_cmp(y))
     };
     b.len().max(most).cmp(&a.len().max(most)).then_with(by_area)
 }
 
-/// Cuts that mend two corners at once, those first that hinder the fewest others; then the rest along walls.
-fn first_order(hall: &Hall) -> Vec<Cut> {
+/// Cuts that resolve two corners at once, those first that hinder the fewest others; then the rest along walls.
+fn first_order(face: &Face) -> Vec<Cut> {
     let mut pairs = Vec::new();
-    for (number, corner) in (0_u32..).zip(&hall.corners) {
+    for (number, corner) in (0_u32..).zip(&face.corners) {
         for (place, sight) in (0_u32..).zip(&corner.sights) {
-            if let Some(other) = sight.mends.filter(|&other| number < other) {
+            if let Some(other) = sight.resolves.filter(|&other| number < other) {
                 pairs.push(([number, other], place));
             }
         }
     }
     let mut left: Vec<usize> = (0..pairs.len()).collect();
-    let (mut order, mut is_taken) = (Vec::new(), vec![false; hall.corners.len()]);
+    let (mut order, mut is_taken) = (Vec::new(), vec![false; face.corners.len()]);
     while !left.is_empty() {
-        let rivals = |&i: &usize| left.iter().filter(|&&j| hall.do_hinder(pairs[i].0, pairs[j].0)).count();
+        let rivals = |&i: &usize| left.iter().filter(|&&j| face.do_hinder(pairs[i].0, pairs[j].0)).count();
         let Some(chosen) = left.iter().copied().min_by_key(rivals) else { break };
         let ([corner, other], sight) = pairs[chosen];
         order.push(Cut::Towards { corner, sight });
         (is_taken[corner as usize], is_taken[other as usize]) = (true, true);
-        left.retain(|&i| !hall.do_hinder(pairs[chosen].0, pairs[i].0));
+        left.retain(|&i| !face.do_hinder(pairs[chosen].0, pairs[i].0));
     }
-    let rest = (0..hall.corners.len() as u32).filter(|&corner| !is_taken[corner as usize]);
+    let rest = (0..face.corners.len() as u32).filter(|&corner| !is_taken[corner as usize]);
     order.extend(rest.map(|corner| Cut::First { corner }));
     order
 }
 
-/// Cuts along diagonals, from both ends: the second one is left out where the first mended both.
-fn order_of(hall: &Hall, diagonals: &[[u32; 2]]) -> Vec<Cut> {
+/// Cuts along diagonals, from both ends: the second one is left out where the first resolved both.
+fn order_of(face: &Face, diagonals: &[[u32; 2]]) -> Vec<Cut> {
     let towards = |[from, to]: [u32; 2]| {
-        let corner = hall.corners.iter().position(|corner| corner.node == from)?;
-        let sight = hall.corners[corner].sights.iter().position(|sight| sight.node == Some(to))?;
+        let corner = face.corners.iter().position(|corner| corner.node == from)?;
+        let sight = face.corners[corner].sights.iter().position(|sight| sight.node == Some(to))?;
         Some(Cut::Towards { corner: corner as u32, sight: sight as u32 })
     };
     let mut order: Vec<Cut> =
@@ -95,17 +93,17 @@ fn order_of(hall: &Hall, diagonals: &[[u32; 2]]) -> Vec<Cut> {
 }
 
 /// Cuts one corner otherwise, earlier or later, once more or once less.
-fn change(hall: &Hall, order: &mut Vec<Cut>, dice: &mut Dice) {
-    let place = dice.below(order.len());
-    let kind = dice.below(5);
+fn change(face: &Face, order: &mut Vec<Cut>, random: &mut Xorshift) {
+    let place = random.below(order.len());
+    let kind = random.below(5);
     if kind == 0 && order.len() > 1 {
         order.remove(place);
         return;
     }
-    let corner = if kind < 3 { dice.below(hall.corners.len()) as u32 } else { order[place].corner() };
-    let sight = dice.below(hall.corners[corner as usize].sights.len()) as u32;
-    let sees = !hall.corners[corner as usize].sights.is_empty();
-    let cut = match dice.below(if sees { 6 } else { 2 }) {
+    let corner = if kind < 3 { random.below(face.corners.len()) as u32 } else { order[place].corner() };
+    let sight = random.below(face.corners[corner as usize].sights.len()) as u32;
+    let sees = !face.corners[corner as usize].sights.is_empty();
+    let cut = match random.below(if sees { 6 } else { 2 }) {
         0 => Cut::First { corner },
         1 => Cut::Last { corner },
         2 | 3 => Cut::Towards { corner, sight },

@@ -2,8 +2,9 @@
 
 use geo::{Contains, Coord, Intersects, LineString, MultiPolygon, Polygon};
 
-use super::noding::{SNAP_M, crossing};
+use super::noding::crossing;
 use crate::geometry::Point;
+use crate::geometry::tolerance::SNAP_M;
 
 /// A solid by its corners, as the `geo` crate has it.
 pub(super) fn polygon(corners: &[Point]) -> Polygon {
@@ -39,7 +40,7 @@ pub(super) fn outside([a, b]: [Point; 2], solids: &MultiPolygon) -> Vec<[Point; 
     }
     stops.sort_by(|p, q| a.distance(*p).total_cmp(&a.distance(*q)));
     let is_outside = |[p, q]: [Point; 2]| {
-        let middle = Point::new(f64::midpoint(p.x, q.x), f64::midpoint(p.y, q.y));
+        let middle = p.midpoint(q);
         let is_on_rim = rim.iter().any(|&[c, d]| middle.distance(middle.nearest_on(c, d)) <= SNAP_M);
         p.distance(q) > SNAP_M && !is_on_rim && !solids.contains(&Coord { x: middle.x, y: middle.y })
     };

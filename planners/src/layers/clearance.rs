@@ -2,8 +2,7 @@
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
-use super::gap::point_to_segment;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, polygon};
 use crate::world::{Occupancy, Shape, World};
 
 /// Everything solid in a world, bridges aside, ready to be asked for distances from points.
@@ -30,8 +29,7 @@ impl PointDistance for Wall {
             Shape::Rect(rect) => rect.nearest_to(p).distance(p),
             shape @ Shape::Polygon(_) if shape.contains(p) => 0.0,
             Shape::Polygon(corners) => {
-                let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-                edges.map(|(&a, &b)| point_to_segment(p, a, b)).fold(f64::INFINITY, f64::min)
+                polygon::sides(corners).map(|side| side.distance(p)).fold(f64::INFINITY, f64::min)
             }
         };
         distance * distance

@@ -5,8 +5,9 @@
 //! set of points, within the free space of both facings: so it is safe at either end of a turn and all the way.
 
 use super::cells::{CellRect, Cells};
-use super::free_space::{TOLERANCE, x_range_in_band};
+use super::free_space::x_range_in_band;
 use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING_M;
 
 /// In how many ways a body can face. Half a turn shows it the same.
 pub(super) const FACINGS: usize = 8;
@@ -89,11 +90,11 @@ pub(super) fn fitting(free: &Cells, outline: &[Point], side: f64) -> Cells {
 fn kernel(outline: &[Point], side: f64) -> Vec<(i64, (i64, i64))> {
     let span = |values: &mut dyn Iterator<Item = f64>| {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-        (((low + TOLERANCE) / side).floor() as i64, ((high - TOLERANCE) / side).ceil() as i64)
+        (((low + ROUNDING_M) / side).floor() as i64, ((high - ROUNDING_M) / side).ceil() as i64)
     };
     let (lowest, highest) = span(&mut outline.iter().map(|p| p.y));
     let row = |up: i64| {
-        let band = ((up - 1) as f64 * side + TOLERANCE, (up + 1) as f64 * side - TOLERANCE);
+        let band = ((up - 1) as f64 * side + ROUNDING_M, (up + 1) as f64 * side - ROUNDING_M);
         // The hull's edges are among the segments between its points, and the others lie inside of it.
         let pairs = outline.iter().flat_map(|&a| outline.iter().map(move |&b| (a, b)));
         let ranges = pairs.filter_map(|(a, b)| x_range_in_band(a, b, band));

@@ -6,11 +6,9 @@ use super::cells::{CellRect, Cells};
 use super::gap;
 use super::lattice::Lattice;
 use super::transform::squared_gaps;
-use crate::geometry::{Point, Rect};
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, Rect, Segment, polygon};
 use crate::world::{Occupancy, Shape, World};
-
-/// Metres by which a disc may be too large and still fit: what decimal fractions lose in binary.
-pub(super) const TOLERANCE: f64 = 1e-9;
 
 /// Everything solid in a world, ready to be asked for the free space of discs of several sizes.
 pub(crate) struct Solid<'a> {
@@ -55,7 +53,7 @@ impl<'a> Solid<'a> {
 
     fn inside_of_edge(&self, keep: f64) -> Cells {
         let (lattice, bounds) = (&self.lattice, self.world.bounds);
-        let keep = keep - TOLERANCE;
+        let keep = keep - ROUNDING_M;
         let inside_x = |c: &u32| lattice.x(*c) - bounds.x0 >= keep && bounds.x1 - lattice.x(*c + 1) >= keep;
         let inside_y = |r: &u32| lattice.y(*r) - bounds.y0 >= keep && bounds.y1 - lattice.y(*r + 1) >= keep;
         let columns = ends((0..lattice.columns()).filter(inside_x));
@@ -68,12 +66,12 @@ impl<'a> Solid<'a> {
     }
 
     fn keep_from_image(&self, pictured: &Pictured, keep: f64, free: &mut Cells) {
-        let limit = ((keep - TOLERANCE) / self.lattice.side()).powi(2);
+        let limit = ((keep - ROUNDING_M) / self.lattice.side()).powi(2);
         let columns = self.lattice.columns();
         for row in 0..self.lattice.rows() {
             for column in 0..columns {
                 let cell = row as usize * columns as usize + column as usize;
-                let near = if keep > TOLERANCE {
+                let near = if keep > ROUNDING_M {
                     f64::from(pictured.squared_gaps[cell]) < limit
                 } else {
                     pictured.walls.contains(column, row)
@@ -89,11 +87,11 @@ impl<'a> Solid<'a> {
         for row in self.lattice.rows_about(rect.y0 - keep, rect.y1 + keep) {
             for column in self.lattice.columns_about(rect.x0 - keep, rect.x1 + keep) {
                 let cell = self.cell(column, row);
-                let near = if keep > TOLERANCE {
-                    gap::to_rect(&cell, rect) < keep - TOLERANCE
+                let near = if keep > ROUNDING_M {
+                    gap::to_rect(&cell, rect) < keep - ROUNDING_M
                 } else {
-                    let (dx, dy) = gap::axis_gaps(&cell, rect);
-                    dx < -TOLERANCE && dy < -TOLERANCE
+                    let (dx, dy) = cell.axis_gaps(rect);
+                    dx < -ROUNDING_M && dy < -ROUNDING_M
                 };
                 if near {
                     free.remove(column, row);
@@ -103,22 +101,14 @@ impl<'a> Solid<'a> {
     }
 
     fn keep_from_polygon(&self, corners: &[Point], keep: f64, free: &mut Cells) {
-        let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
-        for (&a, &b) in edges() {
+        for Segment { a, b } in polygon::sides(corners) {
             self.keep_from_segment(a, b, keep, free);
         }
         // What no edge comes near is either wholly inside or wholly outside: its centre tells.
-        let (low, high) = corners
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.y), high.max(p.y)));
-        for row in self.lattice.rows_about(low, high) {
+        let bounds = Rect::around(corners.iter().copied());
+        for row in self.lattice.rows_about(bounds.y0, bounds.y1) {
             let y = self.lattice.y(row) + self.lattice.side() / 2.0;
-            let crossing = |(a, b): (&Point, &Point)| {
-                ((a.y <= y) != (b.y <= y)).then(|| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
-            };
-            let mut crossings: Vec<f64> = edges().filter_map(crossing).collect();
-            crossings.sort_by(f64::total_cmp);
-            for inside in crossings.chunks_exact(2) {
+            for inside in polygon::spans(polygon::sides(corners), y) {
                 for column in self.lattice.columns_about(inside[0], inside[1]) {
                     let x = self.lattice.x(column) + self.lattice.side() / 2.0;
                     if inside[0] < x && x < inside[1] {
@@ -134,13 +124,11 @@ impl<'a> Solid<'a> {
             let band = (self.lattice.y(row) - keep, self.lattice.y(row + 1) + keep);
             let Some((low, high)) = x_range_in_band(a, b, band) else { continue };
             for column in self.lattice.columns_about(low - keep, high + keep) {
-                let near = if keep > TOLERANCE {
-                    gap::to_segment(&self.cell(column, row), a, b) < keep - TOLERANCE
+                let near = if keep > ROUNDING_M {
+                    gap::to_segment(&self.cell(column, row), a, b) < keep - ROUNDING_M
                 } else {
                     // An edge along a lattice line overlaps neither cell beside it.
-                    let Rect { x0, y0, x1, y1 } = self.cell(column, row);
-                    let inner = Rect::new(x0 + TOLERANCE, y0 + TOLERANCE, x1 - TOLERANCE, y1 - TOLERANCE);
-                    gap::to_segment(&inner, a, b) == 0.0
+                    gap::to_segment(&self.cell(column, row).grown(-ROUNDING_M), a, b) == 0.0
                 };
                 if near {
                     free.remove(column, row);
@@ -170,7 +158,8 @@ pub(super) fn x_range_in_band(a: Point, b: Point, (low, high): (f64, f64)) -> Op
 fn resampled(occupancy: &Occupancy, lattice: &Lattice) -> Cells {
     let mut walls = Cells::none(lattice.columns(), lattice.rows());
     for rect in occupancy.rectangles() {
-        let overlaps = |low: f64, high: f64, x0: f64, x1: f64| low < x1 - TOLERANCE && x0 + TOLERANCE < high;
+        let overlaps =
+            |low: f64, high: f64, x0: f64, x1: f64| low < x1 - ROUNDING_M && x0 + ROUNDING_M < high;
         let columns = lattice.columns_about(rect.x0, rect.x1);
         let rows = lattice.rows_about(rect.y0, rect.y1);
         let columns = columns.filter(|&c| overlaps(lattice.x(c), lattice.x(c + 1), rect.x0, rect.x1));

@@ -9,11 +9,9 @@ use std::ops::Range;
 
 use super::cells::{CellRect, Cells};
 use super::lattice::Lattice;
-use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING;
+use crate::geometry::{Point, polygon};
 use crate::world::{Shape, World};
-
-/// Cells that a segment passes only by rounding are not passed; in cells.
-const TOLERANCE: f64 = 1e-9;
 
 /// The areas and doors that a cell lies in, by their index in the world.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
@@ -148,22 +146,14 @@ struct Run {
 
 fn area_runs(shape: &Shape, lattice: Lattice) -> Vec<Run> {
     let corners = match shape {
-        Shape::Rect(r) => {
-            [(r.x0, r.y0), (r.x1, r.y0), (r.x1, r.y1), (r.x0, r.y1)].map(|(x, y)| Point::new(x, y)).into()
-        }
+        Shape::Rect(rect) => rect.corners().into(),
         Shape::Polygon(corners) => corners.clone(),
     };
-    let edges = || corners.iter().zip(corners.iter().cycle().skip(1));
     let rect = shape.enclosing_rect();
     let mut runs = Vec::new();
     for row in lattice.rows_about(rect.y0, rect.y1) {
         let y = lattice.centre(0, row).y;
-        let crossing = |(a, b): (&Point, &Point)| {
-            ((a.y <= y) != (b.y <= y)).then(|| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
-        };
-        let mut crossings: Vec<f64> = edges().filter_map(crossing).collect();
-        crossings.sort_by(f64::total_cmp);
-        for inside in crossings.chunks_exact(2) {
+        for inside in polygon::spans(polygon::sides(&corners), y) {
             let is_in = |column: &u32| {
                 let x = lattice.centre(*column, row).x;
                 inside[0] <= x && x < inside[1]
@@ -177,7 +167,9 @@ fn area_runs(shape: &Shape, lattice: Lattice) -> Vec<Run> {
         }
     }
     if runs.is_empty() {
-        runs = once_each(edges().flat_map(|(&a, &b)| segment_runs(a, b, lattice)).collect());
+        runs = once_each(
+            polygon::sides(&corners).flat_map(|side| segment_runs(side.a, side.b, lattice)).collect(),
+        );
     }
     runs
 }
@@ -224,12 +216,12 @@ fn segment_runs(a: Point, b: Point, lattice: Lattice) -> Vec<Run> {
 
 /// The cell in which a coordinate lies, in cells; on a line of the lattice the one after it.
 fn cell(coordinate: f64) -> i64 {
-    (coordinate + TOLERANCE).floor() as i64
+    (coordinate + ROUNDING).floor() as i64
 }
 
 /// The cell in which a coordinate lies; on a line of the lattice the one before it.
 fn cell_below(coordinate: f64) -> i64 {
-    (coordinate - TOLERANCE).floor() as i64
+    (coordinate - ROUNDING).floor() as i64
 }
 
 #[cfg(test)]
@@ -343,7 +335,7 @@ mod tests {
             // every inner point of the segment lies in the band, or on the line beside it
             for step in 1..100 {
                 let share = f64::from(step) / 100.0;
-                let p = Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
+                let p = from.lerp(to, share);
                 let is_in = band.iter().any(|&(x, y)| {
                     let r = lattice().rect(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
                     r.nearest_to(p).distance(p) < 1e-6

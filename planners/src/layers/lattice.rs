@@ -1,6 +1,7 @@
 //! The uniform lattice of cells in which all layers of a world are cut.
 
 use super::cells::CellRect;
+use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, Rect};
 
 /// The most cells that a lattice may have.
@@ -101,7 +102,7 @@ pub(super) fn round_step(length: f64) -> f64 {
         if power < 0 { digit / 10f64.powi(-power) } else { digit * 10f64.powi(power) }
     };
     let steps = [scaled(1.0, power + 1), scaled(5.0, power), scaled(2.0, power), scaled(1.0, power)];
-    let not_above = steps.into_iter().find(|step| *step <= length * (1.0 + 1e-9));
+    let not_above = steps.into_iter().find(|step| *step <= length * (1.0 + ROUNDING));
     not_above.unwrap_or(scaled(5.0, power - 1))
 }
 

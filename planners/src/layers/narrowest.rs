@@ -2,6 +2,7 @@
 
 use super::bottleneck::{best_way, neighbours};
 use super::clearance::Clearance;
+use crate::geometry::tolerance::{ROUNDING, ROUNDING_M};
 use crate::geometry::{Point, Rect};
 use crate::world::World;
 
@@ -44,7 +45,8 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
             if is_given { way[index].0 } else { climb(&walls, way[index].0, step) }
         };
         let ends = (end(first), end(last));
-        let window = window(way[first..=last].iter().map(|(p, _)| *p).chain([ends.0, ends.1]), 2.0 * step);
+        let window =
+            Rect::around(way[first..=last].iter().map(|(p, _)| *p).chain([ends.0, ends.1])).grown(2.0 * step);
         let finer = search(&walls, window, ends, step / FINER as f64);
         let best = finer.and_then(|finer| finer.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)));
         if let Some((at, clearance)) = best {
@@ -59,7 +61,7 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
 /// where the way first comes as near to a wall.
 fn middle_of_least(way: &[(Point, f64)]) -> Option<usize> {
     let least = way.iter().map(|(_, clearance)| *clearance).min_by(f64::total_cmp)?;
-    let is_least = |(_, clearance): &(Point, f64)| *clearance <= least + 1e-9;
+    let is_least = |(_, clearance): &(Point, f64)| *clearance <= least + ROUNDING_M;
     let first = way.iter().position(is_least)?;
     let length = way[first..].iter().take_while(|point| is_least(point)).count();
     Some(first + length / 2)
@@ -99,7 +101,7 @@ fn search(
     };
     // Where the discs of two points overlap there is no wall between the points.
     let joined =
-        &|a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + 1e-9);
+        &|a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + ROUNDING);
     let neighbours = |node: usize| neighbours(node, columns, rows).filter(move |&next| joined(node, next));
     let nodes = best_way(columns * rows, (node(from), node(to)), clearance, neighbours)?;
     let inner = nodes.iter().map(|&node| (point(node), clearance(node)));
@@ -122,16 +124,4 @@ fn climb(walls: &Clearance, from: Point, step: f64) -> Point {
         }
     }
     best.0
-}
-
-fn window(points: impl Iterator<Item = Point>, margin: f64) -> Rect {
-    let nothing = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    points.fold(nothing, |r, p| {
-        Rect::new(
-            r.x0.min(p.x - margin),
-            r.y0.min(p.y - margin),
-            r.x1.max(p.x + margin),
-            r.y1.max(p.y + margin),
-        )
-    })
 }

@@ -3,7 +3,7 @@
 use super::{Estimate, Settings};
 use crate::body::Reading;
 use crate::geometry::Point;
-use crate::pose::Pose;
+use crate::pose::{Frame, Pose};
 
 /// A reading in the map's frame.
 #[derive(Clone, Copy, Debug)]
@@ -28,13 +28,13 @@ impl Beam {
             towards: then.direction(reading.bearing),
             range_m: reading.range_m,
             sigma_m: (settings.range_noise * range).hypot(settings.range_noise_m),
-            since_m: back.at.x.hypot(back.at.y),
+            since_m: back.at.length(),
         }
     }
 
     /// The point so far along the beam.
     pub fn at(&self, range_m: f64) -> Point {
-        Point::new(self.from.x + range_m * self.towards.x, self.from.y + range_m * self.towards.y)
+        self.from + self.towards * range_m
     }
 
     /// Where the echo came from.
@@ -44,38 +44,30 @@ impl Beam {
 
     /// How far ahead along the beam a place lies, and how far aside of it.
     pub fn seen_from(&self, place: Point) -> (f64, f64) {
-        let (dx, dy) = (place.x - self.from.x, place.y - self.from.y);
-        let aside = dx * self.towards.y - dy * self.towards.x;
-        (dx * self.towards.x + dy * self.towards.y, aside.abs())
+        let seen = (place - self.from).seen_along(self.towards);
+        (seen.x, seen.y.abs())
     }
 
     /// The same reading, once the pose that it was placed by is found to be another.
     pub fn moved(&self, shift: &Shift) -> Self {
-        let Shift { sin, cos, .. } = *shift;
-        let towards = Point::new(
-            cos * self.towards.x - sin * self.towards.y,
-            sin * self.towards.x + cos * self.towards.y,
-        );
-        Self { from: shift.of(self.from), towards, ..*self }
+        Self { from: shift.of(self.from), towards: self.towards.rotated(shift.to.ahead), ..*self }
     }
 }
 
 /// From where things were placed by one pose to where another puts them.
 pub(super) struct Shift {
-    sin: f64,
-    cos: f64,
     from: Point,
-    to: Point,
+    /// Where that is put, and the direction of the angle between the headings.
+    to: Frame,
 }
 
 impl Shift {
     pub fn new(before: &Pose, after: &Pose) -> Self {
-        let (sin, cos) = (after.heading - before.heading).sin_cos();
-        Self { sin, cos, from: before.at, to: after.at }
+        let to = Pose { at: after.at, heading: after.heading - before.heading };
+        Self { from: before.at, to: Frame::from(&to) }
     }
 
     pub fn of(&self, p: Point) -> Point {
-        let (dx, dy) = (p.x - self.from.x, p.y - self.from.y);
-        Point::new(self.to.x + self.cos * dx - self.sin * dy, self.to.y + self.sin * dx + self.cos * dy)
+        self.to.place(p - self.from)
     }
 }

@@ -36,7 +36,7 @@ impl Estimate {
 
     /// Dead reckoning: the pose after a step of the wheels' count, less sure by what wheels do not tell.
     pub(super) fn advance(&mut self, step: &Pose, settings: &Settings) {
-        let driven = step.at.x.hypot(step.at.y);
+        let driven = step.at.length();
         let step = Pose { heading: step.heading - settings.heading_bias * driven, ..*step };
         let before = self.pose;
         self.pose = before.then(&step);

@@ -1,7 +1,6 @@
 //! The straight line through echoes: weighted least squares of the distances from it, with its uncertainty.
 
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment};
 
 use super::beam::Beam;
 
@@ -69,25 +68,22 @@ impl Fit {
     /// Standard deviation of an echo across this line.
     pub fn deviation(&self, beam: &Beam) -> f64 {
         // a millimetre: no echo is exact, however the beam runs
-        (beam.sigma_m * (beam.towards.y * self.along.x - beam.towards.x * self.along.y))
-            .powi(2)
-            .max(1e-6)
-            .sqrt()
+        (beam.sigma_m * self.along.cross(beam.towards)).powi(2).max(1e-6).sqrt()
     }
 
     /// How far along the line a point lies from its centre.
     pub fn place(&self, p: Point) -> f64 {
-        (p.x - self.centre.x) * self.along.x + (p.y - self.centre.y) * self.along.y
+        (p - self.centre).dot(self.along)
     }
 
     /// How far a point lies from the line, to its left above 0.
     pub fn offset(&self, p: Point) -> f64 {
-        (p.y - self.centre.y) * self.along.x - (p.x - self.centre.x) * self.along.y
+        self.along.cross(p - self.centre)
     }
 
     /// The point of the line so far from its centre.
     pub fn at(&self, place: f64) -> Point {
-        Point::new(self.centre.x + place * self.along.x, self.centre.y + place * self.along.y)
+        self.centre + self.along * place
     }
 
     /// The piece of the line beside the echoes, in their order.

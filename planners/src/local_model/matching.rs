@@ -30,17 +30,17 @@ impl Near {
     pub fn new(model: usize, segment: &ModelSegment) -> Self {
         let (line, length_m) = (&segment.line, segment.line.length());
         let share = 1.0 / length_m.max(f64::MIN_POSITIVE);
-        let along = Point::new(share * (line.b.x - line.a.x), share * (line.b.y - line.a.y));
+        let along = (line.b - line.a) * share;
         Self { model, a: line.a, along, length_m }
     }
 
     fn place(&self, p: Point) -> f64 {
-        (p.x - self.a.x) * self.along.x + (p.y - self.a.y) * self.along.y
+        (p - self.a).dot(self.along)
     }
 
     /// How far a point lies to the left of the line.
     fn offset(&self, p: Point) -> f64 {
-        (p.y - self.a.y) * self.along.x - (p.x - self.a.x) * self.along.y
+        self.along.cross(p - self.a)
     }
 }
 
@@ -78,7 +78,7 @@ pub(super) fn matches(
     let largest_sine = settings.match_angle.sin();
     let (fit, length_m) = (&seen.fit, seen.line.length());
     for wall in near {
-        let sine = fit.along.x * wall.along.y - fit.along.y * wall.along.x;
+        let sine = fit.along.cross(wall.along);
         if sine.abs() > largest_sine {
             continue;
         }
@@ -91,14 +91,14 @@ pub(super) fn matches(
         if overlap_m < settings.match_overlap * length_m.min(wall.length_m) {
             continue;
         }
-        let is_along = fit.along.x * wall.along.x + fit.along.y * wall.along.y >= 0.0;
+        let is_along = fit.along.dot(wall.along) >= 0.0;
         // measured to the left of the scan's segment, whose direction may be the other one
         let offset_m = if is_along { -offset } else { offset };
         let angle = if is_along { sine } else { -sine }.asin();
         let (by_offset, by_angle) = variances(seen, &segments[wall.model], estimate, settings);
-        let across = Point::new(-fit.along.y, fit.along.x);
-        let reach = Point::new(fit.centre.x - estimate.pose.at.x, fit.centre.y - estimate.pose.at.y);
-        let lever = across.y * reach.x - across.x * reach.y;
+        let across = fit.along.perpendicular();
+        let reach = fit.centre - estimate.pose.at;
+        let lever = reach.cross(across);
         let row = nalgebra::RowVector3::new(across.x, across.y, lever);
         let offset_variance = by_offset + (row * estimate.covariance * row.transpose())[0];
         let angle_variance = by_angle + estimate.covariance[(2, 2)];

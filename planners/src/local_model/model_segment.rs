@@ -1,8 +1,7 @@
 //! A segment of the model with what is kept of it.
 
 use super::{ObjectId, SegmentFacts, Source, Transition};
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment};
 
 /// Names a segment for as long as the model lives; no number is used twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -72,7 +71,7 @@ impl ModelSegment {
     /// What is left of it without pieces (metres from its end `a`, in order), and is not too short.
     pub(super) fn without(&self, free: &[(f64, f64)], shortest_m: f64) -> Vec<Segment> {
         let (along, length) = (self.line.direction(), self.line.length());
-        let at = |place: f64| Point::new(self.line.a.x + place * along.x, self.line.a.y + place * along.y);
+        let at = |place: f64| self.line.a + along * place;
         let begins = std::iter::once(0.0).chain(free.iter().map(|(_, to)| *to));
         let ends = free.iter().map(|(from, _)| *from).chain([length]);
         let left = begins.zip(ends).filter(|(from, to)| to - from >= shortest_m);

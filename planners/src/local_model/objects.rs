@@ -80,8 +80,7 @@ impl Objects {
         let mut pairs = Vec::new();
         for (o, object) in self.list.iter().enumerate() {
             let since = time_s - object.seen_s;
-            let expected =
-                Point::new(object.at.x + since * object.velocity.x, object.at.y + since * object.velocity.y);
+            let expected = object.at + object.velocity * since;
             for (c, cluster) in clusters.iter().enumerate() {
                 let reach = settings.object_speed_m_s * since + settings.object_size_m / 2.0;
                 if cluster.at.distance(object.at) <= reach {

@@ -2,8 +2,8 @@
 
 use super::fit::Fit;
 use super::{Estimate, ModelSegment, Settings};
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::ROUNDING;
+use crate::geometry::{Point, Segment};
 
 /// Takes what was seen into a segment, weighted by how sure either is.
 ///
@@ -13,10 +13,10 @@ pub(super) fn reinforce(segment: &mut ModelSegment, seen: &Fit, ends: &Segment, 
     let (pose_m, pose_angle) = across(seen, estimate);
     let (middle, along) = (segment.line.middle(), aligned(segment.line.direction(), seen.along));
     // differences from the model to what is seen: an angle, and an offset to the left of the model where that was seen
-    let turn = (along.x * seen.along.y - along.y * seen.along.x).asin();
-    let reach = Point::new(seen.centre.x - middle.x, seen.centre.y - middle.y);
-    let offset = reach.y * along.x - reach.x * along.y;
-    let lever = reach.x * along.x + reach.y * along.y;
+    let turn = along.cross(seen.along).asin();
+    let reach = seen.centre - middle;
+    let offset = along.cross(reach);
+    let lever = reach.dot(along);
     let mut line = Line {
         offset: 0.0,
         angle: 0.0,
@@ -26,10 +26,9 @@ pub(super) fn reinforce(segment: &mut ModelSegment, seen: &Fit, ends: &Segment, 
     };
     line.observe(0.0, 1.0, turn, seen.sigma_angle.powi(2) + pose_angle);
     line.observe(1.0, lever, offset, seen.sigma_m.powi(2) + pose_m);
-    let (sin, cos) = line.angle.sin_cos();
     let new = Fit {
-        centre: Point::new(middle.x - line.offset * along.y, middle.y + line.offset * along.x),
-        along: Point::new(cos * along.x - sin * along.y, sin * along.x + cos * along.y),
+        centre: middle + along.perpendicular() * line.offset,
+        along: along.rotated(Point::towards(line.angle)),
         sigma_m: segment.sigma_m.powi(2).min(line.oo.max(pose_m)).sqrt(),
         sigma_angle: segment.sigma_angle.powi(2).min(line.aa.max(pose_angle)).sqrt(),
     };
@@ -46,9 +45,9 @@ pub(super) fn reinforce(segment: &mut ModelSegment, seen: &Fit, ends: &Segment, 
 
 /// Variances that the pose adds to what is seen: across a line at its middle, and of its angle.
 pub(super) fn across(seen: &Fit, estimate: &Estimate) -> (f64, f64) {
-    let reach = Point::new(seen.centre.x - estimate.pose.at.x, seen.centre.y - estimate.pose.at.y);
-    let (nx, ny) = (-seen.along.y, seen.along.x);
-    let row = nalgebra::RowVector3::new(nx, ny, ny * reach.x - nx * reach.y);
+    let reach = seen.centre - estimate.pose.at;
+    let across = seen.along.perpendicular();
+    let row = nalgebra::RowVector3::new(across.x, across.y, reach.cross(across));
     ((row * estimate.covariance * row.transpose())[0].max(0.0), estimate.covariance[(2, 2)])
 }
 
@@ -64,7 +63,7 @@ pub(super) fn same_surface(segment: &ModelSegment, other: &ModelSegment, setting
         sigma_angle: s.sigma_angle,
     };
     let (one, two) = (line(segment), line(other));
-    let sine = (one.along.x * two.along.y - one.along.y * two.along.x).abs();
+    let sine = one.along.cross(two.along).abs();
     let lever = one.place(two.centre);
     let deviation = one.sigma_m.hypot(two.sigma_m).hypot(lever * one.sigma_angle);
     let allowed =
@@ -80,16 +79,16 @@ pub(super) fn same_surface(segment: &ModelSegment, other: &ModelSegment, setting
 /// Whether `other` lies farther aside than any deviation allows, told without roots: most that are near do.
 fn is_certainly_beside(segment: &ModelSegment, other: &ModelSegment, settings: &Settings) -> bool {
     let (p, q) = (&segment.line, other.line.middle());
-    let (middle, along) = (p.middle(), Point::new(p.b.x - p.a.x, p.b.y - p.a.y));
-    let offset = (q.y - middle.y) * along.x - (q.x - middle.x) * along.y;
+    let (middle, along) = (p.middle(), p.b - p.a);
+    let offset = along.cross(q - middle);
     // rounding never decides: what is a little beyond is left to the exact measure
-    let farthest = 0.5 * settings.match_offset_m * (1.0 + 1e-9);
-    offset * offset > farthest * farthest * (along.x * along.x + along.y * along.y)
+    let farthest = 0.5 * settings.match_offset_m * (1.0 + ROUNDING);
+    offset * offset > farthest * farthest * along.dot(along)
 }
 
 fn aligned(along: Point, with: Point) -> Point {
-    let is_opposite = along.x * with.x + along.y * with.y < 0.0;
-    if is_opposite { Point::new(-along.x, -along.y) } else { along }
+    let is_opposite = along.dot(with) < 0.0;
+    if is_opposite { -along } else { along }
 }
 
 /// Offset and angle of a line with their covariance.

@@ -6,8 +6,7 @@
 use super::Settings;
 use super::beam::{Beam, Shift};
 use super::fit::{Echo, Fit};
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment};
 
 /// A straight surface that a scan shows.
 #[derive(Clone, Debug)]
@@ -36,7 +35,7 @@ impl Seen {
         let moved = |p: Point| shift.of(p);
         let (tip, centre) = (self.fit.at(1.0), moved(self.fit.centre));
         let tip = moved(tip);
-        let along = Point::new(tip.x - centre.x, tip.y - centre.y);
+        let along = tip - centre;
         let echoes = self.echoes.iter().map(|echo| Echo { at: moved(echo.at), ..*echo }).collect();
         let line = Segment::new(moved(self.line.a), moved(self.line.b));
         Self { line, fit: Fit { centre, along, ..self.fit }, echoes, ..*self }
@@ -154,7 +153,7 @@ fn join(parts: &mut [Option<Seen>], settings: &Settings) {
 }
 
 fn meeting(a: &Fit, b: &Fit) -> Option<Point> {
-    let cross = a.along.x * b.along.y - a.along.y * b.along.x;
+    let cross = a.along.cross(b.along);
     // lines that differ by less than 6 degrees meet anywhere
     (cross.abs() > 0.1).then(|| a.at(b.offset(a.centre) / cross))
 }

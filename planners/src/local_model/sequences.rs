@@ -13,8 +13,8 @@ pub(super) fn join(segments: &mut [ModelSegment], changed: &[usize], near: &[usi
             part(segments, one, end);
             let at = ends(&segments[one])[end];
             let others = near.iter().zip(&tips).filter(|(other, _)| **other != one);
-            let far =
-                others.flat_map(|(&other, tips)| [0, 1].map(|side| (squared(tips[side], at), other, side)));
+            let far = others
+                .flat_map(|(&other, tips)| [0, 1].map(|side| (tips[side].squared_distance(at), other, side)));
             let close = far.filter(|(far, ..)| *far <= settings.join_m.powi(2));
             let best = close.min_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
             if let Some((_, other, side)) = best {
@@ -57,10 +57,6 @@ pub(super) fn forget(segments: &mut [ModelSegment], gone: &[SegmentId]) {
     }
 }
 
-fn squared(p: Point, q: Point) -> f64 {
-    (p.x - q.x).powi(2) + (p.y - q.y).powi(2)
-}
-
 fn ends(segment: &ModelSegment) -> [Point; 2] {
     [segment.line.a, segment.line.b]
 }
@@ -73,13 +69,13 @@ fn meet(
 ) {
     let (p, q) = (segments[one].line, segments[other].line);
     let (along, across) = (p.direction(), q.direction());
-    let cross = along.x * across.y - along.y * across.x;
+    let cross = along.cross(across);
     // lines that differ by less than 6 degrees meet anywhere
     if cross.abs() < 0.1 {
         return;
     }
-    let far = ((q.a.x - p.a.x) * across.y - (q.a.y - p.a.y) * across.x) / cross;
-    let corner = Point::new(p.a.x + far * along.x, p.a.y + far * along.y);
+    let far = (q.a - p.a).cross(across) / cross;
+    let corner = p.a + along * far;
     for (segment, end) in [(one, end), (other, side)] {
         let is_close = ends(&segments[segment])[end].distance(corner) <= settings.join_m;
         if !segments[segment].is_anchored && is_close {

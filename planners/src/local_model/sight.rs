@@ -2,7 +2,8 @@
 
 use super::beam::Beam;
 use super::{ModelSegment, Settings};
-use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, orient};
 
 /// A beam across a segment.
 #[derive(Clone, Copy, Debug)]
@@ -37,23 +38,13 @@ pub(super) struct Fan {
     spread_m: f64,
 }
 
-/// A number that grows with the angle of a direction, from 0 to 4 in a turn; never faster than the angle itself.
-fn turn(x: f64, y: f64) -> f64 {
-    let part = y / (x.abs() + y.abs());
-    match (x >= 0.0, y >= 0.0) {
-        (true, true) => part,
-        (true, false) => 4.0 + part,
-        (false, _) => 2.0 - part,
-    }
-}
-
 impl Fan {
     pub fn new(beams: &[Beam]) -> Self {
         let count = beams.len().max(1) as f64;
         let (x, y) = beams.iter().fold((0.0, 0.0), |(x, y), beam| (x + beam.from.x, y + beam.from.y));
         let centre = Point::new(x / count, y / count);
         let spread_m = beams.iter().map(|beam| beam.from.distance(centre)).fold(0.0, f64::max);
-        let direction = |(i, beam): (usize, &Beam)| (turn(beam.towards.x, beam.towards.y), i);
+        let direction = |(i, beam): (usize, &Beam)| (beam.towards.diamond_angle(), i);
         let mut order: Vec<(f64, usize)> = beams.iter().enumerate().map(direction).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         Self { order, centre, spread_m }
@@ -72,7 +63,7 @@ impl Fan {
         let (a, b, c) = (segment.line.a, segment.line.b, self.centre);
         // It tells only which beams to test, so that its last bit does not matter: without hypot, which is slow.
         let nearest = segment.line.squared_distance(c).sqrt();
-        if nearest > settings.sonar_range_m + self.spread_m + 1e-9 {
+        if nearest > settings.sonar_range_m + self.spread_m + ROUNDING_M {
             return;
         }
         let mut test = |&(_, i): &(f64, usize)| {
@@ -80,7 +71,7 @@ impl Fan {
             if let Some((range_m, share)) = segment.line.hit(beam.from, beam.towards)
                 && range_m <= settings.sonar_range_m
             {
-                let cross = beam.towards.x * (b.y - a.y) - beam.towards.y * (b.x - a.x);
+                let cross = beam.towards.cross(b - a);
                 found.push(Crossing {
                     beam: i,
                     range_m,
@@ -93,12 +84,12 @@ impl Fan {
             self.order.iter().for_each(&mut test);
             return;
         }
-        let is_left = (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x) >= 0.0;
+        let is_left = orient(c, a, b) >= 0.0;
         let (first, last) = if is_left { (a, b) } else { (b, a) };
         // an angle whose sine is at most a half is at most 1.05 times as large as the sine
         let widened = 1.05 * self.spread_m / nearest + 1e-9;
-        let from = turn(first.x - c.x, first.y - c.y) - widened;
-        let mut to = turn(last.x - c.x, last.y - c.y) + widened;
+        let from = (first - c).diamond_angle() - widened;
+        let mut to = (last - c).diamond_angle() + widened;
         if to < from {
             to += 4.0;
         }

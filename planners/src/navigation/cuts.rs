@@ -1,13 +1,10 @@
 //! Which ways obstacles have cut.
 
 use super::detour::Ground;
-use super::field::window;
 use super::free_grid::FreeGrid;
 use super::judge::WayFacts;
-use crate::floor_plan::clear::distance_between;
 use crate::floor_plan::{Network, Spot, Way};
-use crate::geometry::{Point, Rect};
-use crate::segment::Segment;
+use crate::geometry::{Point, Rect, Segment};
 
 /// An adit may be covered where beside it there is room; the nearest free place up to so far stands for it, metres.
 const BESIDE_M: f64 = 0.4;
@@ -53,7 +50,8 @@ impl<'a> Cuts<'a> {
                 .get_or_insert_with(|| Parts::of_region(network, region, &ground))
                 .joins(from, to)
         } else {
-            Parts::within(window([from, to], ABOUT_DOORWAY_M), &self.ground, |_| true).joins(from, to)
+            Parts::within(Rect::around([from, to]).grown(ABOUT_DOORWAY_M), &self.ground, |_| true)
+                .joins(from, to)
         };
         !joins
     }
@@ -62,7 +60,8 @@ impl<'a> Cuts<'a> {
 impl Parts {
     fn of_region(network: &Network, region: usize, ground: &Ground) -> Self {
         let shape = &network.regions.regions[region];
-        Self::within(window(shape.outline.iter().copied(), ground.grain), ground, |at| shape.contains(at))
+        let window = Rect::around(shape.outline.iter().copied()).grown(ground.grain);
+        Self::within(window, ground, |at| shape.contains(at))
     }
 
     fn within(window: Rect, ground: &Ground, is_inside: impl Fn(Point) -> bool) -> Self {
@@ -86,8 +85,7 @@ impl Parts {
 
 /// Whether an obstacle is in a window, or nearly.
 fn is_touched(window: &Rect, ground: &Ground) -> bool {
-    let reach = ground.reach;
-    let grown = Rect::new(window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach);
+    let grown = window.grown(ground.reach);
     let mut obstacles = ground.barriers.iter().skip(ground.obstacles_from);
     obstacles.any(|line| grown.clip(line.a, line.b).is_some() || grown.contains(line.a))
 }
@@ -112,7 +110,7 @@ impl Blocked {
     pub fn note(&mut self, network: &Network, at: Point, reach: f64) -> (Option<usize>, Option<usize>) {
         let far = |doorway: usize| {
             let door = &network.regions.doorways[doorway];
-            distance_between([at, at], [door.from, door.to])
+            Segment::new(door.from, door.to).distance(at)
         };
         let near = (0..self.doorways.len()).filter(|&doorway| far(doorway) <= reach);
         if let Some(doorway) = near.min_by(|&a, &b| far(a).total_cmp(&far(b))) {

@@ -1,10 +1,8 @@
 //! Local path planning: round an obstacle on the left and on the right (Crowley 1985, section 4.6).
 
-use super::field::{Field, window};
+use super::field::Field;
 use super::highway::free_ahead;
-use crate::floor_plan::clear::distance_between;
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Rect, Segment, cross, path_length};
 
 /// What a detour is planned with.
 #[derive(Clone, Copy, Debug)]
@@ -33,21 +31,19 @@ pub(super) struct Detours {
 impl Detours {
     /// The length of the shorter one.
     pub fn shortest_m(&self) -> Option<f64> {
-        self.left.iter().chain(&self.right).map(|points| length(points)).min_by(f64::total_cmp)
+        self.left.iter().chain(&self.right).map(|points| path_length(points)).min_by(f64::total_cmp)
     }
 }
 
 impl Ground<'_> {
     /// The shortest paths that leave the obstacle to the right (`left`), and to the left (`right`).
     pub fn detours(&self, from: Point, to: Point) -> Detours {
-        let field = Field::new(window([from, to], self.aside), self);
+        let field = Field::new(Rect::around([from, to]).grown(self.aside), self);
         let Some(best) = field.path(from, to) else { return Detours::default() };
         let Some([left, right]) = self.cuts(from, to) else {
             return Detours { left: Some(best), right: None };
         };
-        let crosses = |cut: &Segment| {
-            best.windows(2).any(|leg| distance_between([leg[0], leg[1]], [cut.a, cut.b]) <= 0.0)
-        };
+        let crosses = |cut: &Segment| best.windows(2).any(|leg| Segment::new(leg[0], leg[1]).meets(cut));
         if crosses(&left) || (!crosses(&right) && lies_left(from, to, &best)) {
             Detours { right: field.cut(&left).path(from, to), left: Some(best) }
         } else {
@@ -60,20 +56,16 @@ impl Ground<'_> {
         let free = free_ahead(from, to, [self.least, self.reach], self.barriers);
         let met = free.by?;
         let whole = from.distance(to);
-        let (ux, uy) = ((to.x - from.x) / whole, (to.y - from.y) / whole);
-        let stop = Point::new(from.x + free.metres * ux, from.y + free.metres * uy);
-        let root = stop.nearest_on(self.barriers[met].a, self.barriers[met].b);
+        let ahead = Segment::new(from, to).direction();
+        let root = self.barriers[met].nearest_to(from + ahead * free.metres);
         let group = self.group(met);
         let far = |towards: Point| {
             let others = self.barriers.iter().enumerate().filter(|(index, _)| !group[*index]);
             let hits = others.filter_map(|(_, barrier)| barrier.hit(root, towards));
             hits.map(|(range, _)| range).fold(whole + self.aside, f64::min)
         };
-        let cut = |towards: Point| {
-            let range = far(towards);
-            Segment::new(root, Point::new(root.x + range * towards.x, root.y + range * towards.y))
-        };
-        Some([cut(Point::new(-uy, ux)), cut(Point::new(uy, -ux))])
+        let cut = |towards: Point| Segment::new(root, root + towards * far(towards));
+        Some([cut(ahead.perpendicular()), cut(-ahead.perpendicular())])
     }
 
     /// The barriers that are one obstacle with the one met: the robot does not fit between them.
@@ -84,7 +76,7 @@ impl Ground<'_> {
         while let Some(one) = open.pop() {
             let a = self.barriers[one];
             for (other, b) in self.barriers.iter().enumerate().skip(self.obstacles_from) {
-                if !group[other] && distance_between([a.a, a.b], [b.a, b.b]) < 2.0 * self.reach {
+                if !group[other] && a.gap(b) < 2.0 * self.reach {
                     group[other] = true;
                     open.push(other);
                 }
@@ -96,14 +88,8 @@ impl Ground<'_> {
 
 /// Whether most of a path lies left of the line between its ends.
 fn lies_left(from: Point, to: Point, path: &[Point]) -> bool {
-    let aside = |p: &Point| (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x);
+    let aside = |&p: &Point| cross(from, to, p);
     path.iter().map(aside).sum::<f64>() > 0.0
-}
-
-/// The length of a path, metres.
-pub(super) fn length(points: &[Point]) -> f64 {
-    // A sum of nothing is -0.0.
-    points.windows(2).map(|leg| leg[0].distance(leg[1])).fold(0.0, |sum, leg| sum + leg)
 }
 
 #[cfg(test)]
@@ -139,7 +125,7 @@ mod tests {
         assert!(right.iter().any(|p| p.y <= -0.8) && right.iter().all(|p| p.y < 0.1));
         // by Pythagoras, and a little for the grain
         let shortest = 2.0 * 2.0_f64.hypot(0.8);
-        assert!((shortest..1.05 * shortest).contains(&length(&right)), "{}", length(&right));
+        assert!((shortest..1.05 * shortest).contains(&path_length(&right)), "{}", path_length(&right));
     }
 
     #[test]

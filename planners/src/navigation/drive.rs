@@ -5,9 +5,8 @@ use super::known::Building;
 use super::mission::overlap;
 use super::{Ending, Entry, Navigator, Outfit};
 use crate::body::Command;
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::pose::Pose;
-use crate::segment::Segment;
 use crate::simulator::{SimulationError, Simulator};
 use crate::world::Place;
 

@@ -3,9 +3,7 @@
 use super::detour::Ground;
 use super::free_grid::FreeGrid;
 use super::highway::{is_clear, straightened};
-use crate::floor_plan::clear::distance_between;
-use crate::geometry::{Point, Rect};
-use crate::segment::Segment;
+use crate::geometry::{Point, Rect, Segment};
 
 /// The grid may lack a cell at an end of a path; the nearest one up to so far is taken, metres.
 const NEAR_M: f64 = 0.4;
@@ -27,11 +25,8 @@ impl Field {
     pub fn new(window: Rect, ground: &Ground) -> Self {
         let Ground { barriers, reach, least, grain, .. } = *ground;
         let is_near = |barrier: &&Segment| {
-            let (a, b) = (barrier.a, barrier.b);
-            a.x.min(b.x) - reach <= window.x1
-                && a.x.max(b.x) + reach >= window.x0
-                && a.y.min(b.y) - reach <= window.y1
-                && a.y.max(b.y) + reach >= window.y0
+            let (dx, dy) = barrier.bounds().axis_gaps(&window);
+            dx.max(dy) <= reach
         };
         let barriers: Vec<Segment> = barriers.iter().filter(is_near).copied().collect();
         let mut grid = FreeGrid::new(window, grain);
@@ -66,16 +61,7 @@ impl Field {
     }
 
     fn is_clear(&self, from: Point, to: Point) -> bool {
-        let is_crossed = |cut: &Segment| distance_between([from, to], [cut.a, cut.b]) <= 0.0;
+        let is_crossed = |cut: &Segment| Segment::new(from, to).meets(cut);
         is_clear(from, to, self.reach, &self.barriers) && !self.cuts.iter().any(is_crossed)
     }
-}
-
-/// The rectangle about points, larger by a margin.
-pub(super) fn window(points: impl IntoIterator<Item = Point>, margin: f64) -> Rect {
-    let start = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let all = points
-        .into_iter()
-        .fold(start, |r, p| Rect::new(r.x0.min(p.x), r.y0.min(p.y), r.x1.max(p.x), r.y1.max(p.y)));
-    Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin)
 }

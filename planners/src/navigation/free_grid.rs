@@ -1,24 +1,13 @@
 //! Where the middle of a disc can be, as cells of a grid.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use fixedbitset::FixedBitSet;
 
-use crate::geometry::{Point, Rect};
-use crate::segment::Segment;
+use crate::geometry::{Point, Rect, Segment};
+use crate::search::grid::{AROUND, least_costs};
 
-/// Steps to the eight neighbours: columns, rows, and what they cost.
-const STEPS: [(isize, isize, u32); 8] = [
-    (1, 0, 1000),
-    (0, 1, 1000),
-    (-1, 0, 1000),
-    (0, -1, 1000),
-    (1, 1, 1414),
-    (-1, 1, 1414),
-    (-1, -1, 1414),
-    (1, -1, 1414),
-];
+/// What steps over a side and over a corner of a cell cost.
+const STRAIGHT: u32 = 1000;
+const DIAGONAL: u32 = 1414;
 
 /// A cell is free if its middle is.
 #[derive(Clone, Debug)]
@@ -121,31 +110,11 @@ impl FreeGrid {
         let (goal_x, goal_y) = (to % self.columns, to / self.columns);
         let left = |cell: usize| {
             let (dx, dy) = ((cell % self.columns).abs_diff(goal_x), (cell / self.columns).abs_diff(goal_y));
-            1000 * dx.max(dy) as u32 + 414 * dx.min(dy) as u32
+            STRAIGHT * dx.max(dy) as u32 + (DIAGONAL - STRAIGHT) * dx.min(dy) as u32
         };
-        let mut cost = vec![u32::MAX; self.columns * self.rows];
-        let mut before = vec![usize::MAX; self.columns * self.rows];
-        let mut open = BinaryHeap::from([Reverse((left(from), 0, from))]);
-        cost[from] = 0;
-        while let Some(Reverse((_, so_far, cell))) = open.pop() {
-            if cell == to {
-                let cells = std::iter::successors(Some(to), |&cell| (cell != from).then(|| before[cell]));
-                let mut points: Vec<Point> = cells.map(|cell| self.at(cell)).collect();
-                points.reverse();
-                return Some(points);
-            }
-            if so_far > cost[cell] {
-                continue;
-            }
-            for (next, step) in self.neighbours(cell) {
-                let reached = so_far + step;
-                if reached < cost[next] {
-                    (cost[next], before[next]) = (reached, cell);
-                    open.push(Reverse((reached + left(next), reached, next)));
-                }
-            }
-        }
-        None
+        let found = least_costs(self.columns * self.rows, from, Some(to), left, |cell| self.neighbours(cell));
+        found.cost(to)?;
+        Some(found.way(to).into_iter().map(|cell| self.at(cell)).collect())
     }
 
     fn cell(&self, column: isize, row: isize) -> Option<usize> {
@@ -155,9 +124,10 @@ impl FreeGrid {
 
     fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> {
         let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
-        STEPS.iter().filter_map(move |(dx, dy, cost)| {
-            let next = self.cell(column + dx, row + dy)?;
-            self.free.contains(next).then_some((next, *cost))
+        AROUND.iter().filter_map(move |&(dx, dy)| {
+            let next = self.cell(column + dx as isize, row + dy as isize)?;
+            let cost = if dx == 0 || dy == 0 { STRAIGHT } else { DIAGONAL };
+            self.free.contains(next).then_some((next, cost))
         })
     }
 }

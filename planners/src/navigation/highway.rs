@@ -1,8 +1,7 @@
 //! Free way for a disc that goes straight.
 
-use crate::floor_plan::clear::distance_between;
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, Segment};
 
 /// A disc that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
 const SLIDE_M: f64 = 0.005;
@@ -37,7 +36,7 @@ pub(super) fn is_clear(from: Point, to: Point, reach: f64, barriers: &[Segment])
     barriers.iter().all(|barrier| {
         is_far(from, to, reach, barrier) || {
             let least = reach.min(barrier.distance(from)).min(barrier.distance(to));
-            distance_between([from, to], [barrier.a, barrier.b]) >= least - 1e-9
+            Segment::new(from, to).gap(barrier) >= least - ROUNDING_M
         }
     })
 }
@@ -58,7 +57,7 @@ fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
     if is_far(from, to, reach, barrier) {
         return None;
     }
-    let nearest = distance_between([from, to], [barrier.a, barrier.b]);
+    let nearest = Segment::new(from, to).gap(barrier);
     let now = barrier.distance(from);
     if now < reach {
         return (nearest < now - SLIDE_M).then_some(0.0);
@@ -69,23 +68,18 @@ fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
 /// The distance to a segment falls until it is least, and then rises: a point before that is found by halving.
 fn first_within(from: Point, to: Point, reach: f64, barrier: &Segment) -> f64 {
     let whole = from.distance(to);
-    let at = |metres: f64| {
-        let share = metres / whole;
-        Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y))
-    };
     let (mut low, mut high) = (0.0, whole);
     while high - low > 1e-4 {
         let middle = f64::midpoint(low, high);
-        let is_met = distance_between([from, at(middle)], [barrier.a, barrier.b]) < reach;
+        let is_met = Segment::new(from, from.lerp(to, middle / whole)).gap(barrier) < reach;
         (low, high) = if is_met { (low, middle) } else { (middle, high) };
     }
     low
 }
 
 fn is_far(from: Point, to: Point, reach: f64, barrier: &Segment) -> bool {
-    let apart = |a: f64, b: f64, c: f64, d: f64| (c.min(d) - a.max(b)).max(a.min(b) - c.max(d));
-    apart(from.x, to.x, barrier.a.x, barrier.b.x) > reach
-        || apart(from.y, to.y, barrier.a.y, barrier.b.y) > reach
+    let (dx, dy) = Segment::new(from, to).bounds().axis_gaps(&barrier.bounds());
+    dx.max(dy) > reach
 }
 
 #[cfg(test)]

@@ -2,9 +2,8 @@
 
 use super::Settings;
 use crate::floor_plan::{Disc, FloorPlan, Network};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
-use crate::segment::Segment;
 
 /// A building that is known before a mission: the global model and the network of places.
 #[derive(Clone, Debug)]

@@ -4,10 +4,9 @@ use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::{self, Estimate};
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
 use crate::simulator::{self, Film, Obstacle, SimulationError, Simulator};
 
 /// A robot's start, its goal, and what nobody told it of.
@@ -197,7 +196,7 @@ impl Mission {
 fn at_rest(obstacle: &Obstacle) -> Vec<Point> {
     let course = obstacle.course.as_ref().filter(|course| !course.goes_round);
     let last = course.and_then(|course| course.through.last().copied()).unwrap_or_default();
-    obstacle.corners.iter().map(|p| Point::new(p.x + last.x, p.y + last.y)).collect()
+    obstacle.corners.iter().map(|&p| p + last).collect()
 }
 
 /// How deep something is within the robot, metres.

@@ -15,10 +15,9 @@ use super::judge::{Action, Judge, Mode, State};
 use super::known::{Building, Memory};
 use super::learn::Seen;
 use crate::body::{Body, Command, Contact, Reading, Sensed};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, LocalModel};
 use crate::pose::Pose;
-use crate::segment::Segment;
 
 /// So much farther than it was counts as farther away, metres.
 const FALLING_M: f64 = 0.05;

@@ -1,13 +1,13 @@
 //! Ways over the whole building.
 
 use super::cuts::{Blocked, Cuts};
-use super::detour::{Ground, length};
-use super::field::{Field, window};
+use super::detour::Ground;
+use super::field::Field;
 use super::highway::{is_clear, straightened};
 use super::judge::Judge;
 use super::known::Building;
 use crate::floor_plan::{NoPath, Rule};
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect, path_length};
 
 /// Where the network does not let the robot begin, points so far away are tried, metres.
 const RINGS_M: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
@@ -39,7 +39,7 @@ pub(super) fn over_network(
                 let points: Vec<Point> = lead.into_iter().chain(path.points).collect();
                 let points =
                     straightened(&points, |from, to| is_clear(from, to, ground.reach, ground.barriers));
-                return Some(Route { length_m: length(&points), points, is_off_network: false });
+                return Some(Route { length_m: path_length(&points), points, is_off_network: false });
             }
             Err(NoPath::Start) => {}
             Err(_) => return None,
@@ -51,13 +51,13 @@ pub(super) fn over_network(
 /// The shortest path through free space as it is known; none leads out of a building whose walls are known.
 pub(super) fn off_network(building: &Building, ground: Ground, [from, to]: [Point; 2]) -> Option<Route> {
     let ends = building.walls.iter().flat_map(|wall| [wall.a, wall.b]);
-    let known = window(ends.clone().chain([from]), ground.grain);
+    let known = Rect::around(ends.clone().chain([from])).grown(ground.grain);
     if !building.walls.is_empty() && !known.contains(to) {
         return None;
     }
-    let field = Field::new(window(ends.chain([from, to]), ground.grain), &ground);
+    let field = Field::new(Rect::around(ends.chain([from, to])).grown(ground.grain), &ground);
     let points = field.path(from, to)?;
-    Some(Route { length_m: length(&points), points, is_off_network: true })
+    Some(Route { length_m: path_length(&points), points, is_off_network: true })
 }
 
 /// The point itself, and points around it to which there is a free way.

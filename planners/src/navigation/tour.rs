@@ -4,10 +4,9 @@ use super::judge::Judge;
 use super::known::Building;
 use super::mission::Outfit;
 use super::{Ending, Navigator};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::Estimate;
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
 use crate::simulator::{SimulationError, Simulator};
 
 /// Where a robot goes, and what it begins with.

@@ -35,7 +35,7 @@ use super::taken::{Seen, Taken};
 pub fn greedy_rooms(first: &[Rect], lists: &[&[Rect]]) -> Vec<Rect> {
     let has_area = |rect: &&Rect| rect.intersection(rect).is_some();
     let all = || first.iter().chain(lists.iter().copied().flatten()).filter(has_area).copied();
-    let (strips, blocks) = Strips::with_blocks(hull(all()), all());
+    let (strips, blocks) = Strips::with_blocks(Rect::around(all().flat_map(|rect| rect.corners())), all());
     let mut greedy = Greedy::new(&strips, blocks.len());
     let mut blocks = blocks.into_iter();
     let with_area = |rects: &[Rect]| rects.iter().filter(has_area).count();
@@ -46,13 +46,6 @@ pub fn greedy_rooms(first: &[Rect], lists: &[&[Rect]]) -> Vec<Rect> {
         greedy.use_up(blocks.by_ref().take(with_area(list)));
     }
     greedy.rooms.into_iter().map(|room| strips.rect(room)).collect()
-}
-
-fn hull(rects: impl Iterator<Item = Rect>) -> Rect {
-    let nothing = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    rects.fold(nothing, |hull, rect| {
-        Rect::new(hull.x0.min(rect.x0), hull.y0.min(rect.y0), hull.x1.max(rect.x1), hull.y1.max(rect.y1))
-    })
 }
 
 struct Greedy<'a> {

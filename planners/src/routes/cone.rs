@@ -2,13 +2,7 @@
 
 use super::mesh::{EPSILON, NONE};
 use crate::geometry::{Point, Rect};
-
-/// A segment, from one end to the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Segment {
-    pub a: Point,
-    pub b: Point,
-}
+pub(super) use crate::geometry::{Segment, cross};
 
 /// A part of a door as it is seen, with the door's ends where they are seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,32 +29,17 @@ pub(super) enum View {
 
 impl Segment {
     /// The diagonal of a rectangle: of a degenerate one, the segment.
-    pub fn of(rect: &Rect) -> Self {
+    pub(super) fn of(rect: &Rect) -> Self {
         Self { a: Point::new(rect.x0, rect.y0), b: Point::new(rect.x1, rect.y1) }
     }
 
-    pub fn length(&self) -> f64 {
-        self.a.distance(self.b)
-    }
-
-    /// The point at a share of its length.
-    pub fn at(&self, share: f64) -> Point {
-        let Self { a, b } = *self;
-        Point::new(a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share)
-    }
-
-    /// The point nearest to another one.
-    pub fn nearest_to(&self, p: Point) -> Point {
-        p.nearest_on(self.a, self.b)
-    }
-
     /// Whether the point lies on the segment's line.
-    pub fn is_in_line_with(&self, p: Point) -> bool {
+    pub(super) fn is_in_line_with(&self, p: Point) -> bool {
         cross(self.a, self.b, p).abs() <= EPSILON * self.length().max(1.0)
     }
 
     /// Where the way from `from` to `to` passes, or comes nearest to passing, the segment.
-    pub fn passed_at(&self, from: Point, to: Point) -> Point {
+    pub(super) fn passed_at(&self, from: Point, to: Point) -> Point {
         let (one, two) = (cross(from, to, self.a), cross(from, to, self.b));
         if (one - two).abs() <= f64::MIN_POSITIVE {
             return self.nearest_to(from);
@@ -94,11 +73,6 @@ impl Segment {
 pub(super) fn apart(a: Point, b: Point) -> f64 {
     let (dx, dy) = (a.x - b.x, a.y - b.y);
     (dx * dx + dy * dy).sqrt()
-}
-
-/// More than 0 where `p` lies to the left of the way from `a` to `b`.
-pub(super) fn cross(a: Point, b: Point, p: Point) -> f64 {
-    (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)
 }
 
 impl View {

@@ -1,7 +1,6 @@
 //! A disc that moves straight among segments: how far it gets.
 
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment};
 
 /// Discs stop so far before what they touch, metres, so that rounding never puts them into it.
 pub(super) const HAIR_M: f64 = 1e-9;
@@ -18,13 +17,13 @@ pub(super) struct Touch {
 /// How far a disc gets on its way until it touches a segment; `None` where it does not.
 /// A disc that touches already may move along and away, and no nearer.
 pub(super) fn touch(centre: Point, radius_m: f64, way: Point, segment: &Segment) -> Option<Touch> {
-    let length = way.x.hypot(way.y);
+    let length = way.length();
     if length <= 0.0 {
         return None;
     }
     let nearest = centre.nearest_on(segment.a, segment.b);
     if centre.distance(nearest) <= radius_m + 2.0 * HAIR_M {
-        let nearer = way.x * (nearest.x - centre.x) + way.y * (nearest.y - centre.y);
+        let nearer = way.dot(nearest - centre);
         return (nearer > 1e-12 * length).then_some(Touch { share: 0.0, at: nearest });
     }
     let towards = Point::new(way.x / length, way.y / length);
@@ -36,26 +35,24 @@ pub(super) fn touch(centre: Point, radius_m: f64, way: Point, segment: &Segment)
 }
 
 fn to_point(centre: Point, reach: f64, towards: Point, point: Point) -> Option<(f64, Point)> {
-    let (dx, dy) = (point.x - centre.x, point.y - centre.y);
-    let ahead = dx * towards.x + dy * towards.y;
-    let aside = dx * towards.y - dy * towards.x;
+    let Point { x: ahead, y: aside } = (point - centre).seen_along(towards);
     let half = (reach.powi(2) - aside.powi(2)).max(0.0).sqrt();
     (aside.abs() < reach && ahead - half >= 0.0).then_some((ahead - half, point))
 }
 
 fn to_line(centre: Point, reach: f64, towards: Point, segment: &Segment) -> Option<(f64, Point)> {
     let along = segment.direction();
-    let aside = (centre.x - segment.a.x) * along.y - (centre.y - segment.a.y) * along.x;
-    let approach = towards.y * along.x - towards.x * along.y;
+    let aside = (centre - segment.a).cross(along);
+    let approach = along.cross(towards);
     let approach = if aside < 0.0 { -approach } else { approach };
     let far = (aside.abs() - reach) / approach;
     if approach <= 0.0 || far < 0.0 {
         return None;
     }
-    let then = Point::new(centre.x + far * towards.x, centre.y + far * towards.y);
-    let place = (then.x - segment.a.x) * along.x + (then.y - segment.a.y) * along.y;
+    let then = centre + towards * far;
+    let place = (then - segment.a).dot(along);
     let is_beside = place >= 0.0 && place <= segment.length();
-    let at = Point::new(segment.a.x + place * along.x, segment.a.y + place * along.y);
+    let at = segment.a + along * place;
     is_beside.then_some((far, at))
 }
 
@@ -74,7 +71,7 @@ mod tests {
             let (segment, radius) = (Segment::new(a, b), 0.3);
             prop_assume!(segment.distance(centre) > radius + 1e-6);
             let share = touch(centre, radius, way, &segment).map_or(1.0, |touch| touch.share);
-            let at = |share: f64| Point::new(centre.x + share * way.x, centre.y + share * way.y);
+            let at = |share: f64| centre + way * share;
             let gap = |share: f64| segment.distance(at(share)) - radius;
             let least = (0..=1000).map(|i| gap(share * f64::from(i) / 1000.0)).fold(f64::INFINITY, f64::min);
             prop_assert!(least >= 0.0, "{least}");

@@ -3,9 +3,8 @@
 use std::fmt::Write as _;
 
 use super::Simulator;
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::pose::Pose;
-use crate::segment::Segment;
 
 /// What there was to see at one moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +54,7 @@ impl Film {
     /// A film of a simulation, without frames.
     pub fn new(simulator: &Simulator) -> Self {
         Self {
-            walls: simulator.building.walls.clone(),
+            walls: simulator.walls.segments().to_vec(),
             obstacles: simulator.movers.iter().map(|mover| mover.obstacle.corners.clone()).collect(),
             radius_m: simulator.settings.radius_m,
             frames: Vec::new(),

@@ -1,7 +1,7 @@
 //! Things in the way that no model knows, standing or on a course.
 
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, Segment, polygon};
 
 /// A solid thing with straight sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +69,7 @@ impl Mover {
         let far = course.speed_m_s * (now_s + step_s - course.starts_s).clamp(0.0, step_s);
         let left = self.shift.distance(goal);
         if left <= far {
-            return Point::new(goal.x - self.shift.x, goal.y - self.shift.y);
+            return goal - self.shift;
         }
         let share = far / left;
         Point::new((goal.x - self.shift.x) * share, (goal.y - self.shift.y) * share)
@@ -80,10 +80,10 @@ impl Mover {
         if way == Point::default() {
             return;
         }
-        self.shift = Point::new(self.shift.x + way.x, self.shift.y + way.y);
+        self.shift = self.shift + way;
         self.place();
         let Some(course) = &self.obstacle.course else { return };
-        if self.goal(course).is_some_and(|goal| goal.distance(self.shift) < 1e-9) {
+        if self.goal(course).is_some_and(|goal| goal.distance(self.shift) < ROUNDING_M) {
             let stops = course.through.len() + usize::from(course.goes_round);
             self.next = if course.goes_round { (self.next + 1) % stops } else { self.next + 1 };
         }
@@ -95,10 +95,8 @@ impl Mover {
     }
 
     fn place(&mut self) {
-        let corners = &self.obstacle.corners;
-        let at = |p: &Point| Point::new(p.x + self.shift.x, p.y + self.shift.y);
-        let next = corners.iter().cycle().skip(1);
-        self.sides = corners.iter().zip(next).map(|(a, b)| Segment::new(at(a), at(b))).collect();
+        let corners: Vec<Point> = self.obstacle.corners.iter().map(|&corner| corner + self.shift).collect();
+        self.sides = polygon::sides(&corners).collect();
     }
 }
 
@@ -119,8 +117,8 @@ mod tests {
     #[test]
     fn an_obstacle_keeps_to_its_course_and_rests_at_its_end() {
         assert_eq!(after(1.0, false), Point::default());
-        assert!(after(3.0, false).distance(Point::new(1.0, 0.0)) < 1e-9);
-        assert!(after(60.0, false).distance(Point::new(2.0, 1.0)) < 1e-9);
+        assert!(after(3.0, false).distance(Point::new(1.0, 0.0)) < ROUNDING_M);
+        assert!(after(60.0, false).distance(Point::new(2.0, 1.0)) < ROUNDING_M);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! A0 to A3 on the same tasks (section 2.5).
 
-use adit_planners::adapt::{Adapt, Chance, Object, Outcome, Settings, Strategy};
+use adit_planners::adapt::{Adapt, Object, Outcome, Settings, Strategy};
+use adit_planners::random::Random;
 
 use super::support::{Table, arm, planner_with, rect};
 
@@ -43,15 +44,15 @@ fn calls_after(adapt: &Adapt, objects: &[Object], goals: &[usize], strategy: Str
 fn a3_never_calls_solve_more_often_than_a2_for_goals_that_it_knows() {
     let (mut calls_on_demand, mut calls_at_once) = (0, 0);
     for seed in 0..40 {
-        let mut chance = Chance::new(seed);
+        let mut random = Random::new(seed);
         let mut adapt = plain(seed);
         for goal in GOALS.iter().chain([&HOME]) {
             assert_eq!(adapt.task(goal, &mut Table(Strategy::OnDemand)).outcome, Outcome::Found);
         }
-        let (x, y) = (0.4 + 1.0 * chance.share(), 2.0 * chance.share() - 1.0);
+        let (x, y) = (0.4 + 1.0 * random.share(), 2.0 * random.share() - 1.0);
         let mut changed = objects();
         changed.push(rect("new", [x, y, x + 0.25, y + 0.25]));
-        let goals: Vec<usize> = (0..8).map(|_| chance.below(GOALS.len())).collect();
+        let goals: Vec<usize> = (0..8).map(|_| random.below(GOALS.len())).collect();
         let calls = |strategy| calls_after(&adapt, &changed, &goals, strategy);
         let (Some(on_demand), Some(at_once)) = (calls(Strategy::OnDemand), calls(Strategy::RepairAll)) else {
             continue;

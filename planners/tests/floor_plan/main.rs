@@ -9,5 +9,5 @@ mod maps_of_before;
 mod oracle;
 mod paths;
 mod random_plan;
+mod rays;
 mod regions;
-mod visibility;

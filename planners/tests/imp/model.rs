@@ -3,12 +3,11 @@
 use std::f64::consts::FRAC_PI_2;
 
 use adit_planners::body::{Body, Command, Contact, Reading};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::local_model::{
     Estimate, LocalModel, ModelSegment, SegmentFacts, Settings, Source, Transition, Update,
 };
 use adit_planners::pose::Pose;
-use adit_planners::segment::Segment;
 use adit_planners::simulator::{self, Course, Obstacle, Simulator};
 
 use crate::plans::segment;

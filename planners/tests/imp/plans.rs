@@ -1,7 +1,6 @@
 //! Three floor plans, and tours through all of their rooms.
 
-use adit_planners::geometry::Point;
-use adit_planners::segment::Segment;
+use adit_planners::geometry::{Point, Segment};
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -3,9 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use adit_planners::body::{Body, Command, Sensed};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::pose::{Pose, wrapped};
-use adit_planners::segment::Segment;
 use adit_planners::simulator::{Course, Film, Obstacle, Settings, SimulationError, Simulator};
 
 use crate::plans::segment;

@@ -3,10 +3,9 @@
 use std::path::Path;
 
 use adit_planners::body::{Body, Command, Reading};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::local_model::{Estimate, LocalModel, SegmentFacts, Settings, Transition};
 use adit_planners::pose::{Pose, wrapped};
-use adit_planners::segment::Segment;
 use adit_planners::simulator::{self, Film, Simulator};
 
 use crate::plans::{self, Plan};

@@ -3,13 +3,12 @@
 use std::f64::consts::PI;
 
 use adit_planners::body::{Body, Command};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::local_model::{Estimate, SegmentFacts, Transition};
 use adit_planners::navigation::{
     Ending, Happening, Judge, Navigator, Outfit, Settings, State, StateDecision, StateFacts, WayFacts,
 };
 use adit_planners::pose::Pose;
-use adit_planners::segment::Segment;
 use adit_planners::simulator::{self, Course, Simulator};
 
 use super::scene::{building, exact, mission, run, run_with, stands, two_rooms};

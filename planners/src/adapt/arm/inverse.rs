@@ -5,10 +5,11 @@ use std::f64::consts::TAU;
 use nalgebra::{DMatrix, DVector};
 
 use super::Arm;
-use crate::adapt::chance::Chance;
-use crate::adapt::robot::{Configuration, Robot, distance};
+use crate::adapt::robot::{Configuration, Robot, any_configuration, distance};
 use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING;
 use crate::pose::{Pose, wrapped};
+use crate::random::Random;
 
 /// How near the tool has to come.
 pub(super) const TOLERANCE_M: f64 = 1e-6;
@@ -24,7 +25,7 @@ fn unwound(arm: &Arm, at: Configuration, near: &[f64]) -> Option<Configuration> 
 }
 
 pub(super) fn one_link(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configuration> {
-    let angle = (tool.at.y - arm.base.y).atan2(tool.at.x - arm.base.x);
+    let angle = (tool.at - arm.base).angle();
     unwound(arm, vec![angle], near).filter(|at| arm.is_at(at, tool.at))
 }
 
@@ -49,7 +50,7 @@ fn shoulder_and_elbow(arm: &Arm, place: Point, branch: u8) -> Option<[f64; 2]> {
     let (x, y) = (place.x - arm.base.x, place.y - arm.base.y);
     let cos = (x * x + y * y - first * first - second * second) / (2.0 * first * second);
     // A stretched arm's cosine may lie beside 1 by rounding alone.
-    let stretched = if (1.0..1.0 + 1e-9).contains(&cos.abs()) { cos.signum() } else { cos };
+    let stretched = if (1.0..1.0 + ROUNDING).contains(&cos.abs()) { cos.signum() } else { cos };
     if stretched.abs() > 1.0 {
         return None;
     }
@@ -67,8 +68,8 @@ pub(super) fn many_links(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configu
         return Some(at);
     }
     // The same beginnings each time: the same question gets the same answer.
-    let mut chance = Chance::new(1);
-    let beginnings = (0..BEGINNINGS).map(|_| chance.configuration(arm));
+    let mut random = Random::new(1);
+    let beginnings = (0..BEGINNINGS).map(|_| any_configuration(arm, &mut random));
     let found = beginnings.filter_map(|from| descent(arm, tool, from)).take(ENOUGH);
     found.min_by(|a, b| distance(a, near).total_cmp(&distance(b, near)))
 }

@@ -1,12 +1,12 @@
 //! The planners R and S (Chen 1994, section 2.2).
 
 use super::{Adapt, Heuristic};
-use crate::adapt::chance::Chance;
 use crate::adapt::experience::VertexId;
 use crate::adapt::judge::Judge;
 use crate::adapt::probe::Probe;
 use crate::adapt::robot::{Configuration, distance};
 use crate::adapt::ways;
+use crate::random::Random;
 
 impl Adapt {
     /// The vertices in the order in which a goal tries them; `from` is the vertex where the robot is.
@@ -66,9 +66,9 @@ impl Adapt {
     pub(super) fn solved(&mut self, from: &[f64], to: &[f64]) -> Option<Vec<Vec<Configuration>>> {
         let before = self.cell.evaluations();
         let tally = &mut self.progress.tally;
-        let mut chance = Chance::new(self.settings.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ tally.solves);
+        let mut random = Random::new(self.settings.seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ tally.solves);
         tally.solves += 1;
-        let path = self.plugins.solve.solve(&mut Probe::new(&mut self.cell), from, to, &mut chance);
+        let path = self.plugins.solve.solve(&mut Probe::new(&mut self.cell), from, to, &mut random);
         self.progress.tally.solve_evaluations += self.cell.evaluations() - before;
         self.progress.tally.failed_solves += u64::from(path.is_none());
         self.abstracted(&path?)

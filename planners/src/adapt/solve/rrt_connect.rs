@@ -1,8 +1,9 @@
 //! Two trees that grow towards each other (Kuffner and LaValle 2000).
 
-use super::{Chance, Configuration, Probe, Solve};
+use super::{Configuration, Probe, Solve};
 use crate::adapt::nearest::Nearest;
-use crate::adapt::robot::{between, distance};
+use crate::adapt::robot::{any_configuration, between, distance};
+use crate::random::Random;
 
 /// RRT-Connect over motions that are free by what is known of clearances.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +71,7 @@ impl Solve for RrtConnect {
         probe: &mut Probe<'_>,
         from: &[f64],
         to: &[f64],
-        chance: &mut Chance,
+        random: &mut Random,
     ) -> Option<Vec<Configuration>> {
         if !probe.is_free(from) || !probe.is_free(to) {
             return None;
@@ -81,7 +82,7 @@ impl Solve for RrtConnect {
         let mut trees = [Tree::new(from), Tree::new(to)];
         for sample in 0..self.samples as usize {
             let grown = sample % 2;
-            let target = chance.configuration(probe.robot());
+            let target = any_configuration(probe.robot(), random);
             let near = trees[grown].near(&target);
             let Some(new) = self.extend(probe, &mut trees[grown], near, &target) else { continue };
             let target = trees[grown].nodes[new].0.clone();

@@ -1,7 +1,8 @@
 //! A path that the operator taught.
 
-use super::{Chance, Configuration, Probe, Solve};
+use super::{Configuration, Probe, Solve};
 use crate::adapt::robot::distance;
+use crate::random::Random;
 
 /// Paths as they were taught, used in either direction wherever both ends lie on one and it is free; else another planner.
 #[derive(Debug)]
@@ -26,7 +27,7 @@ impl<S: Solve> Solve for Taught<S> {
         probe: &mut Probe<'_>,
         from: &[f64],
         to: &[f64],
-        chance: &mut Chance,
+        random: &mut Random,
     ) -> Option<Vec<Configuration>> {
         for path in &self.paths {
             let part = part(path, from, to);
@@ -34,7 +35,7 @@ impl<S: Solve> Solve for Taught<S> {
                 return part;
             }
         }
-        self.otherwise.solve(probe, from, to, chance)
+        self.otherwise.solve(probe, from, to, random)
     }
 }
 

@@ -1,7 +1,8 @@
 //! At most two straight motions (Chen 1994, section 3).
 
-use super::{Chance, Configuration, Probe, Solve};
+use super::{Configuration, Probe, Solve};
 use crate::adapt::robot::{between, distance};
+use crate::random::Random;
 
 /// The shortest path of at most two straight motions whose corner lies on a grid over the limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +17,7 @@ impl Solve for TwoStep {
         probe: &mut Probe<'_>,
         from: &[f64],
         to: &[f64],
-        _chance: &mut Chance,
+        _random: &mut Random,
     ) -> Option<Vec<Configuration>> {
         if !probe.is_free(from) || !probe.is_free(to) {
             return None;

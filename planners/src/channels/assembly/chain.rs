@@ -6,9 +6,7 @@ pub(super) use axes::is_bend;
 
 use super::walls::walls;
 use super::{Cuboid, sweep};
-
-/// Coordinates that differ by less than this share of the world's extent are meant to be equal.
-pub(super) const MEANT_EQUAL: f64 = 1e-9;
+use crate::geometry::tolerance::ROUNDING;
 
 /// A chain of channels with a part in the last of them. The first channel leads out along the last axis, z.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +30,7 @@ impl<const D: usize> Assembly<D> {
         const { assert!(D >= 2, "a channel has a direction and a width") };
         check_boxes(&channels, &part)?;
         let extent = channels.iter().fold(part, |hull, channel| hull.joined(channel));
-        let tolerance = MEANT_EQUAL * (0..D).map(|axis| extent.size(axis)).fold(0.0, f64::max);
+        let tolerance = ROUNDING * (0..D).map(|axis| extent.size(axis)).fold(0.0, f64::max);
         check_top(&channels)?;
         let junctions = junctions(&channels)?;
         let axes = axes::axes(&channels, &junctions, tolerance)?;

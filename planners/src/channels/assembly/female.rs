@@ -3,8 +3,9 @@
 mod choice;
 mod free;
 
+use super::Cuboid;
 use super::outline::{Edge, OutlineError, edges, hull};
-use super::{Cuboid, chain::MEANT_EQUAL};
+use crate::geometry::tolerance::ROUNDING;
 use free::FreeSpace;
 
 /// The chain of channels by which a part leaves the female part with this outline, corner by corner (x, z), in
@@ -26,7 +27,7 @@ pub fn channels_of(female: &[[f64; 2]], part: &Cuboid<2>) -> Result<Vec<Cuboid<2
     let edges = edges(female)?;
     let female = hull(&edges);
     let extent = female.joined(part);
-    let tolerance = MEANT_EQUAL * extent.size(0).max(extent.size(1));
+    let tolerance = ROUNDING * extent.size(0).max(extent.size(1));
     if part.min[1] >= female.max[1] {
         return Err(FemaleError::AlreadyOut { part: *part, top: female.max[1] });
     }

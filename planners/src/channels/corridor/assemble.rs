@@ -10,7 +10,7 @@ use super::drive_error::DriveError;
 use super::passage::End;
 use super::route::Route;
 use super::sweep::Sweep;
-use super::taut::{Taut, Touched};
+use super::tangents::{DrivenLines, Touched};
 use super::walls::Wall;
 
 /// The drive along a way, with what is left beside each of its pieces.
@@ -19,21 +19,21 @@ pub(super) fn assembled<E>(
     robot: Robot,
     heading: Option<f64>,
     mut turns: Vec<TurnMade>,
-    taut: &Taut,
+    driven: &DrivenLines,
 ) -> Result<Drive, DriveError<E>> {
-    pass_by(&mut turns, taut);
+    pass_by(&mut turns, driven);
     let sweep = Sweep::new(robot, route.corridors.walls());
-    let mut primitives = Vec::with_capacity(taut.lines.len() + taut.touched.len());
-    let mut to_heading = first_heading(route, &taut.lines[0], heading);
+    let mut primitives = Vec::with_capacity(driven.lines.len() + driven.touched.len());
+    let mut to_heading = first_heading(route, &driven.lines[0], heading);
     let mut from_heading = heading.unwrap_or(to_heading);
-    for (index, line) in taut.lines.iter().enumerate() {
+    for (index, line) in driven.lines.iter().enumerate() {
         let clearance = sweep.line(line, from_heading, to_heading);
-        let clearance = clearance.map_err(|wall| hits_on_line(&turns, taut, index, wall))?;
+        let clearance = clearance.map_err(|wall| hits_on_line(&turns, driven, index, wall))?;
         let (a, b) = (line.from, line.to);
         primitives.push(Primitive::Line { a, b, from_heading, to_heading, clearance });
-        let Some(touched) = taut.touched.get(index) else { break };
+        let Some(touched) = driven.touched.get(index) else { break };
         let turn = &mut turns[touched.turn()];
-        (turn.arriving, turn.leaving, turn.angle) = (b, taut.lines[index + 1].from, touched.angle);
+        (turn.arriving, turn.leaving, turn.angle) = (b, driven.lines[index + 1].from, touched.angle);
         let clearance = sweep.arc(&touched.circle, line, touched.angle);
         let clearance = clearance.map_err(|wall| hits_in_turn(turn, wall))?;
         from_heading = to_heading;
@@ -71,15 +71,15 @@ fn first_heading(route: &Route<'_>, line: &Tangent, given: Option<f64>) -> f64 {
     }
 }
 
-fn hits_on_line<E>(turns: &[TurnMade], taut: &Taut, line: usize, wall: Wall) -> DriveError<E> {
+fn hits_on_line<E>(turns: &[TurnMade], driven: &DrivenLines, line: usize, wall: Wall) -> DriveError<E> {
     let junction = |touched: &Touched| End::Junction(turns[touched.turn()].facts.junction);
-    let before = line.checked_sub(1).and_then(|before| taut.touched.get(before));
+    let before = line.checked_sub(1).and_then(|before| driven.touched.get(before));
     DriveError::HitsOnLine {
         wall,
         from: before.map_or(End::Start, junction),
-        a: taut.lines[line].from,
-        to: taut.touched.get(line).map_or(End::Goal, junction),
-        b: taut.lines[line].to,
+        a: driven.lines[line].from,
+        to: driven.touched.get(line).map_or(End::Goal, junction),
+        b: driven.lines[line].to,
     }
 }
 
@@ -98,16 +98,16 @@ fn hits_in_turn<E>(turn: &TurnMade, wall: Wall) -> DriveError<E> {
 }
 
 /// Tells the turns at circles that the way passes by where it is nearest to them.
-fn pass_by(turns: &mut [TurnMade], taut: &Taut) {
-    if taut.touched.len() == turns.len() {
+fn pass_by(turns: &mut [TurnMade], driven: &DrivenLines) {
+    if driven.touched.len() == turns.len() {
         return;
     }
     for (index, turn) in turns.iter_mut().enumerate() {
-        let before = taut.touched.iter().take_while(|touched| touched.turn() < index).count();
-        if taut.touched.get(before).is_some_and(|touched| touched.turn() == index) {
+        let before = driven.touched.iter().take_while(|touched| touched.turn() < index).count();
+        if driven.touched.get(before).is_some_and(|touched| touched.turn() == index) {
             continue;
         }
-        let line = &taut.lines[before];
+        let line = &driven.lines[before];
         turn.arriving = turn.corner.nearest_on(line.from, line.to);
         turn.leaving = turn.arriving;
     }

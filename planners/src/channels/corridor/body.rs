@@ -93,10 +93,7 @@ impl Body {
 
     /// Metres to a wall, for the body about `middle` with its length along the direction `along`.
     pub fn distance_from(&self, middle: Point, along: Point, wall: &Wall) -> f64 {
-        let seen = |p: Point| {
-            let (dx, dy) = (p.x - middle.x, p.y - middle.y);
-            Point::new(along.x * dx + along.y * dy, along.x * dy - along.y * dx)
-        };
+        let seen = |p: Point| (p - middle).seen_along(along);
         self.distance(seen(wall.a), seen(wall.b))
     }
 

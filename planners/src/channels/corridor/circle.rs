@@ -57,7 +57,7 @@ impl Circle {
         let along = Point::new((cos * dx - sin * dy) / distance, (sin * dx + cos * dy) / distance);
         let at = |circle: &Self| {
             let bend = circle.bend();
-            Point::new(circle.centre.x + bend * along.y, circle.centre.y - bend * along.x)
+            circle.centre - along.perpendicular() * bend
         };
         Some(Tangent { from: at(self), to: at(next), along, length })
     }
@@ -66,6 +66,6 @@ impl Circle {
     /// the first one arrives.
     pub fn angle(&self, arriving: &Tangent, leaving: &Tangent) -> f64 {
         let (a, b) = (arriving.along, leaving.along);
-        (self.turn.sign() * (a.x * b.y - a.y * b.x)).atan2(a.x * b.x + a.y * b.y)
+        (self.turn.sign() * (a.cross(b))).atan2(a.dot(b))
     }
 }

@@ -9,9 +9,7 @@ use super::passage::End;
 use super::route::Route;
 use super::steer::{Offset, Steer, StepFacts};
 use crate::geometry::Point;
-
-/// Relative to the distances at hand: what rounding may leave between two ways to compute a point.
-const NOISE: f64 = 1e-9;
+use crate::geometry::tolerance::ROUNDING;
 
 impl Route<'_> {
     fn axis_before(&self, step: usize) -> Axis {
@@ -87,7 +85,7 @@ impl Route<'_> {
         }
         let across = axis.across();
         let distance = (across.of(point) - across.of(corner)).abs();
-        if distance < radius * (1.0 - NOISE) {
+        if distance < radius * (1.0 - ROUNDING) {
             return Err(DriveError::TooNearInnerWall { junction, rule, what, point, distance, radius });
         }
         Ok(())
@@ -100,7 +98,7 @@ impl TurnMade {
         let (theta, arriving) = by_table(self, line.from);
         // far from the frame's origin, coordinates themselves are as coarse as this
         let coarse = 16.0 * f64::EPSILON * (self.corner.x.abs() + self.corner.y.abs());
-        if arriving.distance(line.to) > NOISE * (self.radius + line.length) + coarse {
+        if arriving.distance(line.to) > ROUNDING * (self.radius + line.length) + coarse {
             return Err(DriveError::NotOnCircle {
                 junction: self.facts.junction,
                 rule: self.steer.rule,

@@ -6,7 +6,7 @@ use super::circle::Circle;
 use super::drive_error::DriveError;
 use super::route::Route;
 use super::steer::{Steer, StepFacts, Turn};
-use super::taut::taut;
+use super::tangents::driven_lines;
 use crate::geometry::Point;
 
 /// A drive from start to goal.
@@ -134,7 +134,7 @@ impl Route<'_> {
             turns[step].arrive_by_table(&line)?;
         }
         circles.push(Circle::point(self.goal));
-        let taut = taut(&circles).map_err(|(one, other)| too_near(&turns, &circles, one, other))?;
-        assembled(self, robot, heading, turns, &taut)
+        let lines = driven_lines(&circles).map_err(|(one, other)| too_near(&turns, &circles, one, other))?;
+        assembled(self, robot, heading, turns, &lines)
     }
 }

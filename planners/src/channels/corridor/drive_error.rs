@@ -9,6 +9,7 @@ use super::passage::End;
 use super::steer::Turn;
 use super::walls::Wall;
 use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING;
 
 /// Why [`Route::drive`](super::Route::drive) gives no drive; `E` is what steering fails with.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -189,7 +190,7 @@ fn by(rule: Option<u32>) -> String {
 }
 
 fn off_circle(distance: f64, radius: f64) -> String {
-    if (distance - radius).abs() > 1e-9 * radius {
+    if (distance - radius).abs() > ROUNDING * radius {
         format!(
             "is off the guiding circle, {} m from the corner instead of {} m",
             Rounded(distance),

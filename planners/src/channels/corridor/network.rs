@@ -4,10 +4,8 @@ use thiserror::Error;
 
 use super::axis::Axis;
 use super::walls::{Wall, outline};
+use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Rect};
-
-/// Metres below which two coordinates are the same: what arithmetic on written coordinates leaves.
-const NOISE: f64 = 1e-9;
 
 /// Where two channels meet at right angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,7 +117,8 @@ impl Corridors {
         let mut junctions = Vec::new();
         for (first, one) in channels.iter().enumerate() {
             for (second, other) in channels.iter().enumerate().skip(first + 1) {
-                let Some(rect) = one.intersection(other).filter(|rect| rect.smaller_side() > NOISE) else {
+                let Some(rect) = one.intersection(other).filter(|rect| rect.smaller_side() > ROUNDING_M)
+                else {
                     continue;
                 };
                 let (first, second) = (first + 1, second + 1);
@@ -229,7 +228,7 @@ fn shares_side(one: &Rect, other: &Rect) -> bool {
 }
 
 fn within(inner: (f64, f64), outer: (f64, f64)) -> bool {
-    inner.0 >= outer.0 - NOISE && inner.1 <= outer.1 + NOISE
+    inner.0 >= outer.0 - ROUNDING_M && inner.1 <= outer.1 + ROUNDING_M
 }
 
 fn axes(channels: &[Rect], junctions: &[Junction]) -> Result<Vec<Axis>, CorridorError> {

@@ -4,10 +4,8 @@ use super::body::{Body, Robot, length};
 use super::circle::{Circle, Tangent};
 use super::turning::Turning;
 use super::walls::{Wall, apart};
+use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Rect};
-
-/// Metres by which the robot may reach into a wall and only touch it: what rounding makes of a gap of 0.
-const TOUCH: f64 = 1e-9;
 
 /// The same where distances are not exact.
 const TOUCH_TURNING: f64 = 1e-6;
@@ -46,7 +44,7 @@ impl<'a> Sweep<'a> {
             let (sin, cos) = to_heading.sin_cos();
             Point::new(cos, sin)
         };
-        let middle = Point::new(f64::midpoint(line.from.x, line.to.x), f64::midpoint(line.from.y, line.to.y));
+        let middle = line.from.midpoint(line.to);
         let swept = |body: Body| Body { half_length: body.half_length + line.length / 2.0, ..body };
         let area = swept(self.body).bounds(middle, along);
         let distance = |body, wall: &Wall| swept(body).distance_from(middle, along, wall);
@@ -75,7 +73,7 @@ impl<'a> Sweep<'a> {
                 continue;
             }
             least = least.min(distance(self.body, wall));
-            if least <= 0.0 && distance(self.body.grown(-TOUCH), wall) <= 0.0 {
+            if least <= 0.0 && distance(self.body.grown(-ROUNDING_M), wall) <= 0.0 {
                 return Err(*wall);
             }
         }
@@ -140,7 +138,7 @@ impl<'a> Orbit<'a> {
         };
         let corner = Angle::of(body.half_length, outer);
         for end in seen {
-            let beyond = end.x * end.x + end.y * end.y - outer * outer;
+            let beyond = end.dot(end) - outer * outer;
             if beyond <= 0.0 {
                 look(end, Angle { sin: 0.0, cos: 1.0 });
             } else {

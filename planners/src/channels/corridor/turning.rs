@@ -3,6 +3,7 @@
 use super::body::{Body, length};
 use super::walls::{Wall, apart};
 use crate::geometry::{Point, Rect};
+use crate::pose::{Frame, Pose};
 
 /// Metres by which a distance may be too small.
 const SLACK: f64 = 2e-7;
@@ -13,29 +14,7 @@ pub(super) struct Turning {
     to: Point,
     heading: f64,
     by: f64,
-    ends: [Pose; 2],
-}
-
-/// Where the middle of a body is, and the sine and cosine of its heading.
-#[derive(Clone, Copy)]
-struct Pose {
-    at: Point,
-    sin: f64,
-    cos: f64,
-}
-
-impl Pose {
-    /// A point as the body sees it.
-    fn seen(&self, point: Point) -> Point {
-        let (dx, dy) = (point.x - self.at.x, point.y - self.at.y);
-        Point::new(self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx)
-    }
-
-    /// Where a point of the body is.
-    fn place(&self, own: Point) -> Point {
-        let (x, y) = (self.cos * own.x - self.sin * own.y, self.sin * own.x + self.cos * own.y);
-        Point::new(self.at.x + x, self.at.y + y)
-    }
+    ends: [Frame; 2],
 }
 
 /// A moment, from 0 to 1, and where a point is then.
@@ -48,11 +27,8 @@ struct Moment {
 impl Turning {
     /// Turns by so many radians, to the left.
     pub fn new(from: Point, to: Point, heading: f64, by: f64) -> Self {
-        let pose = |at, heading: f64| {
-            let (sin, cos) = heading.sin_cos();
-            Pose { at, sin, cos }
-        };
-        Self { from, to, heading, by, ends: [pose(from, heading), pose(to, heading + by)] }
+        let frame = |at, heading: f64| Frame::from(&Pose { at, heading });
+        Self { from, to, heading, by, ends: [frame(from, heading), frame(to, heading + by)] }
     }
 
     /// All that a body can reach whose farthest point is `reach` from its middle.
@@ -100,21 +76,18 @@ impl Turning {
     /// end of the wall on its way past the body, as the body sees it.
     fn distance(&self, body: &Body, walls: &[Wall], known: f64) -> f64 {
         let Some((wall, before)) = walls.split_last() else { return known };
-        let middle = Point::new(f64::midpoint(wall.a.x, wall.b.x), f64::midpoint(wall.a.y, wall.b.y));
+        let middle = wall.a.midpoint(wall.b);
         let as_body = Body { half_length: wall.b.x - middle.x, half_width: wall.b.y - middle.y };
         let mut least = known;
         let (turned, travelled) = (self.by.abs(), length(self.to.x - self.from.x, self.to.y - self.from.y));
         for corner in body.corners() {
-            let way = |pose: &Pose| {
-                let at = pose.place(corner);
-                Point::new(at.x - middle.x, at.y - middle.y)
-            };
+            let way = |pose: &Frame| pose.place(corner) - middle;
             let bend = turned * turned * body.reach();
             least = self.least_of(&way, &|_, _| bend, &as_body, least);
         }
         let is_new = |end: &Point| !before.iter().any(|wall| wall.a == *end || wall.b == *end);
         for end in [wall.a, wall.b].into_iter().filter(is_new) {
-            let way = |pose: &Pose| pose.seen(end);
+            let way = |pose: &Frame| pose.seen(end);
             let bend = |a: Point, b: Point| {
                 turned * turned * length(a.x, a.y).max(length(b.x, b.y)) + 2.0 * turned * travelled
             };
@@ -123,11 +96,9 @@ impl Turning {
         least
     }
 
-    fn pose(&self, share: f64) -> Pose {
+    fn pose(&self, share: f64) -> Frame {
         let Self { from, to, heading, by, .. } = self;
-        let at = Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y));
-        let (sin, cos) = (heading + share * by).sin_cos();
-        Pose { at, sin, cos }
+        Frame::from(&Pose { at: from.lerp(*to, share), heading: heading + share * by })
     }
 
     /// The smaller of `known` and the least distance of a moving point to a body, at most [`SLACK`] too large. `known` is not
@@ -139,7 +110,7 @@ impl Turning {
     /// body fast enough at its start, or towards it at its end.
     fn least_of(
         &self,
-        way: &impl Fn(&Pose) -> Point,
+        way: &impl Fn(&Frame) -> Point,
         bend: &impl Fn(Point, Point) -> f64,
         body: &Body,
         known: f64,
@@ -153,7 +124,7 @@ impl Turning {
 
     fn between(
         &self,
-        way: &impl Fn(&Pose) -> Point,
+        way: &impl Fn(&Frame) -> Point,
         bend: &impl Fn(Point, Point) -> f64,
         body: &Body,
         (from, to): (Moment, Moment),
@@ -161,9 +132,9 @@ impl Turning {
     ) {
         let time = to.share - from.share;
         let curve = bend(from.at, to.at) * time * time / 2.0;
-        let (dx, dy) = (to.at.x - from.at.x, to.at.y - from.at.y);
+        let way_m = to.at - from.at;
         let (start, end) = (body.away(from.at), body.away(to.at));
-        if start.x * dx + start.y * dy >= curve || end.x * dx + end.y * dy <= -curve {
+        if start.dot(way_m) >= curve || end.dot(way_m) <= -curve {
             return;
         }
         let enough = *least - SLACK + curve / 4.0;

@@ -2,11 +2,10 @@
 
 use super::{Explorer, Guide, Learned};
 use crate::floor_plan::{Disc, FloorPlan};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::navigation::mission::{overlap, state_caption};
 use crate::navigation::{Building, Ending, Entry, Happening, Outfit};
 use crate::pose::Pose;
-use crate::segment::Segment;
 use crate::simulator::{Film, SimulationError, Simulator};
 
 /// A robot that is to learn a building.

@@ -8,11 +8,10 @@ use super::opening::{Guide, OpeningFacts};
 use super::pieces::pieces;
 use super::seen::Seen;
 use crate::body::Body;
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::{self, Estimate};
 use crate::navigation::{Building, Ending, Event, Navigator, Settings};
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
 
 /// The robot goes so far before it looks around and thinks again, metres.
 const STEP_M: f64 = 1.5;
@@ -93,7 +92,7 @@ impl<'b> Explorer<'b> {
     /// Points out the direction in which to go on: towards a point as seen from where the robot is. `None` takes it back.
     pub fn point_out(&mut self, towards: Option<Point>) {
         let at = self.navigator.estimate().pose.at;
-        self.towards = towards.map(|towards| (towards.y - at.y).atan2(towards.x - at.x));
+        self.towards = towards.map(|towards| (towards - at).angle());
         self.target = None;
     }
 
@@ -198,7 +197,7 @@ impl<'b> Explorer<'b> {
 
     fn facts(&self, ground: &Ground, rim: &Rim, look_out: LookOut) -> OpeningFacts {
         let at = self.navigator.estimate().pose.at;
-        let direction = (rim.middle.y - at.y).atan2(rim.middle.x - at.x);
+        let direction = (rim.middle - at).angle();
         OpeningFacts {
             width_m: rim.width_m,
             distance_m: look_out.distance_m,
@@ -221,10 +220,7 @@ impl<'b> Explorer<'b> {
             let far = from.distance(point);
             if far > left {
                 let share = left / far;
-                legs.push(Point::new(
-                    from.x + share * (point.x - from.x),
-                    from.y + share * (point.y - from.y),
-                ));
+                legs.push(from.lerp(point, share));
                 break;
             }
             legs.push(point);

@@ -2,17 +2,13 @@
 
 use fixedbitset::FixedBitSet;
 
-use crate::geometry::{Point, Rect};
-use crate::segment::Segment;
+use crate::geometry::{Point, Rect, Segment};
 
 /// The side of a cell, metres.
 pub(super) const GRAIN_M: f64 = 0.05;
 
 /// A cell by column and row; that of 0, 0 has its lower left corner in the origin.
 pub(super) type Cell = (i32, i32);
-
-/// The four cells that share a side with a cell.
-pub(super) const SIDES: [Cell; 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 /// The cell that holds a point.
 pub(super) fn cell_of(p: Point) -> Cell {

@@ -1,16 +1,15 @@
 //! What is known of the building at one moment: where there is free space, where it ends without a wall, and where the robot
 //! can go.
 
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, VecDeque};
+use std::collections::VecDeque;
 
-use super::grid::{Cell, Cells, GRAIN_M, SIDES, cell_of, middle_of, touched};
-use crate::geometry::Point;
+use super::grid::{Cell, Cells, GRAIN_M, cell_of, middle_of, touched};
+use crate::geometry::{Point, Segment};
 use crate::navigation::highway::{is_clear, straightened};
-use crate::segment::Segment;
+use crate::search::grid::{AROUND, BESIDE, LeastCosts, least_costs};
 
 /// Beside what was seen free so many cells count as free, too: beams end before a wall, and leave out what lies between them.
-const BESIDE: u32 = 3;
+const BEYOND: u32 = 3;
 
 /// The robot may stand so far from the next cell of the ground, metres.
 const NEAR_M: f64 = 0.5;
@@ -21,9 +20,9 @@ const FAR_M: f64 = 4.0;
 /// So many cells of an opening are looked at.
 const LOOKED_AT: usize = 12;
 
-/// Steps to the eight neighbours, and what they cost.
-const STEPS: [(i32, i32, u32); 8] =
-    [(1, 0, 10), (0, 1, 10), (-1, 0, 10), (0, -1, 10), (1, 1, 14), (-1, 1, 14), (-1, -1, 14), (1, -1, 14)];
+/// What steps over a side and over a corner of a cell cost.
+const STRAIGHT: u32 = 10;
+const DIAGONAL: u32 = 14;
 
 /// Cells where free space ends without a wall, side by side.
 #[derive(Clone, Debug)]
@@ -53,9 +52,8 @@ pub(super) struct Ground {
     pub free: Cells,
     /// Where the middle of the robot can be.
     standing: Cells,
-    /// What the way there costs, and the cell before.
-    cost: Vec<u32>,
-    before: Vec<usize>,
+    /// The ways from where the robot is.
+    ways: LeastCosts,
 }
 
 impl Ground {
@@ -71,7 +69,7 @@ impl Ground {
         }
         let free = spread(seen, &drawn, robot);
         let standing = standing(&free, &drawn, reach_m);
-        let mut ground = Self { walls: drawn, free, standing, cost: Vec::new(), before: Vec::new() };
+        let mut ground = Self { walls: drawn, free, standing, ways: LeastCosts::default() };
         ground.walk(robot);
         ground
     }
@@ -93,7 +91,7 @@ impl Ground {
             let mut next = 0;
             while let Some(&(column, row)) = cells.get(next) {
                 next += 1;
-                let around = STEPS.iter().map(|(dx, dy, _)| (column + dx, row + dy));
+                let around = AROUND.iter().map(|(dx, dy)| (column + dx, row + dy));
                 cells.extend(around.filter(|cell| left.has(*cell) && done.take(*cell)));
             }
             rims.push(Rim::new(&cells));
@@ -108,7 +106,7 @@ impl Ground {
         for _ in 0..2 {
             let mut next = Vec::new();
             for (column, row) in layer {
-                for (dx, dy, _) in STEPS {
+                for (dx, dy) in AROUND {
                     let cell = (column + dx, row + dy);
                     if !self.free.has(cell) && beyond.take(cell) && !self.walls.has(cell) {
                         next.push(cell);
@@ -142,17 +140,20 @@ impl Ground {
                 let cell = (column + dx, row + dy);
                 let Some(index) = self.free.window.index(cell) else { continue };
                 let left_m = middle_of(cell).distance(towards);
-                if self.cost[index] < u32::MAX && left_m <= far_m {
+                if let Some(cost) = self.ways.cost(index)
+                    && left_m <= far_m
+                {
                     // nearer to the opening is worth a way that is longer by as much
                     let left = (left_m / GRAIN_M * 20.0) as u64;
-                    found.push((u64::from(self.cost[index]) + left, index));
+                    found.push((u64::from(cost) + left, index));
                 }
             }
         }
         found.sort_unstable();
         let is_seen = |index: &usize| self.is_open(middle_of(self.free.window.cell(*index)), towards);
         let (_, index) = found.into_iter().find(|(_, index)| is_seen(index))?;
-        Some(LookOut { index, distance_m: f64::from(self.cost[index]) * GRAIN_M / 10.0 })
+        let cost = self.ways.cost(index)?;
+        Some(LookOut { index, distance_m: f64::from(cost) * GRAIN_M / f64::from(STRAIGHT) })
     }
 
     /// The way to a look-out from where the robot is, straight from point to point; without its begin.
@@ -160,13 +161,8 @@ impl Ground {
     /// # Arguments
     /// `reach_m` is what the robot's middle keeps from `walls` at the least.
     pub fn way(&self, robot: Point, to: LookOut, walls: &[Segment], reach_m: f64) -> Vec<Point> {
-        let steps = std::iter::successors(Some(to.index), |&index| {
-            let before = self.before[index];
-            (before != usize::MAX).then_some(before)
-        });
-        let mut points: Vec<Point> = steps.map(|index| middle_of(self.free.window.cell(index))).collect();
-        points.push(robot);
-        points.reverse();
+        let steps = self.ways.way(to.index).into_iter().map(|index| middle_of(self.free.window.cell(index)));
+        let points: Vec<Point> = std::iter::once(robot).chain(steps).collect();
         // Where the robot is may be no ground, and the way from there to it is short.
         let is_ground = |a: Point, b: Point| touched(a, b).all(|cell| a == robot || self.standing.has(cell));
         let is_open = |a: Point, b: Point| a != robot || self.is_open(a, b);
@@ -183,33 +179,24 @@ impl Ground {
 
     fn is_rim(&self, (column, row): Cell) -> bool {
         let is_open = |cell: Cell| !self.free.has(cell) && !self.walls.has(cell);
-        !self.walls.has((column, row)) && SIDES.iter().any(|(dx, dy)| is_open((column + dx, row + dy)))
+        !self.walls.has((column, row)) && BESIDE.iter().any(|(dx, dy)| is_open((column + dx, row + dy)))
     }
 
     /// Finds the shortest ways from where the robot is (Dijkstra).
     fn walk(&mut self, robot: Point) {
         let window = self.free.window;
-        (self.cost, self.before) = (vec![u32::MAX; window.len()], vec![usize::MAX; window.len()]);
-        let Some(first) = nearest(robot, |cell| self.standing.has(cell)).and_then(|cell| window.index(cell))
-        else {
-            return;
-        };
-        self.cost[first] = 0;
-        let mut open = BinaryHeap::from([Reverse((0, first))]);
-        while let Some(Reverse((so_far, index))) = open.pop() {
-            if so_far > self.cost[index] {
-                continue;
-            }
+        let first = nearest(robot, |cell| self.standing.has(cell)).and_then(|cell| window.index(cell));
+        let standing = &self.standing;
+        let next = |index: usize| {
             let (column, row) = window.cell(index);
-            for (dx, dy, step) in STEPS {
+            AROUND.iter().filter_map(move |(dx, dy)| {
                 let cell = (column + dx, row + dy);
-                let Some(next) = window.index(cell).filter(|_| self.standing.has(cell)) else { continue };
-                if so_far + step < self.cost[next] {
-                    (self.cost[next], self.before[next]) = (so_far + step, index);
-                    open.push(Reverse((so_far + step, next)));
-                }
-            }
-        }
+                let cost = if *dx == 0 || *dy == 0 { STRAIGHT } else { DIAGONAL };
+                window.index(cell).filter(|_| standing.has(cell)).map(|next| (next, cost))
+            })
+        };
+        let ways = first.map(|first| least_costs(window.len(), first, None, |_| 0, next));
+        self.ways = ways.unwrap_or_default();
     }
 }
 
@@ -255,11 +242,11 @@ fn spread(seen: &Cells, walls: &Cells, from: Point) -> Cells {
     while let Some((column, row)) = open.pop_front() {
         let Some(so_far) = window.index((column, row)).map(|index| gap[index]) else { continue };
         free.take((column, row));
-        for (dx, dy) in SIDES {
+        for (dx, dy) in BESIDE {
             let cell = (column + dx, row + dy);
             let Some(index) = window.index(cell).filter(|_| !walls.has(cell)) else { continue };
             let next = if seen.has(cell) { 0 } else { so_far + 1 };
-            if next <= BESIDE && next < gap[index] {
+            if next <= BEYOND && next < gap[index] {
                 gap[index] = next;
                 open.push_back(cell);
             }
@@ -280,7 +267,7 @@ fn standing(free: &Cells, walls: &Cells, reach_m: f64) -> Cells {
     let is_known = |cell: Cell| free.has(cell) && !walls.has(cell);
     let (mut edges, mut taken) = (Cells::none(window), Cells::none(window));
     for (column, row) in free.iter() {
-        let around = STEPS.iter().map(|(dx, dy, _)| (column + dx, row + dy));
+        let around = AROUND.iter().map(|(dx, dy)| (column + dx, row + dy));
         for edge in around.filter(|edge| !is_known(*edge)) {
             if edges.take(edge) {
                 for (dx, dy) in &disc {

@@ -1,8 +1,8 @@
 //! Walls as they were seen, made to meet: a scan leaves out the corners between them.
 
 use super::grid::GRAIN_M;
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Point, Segment};
 
 /// An end is lengthened by up to so much until it meets another wall, metres.
 const LONGER_M: f64 = 0.3;
@@ -14,9 +14,6 @@ const CLOSED_M: f64 = 3.0 * GRAIN_M;
 /// Walls that meet at a smaller angle have no corner (its sine).
 const CORNER: f64 = 0.3;
 
-/// Ends nearer than this are one, metres.
-const SNAP_M: f64 = 1e-6;
-
 /// The same walls with their ends lengthened to where they meet others, and with links across what gaps are left.
 pub(super) fn joined(walls: &[Segment]) -> Vec<Segment> {
     let others = |index: usize| walls.iter().enumerate().filter(move |(other, _)| *other != index);
@@ -27,7 +24,7 @@ pub(super) fn joined(walls: &[Segment]) -> Vec<Segment> {
             let out = Point::new(sign * along.x, sign * along.y);
             let corners = others(index).filter_map(|(_, other)| corner(end, out, other));
             let nearest = corners.min_by(f64::total_cmp).unwrap_or(0.0);
-            Point::new(end.x + nearest * out.x, end.y + nearest * out.y)
+            end + out * nearest
         };
         joined[index] = Segment::new(longer(wall.a, -1.0), longer(wall.b, 1.0));
     }
@@ -39,13 +36,13 @@ pub(super) fn joined(walls: &[Segment]) -> Vec<Segment> {
 /// By how much an end has to be lengthened to meet another wall, or where that will be when it is lengthened, too.
 fn corner(end: Point, out: Point, other: &Segment) -> Option<f64> {
     let along = other.direction();
-    let sine = out.x * along.y - out.y * along.x;
+    let sine = out.cross(along);
     if sine.abs() < CORNER {
         return None;
     }
-    let to = Point::new(other.a.x - end.x, other.a.y - end.y);
-    let longer = (to.x * along.y - to.y * along.x) / sine;
-    let place = (to.x * out.y - to.y * out.x) / sine;
+    let to = other.a - end;
+    let longer = (to.cross(along)) / sine;
+    let place = (to.cross(out)) / sine;
     let is_on = (-LONGER_M..=other.length() + LONGER_M).contains(&place);
     (is_on && (0.0..=LONGER_M).contains(&longer)).then_some(longer)
 }

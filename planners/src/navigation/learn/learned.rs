@@ -3,9 +3,8 @@
 use super::grid::{Cell, Cells, GRAIN_M, middle_of};
 use super::ground::Ground;
 use crate::floor_plan::{Drawn, FloorPlan};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::read::MapErrors;
-use crate::segment::Segment;
 use crate::world::Place;
 
 /// A wall belongs to the model where there is free space so near to it, in cells.

@@ -2,8 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::Point;
-use crate::segment::Segment;
+use crate::geometry::{Point, Segment};
 
 /// Ends lie on a lattice of this grain, so that what nearly meets does meet, metres.
 const LATTICE_M: f64 = 0.001;
@@ -38,7 +37,7 @@ pub(super) fn pieces(walls: &[Segment]) -> Vec<Segment> {
 fn parts(walls: &[Segment], index: usize) -> Vec<Piece> {
     let wall = &walls[index];
     let along = wall.direction();
-    let far = |p: Point| (p.x - wall.a.x) * along.x + (p.y - wall.a.y) * along.y;
+    let far = |p: Point| (p - wall.a).dot(along);
     let mut stops = vec![wall.a, wall.b];
     for (number, other) in walls.iter().enumerate().filter(|(number, _)| *number != index) {
         stops.extend([other.a, other.b].into_iter().filter(|end| wall.distance(*end) <= REACH_M));
@@ -116,14 +115,14 @@ fn crossing(one: &Piece, other: &Piece) -> Option<Knot> {
 fn across(wall: &Segment, other: &Segment) -> Option<Point> {
     let along = wall.direction();
     let (far, _) = other.hit(wall.a, along).filter(|(far, _)| *far < wall.length())?;
-    let at = Point::new(wall.a.x + far * along.x, wall.a.y + far * along.y);
+    let at = wall.a + along * far;
     (other.distance(at) < LATTICE_M).then_some(at)
 }
 
 /// Whether a point lies on a wall, up to the grain, and beside none of its ends.
 fn is_on(p: Point, wall: &Segment) -> bool {
     let (along, length) = (wall.direction(), wall.length());
-    let place = (p.x - wall.a.x) * along.x + (p.y - wall.a.y) * along.y;
+    let place = (p - wall.a).dot(along);
     (0.0..length).contains(&place) && wall.distance(p) <= TOUCH * LATTICE_M
 }
 

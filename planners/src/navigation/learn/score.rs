@@ -76,7 +76,7 @@ fn spread(walls: &[[Point; 2]], from: &[[Point; 2]]) -> [f64; 3] {
         let count = (a.distance(b) / STEP_M).ceil().max(1.0);
         for step in 0..=count as u32 {
             let share = f64::from(step) / count;
-            let p = Point::new(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y));
+            let p = a.lerp(b, share);
             far.push(wall_distance(&[p, p], from));
         }
     }

@@ -2,9 +2,8 @@
 
 use super::grid::{Cell, Cells, GRAIN_M, Window, cell_of};
 use crate::body::Reading;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Segment};
 use crate::pose::{Pose, wrapped};
-use crate::segment::Segment;
 
 /// Readings farther apart than this say nothing of what lies between them, radians and metres.
 const MOST_TURN: f64 = 0.13;
@@ -117,7 +116,7 @@ impl Seen {
         let mut last: Option<Cell> = None;
         for step in 0..(range_m / (0.7 * GRAIN_M)).max(0.0) as u32 {
             let far = f64::from(step) * 0.7 * GRAIN_M;
-            let cell = cell_of(Point::new(from.x + far * towards.x, from.y + far * towards.y));
+            let cell = cell_of(from + towards * far);
             if last != Some(cell) {
                 self.free.take(cell);
                 last = Some(cell);

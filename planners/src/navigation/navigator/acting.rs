@@ -2,8 +2,8 @@
 
 use super::{ASIDE, Course, Line, Navigator, Spot};
 use crate::body::{Body, Command};
-use crate::geometry::Point;
-use crate::navigation::detour::{Detours, length};
+use crate::geometry::{Point, path_length};
+use crate::navigation::detour::Detours;
 use crate::navigation::event::{Ending, Happening};
 use crate::navigation::judge::{Action, Judge, State, StateDecision, StateFacts};
 
@@ -113,7 +113,7 @@ impl Navigator<'_> {
         for &point in points.iter().skip(1).rev() {
             self.legs.push_front(point);
         }
-        let other_m = other.map(|points| length(&points));
-        self.tell(Happening::Detour { length_m: length(&points), points, other_m });
+        let other_m = other.map(|points| path_length(&points));
+        self.tell(Happening::Detour { length_m: path_length(&points), points, other_m });
     }
 }

@@ -1,7 +1,7 @@
 //! Detours, and ways over the whole building.
 
 use super::{Navigator, Spot};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::LocalModel;
 use crate::navigation::cuts::Blocked;
 use crate::navigation::detour::{Detours, Ground};
@@ -10,7 +10,6 @@ use crate::navigation::highway::{free_ahead, is_clear};
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::Memory;
 use crate::navigation::route::{Route, off_network, over_network};
-use crate::segment::Segment;
 
 impl Navigator<'_> {
     pub(super) fn look_for_detours(&mut self) {
@@ -64,7 +63,7 @@ impl Navigator<'_> {
         if let Some(&target) = self.legs.front() {
             let free = free_ahead(at, target, [self.radius_m, reach], &self.barriers);
             let share = free.metres / at.distance(target).max(1e-9);
-            let stop = Point::new(at.x + share * (target.x - at.x), at.y + share * (target.y - at.y));
+            let stop = at.lerp(target, share);
             let met = free.by.map(|by| self.barriers[by]);
             let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
             let (doorway, region) = self.blocked.note(&self.building.network, at, reach);

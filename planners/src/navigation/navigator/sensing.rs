@@ -4,11 +4,10 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{Navigator, TRACK_M, TRACK_POINTS};
 use crate::body::{Body, Contact};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::navigation::event::Happening;
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::moving;
-use crate::segment::Segment;
 
 impl Navigator<'_> {
     pub(super) fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) {

@@ -1,8 +1,7 @@
 //! What the judge is told.
 
 use super::{ECHOES, FALLING_M, Navigator};
-use crate::geometry::Point;
-use crate::navigation::detour::length;
+use crate::geometry::{Point, path_length};
 use crate::navigation::highway::free_ahead;
 use crate::navigation::judge::StateFacts;
 
@@ -12,7 +11,7 @@ impl Navigator<'_> {
         let target = self.legs.front().copied();
         let distance_m = target.map_or(0.0, |target| pose.at.distance(target));
         let (free_m, is_obstacle_moving) = self.free_m(target);
-        let length_of = |path: &Option<Vec<Point>>| path.as_ref().map(|points| length(points));
+        let length_of = |path: &Option<Vec<Point>>| path.as_ref().map(|points| path_length(points));
         let detours = self.detours.as_ref();
         StateFacts {
             mode: self.mode,
@@ -62,7 +61,7 @@ impl Navigator<'_> {
             let from = sensed.odometry.to(&reading.odometry);
             let towards = from.direction(reading.bearing);
             let range = reading.range_m?;
-            let at = Point::new(from.at.x + range * towards.x, from.at.y + range * towards.y);
+            let at = from.at + towards * range;
             let (sin, cos) = heading.sin_cos();
             let (ahead, aside) = (at.x * cos + at.y * sin, at.y * cos - at.x * sin);
             let free = ahead - (half.powi(2) - aside.powi(2)).max(0.0).sqrt();

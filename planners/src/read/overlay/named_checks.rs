@@ -26,8 +26,7 @@ pub(super) fn add_area(world: &mut World, text: &Text, area: &Located<Area>, fou
             let within = shape.to_geo().intersection(&Shape::Rect(world.bounds).to_geo());
             // a polygon may lie outside though the rectangle about it does not
             let is_in = within.unsigned_area() > 0.0;
-            let nowhere = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-            let rect = if is_in { enclosing } else { nowhere };
+            let rect = if is_in { enclosing } else { Rect::around([]) };
             if inside(world.bounds, text, "area", rect, area, found).is_none() {
                 return;
             }
@@ -85,7 +84,5 @@ pub(super) fn one_kind_each(world: &World, text: &Text, given: &[Located<Given>]
 
 /// Whether a segment lies in something solid, looked at in 200 places.
 fn is_walled(world: &World, from: Point, to: Point) -> bool {
-    (0..200).map(|step| (f64::from(step) + 0.5) / 200.0).all(|share| {
-        world.is_solid(Point::new(from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)))
-    })
+    (0..200).map(|step| (f64::from(step) + 0.5) / 200.0).all(|share| world.is_solid(from.lerp(to, share)))
 }

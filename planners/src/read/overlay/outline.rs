@@ -4,7 +4,8 @@ use geo::{Area, Coord, LineString, Polygon, Validation};
 
 use super::super::diagnostic::{Code, Problem};
 use super::super::fields::{Fields, Located};
-use crate::geometry::{Point, Rect};
+use crate::geometry::polygon::self_crossing;
+use crate::geometry::{Point, Rect, orient};
 use crate::world::Shape;
 
 /// What is smaller is a line that rounding made wide; square metres.
@@ -101,39 +102,8 @@ fn edge(corners: &[Point], from: usize) -> String {
     format!("from ({}, {}) to ({}, {})", a.x, a.y, b.x, b.y)
 }
 
-/// The first two edges, by the corners where they begin, that share a point and are no neighbours; or neighbours of
-/// which one leads back along the other, where that is not the whole outline.
+/// Edges by the corners where they begin; none of an outline that is one line.
 fn crossing_edges(corners: &[Point]) -> Option<(usize, usize)> {
-    let count = corners.len();
-    let ends = |i: usize| (corners[i], corners[(i + 1) % count]);
-    let all_on_a_line = corners.windows(3).all(|w| turn(w[0], w[1], w[2]) == 0.0);
-    if all_on_a_line {
-        return None;
-    }
-    (0..count).find_map(|i| {
-        let meets = |&j: &usize| {
-            let ((a, b), (c, d)) = (ends(i), ends(j));
-            if j == i + 1 || (i == 0 && j == count - 1) {
-                let (tip, back, on) = if j == i + 1 { (b, a, d) } else { (a, b, c) };
-                let is_back = (back.x - tip.x) * (on.x - tip.x) + (back.y - tip.y) * (on.y - tip.y) > 0.0;
-                return turn(back, tip, on) == 0.0 && is_back;
-            }
-            do_meet((a, b), (c, d))
-        };
-        (i + 1..count).find(meets).map(|j| (i, j))
-    })
-}
-
-/// Positive where the way from a over b to c turns left, negative where it turns right, 0 where it is straight.
-fn turn(a: Point, b: Point, c: Point) -> f64 {
-    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
-}
-
-fn do_meet((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    let apart = |p: f64, q: f64| p * q > 0.0;
-    let boxes = a.x.min(b.x) <= c.x.max(d.x)
-        && c.x.min(d.x) <= a.x.max(b.x)
-        && a.y.min(b.y) <= c.y.max(d.y)
-        && c.y.min(d.y) <= a.y.max(b.y);
-    boxes && !apart(turn(a, b, c), turn(a, b, d)) && !apart(turn(c, d, a), turn(c, d, b))
+    let is_line = corners.windows(3).all(|w| orient(w[0], w[1], w[2]) == 0.0);
+    if is_line { None } else { self_crossing(corners) }
 }

@@ -23,7 +23,7 @@ impl Touched {
 }
 
 /// A way about circles: one line more than circles that it touches.
-pub(super) struct Taut {
+pub(super) struct DrivenLines {
     pub touched: Vec<Touched>,
     pub lines: Vec<Tangent>,
 }
@@ -32,7 +32,7 @@ pub(super) struct Taut {
 ///
 /// # Returns
 /// The way; where two circles are too near each other for it, which two.
-pub(super) fn taut(circles: &[Circle]) -> Result<Taut, (usize, usize)> {
+pub(super) fn driven_lines(circles: &[Circle]) -> Result<DrivenLines, (usize, usize)> {
     let numbered = circles.iter().enumerate();
     let mut touched: Vec<Touched> =
         numbered.map(|(index, circle)| Touched { index, circle: *circle, angle: 0.0 }).collect();
@@ -56,5 +56,5 @@ pub(super) fn taut(circles: &[Circle]) -> Result<Taut, (usize, usize)> {
     }
     touched.pop();
     touched.drain(..1.min(touched.len()));
-    Ok(Taut { touched, lines })
+    Ok(DrivenLines { touched, lines })
 }

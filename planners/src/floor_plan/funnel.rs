@@ -1,13 +1,11 @@
 //! The shortest way through gates, as a string pulled tight (the funnel of Chazelle 1982, Lee and Preparata 1984).
 
 use super::mesh::Gate;
-use crate::geometry::Point;
-
-/// Points at which the way turns by so little stand on a straight line, metres aside.
-const ASIDE_M: f64 = 1e-9;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, orient};
 
 /// The points at which the shortest way through the gates bends, with its ends.
-pub(super) fn pull(from: Point, gates: &[Gate], to: Point) -> Vec<Point> {
+pub(super) fn funnel(from: Point, gates: &[Gate], to: Point) -> Vec<Point> {
     let all: Vec<Gate> = gates.iter().copied().chain([[to, to]]).collect();
     let mut way = vec![from];
     let (mut apex, mut left, mut right) = (from, from, from);
@@ -15,8 +13,8 @@ pub(super) fn pull(from: Point, gates: &[Gate], to: Point) -> Vec<Point> {
     let mut at = 0;
     while at < all.len() {
         let [new_left, new_right] = all[at];
-        if turn(apex, right, new_right) >= 0.0 {
-            if apex == right || turn(apex, left, new_right) < 0.0 {
+        if orient(apex, right, new_right) >= 0.0 {
+            if apex == right || orient(apex, left, new_right) < 0.0 {
                 (right, right_at) = (new_right, at);
             } else {
                 at = restart(&mut way, left, left_at);
@@ -24,8 +22,8 @@ pub(super) fn pull(from: Point, gates: &[Gate], to: Point) -> Vec<Point> {
                 continue;
             }
         }
-        if turn(apex, left, new_left) <= 0.0 {
-            if apex == left || turn(apex, right, new_left) > 0.0 {
+        if orient(apex, left, new_left) <= 0.0 {
+            if apex == left || orient(apex, right, new_left) > 0.0 {
                 (left, left_at) = (new_left, at);
             } else {
                 at = restart(&mut way, right, right_at);
@@ -44,32 +42,21 @@ fn restart(way: &mut Vec<Point>, bend: Point, gate: usize) -> usize {
     gate + 1
 }
 
-/// Positive where c lies left of the way from a to b.
-fn turn(a: Point, b: Point, c: Point) -> f64 {
-    (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
-}
-
 /// Without points that stand twice or on the straight line between their neighbours.
 pub(super) fn straightened(way: Vec<Point>) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(way.len());
     for point in way {
-        if kept.last().is_some_and(|last| last.distance(point) <= ASIDE_M) {
+        if kept.last().is_some_and(|last| last.distance(point) <= ROUNDING_M) {
             continue;
         }
         while let [.., before, last] = kept[..]
-            && last.distance(last.nearest_on(before, point)) <= ASIDE_M
+            && last.distance(last.nearest_on(before, point)) <= ROUNDING_M
         {
             kept.pop();
         }
         kept.push(point);
     }
     kept
-}
-
-/// The length of a way, metres.
-pub(super) fn length(way: &[Point]) -> f64 {
-    // A sum of nothing is -0.0.
-    way.windows(2).map(|leg| leg[0].distance(leg[1])).fold(0.0, |sum, leg| sum + leg)
 }
 
 #[cfg(test)]
@@ -83,13 +70,13 @@ mod tests {
     #[test]
     fn a_way_through_wide_gates_is_straight() {
         let gates = [[p(1.0, 1.0), p(1.0, -1.0)], [p(2.0, 1.0), p(2.0, -1.0)]];
-        assert_eq!(pull(p(0.0, 0.0), &gates, p(3.0, 0.5)), [p(0.0, 0.0), p(3.0, 0.5)]);
+        assert_eq!(funnel(p(0.0, 0.0), &gates, p(3.0, 0.5)), [p(0.0, 0.0), p(3.0, 0.5)]);
     }
 
     #[test]
     fn a_way_bends_where_gates_are_aside() {
         let gates = [[p(1.0, 3.0), p(1.0, 1.0)], [p(2.0, -1.0), p(2.0, -3.0)], [p(3.0, 3.0), p(3.0, 1.0)]];
         let bends = [p(0.0, 0.0), p(1.0, 1.0), p(2.0, -1.0), p(3.0, 1.0), p(4.0, 0.0)];
-        assert_eq!(pull(p(0.0, 0.0), &gates, p(4.0, 0.0)), bends);
+        assert_eq!(funnel(p(0.0, 0.0), &gates, p(4.0, 0.0)), bends);
     }
 }

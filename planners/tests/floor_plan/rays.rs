@@ -1,7 +1,6 @@
 //! A ray meets the nearest barrier, as if each of them were tried.
 
-use adit_planners::floor_plan::Visibility;
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, RayGrid, Segment};
 use proptest::prelude::*;
 
 use super::regions::golden;
@@ -26,14 +25,14 @@ proptest! {
     ) {
         let barriers: Vec<[Point; 2]> =
             walls.iter().map(|&(x, y, dx, dy)| [Point::new(x, y), Point::new(x + dx, y + dy)]).collect();
-        let visibility = Visibility::new(barriers.clone());
+        let grid = RayGrid::new(barriers.iter().copied().map(Segment::from).collect());
         for (x, y, angle) in rays {
             let (from, heading) = (Point::new(x, y), Point::new(f64::cos(angle), f64::sin(angle)));
             let expected = tried(&barriers, from, heading);
-            match visibility.cast(from, heading, 1e6) {
+            match grid.cast(from, heading, 1e6) {
                 Some(echo) => {
                     prop_assert!((echo.distance - expected).abs() < 1e-6, "{} {expected}", echo.distance);
-                    let one = [barriers[echo.barrier]];
+                    let one = [barriers[echo.segment]];
                     prop_assert!((tried(&one, from, heading) - expected).abs() < 1e-6);
                 }
                 None => prop_assert!(expected.is_infinite(), "{expected}"),
@@ -45,10 +44,10 @@ proptest! {
 #[test]
 fn a_ray_along_an_axis_meets_the_wall_across_and_none_beyond_its_range() {
     let plan = golden("house-7.json");
-    let visibility = Visibility::new(plan.barriers());
-    let east = |most| visibility.cast(Point::new(1.0, 3.0), Point::new(2.0, 0.0), most);
+    let grid = RayGrid::new(plan.barriers().into_iter().map(Segment::from).collect());
+    let east = |most| grid.cast(Point::new(1.0, 3.0), Point::new(1.0, 0.0), most);
     assert!((east(8.0).unwrap().distance - 4.0).abs() < 1e-12);
     assert_eq!(east(3.9), None);
-    assert_eq!(visibility.cast(Point::new(1.0, 3.0), Point::new(0.0, 0.0), 8.0), None);
-    assert_eq!(visibility.cast(Point::new(-5.0, 3.0), Point::new(-1.0, 0.0), 8.0), None);
+    assert_eq!(grid.cast(Point::new(1.0, 3.0), Point::new(0.0, 0.0), 8.0), None);
+    assert_eq!(grid.cast(Point::new(-5.0, 3.0), Point::new(-1.0, 0.0), 8.0), None);
 }
