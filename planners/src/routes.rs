@@ -2,13 +2,15 @@
 //!
 //! Where all hardness lies on the doors (the paper's Table 6), the search is Dijkstra's ([`Tree`]), or goes up and down a
 //! hierarchy of rooms where one was [prepared](RouteGraph::prepare);
-//! [petgraph](https://docs.rs/petgraph) holds the graph and is the reference that tests compare with. Its `dijkstra`
-//! returns no predecessors and cannot tell two doors between the same rooms apart, so the loop is our own.
+//! [petgraph](https://docs.rs/petgraph), which the graph can be [handed to](RouteGraph::petgraph), is the reference that
+//! tests compare with. Its `dijkstra` returns no predecessors, cannot tell two doors between the same rooms apart and is
+//! slower (`cargo bench -p adit-planners --bench routes` has both), so the loop is our own.
 //!
 //! Where rooms weigh their metres, a [`Way`] is measured as it is driven: from point to point, straight where nothing
 //! is in the way. The search is any-angle over the mesh of rooms, and what it finds is pulled tight.
 
 mod blocked;
+mod by_hierarchy;
 mod closed;
 mod compact;
 mod cone;
@@ -26,6 +28,7 @@ use std::sync::OnceLock;
 
 use petgraph::graph::{DiGraph, NodeIndex};
 
+use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, Rect};
 use closed::Cut;
 use gates::Gate;
@@ -143,8 +146,6 @@ pub struct RouteGraph {
     doors: Vec<RouteDoor>,
     /// How many rooms weigh their metres.
     measured: usize,
-    /// The rooms joined by the doors that can be passed, when first asked for.
-    graph: OnceLock<DiGraph<(), u32>>,
     hierarchy: Option<Hierarchy>,
     mesh: Mesh,
     /// For each end of a door whether a way may bend there.
@@ -168,12 +169,10 @@ impl RouteGraph {
         let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
         let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
         let measured = rooms.iter().filter(|room| room.is_measured()).count();
-        let graph = OnceLock::new();
         let mut all = Self {
             rooms,
             doors,
             measured,
-            graph,
             hierarchy: None,
             mesh,
             bends,
@@ -195,7 +194,10 @@ impl RouteGraph {
     pub fn prepare(&mut self) {
         if self.hierarchy.is_none() && self.is_on_doors() {
             let passing = (0..self.doors.len()).map(|door| self.passing_both_ways(door)).collect();
-            self.hierarchy = Some(Hierarchy::new(&self.rooms, &self.doors, passing));
+            let at = self.rooms.iter().map(|room| room.rect.centre()).collect();
+            let door = |door: &RouteDoor| hierarchy::Door { rooms: [door.room1, door.room2], key: door.door };
+            let doors: Vec<_> = self.doors.iter().map(door).collect();
+            self.hierarchy = Some(Hierarchy::new(at, &doors, passing));
         }
     }
 
@@ -203,22 +205,6 @@ impl RouteGraph {
     fn passing_both_ways(&self, door: usize) -> [f64; 2] {
         let weight = self.passage(door).unwrap_or(f64::INFINITY);
         [weight, if self.doors[door].one_way { f64::INFINITY } else { weight }]
-    }
-
-    /// Joins the rooms by the doors that can be passed.
-    fn joined(&self) -> DiGraph<(), u32> {
-        let mut graph = DiGraph::with_capacity(self.rooms.len(), self.doors.len() * 2);
-        for _ in &self.rooms {
-            graph.add_node(());
-        }
-        for (index, door) in self.doors.iter().enumerate().filter(|(index, _)| self.is_open(*index)) {
-            let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
-            graph.add_edge(a, b, index as u32);
-            if !door.one_way {
-                graph.add_edge(b, a, index as u32);
-            }
-        }
-        graph
     }
 
     /// Weighs rooms and doors anew, by index; what is not named stays as it is.
@@ -257,13 +243,8 @@ impl RouteGraph {
         }
         let changed: Vec<usize> =
             touched.iter().copied().filter(|&door| self.passing[door] != self.passing_of(door)).collect();
-        let is_shut = |passing: Passing| passing == Passing::Shut;
         for &door in &changed {
-            let now = self.passing_of(door);
-            if is_shut(now) != is_shut(self.passing[door]) {
-                self.graph.take();
-            }
-            self.passing[door] = now;
+            self.passing[door] = self.passing_of(door);
         }
         self.find_bends(&changed);
         self.reweigh_hierarchy(&touched);
@@ -347,7 +328,7 @@ impl RouteGraph {
         let ways = outcome.goals[goal].iter().map(|found| Way::of(self, &outcome.nodes, start, found));
         ways.reduce(|best, way| {
             // of ways that cost the same to a rounding, the one that passes fewer doors
-            let rounding = 1e-9 * best.cost;
+            let rounding = ROUNDING * best.cost;
             let is_better = way.cost < best.cost - rounding
                 || way.cost <= best.cost + rounding && way.legs.len() < best.legs.len();
             if is_better { way } else { best }
@@ -407,8 +388,20 @@ impl RouteGraph {
         &self.doors
     }
 
-    /// petgraph's graph of the passable doors; edge weights are indices into [`RouteGraph::doors`].
-    pub fn petgraph(&self) -> &DiGraph<(), u32> {
-        self.graph.get_or_init(|| self.joined())
+    /// The passable doors as petgraph has a graph, for any of its algorithms; edge weights are indices into
+    /// [`RouteGraph::doors`].
+    pub fn petgraph(&self) -> DiGraph<(), u32> {
+        let mut graph = DiGraph::with_capacity(self.rooms.len(), self.doors.len() * 2);
+        for _ in &self.rooms {
+            graph.add_node(());
+        }
+        for (index, door) in self.doors.iter().enumerate().filter(|(index, _)| self.is_open(*index)) {
+            let (a, b) = (NodeIndex::new(door.room1), NodeIndex::new(door.room2));
+            graph.add_edge(a, b, index as u32);
+            if !door.one_way {
+                graph.add_edge(b, a, index as u32);
+            }
+        }
+        graph
     }
 }

@@ -118,7 +118,7 @@ fn check(graph: &RouteGraph) -> Result<(), TestCaseError> {
     for from in (0..ROOMS).step_by(5) {
         let start = Start { rooms: vec![from], at: Point::default() };
         let tree = graph.tree(&start);
-        let reference = dijkstra(graph.petgraph(), NodeIndex::new(from), None, |edge| {
+        let reference = dijkstra(&graph.petgraph(), NodeIndex::new(from), None, |edge| {
             graph.doors()[*edge.weight() as usize].hardness.unwrap()
         });
         for to in 0..ROOMS {

@@ -47,7 +47,7 @@ proptest! {
     fn the_cost_of_every_room_is_the_least(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors);
         let tree = graph.tree(&start(0));
-        let reference = dijkstra(graph.petgraph(), NodeIndex::new(0), None, |edge| {
+        let reference = dijkstra(&graph.petgraph(), NodeIndex::new(0), None, |edge| {
             graph.doors()[*edge.weight() as usize].hardness.unwrap()
         });
         let weighted: DiGraph<(), f64> =

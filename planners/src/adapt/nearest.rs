@@ -1,9 +1,10 @@
 //! Configurations in order of their distance from one: a k-d tree (Bentley 1975), searched best first.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::robot::{Configuration, distance};
+use crate::search::ByValue;
 
 /// Numbered configurations, found by where they are.
 #[derive(Clone, Debug, Default)]
@@ -38,7 +39,7 @@ impl Nearest {
     pub fn from<'n>(&'n self, at: &'n [f64]) -> InOrder<'n> {
         let mut heap = BinaryHeap::new();
         if !self.nodes.is_empty() {
-            heap.push(Entry { bound: 0.0, what: What::Subtree(0) });
+            heap.push(Reverse((ByValue(0.0), What::Subtree(0))));
         }
         InOrder { nearest: self, at, heap }
     }
@@ -57,57 +58,33 @@ impl Iterator for InOrder<'_> {
 
     fn next(&mut self) -> Option<Self::Item> {
         loop {
-            let Entry { bound, what } = self.heap.pop()?;
+            let Reverse((ByValue(bound), what)) = self.heap.pop()?;
             let index = match what {
                 What::Found(number) => return Some((number, bound)),
                 What::Subtree(index) => index,
             };
             let node = &self.nearest.nodes[index];
-            self.heap.push(Entry { bound: distance(&node.at, self.at), what: What::Found(node.number) });
+            self.heap.push(Reverse((ByValue(distance(&node.at, self.at)), What::Found(node.number))));
             let offset = self.at[node.axis] - node.at[node.axis];
             for (side, child) in node.children.iter().enumerate() {
                 if let &Some(child) = child {
                     let is_near = (offset >= 0.0) == (side == 1);
                     let bound = if is_near { bound } else { bound.max(offset.abs()) };
-                    self.heap.push(Entry { bound, what: What::Subtree(child) });
+                    self.heap.push(Reverse((ByValue(bound), What::Subtree(child))));
                 }
             }
         }
     }
 }
 
-#[derive(Debug)]
-struct Entry {
-    bound: f64,
-    what: What,
-}
+/// The nearest first, and subtrees before what is found, since they may hold as near ones.
+type Entry = Reverse<(ByValue, What)>;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum What {
     Subtree(usize),
     Found(u32),
 }
-
-impl Ord for Entry {
-    /// The greatest is what a heap gives first: the nearest, and subtrees before what is found, since they may hold as near ones.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then(other.what.cmp(&self.what))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
 
 #[cfg(test)]
 mod tests {

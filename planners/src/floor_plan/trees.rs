@@ -1,6 +1,6 @@
 //! The least weights from a start and to a goal over all adits, and the paths that they make.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use petgraph::graph::{NodeIndex, UnGraph};
@@ -9,6 +9,7 @@ use petgraph::visit::EdgeRef;
 use super::network::{Network, Spot};
 use super::path::Route;
 use crate::geometry::Point;
+use crate::search::ByValue;
 
 /// The network with the weights of its ways.
 pub(super) struct Trees<'n> {
@@ -88,9 +89,11 @@ impl<'n> Trees<'n> {
     fn tree(&self, ends: &[(usize, f64)]) -> Tree {
         let count = self.network.adits.len();
         let mut tree = Tree { weight: vec![None; count], before: vec![None; count] };
-        let mut queue: BinaryHeap<Arrival> =
-            ends.iter().map(|&(adit, weight)| Arrival { weight, adit, before: None }).collect();
-        while let Some(Arrival { weight, adit, before }) = queue.pop() {
+        let arrival =
+            |weight: f64, adit: usize, before: Option<usize>| Reverse((ByValue(weight), adit, before));
+        let mut queue: BinaryHeap<_> =
+            ends.iter().map(|&(adit, weight)| arrival(weight, adit, None)).collect();
+        while let Some(Reverse((ByValue(weight), adit, before))) = queue.pop() {
             if tree.weight[adit].is_some() {
                 continue;
             }
@@ -98,35 +101,11 @@ impl<'n> Trees<'n> {
             for edge in self.graph.edges(NodeIndex::new(adit)) {
                 let next = edge.target().index();
                 if tree.weight[next].is_none() {
-                    let weight = weight + edge.weight().1;
-                    queue.push(Arrival { weight, adit: next, before: Some(adit) });
+                    queue.push(arrival(weight + edge.weight().1, next, Some(adit)));
                 }
             }
         }
         tree
-    }
-}
-
-#[derive(Clone, Copy, PartialEq)]
-struct Arrival {
-    weight: f64,
-    adit: usize,
-    before: Option<usize>,
-}
-
-impl Eq for Arrival {}
-
-impl Ord for Arrival {
-    /// The greatest is that of least weight.
-    fn cmp(&self, other: &Self) -> Ordering {
-        let key = |arrival: &Self| (arrival.adit, arrival.before);
-        other.weight.total_cmp(&self.weight).then_with(|| key(other).cmp(&key(self)))
-    }
-}
-
-impl PartialOrd for Arrival {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }
 

@@ -4,6 +4,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use super::{RouteGraph, Walking};
+use crate::search::Csr;
 
 /// No room, no door.
 pub const NONE: u32 = u32::MAX;
@@ -11,10 +12,8 @@ pub const NONE: u32 = u32::MAX;
 /// Rooms and all their doors, shut ones too, for many searches.
 #[derive(Clone, Debug)]
 pub struct CompactGraph {
-    /// For each room where its doors begin in `leaving`.
-    begins: Vec<u32>,
-    /// The next room and the door, by index.
-    leaving: Vec<(u32, u32)>,
+    /// For each room its doors: the next room and the door, by index.
+    leaving: Csr<(u32, u32)>,
     /// For each door what passing it weighs; infinity where it is shut.
     weights: Vec<f64>,
     keys: Vec<u32>,
@@ -39,33 +38,19 @@ impl CompactGraph {
         if graph.rooms().iter().any(|room| room.walking != Walking::OnDoors) {
             return None;
         }
-        let mut begins = vec![0_u32; graph.rooms().len() + 1];
-        for door in graph.doors() {
-            begins[door.room1 + 1] += 1;
-            begins[door.room2 + 1] += u32::from(!door.one_way);
-        }
-        for room in 1..begins.len() {
-            begins[room] += begins[room - 1];
-        }
-        let mut next = begins.clone();
-        let mut leaving = vec![(NONE, NONE); *begins.last()? as usize];
-        for (index, door) in graph.doors().iter().enumerate() {
-            let mut leave = |from: usize, to: usize| {
-                leaving[next[from] as usize] = (to as u32, index as u32);
-                next[from] += 1;
-            };
-            leave(door.room1, door.room2);
-            if !door.one_way {
-                leave(door.room2, door.room1);
-            }
-        }
+        let leaving = graph.doors().iter().enumerate().flat_map(|(index, door)| {
+            let there = (door.room1, (door.room2 as u32, index as u32));
+            let back = (door.room2, (door.room1 as u32, index as u32));
+            std::iter::once(there).chain((!door.one_way).then_some(back))
+        });
+        let leaving = Csr::new(graph.rooms().len(), leaving);
         let weights = graph.doors().iter().map(|door| door.weight().unwrap_or(f64::INFINITY)).collect();
         let keys = graph.doors().iter().map(|door| door.door).collect();
-        Some(Self { begins, leaving, weights, keys })
+        Some(Self { leaving, weights, keys })
     }
 
     pub(super) fn rooms(&self) -> usize {
-        self.begins.len() - 1
+        self.leaving.len()
     }
 
     pub(super) fn doors(&self) -> usize {
@@ -74,7 +59,7 @@ impl CompactGraph {
 
     /// The doors out of a room: the next room and the door, by index.
     pub(super) fn leaving(&self, room: usize) -> &[(u32, u32)] {
-        &self.leaving[self.begins[room] as usize..self.begins[room + 1] as usize]
+        self.leaving.of(room)
     }
 
     /// Gives a door, by index, another weight; `None` shuts it. What it was.
@@ -85,48 +70,69 @@ impl CompactGraph {
 
     /// The least cost of every room from these, as [`RouteGraph::tree`] finds it.
     pub fn tree(&self, starts: &[usize]) -> CompactTree {
-        let rooms = self.rooms();
-        let mut tree = CompactTree {
-            costs: vec![f64::INFINITY; rooms],
-            before: vec![NONE; rooms],
-            doors: vec![NONE; rooms],
-            hops: vec![0; rooms],
-        };
-        let mut settled = vec![false; rooms];
-        let mut queue = BinaryHeap::with_capacity(rooms);
-        // costs are not negative, so their bits are in the order of their values
-        let place = |cost: f64, room: u32, door: u32| {
-            Reverse(u128::from(cost.to_bits()) << 64 | u128::from(room) << 32 | u128::from(door))
-        };
-        for &start in starts {
-            tree.costs[start] = 0.0;
-            queue.push(place(0.0, start as u32, 0));
+        let leaving = |room: usize| self.leaving(room).iter().copied();
+        let starts = starts.iter().copied();
+        search(self.rooms(), starts, leaving, |door| self.weights[door], |door| self.keys[door])
+    }
+}
+
+/// Dijkstra's search. Of ways of equal cost the one that enters by the door of lower key.
+///
+/// petgraph's, which says neither doors nor hops, takes several times as long: `cargo bench -p adit-planners --bench
+/// routes` runs both.
+///
+/// # Arguments
+/// `leaving` gives the doors out of a room: the next room and the door, by index; `weight` what passing a door weighs,
+/// infinity where it is shut; `key` its key, unique.
+pub(super) fn search<I: Iterator<Item = (u32, u32)>>(
+    rooms: usize,
+    starts: impl Iterator<Item = usize>,
+    leaving: impl Fn(usize) -> I,
+    weight: impl Fn(usize) -> f64,
+    key: impl Fn(usize) -> u32,
+) -> CompactTree {
+    let mut tree = CompactTree {
+        costs: vec![f64::INFINITY; rooms],
+        before: vec![NONE; rooms],
+        doors: vec![NONE; rooms],
+        hops: vec![0; rooms],
+    };
+    let mut settled = vec![false; rooms];
+    let mut queue = BinaryHeap::with_capacity(rooms);
+    // costs are not negative, so their bits are in the order of their values
+    let place = |cost: f64, room: u32, door: u32| {
+        Reverse(u128::from(cost.to_bits()) << 64 | u128::from(room) << 32 | u128::from(door))
+    };
+    for start in starts {
+        tree.costs[start] = 0.0;
+        queue.push(place(0.0, start as u32, 0));
+    }
+    while let Some(Reverse(candidate)) = queue.pop() {
+        let room = (candidate >> 32) as u32 as usize;
+        if std::mem::replace(&mut settled[room], true) {
+            continue;
         }
-        while let Some(Reverse(candidate)) = queue.pop() {
-            let room = (candidate >> 32) as u32 as usize;
-            if std::mem::replace(&mut settled[room], true) {
+        let cost = tree.costs[room];
+        for (next, door) in leaving(room) {
+            let to = next as usize;
+            if settled[to] {
                 continue;
             }
-            let cost = tree.costs[room];
-            for &(next, door) in self.leaving(room) {
-                let (to, arrival) = (next as usize, cost + self.weights[door as usize]);
-                let key = self.keys[door as usize];
-                let known = tree.costs[to];
-                let is_lower = || tree.doors[to] != NONE && key < self.keys[tree.doors[to] as usize];
-                let is_better = match arrival.total_cmp(&known) {
-                    Ordering::Less => true,
-                    Ordering::Equal => is_lower(),
-                    Ordering::Greater => false,
-                };
-                if !settled[to] && arrival.is_finite() && is_better {
-                    tree.costs[to] = arrival;
-                    tree.before[to] = room as u32;
-                    tree.doors[to] = door;
-                    tree.hops[to] = tree.hops[room] + 1;
-                    queue.push(place(arrival, next, key));
-                }
+            let (arrival, key_of_door) = (cost + weight(door as usize), key(door as usize));
+            let is_lower = || tree.doors[to] != NONE && key_of_door < key(tree.doors[to] as usize);
+            let is_better = match arrival.total_cmp(&tree.costs[to]) {
+                Ordering::Less => true,
+                Ordering::Equal => arrival.is_finite() && is_lower(),
+                Ordering::Greater => false,
+            };
+            if is_better {
+                tree.costs[to] = arrival;
+                tree.before[to] = room as u32;
+                tree.doors[to] = door;
+                tree.hops[to] = tree.hops[room] + 1;
+                queue.push(place(arrival, next, key_of_door));
             }
         }
-        tree
     }
+    tree
 }

@@ -10,13 +10,21 @@ mod order;
 mod partial;
 mod query;
 mod topology;
-mod way;
 
 use std::sync::Arc;
 
-use super::{RouteDoor, RouteRoom};
 use metric::Metric;
+pub(super) use query::Passed;
 use topology::Topology;
+
+use crate::geometry::Point;
+
+/// A door between two rooms, by index; where several lead from one room to another, the one of lower key counts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Door {
+    pub rooms: [usize; 2],
+    pub key: u32,
+}
 
 /// Rooms and doors, ready for ways between any two rooms.
 #[derive(Clone, Debug)]
@@ -30,10 +38,10 @@ impl Hierarchy {
     /// Ranks the rooms, and weighs all doors.
     ///
     /// # Arguments
-    /// `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not
+    /// `at` is where each room lies; `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not
     /// passed.
-    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<[f64; 2]>) -> Self {
-        let topology = Arc::new(Topology::new(rooms, doors));
+    pub fn new(at: Vec<Point>, doors: &[Door], passing: Vec<[f64; 2]>) -> Self {
+        let topology = Arc::new(Topology::new(at, doors));
         let metric = Metric::new(&topology, passing);
         Self { topology, metric }
     }

@@ -3,14 +3,18 @@
 
 use std::collections::BTreeMap;
 
+use petgraph::unionfind::UnionFind;
+
 use super::{Passing, RouteDoor, RouteRoom};
 use crate::geometry::Point;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::search::Csr;
 
 /// No room, door or end.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Two points closer than this are one, metres.
-pub(super) const EPSILON: f64 = 1e-9;
+pub(super) const EPSILON: f64 = ROUNDING_M;
 
 /// A way out of a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,11 +29,11 @@ pub(super) struct Exit {
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     /// For each room its doors to pass.
-    pub portals: Lists,
+    pub portals: Csr<Exit>,
     /// For each room the changes of shape that begin in it.
-    pub changes: Lists,
+    pub changes: Csr<Exit>,
     /// For each room the changes that lead into it; `to` is the room where they begin.
-    pub changes_into: Lists,
+    pub changes_into: Csr<Exit>,
     /// For each room its layer: rooms that doors to pass both ways join are of one.
     pub layer: Vec<u32>,
     /// For each door the ends of its segment, by number; [`NONE`] for a change.
@@ -38,37 +42,6 @@ pub(super) struct Mesh {
     at_end: Vec<Vec<u32>>,
     /// Where each end lies.
     points: Vec<Point>,
-}
-
-/// Lists by room, one behind the other.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Lists {
-    begins: Vec<u32>,
-    exits: Vec<Exit>,
-}
-
-impl Lists {
-    fn new(rooms: usize, items: &[(usize, Exit)]) -> Self {
-        let mut begins = vec![0_u32; rooms + 1];
-        for (room, _) in items {
-            begins[room + 1] += 1;
-        }
-        for room in 0..rooms {
-            begins[room + 1] += begins[room];
-        }
-        let mut next = begins.clone();
-        let mut exits = vec![Exit { door: NONE, to: NONE }; items.len()];
-        for (room, exit) in items {
-            exits[next[*room] as usize] = *exit;
-            next[*room] += 1;
-        }
-        Self { begins, exits }
-    }
-
-    /// The list of a room.
-    pub fn of(&self, room: usize) -> &[Exit] {
-        &self.exits[self.begins[room] as usize..self.begins[room + 1] as usize]
-    }
 }
 
 impl Mesh {
@@ -90,8 +63,8 @@ impl Mesh {
         }
         let layer = layers(rooms.len(), doors);
         let (ends, at_end, points) = number_ends(&layer, doors);
-        let lists = |items: &[(usize, Exit)]| Lists::new(rooms.len(), items);
-        let (portals, changes, changes_into) = (lists(&portals), lists(&changes), lists(&changes_into));
+        let [portals, changes, changes_into] =
+            [portals, changes, changes_into].map(|items: Vec<(usize, Exit)>| Csr::new(rooms.len(), items));
         Self { portals, changes, changes_into, layer, ends, at_end, points }
     }
 
@@ -158,22 +131,13 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
     (ends, at_end, points)
 }
 
-/// For each room the first of the rooms that doors to pass, both ways, join with it.
+/// For each room a number that is the same for all rooms that doors to pass, both ways, join with it.
 fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
-    let mut of: Vec<usize> = (0..rooms).collect();
+    let mut layers = UnionFind::new(rooms);
     for door in doors.iter().filter(|door| !door.is_change() && !door.one_way) {
-        let (a, b) = (representative(&mut of, door.room1), representative(&mut of, door.room2));
-        of[a.max(b)] = a.min(b);
+        layers.union(door.room1 as u32, door.room2 as u32);
     }
-    (0..rooms).map(|room| representative(&mut of, room) as u32).collect()
-}
-
-fn representative(of: &mut [usize], mut room: usize) -> usize {
-    while of[room] != room {
-        of[room] = of[of[room]];
-        room = of[room];
-    }
-    room
+    layers.into_labeling()
 }
 
 /// How many quarters of the ground about a point a room takes.

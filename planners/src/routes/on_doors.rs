@@ -1,11 +1,6 @@
-//! Dijkstra's search where all hardness lies on the doors, and what it leaves.
+//! The least-cost ways from one start where all hardness lies on the doors.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
-
-use petgraph::graph::NodeIndex;
-use petgraph::visit::EdgeRef;
-
+use super::compact::{NONE, search};
 use super::{Goal, RouteGraph, Start, Way, Ways};
 use crate::geometry::Point;
 
@@ -33,28 +28,20 @@ impl RouteGraph {
     ///
     /// Equal costs: the room, then the door, of lower number. O((rooms + doors) log rooms).
     pub fn tree(&self, start: &Start) -> Tree {
-        let mut tree = Tree { rooms: vec![None; self.rooms().len()] };
-        let mut queue = BinaryHeap::new();
-        for &room in start.rooms.iter().filter(|&&room| self.is_entered(room)) {
-            queue.push(Candidate { room, door: 0, arrival: Arrival { from: None, cost: 0.0, hops: 0 } });
-        }
-        while let Some(Candidate { room, arrival, .. }) = queue.pop() {
-            if tree.rooms[room].is_some() {
-                continue;
-            }
-            tree.rooms[room] = Some(arrival);
-            for edge in self.petgraph().edges(NodeIndex::new(room)) {
-                let (door, next) = (*edge.weight() as usize, edge.target().index());
-                if let Some(weight) = self.passage(door)
-                    && tree.rooms[next].is_none()
-                {
-                    let cost = arrival.cost + weight;
-                    let arrival = Arrival { from: Some((room, door)), cost, hops: arrival.hops + 1 };
-                    queue.push(Candidate { room: next, door: self.doors()[door].door, arrival });
-                }
-            }
-        }
-        tree
+        let starts = start.rooms.iter().copied().filter(|&room| self.is_entered(room));
+        let leaving = |room: usize| {
+            let exits = self.mesh.portals.of(room).iter().chain(self.mesh.changes.of(room));
+            exits.map(|exit| (exit.to, exit.door))
+        };
+        let weight = |door: usize| self.passage(door).unwrap_or(f64::INFINITY);
+        let found = search(self.rooms().len(), starts, leaving, weight, |door| self.doors()[door].door);
+        let arrival = |room: usize| {
+            let from = (found.before[room] != NONE)
+                .then(|| (found.before[room] as usize, found.doors[room] as usize));
+            let (cost, hops) = (found.costs[room], found.hops[room]);
+            cost.is_finite().then_some(Arrival { from, cost, hops })
+        };
+        Tree { rooms: (0..self.rooms().len()).map(arrival).collect() }
     }
 }
 
@@ -80,33 +67,5 @@ impl Tree {
         doors.reverse();
         let end = goal.unwrap_or_else(|| doors.last().map_or(start.at, |(_, at, _)| *at));
         Way::through(graph, (room, start.at), doors, end)
-    }
-}
-
-/// The cheapest first; then the room, then the door, of lower number.
-struct Candidate {
-    room: usize,
-    door: u32,
-    arrival: Arrival,
-}
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Candidate {}
-
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let rest = |candidate: &Self| (candidate.room, candidate.door);
-        other.arrival.cost.total_cmp(&self.arrival.cost).then_with(|| rest(other).cmp(&rest(self)))
-    }
-}
-
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }

@@ -42,7 +42,7 @@ pub(super) struct Metric {
 impl Metric {
     /// What weighs nothing yet.
     pub fn new(topology: &Topology, passing: Vec<[f64; 2]>) -> Self {
-        let arcs = topology.heads.len();
+        let arcs = topology.tails.len();
         let (up, down) = (vec![f64::INFINITY; arcs], vec![f64::INFINITY; arcs]);
         let mut metric = Self { passing, up, down, over: vec![[BY_DOOR; 2]; arcs] };
         metric.customize(topology);

@@ -83,7 +83,7 @@ impl Update<'_> {
     fn run(&mut self, doors: &[(u32, [f64; 2])]) -> bool {
         for &(door, _) in doors {
             let arc = self.topology.arc_of[door as usize];
-            if arc < self.topology.heads.len() as u32 {
+            if arc < self.topology.tails.len() as u32 {
                 let now = by_doors(&self.metric.passing, self.topology, arc);
                 for (way, weight) in now.into_iter().enumerate() {
                     self.offer(arc, way, Over { weight, over: BY_DOOR });
@@ -168,7 +168,7 @@ impl Update<'_> {
     /// The best of all ways under an arc.
     fn compared(&self, arc: u32) -> [Over; 2] {
         let (topology, metric) = (self.topology, &*self.metric);
-        let (tail, head) = (topology.tails[arc as usize], topology.heads[arc as usize]);
+        let (tail, head) = (topology.tails[arc as usize], topology.heads()[arc as usize]);
         let mut best = by_doors(&metric.passing, topology, arc).map(|weight| Over { weight, over: BY_DOOR });
         for &into in topology.arcs_into(tail) {
             let below = topology.tails[into as usize];
@@ -191,13 +191,13 @@ impl Update<'_> {
     /// `is_other` says whether what leads up the arc, and down, has another weight.
     fn tell(&mut self, arc: u32, is_other: [bool; 2]) {
         let topology = self.topology;
-        let (tail, head) = (topology.tails[arc as usize], topology.heads[arc as usize]);
+        let (tail, head) = (topology.tails[arc as usize], topology.heads()[arc as usize]);
         let (up, down) = (self.metric.up[arc as usize], self.metric.down[arc as usize]);
         let over = tail + 1;
         let arcs = topology.arcs(tail);
         self.work += arcs.len() * OFFER;
         for other in arcs.start..arc as usize {
-            let beyond = topology.heads[other];
+            let beyond = topology.heads()[other];
             let Some(above) = topology.arc(beyond, head) else { continue };
             if is_other[0] {
                 self.offer(above, 0, Over { weight: self.metric.down[other] + up, over });

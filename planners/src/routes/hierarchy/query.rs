@@ -21,7 +21,7 @@ struct Buffers {
 
 /// A door on a way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Passed {
+pub(in crate::routes) struct Passed {
     /// By index.
     pub door: u32,
     /// The room behind it, by index.
@@ -36,7 +36,7 @@ thread_local! {
 
 impl Hierarchy {
     /// The doors of a way of least weight between two rooms; `None` where no way leads there.
-    pub(super) fn doors(&self, start: usize, goal: usize) -> Option<Vec<Passed>> {
+    pub(in crate::routes) fn doors(&self, start: usize, goal: usize) -> Option<Vec<Passed>> {
         BUFFERS.with_borrow_mut(|buffers| {
             let meeting = self.meet(start, goal, buffers);
             let doors = meeting.map(|meeting| {

@@ -1,8 +1,12 @@
 //! What of a hierarchy does not hang on weights: ranks, arcs, and which doors lie under which arc.
 
+use super::Door;
 use super::order::order;
 use crate::geometry::Point;
-use crate::routes::{NONE, RouteDoor, RouteRoom};
+use crate::search::Csr;
+
+/// No rank, arc or door.
+const NONE: u32 = u32::MAX;
 
 /// Rooms by rank, and the arcs between them: where two rooms are joined by rooms of lower rank only, or by a door.
 ///
@@ -14,12 +18,10 @@ pub(super) struct Topology {
     pub rank: Vec<u32>,
     /// The room of each rank, by index.
     pub room: Vec<u32>,
-    /// For each rank where its arcs up begin; one more at the end.
-    pub begins: Vec<u32>,
+    /// For each rank its arcs up, by their heads: the higher ranks, ascending.
+    up: Csr<u32>,
     /// For each arc the lower rank.
     pub tails: Vec<u32>,
-    /// For each arc the higher rank; ascending for each tail.
-    pub heads: Vec<u32>,
     /// For each arc the level of its head.
     pub levels: Vec<u32>,
     /// For each arc how many heads from here on lie right above one another, this one included.
@@ -28,10 +30,8 @@ pub(super) struct Topology {
     pub level: Vec<u32>,
     /// For each rank the lowest rank of those that hang below it, or its own.
     pub lowest: Vec<u32>,
-    /// For each rank where the list of arcs that lead up to it begins.
-    pub into_begins: Vec<u32>,
     /// The arcs that lead up to each rank, those of lower tails first.
-    pub into: Vec<u32>,
+    into: Csr<u32>,
     /// For each arc the first of its doors, by index; [`NONE`] where there is none.
     pub first_door: Vec<u32>,
     /// For each door the next one of the same arc, of higher key.
@@ -47,24 +47,20 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor]) -> Self {
+    pub fn new(at: Vec<Point>, doors: &[Door]) -> Self {
         let mut joined: Vec<(u32, u32)> = doors
             .iter()
-            .filter(|door| door.room1 != door.room2)
-            .map(|door| (door.room1.min(door.room2) as u32, door.room1.max(door.room2) as u32))
+            .map(|door| door.rooms.map(|room| room as u32))
+            .filter(|[one, two]| one != two)
+            .map(|[one, two]| (one.min(two), one.max(two)))
             .collect();
         joined.sort_unstable();
         joined.dedup();
-        let at: Vec<Point> = rooms.iter().map(|room| room.rect.centre()).collect();
         let room = below_one_another(&order(at, &joined), &joined);
         let rank = inverse(&room);
-        let up = lists_up(&rank, &joined);
-        let Filled { begins, heads, parent } = fill(&up);
+        let (up, parent) = fill(&lists_up(&rank, &joined));
         let count = room.len();
-        let mut tails = vec![0; heads.len()];
-        for tail in 0..count {
-            tails[begins[tail] as usize..begins[tail + 1] as usize].fill(tail as u32);
-        }
+        let tails: Vec<u32> = (0..count).flat_map(|tail| up.range(tail).map(move |_| tail as u32)).collect();
         let mut depth = vec![0_u32; count];
         for rank in (0..count).rev().filter(|&rank| parent[rank] != NONE) {
             depth[rank] = depth[parent[rank] as usize] + 1;
@@ -76,23 +72,21 @@ impl Topology {
             let above = parent[rank] as usize;
             lowest[above] = lowest[above].min(lowest[rank]);
         }
-        let (into_begins, into) = lists_into(count, &heads);
-        let levels: Vec<u32> = heads.iter().map(|&head| level[head as usize]).collect();
+        let into = Csr::new(count, (0..).zip(up.items()).map(|(arc, &head)| (head as usize, arc)));
+        let levels: Vec<u32> = up.items().iter().map(|&head| level[head as usize]).collect();
         let runs = runs(&tails, &levels);
         let height = deepest as usize + 1;
-        let ups = begins.windows(2).map(|of| (of[1] - of[0]) as usize);
+        let ups = (0..count).map(|rank| up.of(rank).len());
         let triangles = ups.map(|up| up * up.saturating_sub(1) / 2).sum();
         let mut all = Self {
             rank,
             room,
-            begins,
+            up,
             tails,
-            heads,
             levels,
             runs,
             level,
             lowest,
-            into_begins,
             into,
             first_door: Vec::new(),
             next_door: vec![NONE; doors.len()],
@@ -106,13 +100,12 @@ impl Topology {
     }
 
     /// Lays each door under its arc.
-    fn lay_doors(&mut self, doors: &[RouteDoor]) {
-        self.first_door = vec![NONE; self.heads.len()];
+    fn lay_doors(&mut self, doors: &[Door]) {
+        self.first_door = vec![NONE; self.tails.len()];
         let mut by_key: Vec<u32> = (0..doors.len() as u32).collect();
-        by_key.sort_unstable_by_key(|&door| std::cmp::Reverse(doors[door as usize].door));
+        by_key.sort_unstable_by_key(|&door| std::cmp::Reverse(doors[door as usize].key));
         for door in by_key {
-            let (one, two) = (doors[door as usize].room1, doors[door as usize].room2);
-            let (one, two) = (self.rank[one], self.rank[two]);
+            let [one, two] = doors[door as usize].rooms.map(|room| self.rank[room]);
             if let Some(arc) = self.arc(one.min(two), one.max(two)) {
                 self.arc_of[door as usize] = arc;
                 self.is_up[door as usize] = one < two;
@@ -123,30 +116,33 @@ impl Topology {
 
     /// The arcs up from a rank.
     pub fn arcs(&self, rank: u32) -> std::ops::Range<usize> {
-        self.begins[rank as usize] as usize..self.begins[rank as usize + 1] as usize
+        self.up.range(rank as usize)
+    }
+
+    /// For each arc the higher rank.
+    pub fn heads(&self) -> &[u32] {
+        self.up.items()
     }
 
     /// How many arcs lead up from lower ranks.
     pub fn arcs_before(&self, rank: u32) -> usize {
-        self.begins[rank as usize] as usize
+        self.arcs(rank).start
     }
 
     /// The arcs that lead up to a rank.
     pub fn arcs_into(&self, rank: u32) -> &[u32] {
-        &self.into[self.into_begins[rank as usize] as usize..self.into_begins[rank as usize + 1] as usize]
+        self.into.of(rank as usize)
     }
 
     /// The arc between two ranks, the lower one first.
     pub fn arc(&self, tail: u32, head: u32) -> Option<u32> {
-        let arcs = self.arcs(tail);
-        let found = self.heads[arcs.clone()].binary_search(&head).ok()?;
-        Some((arcs.start + found) as u32)
+        let found = self.up.of(tail as usize).binary_search(&head).ok()?;
+        Some((self.arcs(tail).start + found) as u32)
     }
 
     /// The rank next above, where the chain up goes on.
     pub fn parent(&self, rank: u32) -> Option<u32> {
-        let arcs = self.arcs(rank);
-        (!arcs.is_empty()).then(|| self.heads[arcs.start])
+        self.up.of(rank as usize).first().copied()
     }
 
     /// The doors of an arc, by index, those of lower keys first.
@@ -166,30 +162,12 @@ fn inverse(room: &[u32]) -> Vec<u32> {
     rank
 }
 
-/// For each rank the ranks above that doors join it with, in lists one behind the other.
-struct Lists {
-    begins: Vec<u32>,
-    heads: Vec<u32>,
-}
-
-impl Lists {
-    fn of(&self, rank: usize) -> &[u32] {
-        &self.heads[self.begins[rank] as usize..self.begins[rank + 1] as usize]
-    }
-}
-
-fn lists_up(rank: &[u32], joined: &[(u32, u32)]) -> Lists {
+/// For each rank the ranks above that doors join it with, ascending.
+fn lists_up(rank: &[u32], joined: &[(u32, u32)]) -> Csr<u32> {
     let ranked = joined.iter().map(|&(one, two)| (rank[one as usize], rank[two as usize]));
     let mut arcs: Vec<(u32, u32)> = ranked.map(|(one, two)| (one.min(two), one.max(two))).collect();
     arcs.sort_unstable();
-    let mut begins = vec![0_u32; rank.len() + 1];
-    for &(tail, _) in &arcs {
-        begins[tail as usize + 1] += 1;
-    }
-    for index in 1..begins.len() {
-        begins[index] += begins[index - 1];
-    }
-    Lists { begins, heads: arcs.into_iter().map(|(_, head)| head).collect() }
+    Csr::new(rank.len(), arcs.into_iter().map(|(tail, head)| (tail as usize, head)))
 }
 
 /// The same order of contraction, but for rooms that do not hang on one another: such that all that hang below a room
@@ -235,22 +213,16 @@ fn below_one_another(room: &[u32], joined: &[(u32, u32)]) -> Vec<u32> {
     ordered
 }
 
-struct Filled {
-    begins: Vec<u32>,
-    heads: Vec<u32>,
-    parent: Vec<u32>,
-}
-
 /// All arcs: a rank leads up to where doors lead from it, and to where those lead that hang below it.
-fn fill(up: &Lists) -> Filled {
-    let count = up.begins.len() - 1;
-    let (mut begins, mut heads) = (Vec::with_capacity(count + 1), Vec::with_capacity(up.heads.len() * 4));
+/// With them for each rank the lowest one above that it leads to.
+fn fill(up: &Csr<u32>) -> (Csr<u32>, Vec<u32>) {
+    let count = up.len();
+    let mut filled = Csr::default();
     let mut parent = vec![NONE; count];
     let mut seen = vec![NONE; count];
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); count];
-    begins.push(0_u32);
     for rank in 0..count {
-        let from = heads.len();
+        let mut heads = Vec::new();
         seen[rank] = rank as u32;
         let mut take = |heads: &mut Vec<u32>, head: u32| {
             if std::mem::replace(&mut seen[head as usize], rank as u32) != rank as u32 {
@@ -261,19 +233,18 @@ fn fill(up: &Lists) -> Filled {
             take(&mut heads, head);
         }
         for child in std::mem::take(&mut below[rank]) {
-            for arc in begins[child as usize] as usize..begins[child as usize + 1] as usize {
-                let head = heads[arc];
+            for &head in filled.of(child as usize) {
                 take(&mut heads, head);
             }
         }
-        heads[from..].sort_unstable();
-        if let Some(&above) = heads.get(from) {
+        heads.sort_unstable();
+        if let Some(&above) = heads.first() {
             parent[rank] = above;
             below[above as usize].push(rank as u32);
         }
-        begins.push(heads.len() as u32);
+        filled.push(heads);
     }
-    Filled { begins, heads, parent }
+    (filled, parent)
 }
 
 fn runs(tails: &[u32], levels: &[u32]) -> Vec<u32> {
@@ -284,21 +255,4 @@ fn runs(tails: &[u32], levels: &[u32]) -> Vec<u32> {
         }
     }
     runs
-}
-
-fn lists_into(count: usize, heads: &[u32]) -> (Vec<u32>, Vec<u32>) {
-    let mut begins = vec![0_u32; count + 1];
-    for &head in heads {
-        begins[head as usize + 1] += 1;
-    }
-    for index in 1..begins.len() {
-        begins[index] += begins[index - 1];
-    }
-    let mut next = begins.clone();
-    let mut into = vec![0; heads.len()];
-    for (arc, &head) in (0..).zip(heads) {
-        into[next[head as usize] as usize] = arc;
-        next[head as usize] += 1;
-    }
-    (begins, into)
 }

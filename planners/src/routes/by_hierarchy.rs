@@ -1,9 +1,8 @@
 //! The way to the goal that costs least, as a hierarchy finds it.
 
-use super::Hierarchy;
-use super::query::Passed;
+use super::hierarchy::{Hierarchy, Passed};
+use super::{Goal, Leg, RouteGraph, Start, Way};
 use crate::geometry::Point;
-use crate::routes::{Goal, Leg, RouteGraph, Start, Way};
 
 /// A way that was found.
 struct Found {
@@ -15,7 +14,7 @@ struct Found {
 
 impl RouteGraph {
     /// The best way to the goal that costs least; of several the first goal's, from the first room, in their order.
-    pub(in crate::routes) fn way_by(
+    pub(super) fn way_by(
         &self,
         hierarchy: &Hierarchy,
         start: &Start,
