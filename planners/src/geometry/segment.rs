@@ -85,7 +85,9 @@ impl Segment {
     /// Whether both cross inside: not where one ends on the other, and not along one line. Exact.
     pub fn crosses(&self, other: &Self) -> bool {
         let parts = |sides: [f64; 2]| sides[0].min(sides[1]) < 0.0 && sides[0].max(sides[1]) > 0.0;
-        parts(self.sides_of(other)) && parts(other.sides_of(self))
+        // most that are asked about are far apart, and boxes tell that soonest
+        let (dx, dy) = self.bounds().axis_gaps(&other.bounds());
+        dx.max(dy) <= 0.0 && parts(self.sides_of(other)) && parts(other.sides_of(self))
     }
 
     /// Where both [cross](Self::crosses).

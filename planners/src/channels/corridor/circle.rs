@@ -66,6 +66,6 @@ impl Circle {
     /// the first one arrives.
     pub fn angle(&self, arriving: &Tangent, leaving: &Tangent) -> f64 {
         let (a, b) = (arriving.along, leaving.along);
-        (self.turn.sign() * (a.cross(b))).atan2(a.dot(b))
+        (self.turn.sign() * a.cross(b)).atan2(a.dot(b))
     }
 }
