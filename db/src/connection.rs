@@ -11,7 +11,7 @@ use crate::error::{self, Error, Result};
 /// An open connection. It is closed when this is dropped, and not some time later: SQLite tidies up behind the last one.
 pub(crate) struct Connection {
     runtime: Runtime,
-    connection: Option<SqliteConnection>,
+    inner: Option<SqliteConnection>,
     path: PathBuf,
 }
 
@@ -27,7 +27,7 @@ impl Connection {
             Some(14) => Error::CannotOpen(at()),
             _ => Error::from(e).at(path),
         })?;
-        Ok(Self { runtime, connection: Some(connection), path: at() })
+        Ok(Self { runtime, inner: Some(connection), path: at() })
     }
 
     /// The database's file.
@@ -36,7 +36,7 @@ impl Connection {
     }
 
     pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
-        let connection = self.connection.as_mut().expect("it is taken away by drop alone");
+        let connection = self.inner.as_mut().expect("it is taken away by drop alone");
         self.runtime.block_on(work(connection)).map_err(|e| e.at(&self.path))
     }
 
@@ -56,7 +56,7 @@ impl Connection {
 
 impl Drop for Connection {
     fn drop(&mut self) {
-        if let Some(connection) = self.connection.take() {
+        if let Some(connection) = self.inner.take() {
             self.runtime.block_on(connection.close()).ok();
         }
     }

@@ -161,7 +161,7 @@ impl Failed {
 /// Exactly one statement that only reads, on a connection that nobody else uses meanwhile.
 pub(crate) struct Statement<'h> {
     database: *mut sqlite3,
-    statement: *mut sqlite3_stmt,
+    prepared: *mut sqlite3_stmt,
     /// SQLite's authorizer points to it.
     named: Rc<Named>,
     handle: PhantomData<&'h mut ()>,
@@ -175,14 +175,14 @@ impl<'h> Statement<'h> {
         let named = Rc::<Named>::default();
         // SAFETY: `handle` locks an open connection; `named` lives until the authorizer is taken away, in `drop`.
         unsafe { sqlite3_set_authorizer(database, Some(may), Rc::as_ptr(&named).cast_mut().cast()) };
-        let mut own = Self { database, statement: ptr::null_mut(), named, handle: PhantomData };
+        let mut own = Self { database, prepared: ptr::null_mut(), named, handle: PhantomData };
         let mut rest = text.as_ptr();
         // SAFETY: `rest` always points into `text`, which ends in NUL: SQLite leaves it at the statement's end.
         while unsafe { *rest } != 0 {
             let mut next: *mut sqlite3_stmt = ptr::null_mut();
             // SAFETY: `database` is open and locked, `rest` a C string, and both results have a place.
             let code = unsafe { sqlite3_prepare_v2(database, rest, -1, &raw mut next, &raw mut rest) };
-            let is_second = !own.statement.is_null();
+            let is_second = !own.prepared.is_null();
             if code != SQLITE_OK {
                 let failed = Failed::of(database);
                 return Err(match failed.message.as_str() {
@@ -203,13 +203,13 @@ impl<'h> Statement<'h> {
                 unsafe { sqlite3_finalize(next) };
                 return Err(Failed::refused(ONE));
             }
-            own.statement = next;
+            own.prepared = next;
         }
-        if own.statement.is_null() {
+        if own.prepared.is_null() {
             return Err(Failed::refused("the query is empty"));
         }
         // SAFETY: prepared above and not yet finalized.
-        if unsafe { sqlite3_stmt_readonly(own.statement) } == 0 {
+        if unsafe { sqlite3_stmt_readonly(own.prepared) } == 0 {
             return Err(Failed::refused(READING));
         }
         Ok(own)
@@ -219,7 +219,7 @@ impl<'h> Statement<'h> {
     pub(crate) fn columns(&self) -> Vec<String> {
         let name = |column| {
             // SAFETY: the statement is prepared, and has this column.
-            let name = unsafe { sqlite3_column_name(self.statement, column) };
+            let name = unsafe { sqlite3_column_name(self.prepared, column) };
             if name.is_null() {
                 return String::new();
             }
@@ -231,13 +231,13 @@ impl<'h> Statement<'h> {
 
     fn count(&self) -> c_int {
         // SAFETY: the statement is prepared.
-        unsafe { sqlite3_column_count(self.statement) }
+        unsafe { sqlite3_column_count(self.prepared) }
     }
 
     /// Goes to the next row; `false` where there is none.
     pub(crate) fn step(&mut self) -> Result<bool, Failed> {
         // SAFETY: the statement is prepared, and its connection locked.
-        match unsafe { sqlite3_step(self.statement) } {
+        match unsafe { sqlite3_step(self.prepared) } {
             SQLITE_ROW => Ok(true),
             SQLITE_DONE => Ok(false),
             _ => Err(Failed::of(self.database)),
@@ -247,10 +247,10 @@ impl<'h> Statement<'h> {
     /// How much room the row would take, about; nothing is copied for that.
     pub(crate) fn bytes(&self) -> usize {
         // SAFETY: the statement is prepared, and has these columns.
-        let bytes = |column| match unsafe { sqlite3_column_type(self.statement, column) } {
+        let bytes = |column| match unsafe { sqlite3_column_type(self.prepared, column) } {
             // SAFETY: as above.
             SQLITE_BLOB | libsqlite3_sys::SQLITE_TEXT => unsafe {
-                sqlite3_column_bytes(self.statement, column) as usize
+                sqlite3_column_bytes(self.prepared, column) as usize
             },
             _ => 8,
         };
@@ -264,20 +264,20 @@ impl<'h> Statement<'h> {
 
     fn cell(&self, column: c_int) -> Result<Cell, Failed> {
         // SAFETY: the statement is prepared, stands at a row, and has this column.
-        match unsafe { sqlite3_column_type(self.statement, column) } {
+        match unsafe { sqlite3_column_type(self.prepared, column) } {
             SQLITE_NULL => Ok(Cell::Null),
             // SAFETY: as above.
-            SQLITE_INTEGER => Ok(Cell::Integer(unsafe { sqlite3_column_int64(self.statement, column) })),
+            SQLITE_INTEGER => Ok(Cell::Integer(unsafe { sqlite3_column_int64(self.prepared, column) })),
             // SAFETY: as above.
-            SQLITE_FLOAT => Ok(Cell::Real(unsafe { sqlite3_column_double(self.statement, column) })),
+            SQLITE_FLOAT => Ok(Cell::Real(unsafe { sqlite3_column_double(self.prepared, column) })),
             SQLITE_BLOB => {
                 // SAFETY: as above; asked before its length, as SQLite wants it.
-                let first = unsafe { sqlite3_column_blob(self.statement, column) };
+                let first = unsafe { sqlite3_column_blob(self.prepared, column) };
                 Ok(Cell::Blob(self.copied(column, first.cast())))
             }
             _ => {
                 // SAFETY: as above.
-                let first = unsafe { sqlite3_column_text(self.statement, column) };
+                let first = unsafe { sqlite3_column_text(self.prepared, column) };
                 let text = String::from_utf8(self.copied(column, first));
                 text.map(Cell::Text).map_err(|error| Failed::refused(format!("a text is no UTF-8: {error}")))
             }
@@ -286,7 +286,7 @@ impl<'h> Statement<'h> {
 
     fn copied(&self, column: c_int, first: *const u8) -> Vec<u8> {
         // SAFETY: the statement is prepared, stands at a row, and has this column.
-        let length = unsafe { sqlite3_column_bytes(self.statement, column) } as usize;
+        let length = unsafe { sqlite3_column_bytes(self.prepared, column) } as usize;
         if first.is_null() || length == 0 {
             return Vec::new();
         }
@@ -299,7 +299,7 @@ impl Drop for Statement<'_> {
     fn drop(&mut self) {
         // SAFETY: finalized this once (null is allowed); afterwards nothing points to what the authorizer counts in.
         unsafe {
-            sqlite3_finalize(self.statement);
+            sqlite3_finalize(self.prepared);
             sqlite3_set_authorizer(self.database, None, ptr::null_mut());
         }
     }

@@ -289,7 +289,7 @@ fn common(a: &Rect, b: &Rect) -> Rect {
 
 fn is_segment(rect: &Rect) -> bool {
     let (thin, long) = (rect.dx().min(rect.dy()), rect.dx().max(rect.dy()));
-    thin >= -EPSILON && thin <= EPSILON && long > EPSILON
+    (-EPSILON..=EPSILON).contains(&thin) && long > EPSILON
 }
 
 /// Whether one leg goes on as the other one.
