@@ -43,7 +43,7 @@ impl Basis {
 
     /// The whole basis, with what is told.
     pub fn with(&self, told: &Told) -> String {
-        let mut hasher = self.0.clone();
+        let mut hasher = self.0;
         for (class, table) in &told.classes {
             (class, content(std::slice::from_ref(table))).hash(&mut hasher);
         }

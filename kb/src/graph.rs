@@ -131,8 +131,12 @@ impl SiteGraph {
     }
 
     fn put(&mut self, rooms: &[(usize, Weight)], doors: &[(usize, Weight)]) {
-        rooms.iter().for_each(|(row, weight)| self.rooms[*row].weigh(weight.clone()));
-        doors.iter().for_each(|(row, weight)| self.doors[*row].weigh(weight.clone()));
+        for (row, weight) in rooms {
+            self.rooms[*row].weigh(weight.clone());
+        }
+        for (row, weight) in doors {
+            self.doors[*row].weigh(weight.clone());
+        }
     }
 
     /// Lets searches see the weights of these rows.

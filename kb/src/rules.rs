@@ -127,15 +127,16 @@ fn look(folder: &Path, below: &Path, found: &mut Vec<(PathBuf, &'static str)>) {
     for entry in fs::read_dir(folder.join(below)).into_iter().flatten().flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let (path, small) = (entry.path(), name.to_lowercase());
+        let is_called = |ending: &str| path.extension().is_some_and(|found| found == ending);
         // what programs keep for themselves: an editor's copies, the files of a system
         if name.starts_with('.') || name.ends_with('~') {
             continue;
         }
         if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
             look(folder, &below.join(&name), found);
-        } else if small.contains(".rhai") && !(below == Path::new("") && name.ends_with(".rhai")) {
+        } else if small.contains(".rhai") && !(below == Path::new("") && is_called("rhai")) {
             found.push((path, "rule files are called NAME.rhai, and lie in the folder of the rules itself"));
-        } else if small.contains(".toml") && !(in_tests && name.ends_with(".toml")) && has_tests(&path) {
+        } else if small.contains(".toml") && !(in_tests && is_called("toml")) && has_tests(&path) {
             found.push((
                 path,
                 "tests of rules are called NAME.toml, and lie in the folder `tests` beside the rules",

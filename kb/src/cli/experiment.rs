@@ -28,7 +28,9 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
         None => scenario::read(&args.scenario)?,
     };
     let (rules, remarks) = rules::load(Kind::Adapt, &args.rules, Path::new(""))?;
-    remarks.iter().for_each(|text| remark(text));
+    for text in &remarks {
+        remark(text);
+    }
     let mut methods: Vec<_> = args.strategy.iter().filter_map(|word| method_of(word)).collect();
     methods.sort_by_key(|method| (crate::adapt::method_word(*method) == "solve", *method));
     methods.dedup();

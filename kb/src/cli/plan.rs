@@ -32,7 +32,9 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
     }
     let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
     let name = name.as_str();
-    remarks.iter().for_each(|text| remark(text));
+    for text in &remarks {
+        remark(text);
+    }
     let steps =
         || Steps::new(rules.clone()).map_err(|error| Error::said("plan/rules", error.to_string(), None));
     match &world.task {

@@ -30,7 +30,9 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     };
     check_film(args)?;
     let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
-    remarks.iter().for_each(|text| remark(text));
+    for text in &remarks {
+        remark(text);
+    }
     if let Some(output) = &args.curve {
         super::curve::run(args, output, &world.name, floor, &rules)?;
         return Ok(true);

@@ -116,19 +116,18 @@ impl<'t> Turn<'t> {
             return Ok(None);
         }
         let breaks = breaks(lever, limit);
-        let found = match self.whole(lever, &breaks)? {
-            Some(line) => self.on_line(&line, from, limit),
-            None => {
-                let mut found = Found::Nothing;
-                for to in breaks {
-                    found = self.piece(lever, from, to)?;
-                    if !matches!(found, Found::Nothing) {
-                        break;
-                    }
-                    from = to;
+        let found = if let Some(line) = self.whole(lever, &breaks)? {
+            self.on_line(&line, from, limit)
+        } else {
+            let mut found = Found::Nothing;
+            for to in breaks {
+                found = self.piece(lever, from, to)?;
+                if !matches!(found, Found::Nothing) {
+                    break;
                 }
-                found
+                from = to;
             }
+            found
         };
         self.is_cut |= matches!(found, Found::Unknown);
         let Found::At(value, cost) = found else { return Ok(None) };

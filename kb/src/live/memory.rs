@@ -198,15 +198,12 @@ impl Memory {
         let written = self.kept.differences(state, &step);
         written.write(tx, &graph, &step)?;
         clock.lap("rows of rooms and doors");
-        let routes = match renewed {
-            Some(renewed) => {
-                KeptRoutes::write(tx, &renewed)?;
-                RoutesNow::Renewed(renewed)
-            }
-            None => {
-                let (plan, routes) = trees::keep(tx, (state, &step), (before, true), progress)?;
-                RoutesNow::All(plan, routes)
-            }
+        let routes = if let Some(renewed) = renewed {
+            KeptRoutes::write(tx, &renewed)?;
+            RoutesNow::Renewed(renewed)
+        } else {
+            let (plan, routes) = trees::keep(tx, (state, &step), (before, true), progress)?;
+            RoutesNow::All(plan, routes)
         };
         let generation = generation::renew(tx, step.weighed.is_empty(), &self.basis.with(&step.told))?;
         keep_standings(tx, &step.told, &step.attached)?;
