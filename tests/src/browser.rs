@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 /// How long a journey waits for what must come.
 const PATIENCE: Duration = Duration::from_secs(15);
 
-/// Ctrl, as DevTools count it among the keys that are held.
+/// Ctrl, as `DevTools` count it among the keys that are held.
 const CTRL: u8 = 2;
 
 /// The pause in a double click of somebody slow.
@@ -150,7 +150,7 @@ impl Browser {
         self.enter("keyUp", &json!({}));
     }
 
-    /// Presses Enter with Ctrl, wherever the focus is; WebDriver would scroll there first.
+    /// Presses Enter with Ctrl, wherever the focus is; `WebDriver` would scroll there first.
     pub fn ctrl_enter(&self) {
         self.enter("keyDown", &json!({ "modifiers": CTRL }));
         self.enter("keyUp", &json!({ "modifiers": CTRL }));
@@ -179,7 +179,7 @@ impl Browser {
         self.client.perform_actions(mouse).await.expect("clicked");
     }
 
-    /// Tells Chromium something that WebDriver has no word for.
+    /// Tells Chromium something that `WebDriver` has no word for.
     fn devtools(&self, command: &str, parameters: &Value) {
         let body = json!({ "cmd": command, "params": parameters }).to_string();
         let mut stream = TcpStream::connect(&self.address).expect("the driver runs");

@@ -41,7 +41,7 @@ pub fn items(page: &str) -> Vec<Item> {
 }
 
 fn joined(block: &[(usize, &str)]) -> String {
-    block.iter().map(|(_, text)| format!("{text}\n")).collect()
+    block.iter().flat_map(|(_, text)| [text, "\n"]).collect()
 }
 
 /// The commands of a block: one a line, or several lines that end in `\`.

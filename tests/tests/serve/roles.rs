@@ -68,7 +68,8 @@ fn a_token_that_is_taken_away_is_void_within_a_second() {
 /// with its folder's other settings, or its last token taken away. Each of them made everybody an admin.
 #[test]
 fn a_service_that_asked_for_tokens_stays_closed_when_none_is_left_and_says_so() {
-    let ways: [(&str, fn(&TestSite)); 5] = [
+    type Way = (&'static str, fn(&TestSite));
+    let ways: [Way; 5] = [
         ("emptied", |site| site.write("tokens.toml", "")),
         ("cut off", |site| {
             let text = site.read("tokens.toml");
