@@ -1,6 +1,7 @@
 //! Answers to "how do I get from here to there": from the kept routes, or computed where none is kept.
 
 mod json;
+pub(crate) mod reason;
 mod search;
 mod steps;
 
@@ -8,13 +9,14 @@ use adit_db::route::{Route, Step, Waypoint};
 use adit_db::{Store, Tx};
 use serde::Serialize;
 
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::gauge::{Gauge, sizes_of};
+use crate::graph::gauge::{Gauge, sizes_of};
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::live::Memory;
-use crate::suggest::did_you_mean;
-use crate::{generation, states};
+use crate::site::states;
+use crate::state::generation;
 
 pub(crate) use search::Basis;
 
@@ -84,9 +86,9 @@ impl KnowledgeBase {
 
     /// Does `work` on what would be derived now, and takes all of it back.
     pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
-        let inputs = self.inputs(&crate::progress::Silent)?;
+        let inputs = self.inputs(&crate::report::progress::Silent)?;
         Store::open(self.database())?.rehearse(|tx| {
-            Memory::build(tx, &self.shared(), &inputs, &crate::progress::Silent)?;
+            Memory::build(tx, &self.shared(), &inputs, &crate::report::progress::Silent)?;
             work(tx)
         })
     }
@@ -103,7 +105,7 @@ impl KnowledgeBase {
         };
         if store.snapshot(is_old)? {
             drop(store);
-            self.build(&crate::progress::Silent)?;
+            self.build(&crate::report::progress::Silent)?;
             store = Store::open_read_only(self.database())?;
         }
         Ok(store)

@@ -8,14 +8,16 @@ use serde::Serialize;
 
 use adit_engine::RuleBase;
 
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::robots::ONLY_ROBOT;
-use crate::suggest::did_you_mean;
-use crate::told::Tell;
-use crate::tunings;
+use crate::site::robots::ONLY_ROBOT;
+use crate::state::told::Tell;
 
+pub(crate) mod compare;
+pub mod preview;
 mod tuning;
+pub(crate) mod tunings;
 
 pub(crate) use tuning::known as known_tuning;
 

@@ -1,6 +1,9 @@
 //! The graph of a site, for searches: rooms and doors by index, and where points and names lie in it.
 
+pub(crate) mod gauge;
+pub(crate) mod pairs;
 mod texts;
+pub(crate) mod trees;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;

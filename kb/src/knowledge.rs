@@ -1,6 +1,8 @@
 //! The knowledge base of one site: planners are registered, the site is built, tables are edited, and each
 //! time everything that follows is derived by the same path, in one transaction.
 
+pub(crate) mod scene;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -20,20 +22,25 @@ use adit_planners::rooms::PaperRooms;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use crate::clock::{Clock, stored};
+use crate::edit::tunings::{self, RowKeys};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
-use crate::hours::Opening;
-use crate::inputs::Inputs;
 use crate::live::Memory;
-use crate::progress::{Progress, Silent};
 use crate::report::Report;
-use crate::robots::RobotFile;
-use crate::rules::Rules;
+use crate::report::progress::{Progress, Silent};
+use crate::site::clock::{Clock, stored};
+use crate::site::hours::Opening;
+use crate::site::lint;
+use crate::site::robots::RobotFile;
+use crate::site::rules;
+use crate::site::rules::Rules;
+use crate::site::states;
 use crate::site::{Rooms, Site};
-use crate::told::{Attached, Fact, Told};
-use crate::tunings::{self, RowKeys};
-use crate::{classes, generation, lint, rules, states, tables};
+use crate::state::classes;
+use crate::state::generation;
+use crate::state::inputs::Inputs;
+use crate::state::tables;
+use crate::state::told::{Attached, Fact, Told};
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.

@@ -4,6 +4,7 @@ mod memory;
 mod renewal;
 mod routes;
 mod view;
+pub mod watch;
 
 use std::sync::Arc;
 
@@ -14,10 +15,10 @@ use crate::answer::Answer;
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::progress::Silent;
 use crate::report::Report;
+use crate::report::progress::Silent;
+use crate::state::told::Tell;
 use crate::state::{Stage, State};
-use crate::told::Tell;
 pub(crate) use memory::Memory;
 use memory::{Accepted, Promptness};
 pub use renewal::Renewal;

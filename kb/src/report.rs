@@ -1,5 +1,8 @@
 //! What a build or an edit made and changed, counted in the expert's own terms.
 
+pub(crate) mod number;
+pub(crate) mod progress;
+
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 

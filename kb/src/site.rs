@@ -1,5 +1,14 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
+pub(crate) mod clock;
+pub(crate) mod hours;
+pub(crate) mod lint;
+pub(crate) mod robots;
+pub(crate) mod rules;
+pub(crate) mod shipped;
+pub(crate) mod states;
+pub(crate) mod whole;
+
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -11,9 +20,8 @@ use adit_planners::world::World;
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::hours;
-use crate::suggest::did_you_mean;
 use siphasher::sip::SipHasher13;
 
 /// How a map is cut into rooms.

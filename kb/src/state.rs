@@ -2,11 +2,20 @@
 //! routes. [`State::step`] is all that follows an edit, whoever made it: a build is a step from the empty state, a preview
 //! a step of a fork, an edit a step whose change is kept in the database.
 
+pub(crate) mod classes;
+pub(crate) mod generation;
+pub(crate) mod grounds;
+pub(crate) mod inputs;
+pub(crate) mod keep;
 mod planned;
 mod rehearse;
+pub(crate) mod rows;
 mod step;
+pub(crate) mod tables;
+pub(crate) mod told;
 mod twin;
 mod weighed;
+pub(crate) mod weights;
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -15,13 +24,13 @@ use adit_engine::KnowledgeBase as Inference;
 
 use crate::answer::{self, Answer};
 use crate::error::Result;
-use crate::gauge::{Gauge, Sizes};
 use crate::graph::SiteGraph;
-use crate::inputs::Inputs;
-use crate::keep::places;
+use crate::graph::gauge::{Gauge, Sizes};
+use crate::graph::pairs::Known;
 use crate::knowledge::KnowledgeBase;
-use crate::pairs::Known;
-use crate::told::{Attached, Told};
+use crate::state::inputs::Inputs;
+use crate::state::keep::places;
+use crate::state::told::{Attached, Told};
 use planned::Planned;
 pub(crate) use planned::content;
 pub use rehearse::Cell;

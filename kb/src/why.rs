@@ -1,16 +1,19 @@
 //! Why something is as it is: the rule behind each conclusion, what it chose, and the values that it read there.
 
 mod facts;
+pub mod firm;
+pub(crate) mod subject;
+pub mod why_not;
 
 use adit_db::Cell;
 use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::live::Live;
 use crate::state::State;
-use crate::subject::Subject;
-use crate::suggest::did_you_mean;
+use crate::why::subject::Subject;
 pub use facts::Facts;
 
 /// What is concluded about an object, and why.

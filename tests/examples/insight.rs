@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use adit::edit::Edit;
-use adit::preview::Wanted;
+use adit::edit::preview::Wanted;
 use adit::{KnowledgeBase, Live, Silent};
 use adit_tests::floor::{Floor, Kind};
 
@@ -74,8 +74,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let firm = live.firm(&start, &goal, None)?;
     println!("firm: {:.1?}, {} cells, truncated {}", began.elapsed(), firm.cells.len(), firm.truncated);
     for cell in &firm.cells {
-        let end =
-            |end: &Option<adit::firm::Beyond>| end.as_ref().map_or("-".to_owned(), |end| end.way.clone());
+        let end = |end: &Option<adit::why::firm::Beyond>| {
+            end.as_ref().map_or("-".to_owned(), |end| end.way.clone())
+        };
         println!(
             "  {}.{} {} in {:?} to {:?}, exact {}: {} | {}",
             cell.key,

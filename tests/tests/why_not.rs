@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit::edit::Edit;
-use adit::firm::Firm;
-use adit::preview::Wanted;
-use adit::why_not::WhyNot;
+use adit::edit::preview::Wanted;
+use adit::why::firm::Firm;
+use adit::why::why_not::WhyNot;
 use adit::{Answer, KnowledgeBase, Live};
 use adit_db::history::Author;
 use adit_db::route::Step;

@@ -13,7 +13,7 @@ use super::cell::Cell;
 use super::judge::{strategy_word, told};
 
 /// All that happened since this was last asked, as a step.
-pub(super) fn step(
+pub(crate) fn step(
     cell: &Cell,
     seed: u64,
     copied_from: Option<&str>,
@@ -147,7 +147,7 @@ fn state(cell: &Cell, seed: u64, copied_from: Option<&str>, adapt: &Adapt) -> ro
 }
 
 /// The objects as the planner has them.
-pub(super) fn objects(adapt: &Adapt) -> Vec<rows::Object> {
+pub(crate) fn objects(adapt: &Adapt) -> Vec<rows::Object> {
     let object = |placed: &adit_planners::adapt::Placed| rows::Object {
         object: placed.object.name.clone(),
         revision: i64::from(placed.since),
@@ -160,7 +160,7 @@ pub(super) fn objects(adapt: &Adapt) -> Vec<rows::Object> {
 }
 
 /// A task with what came of it; `goal` is its name.
-pub(super) fn task(goal: &str, at: Option<&[f64]>, report: &Report, reason: Option<String>) -> rows::Task {
+pub(crate) fn task(goal: &str, at: Option<&[f64]>, report: &Report, reason: Option<String>) -> rows::Task {
     let is_found = report.outcome == Outcome::Found;
     rows::Task {
         task: i64::from(report.task),

@@ -17,7 +17,7 @@ use super::judge::RuleJudge;
 use super::plugins::with_taught;
 use super::{keep, recall};
 use crate::error::{Error, Result};
-use crate::whole::Whole;
+use crate::site::whole::Whole;
 
 /// How a session begins.
 #[derive(Clone, Debug, Default)]

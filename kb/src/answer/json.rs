@@ -4,8 +4,8 @@ use adit_planners::routes::{Leg, Way};
 use serde_json::{Result, to_writer};
 
 use super::{Answer, Status};
+use crate::graph::trees::heading;
 use crate::graph::{Rules, SiteGraph, Texts};
-use crate::trees::heading;
 
 /// About so many bytes are said of a leg.
 const LEG: usize = 700;

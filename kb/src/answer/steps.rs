@@ -4,9 +4,9 @@ use adit_db::door::DoorKind;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::routes::{Leg, Way};
 
-use crate::gauge::{Gauge, bends, headings};
+use crate::graph::gauge::{Gauge, bends, headings};
+use crate::graph::trees::heading;
 use crate::graph::{Rules, SiteGraph, word};
-use crate::trees::heading;
 
 /// The steps of a way; where it does not lead to a point, nothing is walked in the last room.
 pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool) -> Vec<Step> {

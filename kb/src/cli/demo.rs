@@ -10,10 +10,10 @@ use super::route;
 use crate::draw::{Layers, Style, render_svg};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::progress::Spinner;
-use crate::scene::main_state;
-use crate::shipped::{self, Sites};
-use crate::whole::{self, Whole};
+use crate::knowledge::scene::main_state;
+use crate::report::progress::Spinner;
+use crate::site::shipped::{self, Sites};
+use crate::site::whole::{self, Whole};
 use adit_db::Store;
 
 /// Builds the examples into a folder and shows them.

@@ -8,10 +8,10 @@ use super::picture;
 use crate::adapt::{ExperimentOutcome, Row, experiment, is_scenario, method_of, scenario, write_csv};
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Error, Result};
-use crate::number::number;
 use crate::plan::rules::{self, Kind};
-use crate::progress::Bar;
-use crate::whole;
+use crate::report::number::number;
+use crate::report::progress::Bar;
+use crate::site::whole;
 
 /// Runs the scenarios; `false` where a task found no path.
 pub fn run(args: &ExperimentArgs) -> Result<bool> {

@@ -4,9 +4,9 @@ use super::FirmArgs;
 use super::build::open;
 use super::output::{json, line, table};
 use crate::error::Result;
-use crate::firm::{Beyond, FirmCell};
 use crate::live::Live;
-use crate::number::number;
+use crate::report::number::number;
+use crate::why::firm::{Beyond, FirmCell};
 
 /// Prints how far each cell may change before another way is the best.
 pub fn run(args: &FirmArgs) -> Result<()> {

@@ -8,10 +8,10 @@ use adit_planners::read::{MapSettings, read_map};
 use super::NewArgs;
 use super::output::{json, line, program, quoted};
 use crate::error::{Error, Result};
-use crate::rules::TESTS;
-use crate::shipped::{self, Rules, Sites};
+use crate::site::rules::TESTS;
+use crate::site::shipped::{self, Rules, Sites};
+use crate::site::whole::Whole;
 use crate::site::{Rooms, Site};
-use crate::whole::Whole;
 
 /// Starts a site. Where that fails nothing of it is left.
 pub fn run(args: &NewArgs) -> Result<()> {

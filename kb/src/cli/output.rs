@@ -9,8 +9,8 @@ use std::time::Duration;
 use comfy_table::{ContentArrangement, Table, presets};
 use serde::Serialize;
 
+use crate::error::problem::Problem;
 use crate::error::{Error, Result};
-use crate::problem::Problem;
 
 /// Whether some of the answer could not be written, to a full disk for one.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -78,7 +78,7 @@ fn theme() -> miette::GraphicalTheme {
     if coloured { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() }
 }
 
-pub use crate::number::number;
+pub use crate::report::number::number;
 
 /// [`number`], or nothing.
 pub fn maybe(value: Option<f64>) -> String {

@@ -7,10 +7,10 @@ use super::DrawArgs;
 use super::build::open;
 use super::output::{json, line};
 use crate::draw::{Layers, Style, render_png, render_svg};
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::scene::main_state;
-use crate::suggest::did_you_mean;
-use crate::whole;
+use crate::knowledge::scene::main_state;
+use crate::site::whole;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {

@@ -15,11 +15,11 @@ use crate::draw::{ChannelPanel, render_channels, render_floor};
 use crate::error::{Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::keep::record;
-use crate::number::number;
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World};
-use crate::whole::Whole;
+use crate::report::number::number;
+use crate::site::whole::Whole;
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {

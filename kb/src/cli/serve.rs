@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::output::{json, line, remark, table};
 use super::{ServeArgs, TokenArgs, TokenVerb};
 use crate::error::Result;
-use crate::problem::Problem;
+use crate::error::problem::Problem;
 use crate::serve;
 use crate::serve::settings::Settings;
 use crate::serve::token::{self, Tokens};

@@ -16,10 +16,10 @@ use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
 use crate::navigation::learning;
 use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
-use crate::number::number;
 use crate::plan::{Task, World};
-use crate::progress::Bar;
-use crate::whole::{self, Whole};
+use crate::report::number::number;
+use crate::report::progress::Bar;
+use crate::site::whole::{self, Whole};
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs) -> Result<bool> {

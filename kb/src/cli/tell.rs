@@ -9,7 +9,7 @@ use super::tune::apply;
 use crate::edit::Edit;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::told::Tell;
+use crate::state::told::Tell;
 
 /// Tells a fact, takes one back, or lists them.
 pub fn run(args: &TellArgs) -> Result<()> {

@@ -6,11 +6,11 @@ use super::TuningArgs;
 use super::build::open;
 use super::output::{json, line, maybe, table};
 use super::tune::apply;
-use crate::compare::BASE;
 use crate::edit::Edit;
+use crate::edit::compare::BASE;
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::suggest::did_you_mean;
 
 const ACTIONS: [&str; 5] = ["set", "unset", "on", "off", "preview"];
 

@@ -11,14 +11,14 @@ use super::routes::{KeptRoutes, Renewed};
 use super::view;
 use crate::edit::{Done, Edit};
 use crate::error::Result;
-use crate::generation::{self, Basis};
-use crate::inputs::Inputs;
-use crate::keep::{Kept, LastBuild, Written};
+use crate::graph::trees::{self, Plan};
 use crate::knowledge::{KnowledgeBase, keep_standings};
-use crate::progress::{Progress, Silent};
+use crate::report::progress::{Progress, Silent};
 use crate::report::{Before, Report, Routes, Rows};
+use crate::state::generation::{self, Basis};
+use crate::state::inputs::Inputs;
+use crate::state::keep::{Kept, LastBuild, Written};
 use crate::state::{Clock, Nothing, Stage, State, Step, Weighed};
-use crate::trees::{self, Plan};
 
 /// The mark of routes that have yet to follow.
 pub const ROUTES: &str = "routes";

@@ -8,10 +8,10 @@ use adit_db::tree::TreeRow;
 use super::Live;
 use super::memory::ROUTES;
 use crate::error::Result;
-use crate::gauge::Gauge;
-use crate::generation;
 use crate::graph::SiteGraph;
-use crate::trees::{self, Plan};
+use crate::graph::gauge::Gauge;
+use crate::graph::trees::{self, Plan};
+use crate::state::generation;
 
 /// What is to be found anew, apart from the [`Live`] site that it was asked of.
 pub struct Renewal {

@@ -7,9 +7,9 @@ use adit_planners::geometry::Point;
 use adit_planners::routes::{CompactGraph, CompactTree, NONE};
 
 use crate::error::Result;
+use crate::graph::trees::{self, Plan};
 use crate::graph::{End, SiteGraph};
 use crate::state::Weighed;
-use crate::trees::{self, Plan};
 
 /// The trees of the kept starts.
 pub struct KeptRoutes {

@@ -8,11 +8,11 @@ use adit_planners::routes::Goal;
 use super::Live;
 use crate::answer::{self, Answer};
 use crate::error::Result;
-use crate::gauge::Gauge;
+use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
-use crate::inputs::Inputs;
 use crate::knowledge::KnowledgeBase;
 use crate::report::PlaceCosts;
+use crate::state::inputs::Inputs;
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
 #[derive(Clone)]

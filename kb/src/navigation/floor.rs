@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 
 use super::judge::RuleJudge;
 use super::told::Told;
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::number::number;
-use crate::suggest::did_you_mean;
+use crate::report::number::number;
 
 /// A floor plan, the network of places for a robot, and what the robot goes by.
 #[derive(Debug)]

@@ -10,11 +10,11 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
+use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::number::number;
 use crate::plan::Spoke;
 use crate::plan::rules::{self, Kind};
-use crate::suggest::did_you_mean;
+use crate::report::number::number;
 
 /// A decision of a mission, and the rules that were looked at.
 #[derive(Clone, Debug, Serialize)]

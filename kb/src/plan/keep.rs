@@ -17,7 +17,7 @@ pub struct Fact {
 }
 
 /// What rules were told of the last object and what they concluded, as far as it is known.
-pub(super) fn facts(
+pub(crate) fn facts(
     consultation: &mut Consultation,
     class: &str,
     told: &[(&'static str, Type)],
@@ -42,7 +42,7 @@ pub(super) fn facts(
 }
 
 /// The rows of one junction.
-pub(super) fn rows(said: &Said, record: &mut Plan) {
+pub(crate) fn rows(said: &Said, record: &mut Plan) {
     let junction = said.junction as i64;
     record.facts.extend(said.facts.iter().map(|fact| FactRow {
         junction,

@@ -7,10 +7,10 @@ use adit_engine::{Consultation, Datum, RuleBase, Schema, Severity, Type};
 
 use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS, OF_CELL_CHANGES, OF_EDGES, OF_LANDMARKS};
 use crate::error::{Error, Result};
-use crate::lint;
 use crate::navigation::guide::{OF_OPENINGS, OPENINGS};
 use crate::navigation::judge::{OF_SEGMENTS, OF_SITUATIONS, OF_WAYS, SEGMENTS, SITUATIONS, WAYS};
-use crate::rules::{self, Rules};
+use crate::site::lint;
+use crate::site::rules::{self, Rules};
 
 /// What a rule base is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,7 +170,7 @@ pub(crate) const fn place(list: &[(&str, Type)], name: &str) -> usize {
     at
 }
 
-pub(super) const fn same(one: &[u8], other: &[u8]) -> bool {
+pub(crate) const fn same(one: &[u8], other: &[u8]) -> bool {
     if one.len() != other.len() {
         return false;
     }

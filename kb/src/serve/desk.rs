@@ -13,12 +13,12 @@ use jiff::Timestamp;
 
 use super::event::{Changed, Event};
 use super::shared::{Job, Seen, Shared, Source};
-use crate::clock::stored;
 use crate::edit::Edit;
+use crate::error::problem::Problem;
 use crate::error::{Error, Result};
+use crate::live::watch::{Eye, Files};
 use crate::live::{Live, Outcome, Renewal};
-use crate::problem::Problem;
-use crate::watch::{Eye, Files};
+use crate::site::clock::stored;
 
 /// Rules run here: their deepest nesting needs more than the usual stack.
 const STACK: usize = 16 << 20;

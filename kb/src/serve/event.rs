@@ -3,7 +3,7 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::problem::Problem;
+use crate::error::problem::Problem;
 
 /// Something that happened, as it goes over the stream: its name, and its data as JSON.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::error::Error;
-use crate::problem::Problem;
+use crate::error::problem::Problem;
 
 /// The body of every answer with a status of 400 or more.
 #[derive(Clone, Debug, Serialize, ToSchema)]

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::shared::{Shared, Source};
 use super::token::{self, Tokens};
+use crate::error::problem::Problem;
 use crate::error::{Error, Result};
-use crate::problem::Problem;
 
 /// How often the file is looked at. What still changes is being written: it is taken when two looks agree.
 const TICK: Duration = Duration::from_millis(200);

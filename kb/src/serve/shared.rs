@@ -18,8 +18,8 @@ use super::settings::Settings;
 use super::token::Tokens;
 use super::waiting::Waiting;
 use crate::error::Result;
+use crate::error::problem::Problem;
 use crate::live::View;
-use crate::problem::Problem;
 use crate::state::State;
 
 mod parking;

@@ -11,7 +11,7 @@ use siphasher::sip::SipHasher13;
 
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
-use crate::rows;
+use crate::state::rows;
 
 /// Facts of planners, by class, and the fingerprint of what each planner worked from.
 #[derive(Clone, Default)]

@@ -10,8 +10,8 @@ use super::State;
 use crate::edit::Edit;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::tables;
-use crate::told::{Object, Told};
+use crate::state::tables;
+use crate::state::told::{Object, Told};
 
 /// A cell that would count instead of another: of a table, with the named tunings that are on, or a fact.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -100,11 +100,11 @@ fn table_differences(class: &str, (old, new): (&Table, &Table), keys: [&[String]
 }
 
 fn fact_differences(before: &Told, after: &Told, found: &mut Vec<Cell>) {
-    let cell = |fact: &crate::told::Fact, is_new: bool| {
+    let cell = |fact: &crate::state::told::Fact, is_new: bool| {
         let object = match &fact.object {
             Object::Key(key) => key.clone(),
             Object::Point([x, y], _) => {
-                format!("{},{}", crate::number::number(*x), crate::number::number(*y))
+                format!("{},{}", crate::report::number::number(*x), crate::report::number::number(*y))
             }
         };
         let value = match &fact.value {

@@ -14,12 +14,14 @@ pub use super::planned::{Nothing, Recall};
 use super::twin::Twin;
 use super::weighed::{Look, Weighed, Which, is_same_cut};
 use crate::error::{Error, Result};
-use crate::gauge::{Gauge, sizes};
 use crate::graph::SiteGraph;
-use crate::grounds::Reasons;
-use crate::progress::Progress;
-use crate::told::{Attached, Told};
-use crate::{classes, rows, weights};
+use crate::graph::gauge::{Gauge, sizes};
+use crate::report::progress::Progress;
+use crate::state::classes;
+use crate::state::grounds::Reasons;
+use crate::state::rows;
+use crate::state::told::{Attached, Told};
+use crate::state::weights;
 
 /// A stage of the work and how long it took.
 #[derive(Clone, Debug, PartialEq)]

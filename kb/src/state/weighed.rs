@@ -6,7 +6,7 @@ use adit_db::room::Room;
 use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 
-use crate::grounds::{Reason, Reasons};
+use crate::state::grounds::{Reason, Reasons};
 
 /// Rooms and doors by index, with what rules now say of them: those that differ from what they said, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use adit_engine::{Support, Value, Witness};
 use serde::Serialize;
 
-use crate::number::number;
+use crate::report::number::number;
 use crate::state::State;
 
 /// An object with the properties that rules read of it.

@@ -10,7 +10,7 @@ use adit_planners::world::World;
 
 use super::*;
 use crate::answer::steps;
-use crate::gauge::{Gauge, Sizes};
+use crate::graph::gauge::{Gauge, Sizes};
 
 /// A floor of rooms in a square, joined by doors to the right and upwards.
 fn floor(side: usize) -> SiteGraph {

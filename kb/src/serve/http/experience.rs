@@ -10,11 +10,11 @@ use utoipa::ToSchema;
 
 use super::extract::{Asked, Body};
 use super::{BODY, Site};
-use crate::firm::Firm;
 use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::why::firm::Firm;
 
 /// Which route.
 #[derive(Deserialize)]

@@ -51,7 +51,7 @@ struct FactOf {
 #[utoipa::path(get, path = "/api/facts", tag = "facts", security(("token" = [])), responses((status = 200, body = FactsAnswer), (status = "4XX", body = Failure)))]
 pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
     let answer = site.read(|tx| {
-        let generation = crate::generation::read(tx)?;
+        let generation = crate::state::generation::read(tx)?;
         let standings = tx.standings()?;
         let standing = |id: i64| {
             let state = standings.iter().find(|standing| standing.told == id);

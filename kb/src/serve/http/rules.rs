@@ -11,17 +11,17 @@ use utoipa::ToSchema;
 use super::Site;
 use super::extract::{Asked, Body, Named};
 use crate::error::Error;
+use crate::error::problem::Problem;
 use crate::knowledge::{KnowledgeBase, Tested};
 use crate::live::View;
-use crate::problem::Problem;
-use crate::rules::{self, TESTS};
 use crate::serve::desk::{Cause, Desk};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::serve::token::hex;
-use crate::shipped;
-use crate::whole::Whole;
+use crate::site::rules::{self, TESTS};
+use crate::site::shipped;
+use crate::site::whole::Whole;
 
 /// The longest rule file, bytes.
 const LONGEST: usize = 1 << 20;

@@ -9,7 +9,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::Site;
-use crate::problem::Problem;
+use crate::error::problem::Problem;
 use crate::serve::fault::{Answered, Failure};
 use crate::serve::role::{Caller, Role};
 use crate::serve::{gate, meter};

@@ -7,9 +7,11 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::Site;
+use crate::edit;
+use crate::edit::tunings;
 use crate::error::Result;
 use crate::serve::fault::{Answered, Failure};
-use crate::{edit, generation, tunings};
+use crate::state::generation;
 
 /// All tables that may be edited.
 #[derive(Serialize, ToSchema)]
@@ -95,7 +97,7 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
         };
         rows.sort_by_key(place);
     }
-    let all_keys = crate::tables::keys(relation);
+    let all_keys = crate::state::tables::keys(relation);
     TableOf {
         table: relation.name.clone(),
         columns: relation.columns.iter().map(|known| column(relation, known)).collect(),

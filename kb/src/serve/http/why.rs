@@ -7,7 +7,7 @@ use super::Site;
 use super::extract::Asked;
 use crate::serve::fault::{Answered, Failure};
 use crate::why::Why;
-use crate::why_not::WhyNot;
+use crate::why::why_not::WhyNot;
 
 /// What is asked about.
 #[derive(Deserialize)]

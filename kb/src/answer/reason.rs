@@ -1,0 +1,152 @@
+//! Why there is no route, in a sentence that names what would have to be otherwise.
+
+use adit_db::door::Door;
+use adit_db::room::Room;
+use adit_planners::layers::{Headroom, headroom, narrowest};
+use adit_planners::routes::{Blockage, Start, blockage};
+use adit_planners::world::World;
+
+use crate::error::{Error, Result};
+use crate::graph::{End, Rules, SiteGraph, is_weighed};
+use crate::knowledge::KnowledgeBase;
+use crate::report::number::number;
+
+/// How many shut doors are described.
+const DESCRIBED: usize = 3;
+
+/// Why no route joins the ends.
+pub fn no_route(
+    knowledge: &KnowledgeBase,
+    graph: &SiteGraph,
+    rules: &Rules,
+    start: &Start,
+    ends: &[End],
+    robot: &str,
+) -> Result<String> {
+    let goal = graph.goal(&ends[1], Some(robot));
+    for (what, end, rooms) in [("start", &ends[0], &start.rooms), ("goal", &ends[1], &goal.rooms)] {
+        if rooms.is_empty() {
+            let at = graph.point(end);
+            if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
+                return Ok(format!("the {what}: {}", not_entered(room, rules)));
+            }
+            return Ok(format!("no state of the robot fits at the {what} ({:.2}, {:.2})", at.x, at.y));
+        }
+    }
+    match blockage(graph.graph(), start, &goal) {
+        Blockage::Doors(doors) => {
+            let mut shut: Vec<String> = doors
+                .iter()
+                .take(DESCRIBED)
+                .filter_map(|door| graph.door(i64::from(*door)))
+                .map(|door| shut(graph, door, rules))
+                .collect();
+            shut.dedup();
+            let more = doors.len().saturating_sub(DESCRIBED);
+            let more = if more > 0 {
+                format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
+            } else {
+                String::new()
+            };
+            Ok(format!("{}{more}", shut.join("; ")))
+        }
+        Blockage::Apart => {
+            let (world, _, _) = knowledge.site().world()?;
+            apart(&world, graph, ends, robot, knowledge)
+        }
+    }
+}
+
+/// Why no route enters a room.
+fn not_entered(room: &Room, rules: &Rules) -> String {
+    let [x0, y0, x1, y1] = room.rect;
+    let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
+    let place = format!("room {} at ({x:.2}, {y:.2})", room.name);
+    match (room.passable.value, room.passable.rule.and_then(|rule| rules.get(&rule))) {
+        (Some(false), Some(rule)) => format!("{place} is not entered (rule \"{rule}\")"),
+        (Some(false), None) => format!("{place} is told not to be entered (`adit tell SITE --list`)"),
+        (None, _) => format!("whether {place} is entered is unknown: no rule says so, or rules disagree"),
+        (Some(true), _) => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
+    }
+}
+
+/// A door that lets no state through, and what would fit.
+fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
+    let least = |values: [Option<f64>; 3]| values.into_iter().flatten().fold(f64::INFINITY, f64::min);
+    let width = least([Some(door.width), door.side1.width, door.side2.width]);
+    let height = least([door.side1.height, door.side2.height, None]);
+    let needed = if height.is_finite() {
+        let (height, width) = (number(height), number(width));
+        format!("a state lower than {height} m and narrower than {width} m would be needed")
+    } else {
+        format!("a state narrower than {} m would be needed", number(width))
+    };
+    let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
+    if let Some(room) = sides.map(|index| &graph.rooms[index]).find(|room| !is_weighed(room)) {
+        return not_entered(room, rules);
+    }
+    let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
+    let [x, y] = door.at;
+    let place = format!("door {} at ({x:.2}, {y:.2})", door.door);
+    match (door.passable.value, rule) {
+        (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
+        (Some(false), None) => {
+            format!("{place} is told to let nobody through, whatever its size (`adit tell SITE --list`)")
+        }
+        _ => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
+    }
+}
+
+/// Two points that no doors join: how wide and how high the best way is.
+fn apart(
+    world: &World,
+    graph: &SiteGraph,
+    ends: &[End],
+    robot: &str,
+    knowledge: &KnowledgeBase,
+) -> Result<String> {
+    let (from, to) = (graph.point(&ends[0]), graph.point(&ends[1]));
+    let states = knowledge.states(robot)?;
+    let widths: Vec<f64> = states.iter().map(|state| state.width).filter(|width| *width > 0.0).collect();
+    let slimmest = widths.iter().copied().fold(f64::INFINITY, f64::min);
+    let native = world.occupancy.as_ref().map(|cells| cells.resolution);
+    let step = world.grid.or(native).unwrap_or(slimmest / 7.0);
+    let width = narrowest(world, from, to, step);
+    let Some(way) = width.filter(|way| way.width > slimmest) else {
+        return Ok(match width {
+            Some(way) => format!(
+                "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs more than {slimmest} m",
+                way.width, way.at.x, way.at.y
+            ),
+            None => "walls part start and goal: there is no way of any width".to_owned(),
+        });
+    };
+    let high =
+        headroom(world, from, to, slimmest, step).map_err(|what| Error::said("route/reason", what, None))?;
+    Ok(match high {
+        Headroom::Limited { height, at } => {
+            let lower: Vec<&str> = states
+                .iter()
+                .filter(|state| state.height < height && state.width > 0.0)
+                .map(|state| state.state.as_str())
+                .collect();
+            let who = if lower.is_empty() {
+                "no state is".to_owned()
+            } else {
+                format!("only {} is", lower.join(", "))
+            };
+            format!(
+                "every way leads under a bridge of {height} m at ({:.2}, {:.2}): {who} lower, and the widest way is {:.2} m wide",
+                at.x, at.y, way.width
+            )
+        }
+        _ => format!(
+            "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: cells of {step:.3} m \
+             are too coarse for it, so say `grid = {:.3}` in site.toml (or the rules do not let that state move)",
+            way.width,
+            way.at.x,
+            way.at.y,
+            step / 2.0
+        ),
+    })
+}

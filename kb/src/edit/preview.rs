@@ -1,0 +1,193 @@
+//! What edits would change, before any of them is made.
+
+mod routes;
+
+use std::sync::Arc;
+
+use adit_db::door::Door;
+use adit_db::room::Room;
+use serde::Serialize;
+
+use crate::answer::Answer;
+use crate::edit::Edit;
+use crate::error::Result;
+use crate::graph::SiteGraph;
+use crate::live::Live;
+use crate::report::progress::Silent;
+use crate::state::{Cell, Nothing, State, Weighed};
+pub use routes::{PlaceRoute, PlaceRoutes};
+
+/// How many rooms, doors or routes are listed.
+const LISTED: usize = 5_000;
+
+/// A route that is asked for beside a preview.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted<'a> {
+    /// From where: a place, a room or `x,y`.
+    pub start: &'a str,
+    /// Where to.
+    pub goal: &'a str,
+    /// Whose; may be left out where there is one robot.
+    pub robot: Option<&'a str>,
+}
+
+/// What would change.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct Preview {
+    /// The state of the knowledge base that it rests on.
+    pub generation: u64,
+    /// Cells that would count differently: with named tunings, and facts. None where a tuning that is on says otherwise.
+    pub cells: Vec<Cell>,
+    /// Whether rooms and doors would be cut anew; then all of them count as changed, and none is listed.
+    pub layout_changed: bool,
+    /// Rooms with another hardness, action or passability.
+    pub rooms: Changed<RoomChange>,
+    /// Doors with another hardness, action or passability.
+    pub doors: Changed<DoorChange>,
+    /// Routes between places.
+    pub routes: PlaceRoutes,
+    /// The route that was asked for, with the edits.
+    #[schema(value_type = Option<Object>)]
+    pub route: Option<Answer>,
+    /// The same without them.
+    #[schema(value_type = Option<Object>)]
+    pub before: Option<Answer>,
+}
+
+/// How many changed, and the first of them.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct Changed<T> {
+    /// How many changed.
+    pub changed: usize,
+    /// How many there are.
+    pub total: usize,
+    /// What changed, at most 5,000.
+    pub list: Vec<T>,
+}
+
+/// What rules say of a room or a door.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct Weight {
+    /// Its hardness; `null` is unknown.
+    pub hardness: Option<f64>,
+    /// Its action.
+    pub action: Option<String>,
+    /// Whether it is passed.
+    pub passable: Option<bool>,
+}
+
+/// A room that would change.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct RoomChange {
+    /// Its number.
+    pub room: i64,
+    /// Its name.
+    pub name: String,
+    /// As it is.
+    pub old: Weight,
+    /// As it would be.
+    pub new: Weight,
+}
+
+/// A door that would change.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct DoorChange {
+    /// Its number.
+    pub door: i64,
+    /// As it is.
+    pub old: Weight,
+    /// As it would be.
+    pub new: Weight,
+}
+
+impl Live {
+    /// What the edits would change, one after the other, in rooms, doors and routes; nothing is written. They are
+    /// checked as [`Live::edit`] checks them, and one that would be refused is an error here, too.
+    pub fn preview(&self, edits: &[Edit], route: Option<Wanted<'_>>) -> Result<Preview> {
+        self.fork().preview(edits, route)
+    }
+}
+
+impl State {
+    /// As [`Live::preview`], of the state that was forked; the site is not held up meanwhile.
+    pub fn preview(mut self, edits: &[Edit], route: Option<Wanted<'_>>) -> Result<Preview> {
+        let rehearsed = self.rehearse(edits)?;
+        let cells = crate::state::differences(&rehearsed.before, &rehearsed.after);
+        if !self.told.counts_as(&rehearsed.before) {
+            // others edited the tables meanwhile, or the clock went on: what they did is no part of the preview
+            let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;
+            self.accept(step);
+        }
+        let answer = |fork: &Self| {
+            let answer =
+                |wanted: Wanted<'_>| fork.route(wanted.start, &[wanted.goal.to_owned()], wanted.robot);
+            route.map(answer).transpose()
+        };
+        let before_route = answer(&self)?;
+        let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
+        let robots = self.robots();
+        let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
+        let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
+        self.accept(step);
+        let after = Arc::clone(self.graph());
+        let same = !layout_changed && weighed.is_empty();
+        let routes = if same {
+            PlaceRoutes::none(robots.len(), before.places.len())
+        } else {
+            routes::compare((&before, &known), &after, &robots, layout_changed, self.patience)
+        };
+        Ok(Preview {
+            generation: self.generation,
+            cells,
+            layout_changed,
+            rooms: rooms(&before, &after, &weighed, layout_changed),
+            doors: doors(&before, &after, &weighed, layout_changed),
+            routes,
+            route: answer(&self)?,
+            before: before_route,
+        })
+    }
+}
+
+fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<RoomChange> {
+    let total = after.rooms.len();
+    if anew {
+        return Changed { changed: total, total, list: Vec::new() };
+    }
+    let of = |room: &Room| Weight {
+        hardness: room.hardness.value,
+        action: room.action.value.clone(),
+        passable: room.passable.value,
+    };
+    let list =
+        to.rooms.iter().map(|(row, _)| (&before.rooms[*row], &after.rooms[*row])).map(|(old, new)| {
+            RoomChange { room: old.room, name: old.name.clone(), old: of(old), new: of(new) }
+        });
+    listed(total, list.filter(|change| change.old != change.new))
+}
+
+fn doors(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<DoorChange> {
+    let total = after.doors.len();
+    if anew {
+        return Changed { changed: total, total, list: Vec::new() };
+    }
+    let of = |door: &Door| Weight {
+        hardness: door.hardness.value,
+        action: door.action.value.clone(),
+        passable: door.passable.value,
+    };
+    let list = to.doors.iter().map(|(row, _)| (&before.doors[*row], &after.doors[*row]));
+    let list = list.map(|(old, new)| DoorChange { door: old.door, old: of(old), new: of(new) });
+    listed(total, list.filter(|change| change.old != change.new))
+}
+
+fn listed<T>(total: usize, all: impl Iterator<Item = T>) -> Changed<T> {
+    let (mut changed, mut list) = (0, Vec::new());
+    for one in all {
+        changed += 1;
+        if list.len() < LISTED {
+            list.push(one);
+        }
+    }
+    Changed { changed, total, list }
+}

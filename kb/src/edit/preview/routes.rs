@@ -1,0 +1,130 @@
+//! Routes between places, before and after.
+
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use super::LISTED;
+use crate::graph::SiteGraph;
+use crate::graph::pairs::{self, Found, From, Known};
+
+/// How the routes between places would change.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct PlaceRoutes {
+    /// How many pairs of places there are, for all robots.
+    pub total: usize,
+    /// How many of them were looked at.
+    pub compared: usize,
+    /// Whether the time was over before all were looked at.
+    pub truncated: bool,
+    /// Those with another cost or another way.
+    pub changed: usize,
+    /// Those that lead another way; none is known where rooms are cut anew.
+    pub rerouted: usize,
+    /// Those that cost more.
+    pub longer: usize,
+    /// Those that cost less.
+    pub shorter: usize,
+    /// Those that are no more.
+    pub lost: usize,
+    /// Those that were not before.
+    pub found: usize,
+    /// Those that changed, the ones whose cost changes most first; at most 5,000.
+    pub list: Vec<PlaceRoute>,
+}
+
+/// A route between two places.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct PlaceRoute {
+    /// Whose.
+    pub robot: String,
+    /// From where.
+    pub start: String,
+    /// Where to.
+    pub goal: String,
+    /// Its cost; `null`: there is none.
+    pub old: Option<f64>,
+    /// What it would cost; `null`: there would be none.
+    pub new: Option<f64>,
+    /// Whether it would pass other doors; `null` where rooms are cut anew.
+    pub other_way: Option<bool>,
+}
+
+impl PlaceRoutes {
+    /// All stay as they are.
+    pub(super) fn none(robots: usize, places: usize) -> Self {
+        let total = robots * places * places.saturating_sub(1);
+        Self { total, compared: total, ..Self::default() }
+    }
+}
+
+/// Compares the routes from each place to all others. Those of before are looked up where they are known.
+pub(super) fn compare(
+    (before, known): (&SiteGraph, &Known),
+    after: &SiteGraph,
+    robots: &[String],
+    is_anew: bool,
+    patience: Duration,
+) -> PlaceRoutes {
+    let began = Instant::now();
+    let places = before.places.len();
+    let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), places) };
+    let wanted: Vec<From> =
+        (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
+    let old = known.rows(before, robots, &wanted, began + patience / 2);
+    let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
+    let new = pairs::rows(after, robots, &wanted, began + patience);
+    for ((robot, start), row) in &new {
+        for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
+            let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);
+            all.compared += 1;
+            if let Some(other_way) = all.note(old, *new, is_anew) {
+                let name = |place: usize| before.places[place].place.clone();
+                all.list.push(PlaceRoute {
+                    robot: robots[*robot].clone(),
+                    start: name(*start),
+                    goal: name(goal),
+                    old: old.map(|found| found.cost),
+                    new: new.map(|found| found.cost),
+                    other_way: (!is_anew).then_some(other_way),
+                });
+            }
+        }
+    }
+    all.truncated = all.compared < all.total;
+    let by = |route: &PlaceRoute| match (route.old, route.new) {
+        (Some(old), Some(new)) => (new - old).abs(),
+        _ => f64::INFINITY,
+    };
+    all.list.sort_by(|one, two| by(two).total_cmp(&by(one)));
+    all.list.truncate(LISTED);
+    all
+}
+
+impl PlaceRoutes {
+    /// Counts a route; whether it leads another way, where it changed.
+    fn note(&mut self, old: Option<Found>, new: Option<Found>, is_anew: bool) -> Option<bool> {
+        let is_same = match (old, new) {
+            (None, None) => true,
+            // another cut moves crossing points by a hair
+            (Some(old), Some(new)) if is_anew => (old.cost - new.cost).abs() <= 1e-3 * old.cost,
+            (Some(old), Some(new)) => old == new,
+            _ => false,
+        };
+        if is_same {
+            return None;
+        }
+        self.changed += 1;
+        match (old, new) {
+            (Some(_), None) => self.lost += 1,
+            (None, _) => self.found += 1,
+            (Some(old), Some(new)) if new.cost > old.cost => self.longer += 1,
+            (Some(old), Some(new)) if new.cost < old.cost => self.shorter += 1,
+            _ => {}
+        }
+        let other_way = old.map(|found| found.doors) != new.map(|found| found.doors);
+        let is_rerouted = other_way && !is_anew && old.is_some() && new.is_some();
+        self.rerouted += usize::from(is_rerouted);
+        Some(other_way)
+    }
+}

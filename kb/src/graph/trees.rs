@@ -1,0 +1,246 @@
+//! Which routes are kept, and their trees as rows: for each start the last step into each room and place.
+
+mod measured;
+mod on_doors;
+
+use adit_db::Tx;
+use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
+use adit_planners::geometry::Point;
+use adit_planners::routes::Start;
+use rayon::prelude::*;
+
+use crate::error::suggest::did_you_mean;
+use crate::error::{Error, Result};
+use crate::graph::gauge::Gauge;
+use crate::graph::{End, SiteGraph};
+use crate::report::progress::Progress;
+use crate::report::{Before, PlaceCosts, Routes};
+use crate::site::Starts;
+use crate::state::{State, Step};
+
+/// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
+/// where rooms are by state, places are: a tree by state takes tens of milliseconds, and who asks names a place or a
+/// point, not a piece of a layer.
+const ALL_STARTS_UP_TO: usize = 2_000;
+
+/// The trees to be kept.
+#[derive(Clone, Debug, Default)]
+pub struct Plan {
+    /// The names of starts, with their robot and tree.
+    pub starts: Vec<StartRow>,
+    /// For each tree, by number from 1: its robot and where it begins.
+    pub roots: Vec<(String, Start)>,
+}
+
+impl Plan {
+    /// The first start of a tree.
+    pub fn start(&self, tree: i64) -> Option<&StartRow> {
+        self.starts.iter().find(|start| start.tree == tree)
+    }
+
+    /// What the routes of a tree between places cost.
+    pub fn place_costs(&self, graph: &SiteGraph, tree: i64, rows: &[TreeRow]) -> PlaceCosts {
+        let of_places = rows.iter().filter_map(|row| Some((graph.place_of(row.node)?, row.reach)));
+        let Some(start) = self.start(tree) else { return PlaceCosts::new() };
+        of_places
+            .map(|(goal, cost)| ((start.robot.clone(), start.name.clone(), goal.to_owned()), cost))
+            .collect()
+    }
+}
+
+/// Decides which routes are kept.
+///
+/// # Arguments
+/// `robots` are the robots of the site; `wanted` is what `site.toml` says.
+pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Result<Plan> {
+    let by_state = !graph.robots().is_empty();
+    let names: Vec<&str> = match wanted {
+        Some(Starts::Named(names)) => known(graph, names)?,
+        Some(Starts::All) => graph.names().collect(),
+        None if !by_state && graph.rooms.len() <= ALL_STARTS_UP_TO => graph.names().collect(),
+        None => graph.places.iter().map(|place| place.place.as_str()).collect(),
+    };
+    let mut plan = Plan::default();
+    for robot in robots {
+        for name in &names {
+            let Some(end) = graph.end(name) else { continue };
+            if let End::Room(index) = end
+                && graph.rooms[index].layer.as_ref().is_some_and(|(of, _)| of != robot)
+            {
+                continue;
+            }
+            let mut start = graph.start(&end, Some(robot));
+            if !by_state {
+                // all hardness lies on the doors, so every point of a room starts the same tree
+                start.at = start.rooms.first().map_or(start.at, |room| graph.point(&End::Room(*room)));
+            }
+            let root = (robot.clone(), start);
+            let shared = if by_state { None } else { plan.roots.iter().position(|known| *known == root) };
+            let tree = shared.unwrap_or_else(|| {
+                plan.roots.push(root);
+                plan.roots.len() - 1
+            });
+            plan.starts.push(StartRow {
+                name: (*name).to_owned(),
+                robot: robot.clone(),
+                tree: tree as i64 + 1,
+            });
+        }
+    }
+    Ok(plan)
+}
+
+fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
+    for (index, name) in names.iter().enumerate() {
+        if names[..index].contains(name) {
+            return Err(Error::said("site/starts", format!("`starts` names `{name}` twice"), None));
+        }
+        if !matches!(graph.end(name), Some(End::Place(_) | End::Room(_))) {
+            let help = did_you_mean(name, graph.names());
+            return Err(Error::said(
+                "site/unknown-start",
+                format!("`starts` names `{name}`, which is no place or room"),
+                help,
+            ));
+        }
+    }
+    Ok(names.iter().map(String::as_str).collect())
+}
+
+/// Whether routes are kept to rooms, not to places only.
+///
+/// Where rooms are by state and there are many, who asks names a place or a point, not a piece of a layer.
+fn keeps_rooms(graph: &SiteGraph) -> bool {
+    graph.graph().is_on_doors() || graph.rooms.len() <= ALL_STARTS_UP_TO
+}
+
+/// The names that routes may start and end at. A room's node is its key, a place's is negative.
+pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
+    let mut ends = Vec::with_capacity(graph.rooms.len() + graph.places.len());
+    for (index, place) in graph.places.iter().enumerate() {
+        let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
+        if place.place.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y)) {
+            return Err(Error::said(
+                "site/place-named-like-a-point",
+                format!("place `{}` is named like a point, so it would mean two things", place.place),
+                Some("give the place a name that is not `x,y`".to_owned()),
+            ));
+        }
+        if graph.rooms.iter().any(|room| room.name == place.place) {
+            return Err(Error::said(
+                "site/place-named-like-a-room",
+                format!(
+                    "place `{}` is named like a room, so `{}` would mean two things",
+                    place.place, place.place
+                ),
+                Some("rooms are named a, b, ... z, aa, ...: give the place a longer name".to_owned()),
+            ));
+        }
+        ends.push(EndRow {
+            name: place.place.clone(),
+            node: place_node(index),
+            kind: EndKind::Place,
+            kept: true,
+        });
+    }
+    ends.extend(graph.rooms.iter().map(|room| EndRow {
+        name: room.name.clone(),
+        node: room.room,
+        kind: EndKind::Room,
+        kept: keeps_rooms(graph),
+    }));
+    Ok(ends)
+}
+
+/// The node of a place.
+pub fn place_node(index: usize) -> i64 {
+    -(index as i64) - 1
+}
+
+/// The rows of some trees, computed side by side, each in the order of its nodes.
+pub fn rows(graph: &SiteGraph, roots: &[(String, Start)], gauge: &Gauge) -> Vec<Vec<TreeRow>> {
+    if graph.graph().is_on_doors() {
+        return roots.par_iter().map(|root| on_doors::rows(graph, root)).collect();
+    }
+    roots.par_iter().map(|root| measured::rows(graph, root, gauge)).collect()
+}
+
+/// Degrees counterclockwise from x; `None` where nothing moves.
+pub fn heading(from: Point, to: Point) -> Option<f64> {
+    // to a hundredth, as the tables keep it
+    let degrees = (to.y - from.y).atan2(to.x - from.x).to_degrees();
+    (from.distance(to) > 1e-9).then(|| (degrees * 100.0).round() / 100.0)
+}
+
+/// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only trees that differ are
+/// written.
+///
+/// # Arguments
+/// `is_same_cut`: whether rooms and doors are those of before, so that trees can be compared.
+pub fn keep(
+    tx: &mut Tx<'_>,
+    (state, step): (&State, &Step),
+    (before, is_same_cut): (Before<'_>, bool),
+    progress: &dyn Progress,
+) -> Result<(Plan, Routes)> {
+    let site = &state.site;
+    let graph: &SiteGraph = state.graph_after(step);
+    let gauge = state.gauge_after(step);
+    let plan = plan(graph, &site.robots(tx)?, site.site().starts.as_ref())?;
+    let ends = ends(graph)?;
+    let comparable = is_same_cut && before.same_starts(&plan.starts);
+    let mut routes = Routes::new(plan.starts.len(), comparable);
+    let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
+    let mut new = PlaceCosts::new();
+    if !comparable {
+        tx.clear_trees()?;
+        tx.replace_starts(&plan.starts)?;
+    }
+    tx.replace_ends(&ends)?;
+    for (batch, roots) in plan.roots.chunks(64).enumerate() {
+        progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
+        let made = rows(graph, roots, gauge);
+        let numbered = (batch as i64 * 64 + 1..).zip(made);
+        if comparable {
+            for (tree, rows) in numbered {
+                let Some(start) = plan.start(tree) else { continue };
+                if routes.differs(before, (start, &tx.tree_rows(tree)?), &rows, graph) {
+                    routes.rows += tx.put_tree(tree, rows)?;
+                }
+            }
+        } else {
+            let numbered: Vec<_> = numbered.collect();
+            for (tree, rows) in &numbered {
+                new.extend(plan.place_costs(graph, *tree, rows));
+            }
+            let rows =
+                numbered.into_iter().flat_map(|(tree, rows)| rows.into_iter().map(move |row| (tree, row)));
+            routes.rows += tx.put_trees(rows)?;
+        }
+    }
+    if !before.starts.is_empty() {
+        routes.compare(&old, &new);
+    }
+    routes.sort();
+    Ok((plan, routes))
+}
+
+/// What the kept routes between places cost so far; few enough to be asked one by one, or none.
+fn place_costs(tx: &mut Tx<'_>, before: Before<'_>, graph: &SiteGraph) -> Result<PlaceCosts> {
+    const ASKED: usize = 5_000;
+    let is_place = |name: &str| graph.places.iter().any(|place| place.place == name);
+    let starts: Vec<_> = before.starts.iter().filter(|start| is_place(&start.name)).collect();
+    let mut costs = PlaceCosts::new();
+    if starts.len() * graph.places.len() > ASKED {
+        return Ok(costs);
+    }
+    for start in starts {
+        for goal in &graph.places {
+            if let Some(cost) = tx.route(&start.robot, &start.name, &goal.place)?.and_then(|route| route.cost)
+            {
+                costs.insert((start.robot.clone(), start.name.clone(), goal.place.clone()), cost);
+            }
+        }
+    }
+    Ok(costs)
+}

@@ -1,0 +1,53 @@
+//! The number of the knowledge base's state, which stands on every answer and grows with every change that took.
+
+use std::hash::{Hash, Hasher};
+
+use adit_db::Tx;
+use adit_engine::RuleBase;
+use adit_planners::world::World;
+use siphasher::sip::SipHasher13;
+
+use crate::error::Result;
+use crate::site::Site;
+use crate::state::content;
+use crate::state::told::Told;
+
+/// The number of the state that the database is in; 0 where it was never built.
+pub fn read(tx: &mut Tx<'_>) -> Result<u64> {
+    Ok(tx.site_value("generation")?.and_then(|text| text.parse().ok()).unwrap_or(0))
+}
+
+/// Gives the database a new number, unless what was derived is the `same` as before and rests on an equal basis.
+pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
+    let same = same && tx.site_value("basis")?.as_deref() == Some(basis);
+    let generation = read(tx)? + u64::from(!same);
+    tx.set_site_value("basis", Some(basis))?;
+    tx.set_site_value("generation", Some(&generation.to_string()))?;
+    Ok(generation)
+}
+
+/// What a derivation starts from besides the tables: the costly part, for many edits.
+#[derive(Clone)]
+pub struct Basis(SipHasher13);
+
+impl Basis {
+    /// Of a site as its files are now.
+    pub fn new(site: &Site, world: &World, rules: &RuleBase) -> Self {
+        let mut hasher = SipHasher13::new();
+        (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
+        for rule in rules.rules() {
+            (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);
+        }
+        Self(hasher)
+    }
+
+    /// The whole basis, with what is told.
+    pub fn with(&self, told: &Told) -> String {
+        let mut hasher = self.0;
+        for (class, table) in &told.classes {
+            (class, content(std::slice::from_ref(table))).hash(&mut hasher);
+        }
+        told.hash(&mut hasher);
+        format!("{:016x}", hasher.finish())
+    }
+}

@@ -1,0 +1,380 @@
+//! What is kept of a state in the database: all rows after a build, those that differ after an edit.
+
+use std::collections::BTreeMap;
+
+use adit_db::Tx;
+use adit_db::area::Area;
+use adit_db::conclusion::{Derivation, Rule, Witness};
+use adit_db::place::{Frame, Place};
+use adit_db::weight::Weight;
+use adit_engine::RuleBase;
+use adit_planners::facts::{Facts, Table};
+use adit_planners::planner::Planner;
+use adit_planners::world::World;
+
+use crate::error::Result;
+use crate::graph::SiteGraph;
+use crate::report::Before;
+use crate::state::classes;
+use crate::state::grounds::Reasons;
+use crate::state::rows;
+use crate::state::tables;
+use crate::state::{Look, Recall, State, Step, Which, content, truth};
+
+/// What planners of rooms make: rooms, doors, and which room lies in which named area or door.
+const MADE: [&str; 4] = ["ROOMS", "DOORS", "AREA_ROOMS", "DOOR_ROOMS"];
+
+/// Classes that have tables of ours, or are kept with them.
+const OURS: [&str; 5] = ["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"];
+
+/// Properties that have a column of ours.
+const TABLED: [(&str, &str); 7] = [
+    ("PRIME_AREAS", "open"),
+    ("ROOMS", "hardness"),
+    ("ROOMS", "action"),
+    ("ROOMS", "passable"),
+    ("DOORS", "hardness"),
+    ("DOORS", "action"),
+    ("DOORS", "passable"),
+];
+
+/// Rooms and doors of the last build, recalled while the inputs of their planner stay the same.
+pub struct LastBuild<'a, 's> {
+    tx: &'a mut Tx<'s>,
+    before: Before<'a>,
+}
+
+impl<'a, 's> LastBuild<'a, 's> {
+    /// What was read of the last build in this transaction.
+    pub fn new(tx: &'a mut Tx<'s>, before: Before<'a>) -> Self {
+        Self { tx, before }
+    }
+}
+
+impl Recall for LastBuild<'_, '_> {
+    fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
+        let gives = planner.signature().gives;
+        let gives = |class: &str| gives.iter().any(|given| classes::split(given).0 == class);
+        let others = |given: &String| !MADE.contains(&classes::split(given).0);
+        if !(gives("ROOMS") && gives("DOORS")) || planner.signature().gives.iter().any(others) {
+            return Ok(None);
+        }
+        let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
+        let [area_rooms, door_rooms] =
+            [tables::kept(self.tx, "area_rooms")?, tables::kept(self.tx, "door_rooms")?];
+        let rooms = rows::rooms_table(self.before.rooms);
+        let made = [rooms, rows::doors_table(self.before.doors), area_rooms, door_rooms];
+        // another program may have edited or deleted rows since: then they are made anew
+        if stored.as_deref() != Some(&signature(fingerprint, &made)) {
+            return Ok(None);
+        }
+        let made = MADE.into_iter().zip(made).filter(|(class, _)| gives(class));
+        Ok(Some(made.map(|(class, table)| (class.to_owned(), table)).collect()))
+    }
+}
+
+/// What a planner worked from, and what came of it.
+fn signature(fingerprint: u64, made: &[Table]) -> String {
+    format!("{fingerprint:016x}{:016x}", content(made))
+}
+
+fn fingerprint_key(planner: &str) -> String {
+    format!("planner.{planner}")
+}
+
+/// What is kept besides rooms and doors, and how many values rest on each witness.
+pub struct Kept {
+    areas: Vec<Area>,
+    derivations: Vec<Derivation>,
+    uses: BTreeMap<i64, usize>,
+}
+
+impl Kept {
+    /// What there is to keep of a state once a step is accepted, with the facts that rules chose, by number.
+    fn of(state: &State, step: &Step) -> Result<(Self, BTreeMap<i64, String>)> {
+        let (knowledge, rules) = (&state.knowledge, &state.inputs.rules);
+        let mut reasons = Reasons::new(knowledge, rules);
+        let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
+        let mut areas = match step.planned.facts.get("PRIME_AREAS") {
+            Some(table) => rows::areas(table)?,
+            None => Vec::new(),
+        };
+        for (row, open) in look.each(("PRIME_AREAS", "open"), truth) {
+            if let Some(area) = areas.get_mut(row) {
+                area.open = open;
+            }
+        }
+        let mut derivations = Vec::new();
+        for (class, property) in untabled(rules) {
+            derivations.extend(derivations_of(&mut look, class, property));
+        }
+        let mut facts = reasons.into_facts();
+        let graph = state.graph_after(step);
+        let mut kept = Self { areas, derivations, uses: BTreeMap::new() };
+        kept.uses = kept.count(graph);
+        // a step that changes nothing has looked at nothing
+        facts.extend(step.facts.iter().map(|(number, facts)| (*number, facts.clone())));
+        Ok((kept, facts))
+    }
+
+    /// What there is in the database of a state that was just opened.
+    pub fn of_opened(state: &State, step: &Step) -> Result<Self> {
+        Ok(Self::of(state, step)?.0)
+    }
+
+    fn count(&self, graph: &SiteGraph) -> BTreeMap<i64, usize> {
+        let rooms = graph
+            .rooms
+            .iter()
+            .flat_map(|room| [room.hardness.witness, room.action.witness, room.passable.witness]);
+        let doors = graph
+            .doors
+            .iter()
+            .flat_map(|door| [door.hardness.witness, door.action.witness, door.passable.witness]);
+        let areas = self.areas.iter().map(|area| area.open.witness);
+        let others = self.derivations.iter().map(|derivation| derivation.witness);
+        let mut uses = BTreeMap::new();
+        for witness in rooms.chain(doors).chain(areas).chain(others).flatten() {
+            *uses.entry(witness).or_default() += 1;
+        }
+        uses
+    }
+
+    /// Writes all there is of a state once a step is accepted, in place of what was there.
+    pub fn write_all(tx: &mut Tx<'_>, state: &State, step: &Step) -> Result<Self> {
+        let (kept, facts) = Self::of(state, step)?;
+        let (world, graph) = (&state.inputs.world, state.graph_after(step));
+        let planned = &step.planned.facts;
+        let strips = match planned.get("STRIPS") {
+            Some(table) if planned.contains_key("PRIME_AREAS") => rows::strip_edges(table)?,
+            _ => [Vec::new(), Vec::new()],
+        };
+        tx.replace_areas(&strips[0], &strips[1], &kept.areas)?;
+        tx.replace_rooms(&graph.rooms)?;
+        tx.replace_doors(&graph.doors)?;
+        tx.replace_places(&graph.places)?;
+        let frame =
+            Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
+        tx.replace_frames(&[frame])?;
+        tx.replace_rules(
+            &rule_rows(&state.inputs.rules),
+            &witnesses(facts, |at| kept.uses.contains_key(&at)),
+        )?;
+        tx.replace_derivations(&kept.derivations)?;
+        let members = |class: &str| planned.get(class).cloned().unwrap_or_default();
+        let made = [
+            rows::rooms_table(&graph.rooms),
+            rows::doors_table(&graph.doors),
+            members("AREA_ROOMS"),
+            members("DOOR_ROOMS"),
+        ];
+        for (planner, fingerprint) in &step.planned.fingerprints {
+            tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &made)))?;
+        }
+        keep_planned_classes(tx, planned)?;
+        Ok(kept)
+    }
+
+    /// What differs once a step is accepted that cuts nothing anew.
+    pub fn differences(&self, state: &State, step: &Step) -> Written {
+        let (knowledge, rules) = (&state.knowledge, &state.inputs.rules);
+        let mut reasons = Reasons::new(knowledge, rules);
+        let mut look =
+            Look { knowledge, rules, which: Which::Touched(&step.changes), reasons: Some(&mut reasons) };
+        let mut written = Written::default();
+        let mut uses = Uses { before: &self.uses, now: BTreeMap::new() };
+        for (row, open) in look.each(("PRIME_AREAS", "open"), truth) {
+            let before = &self.areas[row];
+            if before.open != open {
+                uses.change(before.open.witness, open.witness);
+                written.areas.push((row, Area { open, ..before.clone() }));
+            }
+        }
+        let graph = state.graph();
+        for (row, weight) in &step.weighed.rooms {
+            uses.change_all(&graph.rooms[*row].weight(), weight);
+        }
+        for (row, weight) in &step.weighed.doors {
+            uses.change_all(&graph.doors[*row].weight(), weight);
+        }
+        if let Some(now) = self.derivations_now(&mut look) {
+            written.gone = self.derivations.iter().filter(|old| !now.contains(old)).cloned().collect();
+            written.new = now.iter().filter(|new| !self.derivations.contains(new)).cloned().collect();
+            written.gone.iter().for_each(|old| uses.change(old.witness, None));
+            written.new.iter().for_each(|new| uses.change(None, new.witness));
+            written.derivations = Some(now);
+        }
+        let mut facts = reasons.into_facts();
+        facts.extend(step.facts.iter().map(|(number, facts)| (*number, facts.clone())));
+        let is_new = |number: i64| {
+            !self.uses.contains_key(&number) && uses.now.get(&number).is_some_and(|uses| *uses > 0)
+        };
+        written.witnesses_new = witnesses(facts, is_new);
+        let is_gone = |(number, uses): (&i64, &usize)| {
+            (*uses == 0 && self.uses.contains_key(number)).then_some(*number)
+        };
+        written.witnesses_gone = uses.now.iter().filter_map(is_gone).collect();
+        written.uses = uses.now;
+        written
+    }
+
+    /// All derivations as they are now; `None` where none can have changed.
+    fn derivations_now(&self, look: &mut Look<'_, '_>) -> Option<Vec<Derivation>> {
+        let mut now = None;
+        for (class, property) in untabled(look.rules) {
+            if !look.may_differ(class, property) {
+                continue;
+            }
+            let now = now.get_or_insert_with(|| self.derivations.clone());
+            let of = class.to_lowercase();
+            now.retain(|derivation| derivation.class != of || derivation.property != property);
+            let which = std::mem::replace(&mut look.which, Which::All);
+            now.extend(derivations_of(look, class, property));
+            look.which = which;
+        }
+        now
+    }
+
+    /// Makes what was written what is kept.
+    pub fn accept(&mut self, written: Written) {
+        for (row, area) in written.areas {
+            self.areas[row] = area;
+        }
+        if let Some(derivations) = written.derivations {
+            self.derivations = derivations;
+        }
+        for (number, uses) in written.uses {
+            if uses > 0 {
+                self.uses.insert(number, uses);
+            } else {
+                self.uses.remove(&number);
+            }
+        }
+    }
+}
+
+/// Rows that a step changes, besides those of rooms and doors.
+#[derive(Default)]
+pub struct Written {
+    areas: Vec<(usize, Area)>,
+    derivations: Option<Vec<Derivation>>,
+    gone: Vec<Derivation>,
+    new: Vec<Derivation>,
+    witnesses_gone: Vec<i64>,
+    witnesses_new: Vec<Witness>,
+    /// How many values now rest on a witness, where that changes.
+    uses: BTreeMap<i64, usize>,
+}
+
+impl Written {
+    /// Writes the rows, with those of rooms and doors.
+    pub fn write(&self, tx: &mut Tx<'_>, graph: &SiteGraph, step: &Step) -> Result<()> {
+        if !self.witnesses_new.is_empty() || !self.witnesses_gone.is_empty() {
+            tx.change_witnesses(&self.witnesses_gone, &self.witnesses_new)?;
+        }
+        tx.put_open_areas(self.areas.iter().map(|(_, area)| area))?;
+        let rooms = step.weighed.rooms.iter();
+        tx.put_room_weights(rooms.map(|(row, weight)| (graph.rooms[*row].room, weight)))?;
+        let doors = step.weighed.doors.iter();
+        tx.put_door_weights(doors.map(|(row, weight)| (graph.doors[*row].door, weight)))?;
+        let gone: Vec<&Derivation> = self.gone.iter().collect();
+        tx.change_derivations(&gone, &self.new.iter().collect::<Vec<_>>())?;
+        Ok(())
+    }
+}
+
+/// How many values rest on each witness, where that changes.
+struct Uses<'a> {
+    before: &'a BTreeMap<i64, usize>,
+    now: BTreeMap<i64, usize>,
+}
+
+impl Uses<'_> {
+    fn change_all(&mut self, from: &Weight, to: &Weight) {
+        for (from, to) in from.witnesses().into_iter().zip(to.witnesses()) {
+            self.change(from, to);
+        }
+    }
+
+    fn change(&mut self, from: Option<i64>, to: Option<i64>) {
+        if from == to {
+            return;
+        }
+        if let Some(to) = to {
+            *self.count(to) += 1;
+        }
+        if let Some(from) = from {
+            let uses = self.count(from);
+            *uses = uses.saturating_sub(1);
+        }
+    }
+
+    fn count(&mut self, witness: i64) -> &mut usize {
+        self.now.entry(witness).or_insert_with(|| self.before.get(&witness).copied().unwrap_or(0))
+    }
+}
+
+/// The facts that are wanted, as rows.
+fn witnesses(facts: BTreeMap<i64, String>, is_wanted: impl Fn(i64) -> bool) -> Vec<Witness> {
+    let wanted = facts.into_iter().filter(|(number, _)| is_wanted(*number));
+    wanted.map(|(witness, facts)| Witness { witness, facts }).collect()
+}
+
+/// What rules conclude that has no column of ours.
+fn untabled(rules: &RuleBase) -> impl Iterator<Item = (&str, &str)> {
+    let names = rules.concluded().into_iter();
+    let names = names.map(|name| (name.class.as_str(), name.property.as_str()));
+    names.filter(|name| !TABLED.contains(name))
+}
+
+/// Values that rules concluded of one property that has no column of ours.
+fn derivations_of(look: &mut Look<'_, '_>, class: &str, property: &str) -> Vec<Derivation> {
+    let mut found = Vec::new();
+    let knowledge = look.knowledge;
+    let Some(column) = classes::column(knowledge, class, property) else { return found };
+    for (row, reason) in look.each((class, property), |_| Some(())) {
+        let (Some(rule), Some(key)) = (reason.rule, knowledge.key(class, row)) else { continue };
+        found.push(Derivation {
+            class: class.to_lowercase(),
+            key: key.as_str().into(),
+            property: property.to_owned(),
+            value: tables::cell(&column, row),
+            rule,
+            witness: reason.witness,
+        });
+    }
+    found
+}
+
+/// The map's places as rows.
+pub fn places(world: &World) -> Vec<Place> {
+    let mut places: Vec<Place> = world
+        .places
+        .iter()
+        .map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y })
+        .collect();
+    places.sort_by(|a, b| a.place.cmp(&b.place));
+    places
+}
+
+fn rule_rows(rules: &RuleBase) -> Vec<Rule> {
+    let row = |(index, rule): (usize, &adit_engine::Rule)| Rule {
+        rule: index as i64 + 1,
+        name: rule.name().to_owned(),
+        version: rule.version().to_owned(),
+        file: Some(rule.file().to_owned()),
+        line: Some(rule.line() as i64),
+    };
+    rules.rules().iter().enumerate().map(row).collect()
+}
+
+/// Facts of planners from outside are kept as tables, so that SQL sees them and an edit without the planner
+/// goes on from them.
+fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
+    for (class, table) in facts {
+        if !OURS.contains(&class.as_str()) {
+            tables::keep(tx, &class.to_lowercase(), table)?;
+        }
+    }
+    Ok(())
+}

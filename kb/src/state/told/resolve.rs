@@ -1,0 +1,335 @@
+//! What a person or robot says, understood: class, object, property, value and end, each checked before it is kept.
+
+use adit_db::Tx;
+use adit_db::cell::Cell;
+use adit_db::door::{Door, DoorKind};
+use adit_db::history::Author;
+use adit_engine::{RuleBase, Schema, Type};
+use adit_planners::geometry::Point;
+
+use super::attach::REACH;
+use super::{Object, Told};
+use crate::error::suggest::did_you_mean;
+use crate::error::{Error, Result};
+use crate::knowledge::KnowledgeBase;
+use crate::report::number::number;
+use crate::site::clock::stored;
+use crate::state::classes;
+
+/// A fact as it is said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tell {
+    /// The class, in letters of any size: `DOORS`, `robots`.
+    pub class: String,
+    /// The object: its name, `x,y`, `door 7` or `room d`.
+    pub object: String,
+    /// The property.
+    pub property: String,
+    /// The value: a number, a text, `true` or `false`.
+    pub value: String,
+    /// When it ends, as [`KnowledgeBase::moment`] reads times.
+    pub until: Option<String>,
+    /// Whether the property may be one that no rule reads and nothing gives.
+    pub new_property: bool,
+}
+
+/// What values of these properties must be, whatever rules say.
+const KINDS: [(&str, &str, Type); 7] = [
+    ("PRIME_AREAS", "open", Type::Truth),
+    ("ROOMS", "hardness", Type::Number),
+    ("ROOMS", "action", Type::Text),
+    ("ROOMS", "passable", Type::Truth),
+    ("DOORS", "hardness", Type::Number),
+    ("DOORS", "action", Type::Text),
+    ("DOORS", "passable", Type::Truth),
+];
+
+impl Tell {
+    /// The columns of the row that keeps the fact.
+    pub fn row(
+        &self,
+        tx: &mut Tx<'_>,
+        site: &KnowledgeBase,
+        rules: &RuleBase,
+        author: &Author,
+    ) -> Result<Vec<(&'static str, Cell)>> {
+        let told = site.told(tx, rules)?;
+        let schema = site.schema(&told);
+        let class = self.class(&schema)?;
+        self.check_property(&class, &schema, rules)?;
+        let object = self.find(tx, &class, &schema, &told)?;
+        let kind = schema.kind(&class, &self.property).or_else(|| fixed(&class, &self.property));
+        let kind = match kind {
+            Some(kind) => Some(kind),
+            None => concluded(tx, &class, &self.property)?,
+        };
+        let (kind, value) = self.value(&class, kind)?;
+        let mut row = vec![
+            ("class", Cell::from(class.as_str())),
+            ("property", self.property.as_str().into()),
+            ("kind", kind.into()),
+            ("value", value),
+            ("who", author.who.as_str().into()),
+            ("why", author.why.as_str().into()),
+            ("at", stored(site.clock().now()).as_str().into()),
+        ];
+        match object {
+            Object::Key(key) => row.push(("key", key.as_str().into())),
+            Object::Point([x, y], segment) => {
+                row.extend([("x", x.into()), ("y", y.into())]);
+                let ends = ["x0", "y0", "x1", "y1"];
+                row.extend(
+                    segment.into_iter().flat_map(|segment| ends.into_iter().zip(segment.map(Cell::from))),
+                );
+            }
+        }
+        if let Some(until) = &self.until {
+            row.push(("until", Self::end(site, until)?.as_str().into()));
+        }
+        Ok(row)
+    }
+
+    fn class(&self, schema: &Schema) -> Result<String> {
+        let class = self.class.to_uppercase();
+        if schema.has(&class) {
+            return Ok(class);
+        }
+        let help = did_you_mean(&class, schema.classes());
+        let help =
+            help.or_else(|| Some(format!("there are {}", schema.classes().collect::<Vec<_>>().join(", "))));
+        let message =
+            format!("there is no class {class}: no planner gives it, and no rule reads such a table");
+        Err(Error::said("tell/unknown-class", message, help))
+    }
+
+    fn check_property(&self, class: &str, schema: &Schema, rules: &RuleBase) -> Result<()> {
+        let property = self.property.as_str();
+        if schema.key_of(class).is_some_and(|key| key.iter().any(|part| part == property)) {
+            let message = format!("{class}.{property} says which object it is, and cannot be told");
+            return Err(Error::said("tell/key", message, None));
+        }
+        let mut known: Vec<&str> = schema.properties(class).collect();
+        for rule in rules.rules() {
+            let named = rule.reads().chain(rule.sets()).filter(|name| name.class == class);
+            known.extend(named.map(|name| name.property.as_str()));
+        }
+        known.extend(KINDS.iter().filter(|(of, _, _)| *of == class).map(|(_, name, _)| *name));
+        if self.new_property || known.contains(&property) {
+            return Ok(());
+        }
+        let message = format!("no rule reads {class}.{property}, and nothing gives it");
+        let meant = did_you_mean(property, known.iter().copied());
+        let help = meant.unwrap_or_else(|| "--new tells a property that no rule reads yet".to_owned());
+        Err(Error::said("tell/unknown-property", message, Some(help)))
+    }
+
+    /// Which object is meant. What has a number now is at once turned into a point.
+    fn find(&self, tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told) -> Result<Object> {
+        let text = self.object.trim();
+        let has_place = schema.kind(class, "x0").is_some() && schema.kind(class, "y1").is_some();
+        if let Some(at) = point(text).filter(|_| has_place) {
+            let segment = if class == "DOORS" { Some(door_at(tx, at)?) } else { None };
+            let at = segment.map_or(at, |segment| nearest(at, segment));
+            return Ok(Object::Point([at.x, at.y], segment));
+        }
+        let name = text.split_once(' ').map_or(text, |(kind, name)| {
+            let is_kind = ["door", "doors", "room", "rooms"].contains(&kind.to_lowercase().as_str());
+            if is_kind { name.trim() } else { text }
+        });
+        match class {
+            "DOORS" => door(tx, name),
+            "ROOMS" => room(tx, name),
+            _ => key(tx, class, schema, told, text).map(Object::Key),
+        }
+    }
+
+    fn value(&self, class: &str, kind: Option<Type>) -> Result<(&'static str, Cell)> {
+        let text = self.value.as_str();
+        let truth = match text {
+            "true" | "yes" => Some(true),
+            "false" | "no" => Some(false),
+            _ => None,
+        };
+        let found = text.parse::<f64>().ok().filter(|number| number.is_finite());
+        let wrong = |wanted: &str| {
+            let message = format!("{class}.{} holds {wanted}, and `{text}` is none", self.property);
+            Error::said("tell/type", message, None)
+        };
+        let as_truth = |truth: bool| ("truth", Cell::Integer(truth.into()));
+        let as_number = |number: f64| ("number", Cell::Real(number));
+        match kind {
+            Some(Type::Truth) => truth
+                .or_else(|| found.filter(|found| [0.0, 1.0].contains(found)).map(|found| found != 0.0))
+                .map(as_truth)
+                .ok_or_else(|| wrong("truth values (true or false)")),
+            Some(Type::Number) => found.map(as_number).ok_or_else(|| wrong("numbers")),
+            Some(Type::Text) => Ok(("text", text.into())),
+            None => Ok(truth.map(as_truth).or(found.map(as_number)).unwrap_or(("text", text.into()))),
+        }
+    }
+
+    fn end(site: &KnowledgeBase, until: &str) -> Result<String> {
+        let clock = site.clock();
+        let end = clock.parse(until)?;
+        if end <= clock.now() {
+            let message = format!("--until {until} is {}, and that is over", stored(end));
+            return Err(Error::said(
+                "tell/past",
+                message,
+                Some("say when it will end, or leave it out".to_owned()),
+            ));
+        }
+        Ok(stored(end))
+    }
+}
+
+fn fixed(class: &str, property: &str) -> Option<Type> {
+    let found = KINDS.iter().find(|(of, name, _)| *of == class && *name == property);
+    found.map(|(_, _, kind)| *kind)
+}
+
+/// The type of what rules concluded of a property so far.
+fn concluded(tx: &mut Tx<'_>, class: &str, property: &str) -> Result<Option<Type>> {
+    let class = class.to_lowercase();
+    let table = tx.read_table("derivations")?;
+    let column =
+        |name: &str| table.columns.iter().find(|column| column.name == name).map(|column| &column.values);
+    let (Some(classes), Some(properties), Some(values)) =
+        (column("class"), column("property"), column("value"))
+    else {
+        return Ok(None);
+    };
+    let (class, property) = (Cell::from(class.as_str()), Cell::from(property));
+    let is_meant = |row: &usize| classes[*row] == class && properties[*row] == property;
+    let found = (0..values.len()).find(|row| is_meant(row) && values[*row] != Cell::Null);
+    Ok(found.and_then(|row| match values[row] {
+        Cell::Text(_) => Some(Type::Text),
+        Cell::Real(_) => Some(Type::Number),
+        // truth values are whole numbers there, numbers are not
+        Cell::Integer(_) => Some(Type::Truth),
+        Cell::Null | Cell::Blob(_) => None,
+    }))
+}
+
+fn point(text: &str) -> Option<Point> {
+    let (x, y) = text.split_once(',')?;
+    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+    (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
+}
+
+fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {
+    at.nearest_on(Point::new(x0, y0), Point::new(x1, y1))
+}
+
+/// The segment of the door at a point: the nearest one, of equals the first.
+fn door_at(tx: &mut Tx<'_>, at: Point) -> Result<[f64; 4]> {
+    let mut best = nearest_door(tx.doors_near([at.x, at.y], REACH)?, at);
+    if best.is_none_or(|(distance, ..)| distance > REACH) {
+        // only to say how far the nearest one is
+        best = nearest_door(tx.doors()?, at);
+    }
+    match best {
+        Some((distance, _, segment)) if distance <= REACH => Ok(segment),
+        Some((distance, door, _)) => {
+            let at = format!("{},{}", number(at.x), number(at.y));
+            let message = format!(
+                "no door is within {REACH} m of {at}: the nearest, door {door}, is {} m away",
+                number(distance)
+            );
+            Err(Error::said(
+                "tell/no-door",
+                message,
+                Some("name a door, or say a point nearer to it".to_owned()),
+            ))
+        }
+        None => Err(Error::said(
+            "tell/no-door",
+            "the site has no door",
+            Some("run `adit build` first".to_owned()),
+        )),
+    }
+}
+
+/// Of doors, not of changes of shape, the nearest to a point: its distance, number and segment.
+fn nearest_door(doors: Vec<Door>, at: Point) -> Option<(f64, i64, [f64; 4])> {
+    let doors = doors.into_iter().filter(|door| door.kind == DoorKind::Door);
+    let measured = doors.map(|door| (nearest(at, door.segment).distance(at), door.door, door.segment));
+    measured.reduce(|best, next| if next.0 < best.0 { next } else { best })
+}
+
+fn door(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
+    let number = name.parse().ok().filter(|number: &i64| number.to_string() == name);
+    let found = match number {
+        Some(number) => tx.door(number)?,
+        None => None,
+    };
+    let Some(door) = found else {
+        let help = match tx.doors()?.len() {
+            0 => "run `adit build` first".to_owned(),
+            all => format!("there are {all} doors, numbered from 1; or say a point as x,y"),
+        };
+        return Err(Error::said("tell/unknown-object", format!("there is no door `{name}`"), Some(help)));
+    };
+    if door.kind != DoorKind::Door {
+        let message = format!("door {name} is a change of shape, not a place that can be found again");
+        let help = "tell about a room, or about a state in ROBOTS".to_owned();
+        return Err(Error::said("tell/change", message, Some(help)));
+    }
+    let [x0, y0, x1, y1] = door.segment;
+    Ok(Object::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], Some(door.segment)))
+}
+
+fn room(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
+    let Some(room) = tx.room_named(name)? else {
+        let rooms = tx.rooms()?;
+        let help = did_you_mean(name, rooms.iter().map(|room| room.name.as_str()));
+        let help = help.or_else(|| Some("say a room's name, or a point as x,y".to_owned()));
+        return Err(Error::said("tell/unknown-object", format!("there is no room `{name}`"), help));
+    };
+    let [x0, y0, x1, y1] = room.rect;
+    Ok(Object::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], None))
+}
+
+/// The whole key of an object that has a name of its own.
+fn key(tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told, text: &str) -> Result<String> {
+    let parts = schema.key_of(class).unwrap_or_default();
+    let table = match told.classes.get(class) {
+        Some(table) => table.clone(),
+        None => kept(tx, &class.to_lowercase())?,
+    };
+    let is_counted = parts.iter().any(|part| schema.kind(class, part) == Some(Type::Number));
+    if parts.is_empty() || (is_counted && !told.classes.contains_key(class)) {
+        let message =
+            format!("objects of {class} are numbered anew by each build: nothing can be told about one");
+        return Err(Error::said("tell/numbered", message, None));
+    }
+    let keys = classes::keys(&table, parts);
+    // the robot may be left out, as in `adit tune`
+    let short =
+        |key: &&String| parts[0] == "robot" && key.split_once('/').is_some_and(|(_, rest)| rest == text);
+    let meant: Vec<&String> = match keys.iter().find(|key| *key == text) {
+        Some(key) => vec![key],
+        None => keys.iter().filter(short).collect(),
+    };
+    match meant.as_slice() {
+        [key] => Ok((*key).clone()),
+        [] => {
+            let short = keys.iter().filter(|_| parts[0] == "robot").filter_map(|key| key.split_once('/'));
+            let names = short.map(|(_, rest)| rest).chain(keys.iter().map(String::as_str));
+            let help = did_you_mean(text, names);
+            Err(Error::said("tell/unknown-object", format!("{class} has no object `{text}`"), help))
+        }
+        [one, other, ..] => {
+            let message = format!("`{text}` may be {one} or {other} of {class}");
+            Err(Error::said("tell/unknown-object", message, Some("give the whole key".to_owned())))
+        }
+    }
+}
+
+/// What a planner gave of a class, as the last build kept it.
+fn kept(tx: &mut Tx<'_>, table: &str) -> Result<adit_planners::facts::Table> {
+    if tx.user_tables()?.iter().any(|known| known.name == table) {
+        return crate::state::tables::read(&tx.read_table(table)?);
+    }
+    Ok(adit_planners::facts::Table::default())
+}

@@ -1,0 +1,133 @@
+//! What rooms and doors weigh when one cell has another value.
+
+use adit_engine::{Severity, Value};
+use adit_planners::facts::Facts;
+use adit_planners::routes::Walking;
+
+use super::Lever;
+use crate::error::{Error, Result};
+use crate::graph::{SiteGraph, walking};
+use crate::state::classes;
+use crate::state::{Look, State, Which, needs_changed};
+
+/// What rooms and doors weigh, by index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weights {
+    /// What walking in a room weighs.
+    pub rooms: Vec<Walking>,
+    /// What passing a door weighs; infinite where it is not passed.
+    pub doors: Vec<f64>,
+}
+
+impl Weights {
+    fn of(graph: &SiteGraph) -> Self {
+        let rooms = graph.graph().rooms().iter().map(|room| room.walking);
+        let doors = graph.graph().doors().iter().map(|door| door.weight().unwrap_or(f64::INFINITY));
+        Self { rooms: rooms.collect(), doors: doors.collect() }
+    }
+
+    /// Whether nothing weighs less than in others.
+    pub fn are_no_less_than(&self, other: &Self) -> bool {
+        let rooms = self.rooms.iter().zip(&other.rooms).all(|pair| match pair {
+            (Walking::PerMetre(one), Walking::PerMetre(two)) => one >= two,
+            (one, two) => one == two,
+        });
+        rooms && self.doors.iter().zip(&other.doors).all(|(one, two)| one >= two)
+    }
+
+    /// Whether something weighs a little differently, and nothing much differently.
+    pub fn differ_a_little(&self, other: &Self) -> bool {
+        /// Beyond this share it is a step, not a slope.
+        const LITTLE: f64 = 1e-3;
+        let is_near = |one: f64, two: f64| {
+            one.total_cmp(&two).is_eq()
+                || one.is_finite() && two.is_finite() && (one - two).abs() <= LITTLE * one.abs().max(1.0)
+        };
+        let rooms = self.rooms.iter().zip(&other.rooms).all(|(one, two)| match (one, two) {
+            (Walking::PerMetre(one), Walking::PerMetre(two)) => is_near(*one, *two),
+            (one, two) => one == two,
+        });
+        self != other && rooms && self.doors.iter().zip(&other.doors).all(|(one, two)| is_near(*one, *two))
+    }
+}
+
+/// What a value of a cell leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Probe {
+    /// Rooms and doors weigh so.
+    Weighs(Weights),
+    /// Rooms and doors would be cut anew.
+    CutAnew,
+    /// Rules give a hardness that no sum can take, or fail.
+    Refused,
+}
+
+/// Gives cells other values, one at a time, in a fork.
+pub struct Prober {
+    /// The fork; its graph stays as it was.
+    pub fork: State,
+    /// What everything weighs as it is.
+    pub present: Weights,
+    now: Weights,
+    /// What planners worked from.
+    needs: Facts,
+    is_cut_anew: bool,
+}
+
+impl Prober {
+    /// On a fork, which it changes and gives back no more.
+    pub fn new(fork: State) -> Self {
+        let present = Weights::of(fork.graph());
+        let needs = needs(&fork);
+        Self { now: present.clone(), present, fork, needs, is_cut_anew: false }
+    }
+
+    /// What the value leads to. The cell keeps it until [`restore`](Self::restore).
+    pub fn at(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
+        let fork = &mut self.fork;
+        let told =
+            fork.knowledge.tell_row(&lever.class, lever.row, &lever.column, Some(Value::Number(value)));
+        told.map_err(|error| Error::said("firm/refused", error.to_string(), None))?;
+        let changes = fork.knowledge.update(&fork.inputs.rules);
+        let (knowledge, graph) = (&fork.knowledge, fork.graph());
+        let (rules, which) = (&fork.inputs.rules, Which::Touched(&changes));
+        let mut look = Look { knowledge, rules, which, reasons: None };
+        for (row, weight) in look.rooms() {
+            let of_state = graph.rooms[row].layer.is_some();
+            self.now.rooms[row] = walking(weight.hardness.value, weight.passable.value, of_state);
+        }
+        for (row, weight) in look.doors() {
+            let hardness = weight.hardness.value.filter(|_| weight.passable.value == Some(true));
+            self.now.doors[row] = hardness.unwrap_or(f64::INFINITY);
+        }
+        let failed = knowledge.problems(&fork.inputs.rules);
+        let is_bad = |number: f64| number < 0.0 || number.is_nan();
+        let is_bad_room = |room: &Walking| matches!(room, Walking::PerMetre(number) if is_bad(*number) || number.is_infinite());
+        if failed.iter().any(|problem| problem.severity == Severity::Error)
+            || self.now.rooms.iter().any(is_bad_room)
+            || self.now.doors.iter().any(|door| is_bad(*door))
+        {
+            return Ok(Probe::Refused);
+        }
+        let planners = fork.site.planners();
+        let is_touched = planners.iter().any(|planner| needs_changed(&planner.signature().needs, &changes));
+        // what one value changed may still be so at the next one
+        if (is_touched || self.is_cut_anew) && needs(&self.fork) != self.needs {
+            self.is_cut_anew = true;
+            return Ok(Probe::CutAnew);
+        }
+        self.is_cut_anew = false;
+        Ok(Probe::Weighs(self.now.clone()))
+    }
+
+    /// Gives the cell its own value again.
+    pub fn restore(&mut self, lever: &Lever) -> Result<()> {
+        self.at(lever, lever.value).map(|_| ())
+    }
+}
+
+fn needs(fork: &State) -> Facts {
+    let needs: Vec<String> =
+        fork.site.planners().iter().flat_map(|planner| planner.signature().needs).collect();
+    classes::known(&fork.knowledge, &needs)
+}

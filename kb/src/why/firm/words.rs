@@ -1,0 +1,143 @@
+//! Another way in words: what is done on it instead of what, and where it begins to differ.
+
+use super::corridor::SameWay;
+use super::probe::Probe;
+use super::{Beyond, Lever, Path, Prober};
+use crate::error::Result;
+use crate::graph::SiteGraph;
+use crate::report::number::number;
+
+/// So many doors are named.
+const NAMED: usize = 3;
+
+/// What takes over.
+pub enum Takeover<'t> {
+    /// Another way, and a value of the cell at which it is the better one.
+    Way(&'t Path, f64),
+    /// Rooms are cut anew.
+    CutAnew,
+    /// Rules give no hardness that counts.
+    Refused,
+    /// There is no way.
+    NoWay,
+}
+
+/// What is beyond an end.
+pub(super) fn beyond(
+    prober: &mut Prober,
+    same: &SameWay,
+    lever: &Lever,
+    end: f64,
+    takeover: &Takeover<'_>,
+) -> Result<Beyond> {
+    let cost = match prober.at(lever, end)? {
+        Probe::Weighs(weights) => same.cost(&weights),
+        Probe::CutAnew | Probe::Refused => f64::INFINITY,
+    };
+    let (way, at) = match takeover {
+        Takeover::Way(path, value) => {
+            let present = actions(prober, &same.path);
+            prober.at(lever, *value)?;
+            let other = actions(prober, path);
+            instead(prober.fork.graph(), (&same.path, &present), (path, &other))
+        }
+        Takeover::CutAnew => ("rooms and doors are cut anew".to_owned(), None),
+        Takeover::Refused => ("rules give a hardness that does not count".to_owned(), None),
+        Takeover::NoWay => ("no way is left".to_owned(), None),
+    };
+    Ok(Beyond::new(cost, way, at))
+}
+
+/// The action of each door of a way, or of each of its rooms where these weigh metres; as the knowledge says now.
+pub fn actions(prober: &Prober, path: &Path) -> Vec<String> {
+    let text = |class: &str, row: usize| match prober.fork.knowledge.value_at(class, row, "action") {
+        Some(adit_engine::Value::Text(text)) => text.to_lowercase(),
+        _ => "move".to_owned(),
+    };
+    if path.metres.is_empty() {
+        return path.doors.iter().map(|&door| text("DOORS", door)).collect();
+    }
+    path.metres.iter().map(|(room, _)| text("ROOMS", *room)).collect()
+}
+
+/// What is done on the other way instead of on the present one, and where it leaves it.
+pub fn instead(
+    graph: &SiteGraph,
+    present: (&Path, &[String]),
+    other: (&Path, &[String]),
+) -> (String, Option<String>) {
+    let (mine, theirs) = (&present.0.doors, &other.0.doors);
+    let shared = mine.iter().zip(theirs).take_while(|(one, two)| one == two).count();
+    let rest = mine.len().min(theirs.len()) - shared;
+    let ending =
+        mine.iter().rev().zip(theirs.iter().rev()).take(rest).take_while(|(one, two)| one == two).count();
+    let first = theirs.get(shared).filter(|_| shared < theirs.len() - ending).or(mine.get(shared));
+    let at = first.map(|&door| {
+        let [x, y] = graph.doors[door].at;
+        format!("door {} at ({x:.2}, {y:.2})", graph.doors[door].door)
+    });
+    if !present.0.metres.is_empty() || !other.0.metres.is_empty() {
+        return (format!("{} instead of {}", by_metres(other), by_metres(present)), at);
+    }
+    let stretch = |(path, actions): (&Path, &[String])| {
+        let within = shared..path.doors.len() - ending;
+        by_doors(graph, &path.doors[within.clone()], &actions[within])
+    };
+    (format!("{} instead of {}", stretch(other), stretch(present)), at)
+}
+
+/// `walk 12.3 m and walk-on-knee 1 m`: metres by action, in the order in which each is done first.
+fn by_metres((path, actions): (&Path, &[String])) -> String {
+    let mut runs: Vec<(&str, f64)> = Vec::new();
+    for ((_, metres), action) in path.metres.iter().zip(actions) {
+        match runs.iter_mut().find(|(known, _)| known == action) {
+            Some((_, sum)) => *sum += metres,
+            None => runs.push((action, *metres)),
+        }
+    }
+    let tenths = |metres: f64| number((metres * 10.0).round() / 10.0);
+    let parts: Vec<String> = runs
+        .into_iter()
+        .filter(|(_, sum)| *sum > 0.05)
+        .map(|(action, sum)| format!("{action} {} m", tenths(sum)))
+        .collect();
+    listed(&parts)
+}
+
+/// `side-walk through door 12, then walk through doors 3 and 4`.
+fn by_doors(graph: &SiteGraph, doors: &[usize], actions: &[String]) -> String {
+    let mut runs: Vec<(&str, Vec<String>)> = Vec::new();
+    for (&door, action) in doors.iter().zip(actions) {
+        let name = graph.doors[door].door.to_string();
+        match runs.last_mut() {
+            Some((known, names)) if known == action => names.push(name),
+            _ => runs.push((action, vec![name])),
+        }
+    }
+    if runs.is_empty() {
+        return "no further door".to_owned();
+    }
+    let run = |(action, names): &(&str, Vec<String>)| {
+        let more = names.len().saturating_sub(NAMED);
+        let mut named: Vec<String> = names.iter().take(NAMED).cloned().collect();
+        if more > 0 {
+            named.push(format!("{more} more"));
+        }
+        format!("{action} through door{} {}", if names.len() == 1 { "" } else { "s" }, listed(&named))
+    };
+    let more = runs.len().saturating_sub(NAMED);
+    let mut parts: Vec<String> = runs.iter().take(NAMED).map(run).collect();
+    if more > 0 {
+        parts.push("so on".to_owned());
+    }
+    parts.join(", then ")
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => "nothing".to_owned(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}

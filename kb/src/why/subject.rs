@@ -1,0 +1,78 @@
+//! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
+
+use crate::error::suggest::did_you_mean;
+use crate::error::{Error, Result};
+use crate::state::State;
+
+/// An object of a table or class, perhaps one property of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subject {
+    /// The class, in small letters: for most the name of a table.
+    pub class: String,
+    /// The object's key.
+    pub key: String,
+    /// The property, where one is named.
+    pub property: Option<String>,
+    /// As people call it: `door 7`, `room d`, `robots robot/SQUAT`.
+    pub name: String,
+}
+
+impl Subject {
+    /// Finds out what a text means; an object that is not there is an error.
+    pub fn find(fork: &State, text: &str) -> Result<Self> {
+        if let Some((kind, name)) = text.trim().split_once(' ')
+            && let Some(class) = ["doors", "rooms"].into_iter().find(|class| is_called(class, kind))
+        {
+            return Self::of(fork, class, name.trim(), None).ok_or_else(|| unknown(fork, class, name));
+        }
+        let Some((class, rest)) = text.trim().split_once('.') else {
+            let message = format!("`{text}` names no object");
+            let help = "say `door 7`, `room d`, `doors.7` or `doors.7.hardness`".to_owned();
+            return Err(Error::said("why/unknown", message, Some(help)));
+        };
+        let class = class.to_lowercase();
+        if let Some(found) = Self::of(fork, &class, rest, None) {
+            return Ok(found);
+        }
+        let (key, property) = rest.rsplit_once('.').unwrap_or((rest, ""));
+        let property = Some(property).filter(|property| !property.is_empty()).map(str::to_owned);
+        Self::of(fork, &class, key, property).ok_or_else(|| unknown(fork, &class, key))
+    }
+
+    fn of(fork: &State, class: &str, key: &str, property: Option<String>) -> Option<Self> {
+        let found = |key: String, name: String| Self { class: class.to_owned(), key, property, name };
+        match class {
+            "rooms" => {
+                let mut rooms = fork.graph().rooms.iter();
+                let room = rooms.find(|room| room.name == key || room.room.to_string() == key)?;
+                Some(found(room.room.to_string(), format!("room {}", room.name)))
+            }
+            "doors" => {
+                let door = fork.graph().door(key.parse().ok()?)?;
+                Some(found(door.door.to_string(), format!("door {}", door.door)))
+            }
+            _ => {
+                let of = class.to_uppercase();
+                let is_concluded = fork.inputs.rules.concluded().iter().any(|name| name.class == of);
+                let is_there = is_concluded && fork.knowledge.row(&of, key).is_some();
+                is_there.then(|| found(key.to_owned(), format!("{class} {key}")))
+            }
+        }
+    }
+}
+
+/// `door` and `doors` both mean the table.
+fn is_called(class: &str, kind: &str) -> bool {
+    let kind = kind.to_lowercase();
+    kind == class || format!("{kind}s") == class
+}
+
+fn unknown(fork: &State, class: &str, key: &str) -> Error {
+    let graph = fork.graph();
+    let help = match class {
+        "doors" => Some(format!("there are {} doors, numbered from 1", graph.doors.len())),
+        "rooms" => did_you_mean(key, graph.rooms.iter().map(|room| room.name.as_str())),
+        _ => None,
+    };
+    Error::said("why/unknown", format!("nothing is concluded about {class} {key}"), help)
+}
