@@ -2,21 +2,17 @@
 
 mod json;
 pub(crate) mod reason;
+pub(crate) mod scene;
 mod search;
 mod steps;
 
-use adit_db::route::{Route, Step, Waypoint};
-use adit_db::{Store, Tx};
+use adit_db::Tx;
+use adit_db::route::{Step, Waypoint};
 use serde::Serialize;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::graph::gauge::{Gauge, sizes_of};
-use crate::graph::{Rules, SiteGraph};
-use crate::knowledge::KnowledgeBase;
-use crate::live::Memory;
-use crate::site::states;
-use crate::state::generation;
+use crate::state::State;
+use crate::words::suggest::did_you_mean;
 
 pub(crate) use search::Basis;
 
@@ -64,71 +60,22 @@ pub struct Answer {
     pub waypoints: Vec<Waypoint>,
 }
 
-impl KnowledgeBase {
-    /// The route of least hardness between two places, rooms or points (`x,y`).
-    ///
-    /// As [`route_to_nearest`](Self::route_to_nearest), with one goal.
-    pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
-        self.route_to_nearest(start, &[goal.to_owned()], robot)
+impl State {
+    /// The route of least hardness, as [`Live::route`](crate::Live::route) gives it.
+    pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        let robot = pick(&self.robots(), robot)?;
+        let blank = Answer::blank(&robot, start, goals, self.generation);
+        self.basis().search(goals, blank)
     }
 
-    /// The route to the one of several goals that costs least; the answer's `goal` says which.
-    ///
-    /// Where tables, `site.toml` or the map were edited since the last build, or the time is over up to which it holds,
-    /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
-    /// leaves the site as it is.
-    pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        if self.asks_about_another_moment() {
-            return self.rehearsed(|tx| self.answer(tx, start, goals, robot));
+    pub(crate) fn basis(&self) -> Basis<'_> {
+        Basis {
+            knowledge: &self.site,
+            graph: self.graph(),
+            rules: &self.inputs.rule_names,
+            world: &self.inputs.world,
+            gauge: &self.gauge,
         }
-        self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
-    }
-
-    /// Does `work` on what would be derived now, and takes all of it back.
-    pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
-        let inputs = self.inputs(&crate::report::progress::Silent)?;
-        Store::open(self.database())?.rehearse(|tx| {
-            Memory::build(tx, &self.shared(), &inputs, &crate::report::progress::Silent)?;
-            work(tx)
-        })
-    }
-
-    /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
-    /// derived again first.
-    pub(crate) fn fresh(&self) -> Result<Store> {
-        let mut store = Store::open_read_only(self.database())?;
-        let texts = self.site().texts().to_string();
-        let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
-            // a first build that was killed leaves tables, and nothing in them
-            let is_unbuilt = generation::read(tx)? == 0;
-            Ok(is_unbuilt || tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
-        };
-        if store.snapshot(is_old)? {
-            drop(store);
-            self.build(&crate::report::progress::Silent)?;
-            store = Store::open_read_only(self.database())?;
-        }
-        Ok(store)
-    }
-
-    fn answer(&self, tx: &mut Tx<'_>, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        let robot = pick_robot(tx, robot)?;
-        let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
-        if let Some(route) = kept(tx, &robot, start, goals)? {
-            answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
-            (answer.cost, answer.distance) = (route.cost, route.distance);
-            answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
-            answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
-            answer.goal = route.goal;
-            return Ok(answer);
-        }
-        let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
-        let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
-        let states = states::in_force(tx)?;
-        let (world, _, _) = self.site().world()?;
-        let gauge = Gauge::new(&world, sizes_of(&states));
-        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, world: &world, gauge: &gauge };
-        basis.search(goals, answer)
     }
 }
 
@@ -148,23 +95,6 @@ impl Answer {
             waypoints: Vec::new(),
         }
     }
-}
-
-/// The kept route that costs least, if routes to all of the goals are kept.
-fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<Option<Route>> {
-    let mut best: Option<Route> = None;
-    for goal in goals {
-        let Some(route) = tx.route(robot, start, goal)? else { return Ok(None) };
-        match route.status.as_str() {
-            "ok" | "same_room" => {}
-            "no_route" if goals.len() > 1 => continue,
-            _ => return Ok(None),
-        }
-        if best.as_ref().is_none_or(|best| route.cost < best.cost) {
-            best = Some(route);
-        }
-    }
-    Ok(best)
 }
 
 /// The robot that is meant, or the only one.

@@ -8,17 +8,16 @@ use serde::Serialize;
 
 use adit_engine::RuleBase;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::robots::ONLY_ROBOT;
-use crate::state::told::Tell;
+use crate::state::tunings;
+use crate::words::suggest::did_you_mean;
 
-pub(crate) mod compare;
-pub mod preview;
+mod tell;
 mod tuning;
-pub(crate) mod tunings;
 
+pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
 
 /// What is to be edited. Values are as people write them; the column says what they must be.

@@ -1,7 +1,6 @@
 //! What can go wrong, gathered from all crates, so that a caller has one type and the command line one printer.
 
 pub(crate) mod problem;
-pub(crate) mod suggest;
 
 use std::fmt;
 use std::path::Path;

@@ -24,10 +24,10 @@ use adit_db::traversal::Traversal;
 use adit_db::{Store, Tx};
 use serde::Serialize;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::state::generation;
+use crate::words::suggest::did_you_mean;
 pub use estimate::{Estimate, Observation, Unknown, Value, estimate};
 pub use upload::{Row, rows_of_csv};
 

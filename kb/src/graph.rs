@@ -3,9 +3,9 @@
 pub(crate) mod gauge;
 pub(crate) mod pairs;
 mod texts;
-pub(crate) mod trees;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use adit_db::door::{Door, DoorKind};
@@ -311,4 +311,31 @@ fn route_door(door: &Door, rooms: &HashMap<i64, usize>) -> Option<RouteDoor> {
         passable: door.passable.value.unwrap_or(false),
         one_way: door.one_way,
     })
+}
+
+/// A name of the cut of a floor: rooms, doors and places by their geometry.
+pub fn layout(graph: &SiteGraph) -> Arc<str> {
+    let mut hasher = DefaultHasher::new();
+    for room in &graph.rooms {
+        (room.room, &room.name, room.rect.map(f64::to_bits), &room.layer).hash(&mut hasher);
+    }
+    for door in &graph.doors {
+        (door.door, door.side1.room, door.side2.room, door.segment.map(f64::to_bits)).hash(&mut hasher);
+    }
+    for place in &graph.places {
+        (&place.place, place.x.to_bits(), place.y.to_bits()).hash(&mut hasher);
+    }
+    format!("{:016x}", hasher.finish()).into()
+}
+
+/// The node of a place.
+pub fn place_node(index: usize) -> i64 {
+    -(index as i64) - 1
+}
+
+/// Degrees counterclockwise from x; `None` where nothing moves.
+pub fn heading(from: Point, to: Point) -> Option<f64> {
+    // to a hundredth, as the tables keep it
+    let degrees = (to.y - from.y).atan2(to.x - from.x).to_degrees();
+    (from.distance(to) > 1e-9).then(|| (degrees * 100.0).round() / 100.0)
 }

@@ -1,8 +1,6 @@
 //! The knowledge base of one site: planners are registered, the site is built, tables are edited, and each
 //! time everything that follows is derived by the same path, in one transaction.
 
-pub(crate) mod scene;
-
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -22,16 +20,9 @@ use adit_planners::rooms::PaperRooms;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use crate::edit::tunings::{self, RowKeys};
-use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
-use crate::live::Memory;
-use crate::report::Report;
-use crate::report::progress::{Progress, Silent};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
-use crate::site::lint;
-use crate::site::robots::RobotFile;
 use crate::site::rules;
 use crate::site::rules::Rules;
 use crate::site::states;
@@ -40,33 +31,13 @@ use crate::state::classes;
 use crate::state::generation;
 use crate::state::inputs::Inputs;
 use crate::state::tables;
-use crate::state::told::{Attached, Fact, Told};
+use crate::state::told::{Fact, Told};
+use crate::state::tunings::{self, RowKeys};
+use crate::words::progress::Progress;
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
-
-/// Something that the expert should know, though nothing is wrong.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(severity(advice))]
-struct Note(String);
-
-/// Something that routes need and no rule gives.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(code("rule/gap"), severity(warning))]
-struct Gap(String);
-
-/// A fact that no longer finds what it is about.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(
-    code("tell/lost"),
-    severity(warning),
-    help("tell it again where it now is, or take it back with `adit tell SITE --retract ID`")
-)]
-struct Lost(String);
 
 /// What the tests of a rule base gave.
 pub struct Tested {
@@ -82,8 +53,8 @@ pub struct KnowledgeBase {
     site: Site,
     planners: Vec<Arc<dyn Planner>>,
     database: PathBuf,
-    rules: Option<PathBuf>,
-    reseed: bool,
+    pub(crate) rules: Option<PathBuf>,
+    pub(crate) reseed: bool,
     at: Option<Timestamp>,
 }
 
@@ -209,82 +180,6 @@ impl KnowledgeBase {
             files.extend(rules::files(folder));
         }
         files
-    }
-
-    /// Map, facts, rules, routes: into the site's database, all or nothing.
-    pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
-        self.build_at(&self.database, progress)
-    }
-
-    fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
-        let inputs = self.inputs(progress)?;
-        let fresh = !database.exists();
-        let outcome = Store::open_or_create(database)
-            .map_err(Error::from)
-            .and_then(|mut store| self.shared().build_in(&mut store, &inputs, progress));
-        if outcome.is_err() && fresh && is_unbuilt(database) {
-            // a first build that failed leaves no empty database behind; nothing of the user's is in it
-            std::fs::remove_file(database).ok();
-        }
-        if outcome.is_ok() && !database.exists() {
-            let message = format!("{} was removed by someone while it was built", database.display());
-            return Err(Error::said("database", message, Some("build again".to_owned())));
-        }
-        Ok(outcome?.1)
-    }
-
-    /// Seeds the tables, where they are empty, and derives everything from them, in one transaction.
-    pub(crate) fn build_in(
-        self: &Arc<Self>,
-        store: &mut Store,
-        inputs: &Arc<Inputs>,
-        progress: &dyn Progress,
-    ) -> Result<(Memory, Report)> {
-        let seed = RobotFile::read(&self.site.robots)?;
-        store.transaction(|tx| {
-            let notes = seed.seed_tables(tx, &self.site.robots, self.reseed)?;
-            let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
-            report.notes.extend(notes);
-            Ok((memory, report))
-        })
-    }
-
-    /// Edits a table and derives what follows, in one transaction; with `rehearse` all of it is taken back.
-    pub fn edit(
-        &self,
-        edit: &Edit,
-        author: &Author,
-        rehearse: bool,
-        progress: &dyn Progress,
-    ) -> Result<(Done, Report)> {
-        let inputs = self.inputs(progress)?;
-        let mut store = Store::open(&self.database)?;
-        let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
-            let (done, mut report) = Memory::edit(tx, &self.shared(), &inputs, (edit, author), progress)?;
-            report.notes.extend(edit.overridden(tx, &done)?);
-            Ok((done, report))
-        };
-        if rehearse { store.rehearse(work) } else { store.transaction(work) }
-    }
-
-    /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
-    /// away; the site's database is not touched.
-    pub fn check(&self) -> Result<Vec<miette::Report>> {
-        let rules = rules::load(&self.site, self.rules.as_deref())?.base;
-        let mut problems = lint::ignored(&self.site, self.rules.as_deref(), &rules, &self.planners);
-        let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
-        let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
-        let scratch = folder.path().join("check.db");
-        if self.database.exists() {
-            Store::open_read_only(&self.database)?.backup(&scratch)?;
-        }
-        let report = self.build_at(&scratch, &Silent)?;
-        let notes = report.notes.into_iter().filter(|note| !said.contains(note));
-        problems.extend(notes.map(|note| miette::Report::new(Note(note))));
-        problems.extend(report.lost.into_iter().map(|lost| miette::Report::new(Lost(lost))));
-        problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
-        problems.extend(lint::never_chosen(&report.dominated).into_iter().map(miette::Report::new));
-        Ok(problems)
     }
 
     pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
@@ -474,22 +369,4 @@ impl KnowledgeBase {
         tx.mark_fresh()?;
         Ok(())
     }
-}
-
-/// Keeps which objects facts are about, where that differs from what was kept.
-pub(crate) fn keep_standings(tx: &mut Tx<'_>, told: &Told, attached: &Attached) -> Result<()> {
-    let standings = told.standings(attached);
-    if tx.standings()? != standings {
-        tx.replace_standings(&standings)?;
-    }
-    Ok(())
-}
-
-/// Whether no build has ever come to its end in the database, nor is at work there now.
-fn is_unbuilt(database: &Path) -> bool {
-    if std::fs::metadata(database).is_ok_and(|file| file.len() == 0) {
-        return true;
-    }
-    let signed = |tx: &mut Tx<'_>| tx.site_value("generation");
-    Store::open(database).and_then(|mut store| store.transaction(signed)).is_ok_and(|g| g.is_none())
 }

@@ -28,21 +28,22 @@ mod knowledge;
 mod live;
 pub mod navigation;
 pub mod plan;
-mod report;
+pub mod preview;
 mod serve;
 mod site;
 pub mod state;
 pub mod why;
+mod words;
 
 pub use answer::{Answer, Status};
-pub use edit::compare::Compared;
+pub use preview::compare::Compared;
 
+pub use edit::Tell;
 pub use error::problem::Problem;
 pub use error::{Error, Result};
 pub use knowledge::{KnowledgeBase, Tested};
+pub use live::report::{Change, Counts, Report, Routes};
 pub use live::{Live, Outcome, Renewal, View};
-pub use report::progress::{Progress, Silent, Spinner};
-pub use report::{Change, Counts, Report, Routes};
 pub use site::{Rooms, Site, Starts};
-pub use state::told::Tell;
-pub use state::{Stage, State};
+pub use state::State;
+pub use words::progress::{Progress, Silent, Spinner, Stage};

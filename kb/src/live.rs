@@ -1,8 +1,11 @@
 //! A site's knowledge held in memory between edits: an edit costs what depends on it, not what there is.
 
 mod memory;
+mod once;
 mod renewal;
+pub(crate) mod report;
 mod routes;
+mod trees;
 mod view;
 pub mod watch;
 
@@ -12,13 +15,13 @@ use adit_db::Store;
 use adit_db::history::Author;
 
 use crate::answer::Answer;
+use crate::edit::Tell;
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::report::Report;
-use crate::report::progress::Silent;
-use crate::state::told::Tell;
-use crate::state::{Stage, State};
+use crate::live::report::Report;
+use crate::state::State;
+use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
 use memory::{Accepted, Promptness};
 pub use renewal::Renewal;
@@ -82,6 +85,11 @@ impl Live {
         if self.is_prepared {
             state.prepare();
         }
+    }
+
+    /// The site as it is after the last edit.
+    pub fn view(&self) -> View {
+        View::of(&self.memory)
     }
 
     /// The site.

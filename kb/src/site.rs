@@ -20,8 +20,8 @@ use adit_planners::world::World;
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
+use crate::words::suggest::did_you_mean;
 use siphasher::sip::SipHasher13;
 
 /// How a map is cut into rooms.

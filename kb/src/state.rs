@@ -2,6 +2,7 @@
 //! routes. [`State::step`] is all that follows an edit, whoever made it: a build is a step from the empty state, a preview
 //! a step of a fork, an edit a step whose change is kept in the database.
 
+pub(crate) mod before;
 pub(crate) mod classes;
 pub(crate) mod generation;
 pub(crate) mod grounds;
@@ -13,6 +14,7 @@ pub(crate) mod rows;
 mod step;
 pub(crate) mod tables;
 pub(crate) mod told;
+pub(crate) mod tunings;
 mod twin;
 mod weighed;
 pub(crate) mod weights;
@@ -22,27 +24,29 @@ use std::time::Duration;
 
 use adit_engine::KnowledgeBase as Inference;
 
-use crate::answer::{self, Answer};
-use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::pairs::Known;
 use crate::knowledge::KnowledgeBase;
 use crate::state::inputs::Inputs;
-use crate::state::keep::places;
 use crate::state::told::{Attached, Told};
 use planned::Planned;
 pub(crate) use planned::content;
 pub use rehearse::Cell;
 pub(crate) use rehearse::differences;
-use step::Pending;
-pub use step::Stage;
-pub(crate) use step::{Clock, Nothing, Recall, Step, needs_changed};
+pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
-pub(crate) use weighed::{Look, Weighed, Which, is_same_cut, truth};
+pub(crate) use weighed::{Look, Weighed, Which, truth};
 
 /// How long a preview looks for routes between places, unless told otherwise.
 const PATIENCE: Duration = Duration::from_millis(100);
+
+/// What has to be undone where a step is not accepted.
+pub struct Pending {
+    attached: Attached,
+    /// The inference before planners gave it other classes.
+    inference: Option<Inference>,
+}
 
 /// What a site knows at one moment. A [fork](State::fork) of it shares nothing that a step of the one or the other would
 /// change.
@@ -70,7 +74,7 @@ pub struct State {
 impl State {
     /// Of a site of which nothing is known yet but its files.
     pub(crate) fn empty(site: Arc<KnowledgeBase>, inputs: Arc<Inputs>) -> Self {
-        let graph = SiteGraph::new(Vec::new(), Vec::new(), places(&inputs.world));
+        let graph = SiteGraph::new(Vec::new(), Vec::new(), rows::places(&inputs.world));
         let knowledge = Inference::new();
         let gauge = Arc::new(Gauge::new(&inputs.world, Sizes::new()));
         Self {
@@ -128,22 +132,5 @@ impl State {
     /// The robots, in the order of their names.
     pub(crate) fn robots(&self) -> Vec<String> {
         self.told.robots()
-    }
-
-    /// The route of least hardness, as [`Live::route`](crate::Live::route) gives it.
-    pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        let robot = answer::pick(&self.robots(), robot)?;
-        let blank = Answer::blank(&robot, start, goals, self.generation);
-        self.basis().search(goals, blank)
-    }
-
-    pub(crate) fn basis(&self) -> answer::Basis<'_> {
-        answer::Basis {
-            knowledge: &self.site,
-            graph: self.graph(),
-            rules: &self.inputs.rule_names,
-            world: &self.inputs.world,
-            gauge: &self.gauge,
-        }
     }
 }

@@ -9,11 +9,11 @@ use adit_db::Cell;
 use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::why::subject::Subject;
+use crate::words::suggest::did_you_mean;
 pub use facts::Facts;
 
 /// What is concluded about an object, and why.

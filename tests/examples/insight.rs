@@ -7,7 +7,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use adit::edit::Edit;
-use adit::edit::preview::Wanted;
+use adit::preview::Wanted;
 use adit::{KnowledgeBase, Live, Silent};
 use adit_tests::floor::{Floor, Kind};
 

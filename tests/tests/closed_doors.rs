@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit::edit::Edit;
-use adit::edit::preview::Wanted;
+use adit::preview::Wanted;
 use adit::{Answer, KnowledgeBase, Live, Status, Tell};
 use adit_db::Store;
 use adit_db::history::Author;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use adit::edit::Edit;
-use adit::edit::preview::{Preview, Wanted};
+use adit::preview::{Preview, Wanted};
 use adit::why::firm::FirmCell;
 use adit::{Answer, KnowledgeBase, Live, Status};
 use adit_tests::TestSite;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 use adit::edit::Edit;
-use adit::edit::preview::{Preview, Wanted};
+use adit::preview::{Preview, Wanted};
 use adit::{KnowledgeBase, Live, Tell};
 use adit_db::history::Author;
 use adit_tests::TestSite;
@@ -37,7 +37,7 @@ fn weights(site: &TestSite, table: &str, key: &str) -> BTreeMap<i64, Weight> {
     rows.iter().map(row).collect()
 }
 
-fn said(weight: &adit::edit::preview::Weight) -> (Option<f64>, Option<String>, Option<bool>) {
+fn said(weight: &adit::preview::Weight) -> (Option<f64>, Option<String>, Option<bool>) {
     (weight.hardness, weight.action.clone(), weight.passable)
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit::edit::Edit;
-use adit::edit::preview::Wanted;
+use adit::preview::Wanted;
 use adit::why::firm::Firm;
 use adit::why::why_not::WhyNot;
 use adit::{Answer, KnowledgeBase, Live};

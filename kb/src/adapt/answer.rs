@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::judge::{strategy_word, told};
 use super::session::Done;
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// A task as JSON.
 pub fn task_json(done: &Done) -> Value {

@@ -7,9 +7,9 @@ use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenar
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::report::number::number;
+use crate::words::number::number;
+use crate::words::suggest::did_you_mean;
 
 /// A cell that can be planned in.
 #[derive(Clone, Debug)]

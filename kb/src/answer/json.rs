@@ -4,7 +4,7 @@ use adit_planners::routes::{Leg, Way};
 use serde_json::{Result, to_writer};
 
 use super::{Answer, Status};
-use crate::graph::trees::heading;
+use crate::graph::heading;
 use crate::graph::{Rules, SiteGraph, Texts};
 
 /// About so many bytes are said of a leg.

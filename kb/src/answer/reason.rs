@@ -9,7 +9,7 @@ use adit_planners::world::World;
 use crate::error::{Error, Result};
 use crate::graph::{End, Rules, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// How many shut doors are described.
 const DESCRIBED: usize = 3;

@@ -5,11 +5,11 @@ use adit_planners::world::World;
 
 use super::{Answer, Status, json, steps};
 use crate::answer::reason;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::words::suggest::did_you_mean;
 
 /// What routes are found with.
 pub(crate) struct Basis<'a> {

@@ -5,7 +5,7 @@ use adit_db::route::{Step, Waypoint};
 use adit_planners::routes::{Leg, Way};
 
 use crate::graph::gauge::{Gauge, bends, headings};
-use crate::graph::trees::heading;
+use crate::graph::heading;
 use crate::graph::{Rules, SiteGraph, word};
 
 /// The steps of a way; where it does not lead to a point, nothing is walked in the last room.

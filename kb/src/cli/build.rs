@@ -4,8 +4,8 @@ use super::output::{json, line, maybe, number, remark, time};
 use super::{BuildArgs, SiteArgs};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::report::Report;
-use crate::report::progress::Spinner;
+use crate::live::report::Report;
+use crate::words::progress::Spinner;
 
 /// Opens a site as the arguments say.
 pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {

@@ -13,8 +13,8 @@ use crate::adapt::{
 };
 use crate::draw::render_cell;
 use crate::error::{Error, Result};
-use crate::report::number::number;
-use crate::report::progress::Bar;
+use crate::words::number::number;
+use crate::words::progress::Bar;
 
 /// Does the tasks that are asked for, one after the other; `false` where one found no path.
 pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> {

@@ -7,13 +7,13 @@ use super::build::show;
 use super::output::{json, line, maybe, program, quoted, table};
 use super::picture::save;
 use super::route;
+use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_svg};
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::knowledge::scene::main_state;
-use crate::report::progress::Spinner;
 use crate::site::shipped::{self, Sites};
 use crate::site::whole::{self, Whole};
+use crate::words::progress::Spinner;
 use adit_db::Store;
 
 /// Builds the examples into a folder and shows them.
@@ -61,7 +61,7 @@ pub fn run(args: &DemoArgs) -> Result<()> {
 
 struct Shown {
     knowledge: KnowledgeBase,
-    report: crate::report::Report,
+    report: crate::live::report::Report,
     answer: crate::answer::Answer,
     picture: PathBuf,
 }

@@ -9,9 +9,9 @@ use crate::adapt::{ExperimentOutcome, Row, experiment, is_scenario, method_of, s
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Error, Result};
 use crate::plan::rules::{self, Kind};
-use crate::report::number::number;
-use crate::report::progress::Bar;
 use crate::site::whole;
+use crate::words::number::number;
+use crate::words::progress::Bar;
 
 /// Runs the scenarios; `false` where a task found no path.
 pub fn run(args: &ExperimentArgs) -> Result<bool> {

@@ -5,8 +5,8 @@ use super::build::open;
 use super::output::{json, line, table};
 use crate::error::Result;
 use crate::live::Live;
-use crate::report::number::number;
 use crate::why::firm::{Beyond, FirmCell};
+use crate::words::number::number;
 
 /// Prints how far each cell may change before another way is the best.
 pub fn run(args: &FirmArgs) -> Result<()> {

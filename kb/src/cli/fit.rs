@@ -9,7 +9,7 @@ use super::build::open;
 use super::output::{json, line, table};
 use crate::error::{Error, Result};
 use crate::fit::{Fit, Scale, rows_of_csv};
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// Adds or clears traversals, and prints the hardness that fits them best.
 pub fn run(args: &FitArgs) -> Result<()> {

@@ -22,8 +22,8 @@ use crate::navigation::floor::Floor;
 use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
 use crate::navigation::missions::{ending, refuse};
-use crate::report::number::number;
 use crate::site::whole::{self, Whole};
+use crate::words::number::number;
 
 /// Learns a world, keeps and prints what came of it; `false` where that is not as it should be.
 pub fn run(

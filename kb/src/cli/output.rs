@@ -78,7 +78,7 @@ fn theme() -> miette::GraphicalTheme {
     if coloured { miette::GraphicalTheme::unicode() } else { miette::GraphicalTheme::unicode_nocolor() }
 }
 
-pub use crate::report::number::number;
+pub use crate::words::number::number;
 
 /// [`number`], or nothing.
 pub fn maybe(value: Option<f64>) -> String {

@@ -6,11 +6,11 @@ use std::path::Path;
 use super::DrawArgs;
 use super::build::open;
 use super::output::{json, line};
+use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_png, render_svg};
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::knowledge::scene::main_state;
 use crate::site::whole;
+use crate::words::suggest::did_you_mean;
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {

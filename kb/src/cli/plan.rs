@@ -18,8 +18,8 @@ use crate::navigation::keep::record;
 use crate::plan::assembly::Assembly;
 use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World};
-use crate::report::number::number;
 use crate::site::whole::Whole;
+use crate::words::number::number;
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {

@@ -17,9 +17,9 @@ use crate::navigation::journal::record;
 use crate::navigation::learning;
 use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
 use crate::plan::{Task, World};
-use crate::report::number::number;
-use crate::report::progress::Bar;
 use crate::site::whole::{self, Whole};
+use crate::words::number::number;
+use crate::words::progress::Bar;
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs) -> Result<bool> {

@@ -7,9 +7,9 @@ use super::build::open;
 use super::output::{json, line, table};
 use super::tune::apply;
 use crate::edit::Edit;
+use crate::edit::Tell;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::state::told::Tell;
 
 /// Tells a fact, takes one back, or lists them.
 pub fn run(args: &TellArgs) -> Result<()> {

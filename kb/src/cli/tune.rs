@@ -9,7 +9,7 @@ use super::{HistoryArgs, TuneArgs, UndoArgs};
 use crate::edit::Edit;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::report::progress::Spinner;
+use crate::words::progress::Spinner;
 
 /// `adit tune`.
 pub fn tune(args: &TuneArgs) -> Result<()> {

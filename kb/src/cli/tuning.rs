@@ -7,10 +7,10 @@ use super::build::open;
 use super::output::{json, line, maybe, table};
 use super::tune::apply;
 use crate::edit::Edit;
-use crate::edit::compare::BASE;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
+use crate::preview::compare::BASE;
+use crate::words::suggest::did_you_mean;
 
 const ACTIONS: [&str; 5] = ["set", "unset", "on", "off", "preview"];
 

@@ -6,8 +6,8 @@ use super::WatchArgs;
 use super::build::{changes, notes, open};
 use super::output::{as_json, line, problems, remark};
 use crate::error::Result;
+use crate::live::report::Report;
 use crate::live::watch::{Event, PAUSE, watch};
-use crate::report::Report;
 
 /// Watches the site; does not come back.
 pub fn run(args: &WatchArgs) -> Result<()> {

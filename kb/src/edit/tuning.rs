@@ -6,8 +6,8 @@ use adit_db::edit::Edited;
 use adit_db::history::Author;
 
 use super::{cell_of, columns, explain};
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
+use crate::words::suggest::did_you_mean;
 
 const CELLS: &str = "tuning_cells";
 const ACTIVE: &str = "active_tunings";

@@ -6,8 +6,8 @@ use adit_db::robot::State;
 use adit_db::traversal::Traversal;
 use serde::{Deserialize, Serialize};
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
+use crate::words::suggest::did_you_mean;
 
 /// A traversal to be added.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]

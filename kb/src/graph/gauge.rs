@@ -12,7 +12,7 @@ use adit_planners::routes::Way;
 use adit_planners::world::World;
 
 use crate::graph::SiteGraph;
-use crate::graph::trees::heading;
+use crate::graph::heading;
 
 /// Everything solid of a map, and the sizes of the states.
 pub struct Gauge {

@@ -7,18 +7,19 @@ use adit_db::Tx;
 use adit_db::history::Author;
 use adit_db::stale::Mark;
 
+use super::report::{Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
-use super::view;
+use super::trees::{self, Plan};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
-use crate::graph::trees::{self, Plan};
-use crate::knowledge::{KnowledgeBase, keep_standings};
-use crate::report::progress::{Progress, Silent};
-use crate::report::{Before, Report, Routes, Rows};
+use crate::graph::layout;
+use crate::knowledge::KnowledgeBase;
+use crate::state::before::{Before, Rows};
 use crate::state::generation::{self, Basis};
 use crate::state::inputs::Inputs;
-use crate::state::keep::{Kept, LastBuild, Written};
-use crate::state::{Clock, Nothing, Stage, State, Step, Weighed};
+use crate::state::keep::{Kept, LastBuild, Written, keep_standings};
+use crate::state::{Nothing, State, Step, Weighed};
+use crate::words::progress::{Progress, Silent, Stage, Stopwatch};
 
 /// The mark of routes that have yet to follow.
 pub const ROUTES: &str = "routes";
@@ -51,7 +52,7 @@ pub struct Followed {
     kept: KeptNow,
     routes: RoutesNow,
     generation: u64,
-    clock: Clock,
+    clock: Stopwatch,
 }
 
 /// What is kept besides the routes.
@@ -121,7 +122,7 @@ impl Memory {
         let told = site.told(tx, &inputs.rules)?;
         let mut state = State::empty(Arc::clone(site), Arc::clone(inputs));
         let step = state.step(told, &mut LastBuild::new(tx, before), progress)?;
-        let mut clock = Clock::new();
+        let mut clock = Stopwatch::new();
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
         let (kept, plan, routes, generation) =
             write_all(tx, &state, &step, (before, &basis), progress, &mut clock)?;
@@ -156,7 +157,7 @@ impl Memory {
     }
 
     fn of(state: State, kept: Kept, plan: Plan, basis: Basis) -> Self {
-        let layout = view::layout(state.graph());
+        let layout = layout(state.graph());
         Self { state, kept, routes: KeptRoutes::later(plan), basis, layout, routes_due: false }
     }
 
@@ -174,7 +175,7 @@ impl Memory {
         promptness: Promptness,
         progress: &dyn Progress,
     ) -> Result<Followed> {
-        let mut clock = Clock::new();
+        let mut clock = Stopwatch::new();
         let site = Arc::clone(&self.state.site);
         let told = site.told(tx, &self.state.inputs.rules)?;
         clock.lap("edit");
@@ -245,7 +246,7 @@ impl Memory {
             }
         };
         if anew {
-            self.layout = view::layout(self.state.graph());
+            self.layout = layout(self.state.graph());
         }
         Accepted { done, weighed, tree_rows, routes, anew, stages: clock.stages }
     }
@@ -265,7 +266,7 @@ fn write_all(
     step: &Step,
     (before, basis): (Before<'_>, &Basis),
     progress: &dyn Progress,
-    clock: &mut Clock,
+    clock: &mut Stopwatch,
 ) -> Result<(Kept, Plan, Routes, u64)> {
     let site = &state.site;
     progress.stage("database");

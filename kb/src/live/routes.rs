@@ -7,8 +7,8 @@ use adit_planners::geometry::Point;
 use adit_planners::routes::{CompactGraph, CompactTree, NONE};
 
 use crate::error::Result;
-use crate::graph::trees::{self, Plan};
-use crate::graph::{End, SiteGraph};
+use crate::graph::{End, SiteGraph, heading, place_node};
+use crate::live::trees::Plan;
 use crate::state::Weighed;
 
 /// The trees of the kept starts.
@@ -149,7 +149,7 @@ fn differences(
     let mut change = TreeChange::default();
     for (index, room) in places.iter().enumerate().rev() {
         let Some(room) = *room else { continue };
-        let node = trees::place_node(index);
+        let node = place_node(index);
         let row = |tree: &CompactTree| {
             let goal = graph.point(&End::Place(index));
             tree.costs[room].is_finite().then(|| TreeRow {
@@ -161,7 +161,7 @@ fn differences(
                 reach: tree.costs[room],
                 leg: 0.0,
                 at: Some([goal.x, goal.y]),
-                heading: trees::heading(arrival(graph, tree, room, start), goal),
+                heading: heading(arrival(graph, tree, room, start), goal),
                 distance: None,
                 clearance: None,
                 bend: true,
@@ -240,7 +240,7 @@ fn room_row(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) ->
         prev: Some(graph.rooms[last].room),
         door: Some(i64::from(graph.graph().doors()[tree.doors[room] as usize].door)),
         reach: tree.costs[last],
-        heading: trees::heading(arrival(graph, tree, last, start), at),
+        heading: heading(arrival(graph, tree, last, start), at),
         ..row
     })
 }

@@ -1,17 +1,16 @@
 //! What questions are answered from: the site as it was after some edit, which no later edit changes.
 
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use adit_planners::routes::Goal;
 
-use super::Live;
+use super::memory::Memory;
+use super::report::PlaceCosts;
 use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
-use crate::report::PlaceCosts;
 use crate::state::inputs::Inputs;
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
@@ -27,12 +26,10 @@ pub struct View {
     routes_due: bool,
 }
 
-impl Live {
-    /// The site as it is after the last edit.
-    pub fn view(&self) -> View {
-        let memory = &self.memory;
-        View {
-            site: Arc::clone(&self.site),
+impl View {
+    pub(super) fn of(memory: &Memory) -> Self {
+        Self {
+            site: Arc::clone(&memory.state.site),
             inputs: Arc::clone(&memory.state.inputs),
             graph: Arc::clone(memory.state.graph()),
             gauge: Arc::clone(&memory.state.gauge),
@@ -42,9 +39,7 @@ impl Live {
             routes_due: memory.routes_due,
         }
     }
-}
 
-impl View {
     /// The route of least hardness to the one of several goals that costs least. Nothing is read but memory.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = answer::pick(&self.robots, robot)?;
@@ -131,19 +126,4 @@ impl View {
     pub fn routes_due(&self) -> bool {
         self.routes_due
     }
-}
-
-/// A name of the cut of a floor: rooms, doors and places by their geometry.
-pub fn layout(graph: &SiteGraph) -> Arc<str> {
-    let mut hasher = DefaultHasher::new();
-    for room in &graph.rooms {
-        (room.room, &room.name, room.rect.map(f64::to_bits), &room.layer).hash(&mut hasher);
-    }
-    for door in &graph.doors {
-        (door.door, door.side1.room, door.side2.room, door.segment.map(f64::to_bits)).hash(&mut hasher);
-    }
-    for place in &graph.places {
-        (&place.place, place.x.to_bits(), place.y.to_bits()).hash(&mut hasher);
-    }
-    format!("{:016x}", hasher.finish()).into()
 }

@@ -11,8 +11,8 @@ use adit_db::Store;
 
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::report::Report;
-use crate::report::progress::Silent;
+use crate::live::report::Report;
+use crate::words::progress::Silent;
 pub(crate) use eye::{Eye, Files};
 use eye::{Stamp, stamp};
 

@@ -10,9 +10,9 @@ use serde_json::{Value, json};
 
 use super::judge::RuleJudge;
 use super::told::Told;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::report::number::number;
+use crate::words::number::number;
+use crate::words::suggest::did_you_mean;
 
 /// A floor plan, the network of places for a robot, and what the robot goes by.
 #[derive(Debug)]

@@ -12,9 +12,9 @@ use toml::de::DeValue;
 
 use super::floor::Floor;
 use super::told::{self, Told};
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::site::Site;
+use crate::words::suggest::did_you_mean;
 
 const KEYS: [&str; 8] = ["file", "map", "unknown", "speck_area", "open", "closed", "robot", "navigation"];
 /// What goes with a map alone.

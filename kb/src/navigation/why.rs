@@ -10,11 +10,11 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::plan::Spoke;
 use crate::plan::rules::{self, Kind};
-use crate::report::number::number;
+use crate::words::number::number;
+use crate::words::suggest::did_you_mean;
 
 /// A decision of a mission, and the rules that were looked at.
 #[derive(Clone, Debug, Serialize)]

@@ -8,7 +8,7 @@ use super::assembly::Assembly;
 use super::refusal::NoPath;
 use super::said::Said;
 use super::steps::{AXES, named};
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// A path or why there is none, and what rules said on the way.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use super::answer::refused;
 use super::corridor::{Corridor, Driven};
 use super::refusal::NoPath;
 use super::said::Said;
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// A robot's path or why there is none, and what rules said on the way.
 #[derive(Clone, Debug)]

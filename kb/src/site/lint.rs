@@ -11,9 +11,9 @@ use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode, SourceSpan};
 
-use crate::error::suggest::did_you_mean;
 use crate::site::Site;
 use crate::site::rules;
+use crate::words::suggest::did_you_mean;
 
 /// Properties that routes and pictures read.
 const READ_BY_ROUTES: [&str; 6] =

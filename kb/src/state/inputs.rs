@@ -14,7 +14,7 @@ use crate::graph::Rules;
 use crate::site::Site;
 use crate::site::lint;
 use crate::site::rules;
-use crate::state::Stage;
+use crate::words::progress::Stage;
 
 /// The map and the rules, read and compiled.
 pub struct Inputs {

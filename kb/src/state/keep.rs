@@ -5,20 +5,20 @@ use std::collections::BTreeMap;
 use adit_db::Tx;
 use adit_db::area::Area;
 use adit_db::conclusion::{Derivation, Rule, Witness};
-use adit_db::place::{Frame, Place};
+use adit_db::place::Frame;
 use adit_db::weight::Weight;
 use adit_engine::RuleBase;
 use adit_planners::facts::{Facts, Table};
 use adit_planners::planner::Planner;
-use adit_planners::world::World;
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::report::Before;
+use crate::state::before::Before;
 use crate::state::classes;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
 use crate::state::tables;
+use crate::state::told::{Attached, Told};
 use crate::state::{Look, Recall, State, Step, Which, content, truth};
 
 /// What planners of rooms make: rooms, doors, and which room lies in which named area or door.
@@ -346,17 +346,6 @@ fn derivations_of(look: &mut Look<'_, '_>, class: &str, property: &str) -> Vec<D
     found
 }
 
-/// The map's places as rows.
-pub fn places(world: &World) -> Vec<Place> {
-    let mut places: Vec<Place> = world
-        .places
-        .iter()
-        .map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y })
-        .collect();
-    places.sort_by(|a, b| a.place.cmp(&b.place));
-    places
-}
-
 fn rule_rows(rules: &RuleBase) -> Vec<Rule> {
     let row = |(index, rule): (usize, &adit_engine::Rule)| Rule {
         rule: index as i64 + 1,
@@ -375,6 +364,15 @@ fn keep_planned_classes(tx: &mut Tx<'_>, facts: &Facts) -> Result<()> {
         if !OURS.contains(&class.as_str()) {
             tables::keep(tx, &class.to_lowercase(), table)?;
         }
+    }
+    Ok(())
+}
+
+/// Keeps which objects facts are about, where that differs from what was kept.
+pub(crate) fn keep_standings(tx: &mut Tx<'_>, told: &Told, attached: &Attached) -> Result<()> {
+    let standings = told.standings(attached);
+    if tx.standings()? != standings {
+        tx.replace_standings(&standings)?;
     }
     Ok(())
 }

@@ -104,7 +104,7 @@ fn fact_differences(before: &Told, after: &Told, found: &mut Vec<Cell>) {
         let object = match &fact.object {
             Object::Key(key) => key.clone(),
             Object::Point([x, y], _) => {
-                format!("{},{}", crate::report::number::number(*x), crate::report::number::number(*y))
+                format!("{},{}", crate::words::number::number(*x), crate::words::number::number(*y))
             }
         };
         let value = match &fact.value {

@@ -3,8 +3,10 @@
 use adit_db::Derived;
 use adit_db::area::Area;
 use adit_db::door::{Door, DoorKind, Side};
+use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_planners::facts::{Column, Table};
+use adit_planners::world::World;
 
 use crate::error::{Error, Result};
 
@@ -191,4 +193,15 @@ pub fn strip_edges(table: &Table) -> Result<[Vec<f64>; 2]> {
         }
         edges
     }))
+}
+
+/// The map's places as rows.
+pub fn places(world: &World) -> Vec<Place> {
+    let mut places: Vec<Place> = world
+        .places
+        .iter()
+        .map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y })
+        .collect();
+    places.sort_by(|a, b| a.place.cmp(&b.place));
+    places
 }

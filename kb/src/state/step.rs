@@ -2,37 +2,25 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
 
-use super::State;
 use super::planned::{self, Planned};
 pub use super::planned::{Nothing, Recall};
 use super::twin::Twin;
 use super::weighed::{Look, Weighed, Which, is_same_cut};
+use super::{Pending, State};
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
-use crate::report::progress::Progress;
 use crate::state::classes;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
 use crate::state::told::{Attached, Told};
 use crate::state::weights;
-
-/// A stage of the work and how long it took.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Stage {
-    /// Its name.
-    pub name: String,
-    /// Its time.
-    pub took: Duration,
-    /// Whether its result was kept from before, because nothing that it needs has changed.
-    pub kept: bool,
-}
+use crate::words::progress::{Progress, Stage, Stopwatch};
 
 /// What a step changes. The state shows it once it is [accepted](State::accept).
 pub struct Step {
@@ -55,13 +43,6 @@ pub struct Step {
     /// What was done, in order.
     pub stages: Vec<Stage>,
     gauge: Option<Arc<Gauge>>,
-}
-
-/// What has to be undone where a step is not accepted.
-pub struct Pending {
-    attached: Attached,
-    /// The inference before planners gave it other classes.
-    inference: Option<Inference>,
 }
 
 impl State {
@@ -87,7 +68,7 @@ impl State {
         if !has_same_columns(&self.told, &told) {
             self.site.vet(&inputs.rules, &inputs.tests, &told)?;
         }
-        let mut clock = Clock::new();
+        let mut clock = Stopwatch::new();
         let mut attached = self.tell(&told)?;
         let mut changes = self.conclude()?;
         clock.lap("rules");
@@ -231,7 +212,7 @@ impl State {
         &mut self,
         told: &Told,
         changes: &mut Changes,
-        (recall, progress, clock): (&mut dyn Recall, &dyn Progress, &mut Clock),
+        (recall, progress, clock): (&mut dyn Recall, &dyn Progress, &mut Stopwatch),
     ) -> Result<Given> {
         let (site, inputs) = (Arc::clone(&self.site), Arc::clone(&self.inputs));
         let planners = site.planners();
@@ -365,41 +346,4 @@ fn circle(planner: &dyn Planner) -> Error {
         format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
     let help = "a rule concludes something that this planner works from out of what it gives".to_owned();
     Error::said("rules/circle", message, Some(help))
-}
-
-/// Times stages; one that comes again adds to its time.
-pub struct Clock {
-    began: Instant,
-    /// What was done.
-    pub stages: Vec<Stage>,
-}
-
-impl Clock {
-    /// It runs.
-    pub fn new() -> Self {
-        Self { began: Instant::now(), stages: Vec::new() }
-    }
-
-    /// What was done since the last stage ended.
-    pub fn lap(&mut self, name: &str) {
-        self.lap_of(name, false);
-    }
-
-    /// What was done since the last stage ended was timed by somebody else.
-    pub fn skip(&mut self) {
-        self.began = Instant::now();
-    }
-
-    fn kept(&mut self, name: &str) {
-        self.lap_of(name, true);
-    }
-
-    fn lap_of(&mut self, name: &str, kept: bool) {
-        let took = self.began.elapsed();
-        self.began = Instant::now();
-        match self.stages.iter_mut().find(|stage| stage.name == name) {
-            Some(stage) => (stage.took, stage.kept) = (stage.took + took, stage.kept && kept),
-            None => self.stages.push(Stage { name: name.to_owned(), took, kept }),
-        }
-    }
 }

@@ -1,7 +1,6 @@
 //! What is told to a derivation: tables as classes, and facts about single objects, by name or by a point.
 
 pub mod attach;
-mod resolve;
 
 use std::hash::{Hash, Hasher};
 
@@ -10,13 +9,12 @@ use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
-use crate::edit::tunings::RowKeys;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
-use crate::report::number::number;
 use crate::site::clock::{Clock, stored};
+use crate::state::tunings::RowKeys;
+use crate::words::number::number;
+use crate::words::suggest::did_you_mean;
 pub use attach::Attached;
-pub use resolve::Tell;
 
 /// Classes and facts that people, robots and tables tell.
 #[derive(Clone, Debug, Default, PartialEq)]

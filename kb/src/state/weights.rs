@@ -6,8 +6,8 @@ use adit_engine::{Changes, KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
 use crate::error::{Error, Result};
-use crate::report::number::number;
 use crate::state::classes;
+use crate::words::number::number;
 
 /// The largest hardness that the tables take.
 const LARGEST: f64 = 1e300;

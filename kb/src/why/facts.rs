@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use adit_engine::{Support, Value, Witness};
 use serde::Serialize;
 
-use crate::report::number::number;
 use crate::state::State;
+use crate::words::number::number;
 
 /// An object with the properties that rules read of it.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]

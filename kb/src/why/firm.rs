@@ -27,10 +27,10 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::answer;
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::live::Live;
 use crate::state::State;
+use crate::words::suggest::did_you_mean;
 pub(crate) use cells::Lever;
 pub(crate) use path::{Path, Routes};
 pub(crate) use probe::{Prober, Weights};

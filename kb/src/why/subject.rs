@@ -1,8 +1,8 @@
 //! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
 
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::state::State;
+use crate::words::suggest::did_you_mean;
 
 /// An object of a table or class, perhaps one property of it.
 #[derive(Clone, Debug, PartialEq)]

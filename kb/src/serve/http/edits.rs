@@ -10,13 +10,13 @@ use utoipa::ToSchema;
 
 use super::Site;
 use super::extract::Body;
-use crate::edit::preview::{Preview, Wanted};
+use crate::edit::Tell;
 use crate::edit::{Done, Edit};
 use crate::live::Outcome;
+use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-use crate::state::told::Tell;
 
 /// The longest that routes between places are compared.
 const PATIENCE_MS: u64 = 10_000;

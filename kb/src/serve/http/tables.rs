@@ -8,10 +8,10 @@ use utoipa::ToSchema;
 
 use super::Site;
 use crate::edit;
-use crate::edit::tunings;
 use crate::error::Result;
 use crate::serve::fault::{Answered, Failure};
 use crate::state::generation;
+use crate::state::tunings;
 
 /// All tables that may be edited.
 #[derive(Serialize, ToSchema)]

@@ -5,7 +5,7 @@ use super::probe::Probe;
 use super::{Beyond, Lever, Path, Prober};
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::report::number::number;
+use crate::words::number::number;
 
 /// So many doors are named.
 const NAMED: usize = 3;

@@ -7,9 +7,9 @@ use adit_engine::{Rejected, Rejection, Value};
 use adit_planners::routes::Walking;
 
 use super::WhyNot;
-use crate::report::number::number;
 use crate::why::firm::{Path, Prober, actions, instead};
 use crate::why::subject::Subject;
+use crate::words::number::number;
 
 /// So many comparisons that failed are told.
 const TOLD: usize = 8;

@@ -7,14 +7,14 @@ use adit_db::history::Author;
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
 
-use super::attach::REACH;
-use super::{Object, Told};
-use crate::error::suggest::did_you_mean;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::report::number::number;
 use crate::site::clock::stored;
 use crate::state::classes;
+use crate::state::told::attach::REACH;
+use crate::state::told::{Object, Told};
+use crate::words::number::number;
+use crate::words::suggest::did_you_mean;
 
 /// A fact as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -1,6 +1,6 @@
 //! How long work shows that it goes on.
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -73,5 +73,55 @@ impl Bar {
 impl Drop for Bar {
     fn drop(&mut self) {
         self.0.finish_and_clear();
+    }
+}
+
+/// A stage of the work and how long it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stage {
+    /// Its name.
+    pub name: String,
+    /// Its time.
+    pub took: Duration,
+    /// Whether its result was kept from before, because nothing that it needs has changed.
+    pub kept: bool,
+}
+
+/// Times stages; one that comes again adds to its time.
+pub struct Stopwatch {
+    began: Instant,
+    /// What was done.
+    pub stages: Vec<Stage>,
+}
+
+impl Stopwatch {
+    /// It runs.
+    pub fn new() -> Self {
+        Self { began: Instant::now(), stages: Vec::new() }
+    }
+
+    /// What was done since the last stage ended.
+    pub fn lap(&mut self, name: &str) {
+        self.lap_of(name, false);
+    }
+
+    /// What was done since the last stage ended was timed by somebody else.
+    pub fn skip(&mut self) {
+        self.began = Instant::now();
+    }
+
+    /// What was done since the last stage ended was to recall what is kept.
+    pub fn kept(&mut self, name: &str) {
+        self.lap_of(name, true);
+    }
+
+    /// What was done since the last stage ended, or recalled.
+    pub fn lap_of(&mut self, name: &str, kept: bool) {
+        let took = self.began.elapsed();
+        self.began = Instant::now();
+        match self.stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => (stage.took, stage.kept) = (stage.took + took, stage.kept && kept),
+            None => self.stages.push(Stage { name: name.to_owned(), took, kept }),
+        }
     }
 }

@@ -4,8 +4,8 @@ use adit_db::tree::TreeRow;
 use adit_planners::geometry::Point;
 use adit_planners::routes::{Start, Tree};
 
-use super::{heading, place_node};
 use crate::graph::{End, SiteGraph};
+use crate::graph::{heading, place_node};
 
 pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start)) -> Vec<TreeRow> {
     let tree = graph.graph().tree(start);

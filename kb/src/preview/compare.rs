@@ -11,8 +11,8 @@ use crate::edit::Edit;
 use crate::error::{Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::Memory;
-use crate::report::progress::Silent;
 use crate::state::inputs::Inputs;
+use crate::words::progress::Silent;
 
 /// The name that stands for no tuning at all.
 pub const BASE: &str = "base";

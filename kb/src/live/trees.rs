@@ -5,18 +5,18 @@ mod on_doors;
 
 use adit_db::Tx;
 use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
-use adit_planners::geometry::Point;
 use adit_planners::routes::Start;
 use rayon::prelude::*;
 
-use crate::error::suggest::did_you_mean;
+use super::report::{PlaceCosts, Routes};
 use crate::error::{Error, Result};
 use crate::graph::gauge::Gauge;
-use crate::graph::{End, SiteGraph};
-use crate::report::progress::Progress;
-use crate::report::{Before, PlaceCosts, Routes};
+use crate::graph::{End, SiteGraph, place_node};
 use crate::site::Starts;
+use crate::state::before::Before;
 use crate::state::{State, Step};
+use crate::words::progress::Progress;
+use crate::words::suggest::did_you_mean;
 
 /// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
 /// where rooms are by state, places are: a tree by state takes tens of milliseconds, and who asks names a place or a
@@ -152,24 +152,12 @@ pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
     Ok(ends)
 }
 
-/// The node of a place.
-pub fn place_node(index: usize) -> i64 {
-    -(index as i64) - 1
-}
-
 /// The rows of some trees, computed side by side, each in the order of its nodes.
 pub fn rows(graph: &SiteGraph, roots: &[(String, Start)], gauge: &Gauge) -> Vec<Vec<TreeRow>> {
     if graph.graph().is_on_doors() {
         return roots.par_iter().map(|root| on_doors::rows(graph, root)).collect();
     }
     roots.par_iter().map(|root| measured::rows(graph, root, gauge)).collect()
-}
-
-/// Degrees counterclockwise from x; `None` where nothing moves.
-pub fn heading(from: Point, to: Point) -> Option<f64> {
-    // to a hundredth, as the tables keep it
-    let degrees = (to.y - from.y).atan2(to.x - from.x).to_degrees();
-    (from.distance(to) > 1e-9).then(|| (degrees * 100.0).round() / 100.0)
 }
 
 /// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only trees that differ are

@@ -1,5 +1,6 @@
 //! What edits would change, before any of them is made.
 
+pub(crate) mod compare;
 mod routes;
 
 use std::sync::Arc;
@@ -13,8 +14,8 @@ use crate::edit::Edit;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
-use crate::report::progress::Silent;
 use crate::state::{Cell, Nothing, State, Weighed};
+use crate::words::progress::Silent;
 pub use routes::{PlaceRoute, PlaceRoutes};
 
 /// How many rooms, doors or routes are listed.

@@ -1,0 +1,214 @@
+//! What a command does with a site: it is opened, one thing is done, and all of it is kept or nothing.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use adit_db::history::Author;
+use adit_db::route::Route;
+use adit_db::{Store, Tx};
+
+use super::memory::Memory;
+use super::report::Report;
+use crate::answer::{Answer, Basis, Status, pick_robot};
+use crate::edit::{Done, Edit};
+use crate::error::{Error, Result};
+use crate::graph::gauge::{Gauge, sizes_of};
+use crate::graph::{Rules, SiteGraph};
+use crate::knowledge::KnowledgeBase;
+use crate::site::robots::RobotFile;
+use crate::site::{lint, rules, states};
+use crate::state::generation;
+use crate::state::inputs::Inputs;
+use crate::words::progress::{Progress, Silent};
+
+/// Something that the expert should know, though nothing is wrong.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(severity(advice))]
+struct Note(String);
+
+/// Something that routes need and no rule gives.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(code("rule/gap"), severity(warning))]
+struct Gap(String);
+
+/// A fact that no longer finds what it is about.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+#[error("{0}")]
+#[diagnostic(
+    code("tell/lost"),
+    severity(warning),
+    help("tell it again where it now is, or take it back with `adit tell SITE --retract ID`")
+)]
+struct Lost(String);
+
+impl KnowledgeBase {
+    /// Map, facts, rules, routes: into the site's database, all or nothing.
+    pub fn build(&self, progress: &dyn Progress) -> Result<Report> {
+        self.build_at(self.database(), progress)
+    }
+
+    fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
+        let inputs = self.inputs(progress)?;
+        let fresh = !database.exists();
+        let outcome = Store::open_or_create(database)
+            .map_err(Error::from)
+            .and_then(|mut store| self.shared().build_in(&mut store, &inputs, progress));
+        if outcome.is_err() && fresh && is_unbuilt(database) {
+            // a first build that failed leaves no empty database behind; nothing of the user's is in it
+            std::fs::remove_file(database).ok();
+        }
+        if outcome.is_ok() && !database.exists() {
+            let message = format!("{} was removed by someone while it was built", database.display());
+            return Err(Error::said("database", message, Some("build again".to_owned())));
+        }
+        Ok(outcome?.1)
+    }
+
+    /// Seeds the tables, where they are empty, and derives everything from them, in one transaction.
+    pub(crate) fn build_in(
+        self: &Arc<Self>,
+        store: &mut Store,
+        inputs: &Arc<Inputs>,
+        progress: &dyn Progress,
+    ) -> Result<(Memory, Report)> {
+        let seed = RobotFile::read(&self.site().robots)?;
+        store.transaction(|tx| {
+            let notes = seed.seed_tables(tx, &self.site().robots, self.reseed)?;
+            let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
+            report.notes.extend(notes);
+            Ok((memory, report))
+        })
+    }
+
+    /// Edits a table and derives what follows, in one transaction; with `rehearse` all of it is taken back.
+    pub fn edit(
+        &self,
+        edit: &Edit,
+        author: &Author,
+        rehearse: bool,
+        progress: &dyn Progress,
+    ) -> Result<(Done, Report)> {
+        let inputs = self.inputs(progress)?;
+        let mut store = Store::open(self.database())?;
+        let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
+            let (done, mut report) = Memory::edit(tx, &self.shared(), &inputs, (edit, author), progress)?;
+            report.notes.extend(edit.overridden(tx, &done)?);
+            Ok((done, report))
+        };
+        if rehearse { store.rehearse(work) } else { store.transaction(work) }
+    }
+
+    /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
+    /// away; the site's database is not touched.
+    pub fn check(&self) -> Result<Vec<miette::Report>> {
+        let rules = rules::load(self.site(), self.rules.as_deref())?.base;
+        let mut problems = lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners());
+        let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
+        let scratch = folder.path().join("check.db");
+        if self.database().exists() {
+            Store::open_read_only(self.database())?.backup(&scratch)?;
+        }
+        let report = self.build_at(&scratch, &Silent)?;
+        let notes = report.notes.into_iter().filter(|note| !said.contains(note));
+        problems.extend(notes.map(|note| miette::Report::new(Note(note))));
+        problems.extend(report.lost.into_iter().map(|lost| miette::Report::new(Lost(lost))));
+        problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
+        problems.extend(lint::never_chosen(&report.dominated).into_iter().map(miette::Report::new));
+        Ok(problems)
+    }
+
+    /// The route of least hardness between two places, rooms or points (`x,y`).
+    ///
+    /// As [`route_to_nearest`](Self::route_to_nearest), with one goal.
+    pub fn route(&self, start: &str, goal: &str, robot: Option<&str>) -> Result<Answer> {
+        self.route_to_nearest(start, &[goal.to_owned()], robot)
+    }
+
+    /// The route to the one of several goals that costs least; the answer's `goal` says which.
+    ///
+    /// Where tables, `site.toml` or the map were edited since the last build, or the time is over up to which it holds,
+    /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
+    /// leaves the site as it is.
+    pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        if self.asks_about_another_moment() {
+            return self.rehearsed(|tx| self.answer(tx, start, goals, robot));
+        }
+        self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
+    }
+
+    /// Does `work` on what would be derived now, and takes all of it back.
+    pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
+        let inputs = self.inputs(&crate::words::progress::Silent)?;
+        Store::open(self.database())?.rehearse(|tx| {
+            Memory::build(tx, &self.shared(), &inputs, &crate::words::progress::Silent)?;
+            work(tx)
+        })
+    }
+
+    /// The database for reading. Where tables, `site.toml` or the map were edited since the last build, everything is
+    /// derived again first.
+    pub(crate) fn fresh(&self) -> Result<Store> {
+        let mut store = Store::open_read_only(self.database())?;
+        let texts = self.site().texts().to_string();
+        let is_old = |tx: &mut Tx<'_>| -> Result<bool> {
+            // a first build that was killed leaves tables, and nothing in them
+            let is_unbuilt = generation::read(tx)? == 0;
+            Ok(is_unbuilt || tx.is_stale()? || tx.site_value("texts")?.is_some_and(|built| built != texts))
+        };
+        if store.snapshot(is_old)? {
+            drop(store);
+            self.build(&crate::words::progress::Silent)?;
+            store = Store::open_read_only(self.database())?;
+        }
+        Ok(store)
+    }
+
+    fn answer(&self, tx: &mut Tx<'_>, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        let robot = pick_robot(tx, robot)?;
+        let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
+        if let Some(route) = kept(tx, &robot, start, goals)? {
+            answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
+            (answer.cost, answer.distance) = (route.cost, route.distance);
+            answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
+            answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+            answer.goal = route.goal;
+            return Ok(answer);
+        }
+        let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
+        let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
+        let states = states::in_force(tx)?;
+        let (world, _, _) = self.site().world()?;
+        let gauge = Gauge::new(&world, sizes_of(&states));
+        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, world: &world, gauge: &gauge };
+        basis.search(goals, answer)
+    }
+}
+
+/// Whether no build has ever come to its end in the database, nor is at work there now.
+fn is_unbuilt(database: &Path) -> bool {
+    if std::fs::metadata(database).is_ok_and(|file| file.len() == 0) {
+        return true;
+    }
+    let signed = |tx: &mut Tx<'_>| tx.site_value("generation");
+    Store::open(database).and_then(|mut store| store.transaction(signed)).is_ok_and(|g| g.is_none())
+}
+
+/// The kept route that costs least, if routes to all of the goals are kept.
+fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<Option<Route>> {
+    let mut best: Option<Route> = None;
+    for goal in goals {
+        let Some(route) = tx.route(robot, start, goal)? else { return Ok(None) };
+        match route.status.as_str() {
+            "ok" | "same_room" => {}
+            "no_route" if goals.len() > 1 => continue,
+            _ => return Ok(None),
+        }
+        if best.as_ref().is_none_or(|best| route.cost < best.cost) {
+            best = Some(route);
+        }
+    }
+    Ok(best)
+}

@@ -1,0 +1,5 @@
+//! What Adit says in many places: numbers, how far long work has come, the name that somebody probably meant.
+
+pub(crate) mod number;
+pub(crate) mod progress;
+pub(crate) mod suggest;
