@@ -9,7 +9,7 @@ use super::lower::{Local, Lowering, Stop, Typed};
 use super::node::Node;
 use crate::diagnostic::Code;
 use crate::rule::PropertyName;
-use crate::script::names::{Names, Patterns, property_of};
+use crate::script::names::{Names, Patterns, changes_in_expressions, property_of};
 use crate::value::Type;
 
 /// One step of an action.
@@ -69,9 +69,10 @@ impl ActionPlan {
 pub(crate) fn action(lowering: &mut Lowering, block: &StmtBlock) -> ActionPlan {
     let mut plan = ActionPlan::default();
     reset(lowering);
+    let changes = changes_in_expressions(block, &Patterns(&lowering.variables()));
     match steps(lowering, block, &mut plan, true) {
-        Ok(steps) => plan.steps = steps,
-        Err(Stop::Interpret) => {
+        Ok(steps) if !changes => plan.steps = steps,
+        Ok(_) | Err(Stop::Interpret) => {
             reset(lowering);
             plan = interpreted(lowering, block).unwrap_or_default();
         }
@@ -119,7 +120,7 @@ fn step(
         Stmt::Noop(_) => {}
         Stmt::Var(var, ..) => {
             let name = var.0.name.to_string();
-            let lowered = lowering.lower(&var.1);
+            let lowered = held(lowering, &var.1);
             let slot = slot(lowering);
             // Known by name even if its value is wrong: one mistake, one message.
             let kind = lowered.as_ref().ok().and_then(|(_, kind)| *kind);
@@ -150,9 +151,11 @@ fn step(
             out.push(Step::If { condition: condition?, then, otherwise, changes });
         }
         Stmt::Block(block) => out.extend(steps(lowering, block, plan, top)?),
-        // An expression by itself has no effect; it is looked through for mistakes.
+        // What is compiled has no effect by itself; it is looked through for mistakes.
         Stmt::Expr(expr) if !matches!(**expr, Expr::Stmt(_)) => {
-            lowering.lower(expr)?;
+            if lowering.lower(expr)?.0.interprets() {
+                return Err(Stop::Interpret);
+            }
         }
         _ => return Err(Stop::Interpret),
     }
@@ -162,6 +165,14 @@ fn step(
 pub(super) fn slot(lowering: &mut Lowering) -> usize {
     lowering.slots += 1;
     lowering.slots - 1
+}
+
+/// The value of a variable. Arrays, maps and functions are values of the interpreter alone.
+fn held(lowering: &mut Lowering, value: &Expr) -> Result<Typed, Stop> {
+    match value {
+        Expr::Array(..) | Expr::Map(..) | Expr::DynamicConstant(..) => Err(Stop::Interpret),
+        plain => lowering.lower(plain),
+    }
 }
 
 fn assign(
@@ -175,7 +186,7 @@ fn assign(
     let Some(local) = lowering.locals.iter().rev().find(|local| local.name == name).cloned() else {
         return Err(Stop::Interpret);
     };
-    let new = lowering.lower(value)?;
+    let new = held(lowering, value)?;
     let old = (Node::Local(local.slot), local.kind);
     let (node, kind) = match sign {
         None => new,

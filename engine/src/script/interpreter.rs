@@ -78,20 +78,44 @@ pub(crate) fn runner() -> &'static Engine {
     })
 }
 
+/// All functions as rhai describes them.
+fn functions() -> Vec<serde_json::Value> {
+    let json = runner().gen_fn_metadata_to_json(true).unwrap_or_default();
+    let mut listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
+    serde_json::from_value(listed["functions"].take()).unwrap_or_default()
+}
+
 /// The names of all functions that rules may call.
 pub(crate) fn function_names() -> &'static BTreeSet<String> {
     static NAMES: OnceLock<BTreeSet<String>> = OnceLock::new();
     NAMES.get_or_init(|| {
-        let json = runner().gen_fn_metadata_to_json(true).unwrap_or_default();
-        let listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
-        let functions = listed["functions"].as_array().into_iter().flatten();
-        let names = functions.filter_map(|function| function["name"].as_str());
+        let functions = functions();
+        let names = functions.iter().filter_map(|function| function["name"].as_str());
         // Keywords that read as functions.
         let keywords =
             ["type_of", "is_shared", "Fn", "call", "curry", "is_def_var", "is_def_fn", "print", "debug"];
         names.chain(keywords).map(str::to_owned).collect()
     })
 }
+
+/// The functions that change the plain value that they are called on; others read it, or give a new one.
+pub(super) const CHANGING: [&str; 15] = [
+    "+=",
+    "append",
+    "clear",
+    "crop",
+    "make_lower",
+    "make_upper",
+    "pad",
+    "pop",
+    "remove",
+    "replace",
+    "set",
+    "set_tag",
+    "take",
+    "trim",
+    "truncate",
+];
 
 pub(super) fn bare() -> Engine {
     let mut engine = Engine::new_raw();
@@ -143,7 +167,7 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("+", |text: ImmutableString, number: f64| format!("{text}{number}"))
         .register_fn("+", |number: f64, text: ImmutableString| format!("{number}{text}"))
         .register_fn("+=", |text: &mut ImmutableString, number: f64| *text += number.to_string())
-        .register_fn("to_string", |number: &mut f64| number.to_string())
+        .register_fn("to_string", |number: f64| number.to_string())
         .register_fn("ceil", f64::ceil)
         .register_fn("ceil", |a: i64| a)
         .register_fn("floor", |a: i64| a)
@@ -239,5 +263,27 @@ mod tests {
             not_said.is_empty() && not_there.is_empty(),
             "not said: {not_said:?}, not there: {not_there:?}"
         );
+    }
+    /// What looks as if it could change a plain value is known to change it, or to read it only.
+    #[test]
+    fn the_functions_that_change_values_are_those_that_are_listed() {
+        const READING: [&str; 9] =
+            ["+", "debug", "get$tag", "print", "split", "split_rev", "tag", "to_debug", "to_string"];
+        let plain = [
+            "&mut ImmutableString",
+            "&mut string",
+            "&mut char",
+            "&mut Dynamic",
+            "&mut f64",
+            "&mut i64",
+            "&mut bool",
+        ];
+        let functions = functions();
+        let taking = functions.iter().filter(|function| {
+            function["params"][0]["type"].as_str().is_some_and(|taken| plain.contains(&taken))
+        });
+        let taking: BTreeSet<&str> = taking.filter_map(|function| function["name"].as_str()).collect();
+        let known: BTreeSet<&str> = CHANGING.into_iter().chain(READING).chain(["set$tag"]).collect();
+        assert_eq!(taking, known);
     }
 }

@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rhai::{ASTNode, Expr, FnCallExpr, Position, Stmt, StmtBlock};
 
+use super::interpreter::CHANGING;
+
 /// A property of a pattern variable: its clause, and the property's name.
 pub(crate) type Use = (usize, String);
 
@@ -200,28 +202,69 @@ fn skip(target: &Expr, done: &mut Vec<*const Expr>) {
     }
 }
 
-/// The names that a block declares anywhere in it.
-fn declared(block: &StmtBlock) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
+/// Goes through all statements and expressions of a block.
+pub(crate) fn walk(block: &StmtBlock, look: &mut dyn FnMut(&[ASTNode])) {
     for stmt in block.statements() {
         stmt.walk(&mut vec![], &mut |path| {
-            match path.last() {
-                Some(ASTNode::Stmt(Stmt::Var(var, ..))) => {
-                    names.insert(var.0.name.to_string());
-                }
-                Some(ASTNode::Stmt(Stmt::For(each, _))) => {
-                    names.insert(each.0.name.to_string());
-                    names.extend(each.1.iter().map(|counter| counter.name.to_string()));
-                }
-                Some(ASTNode::Stmt(Stmt::TryCatch(flow, _))) => {
-                    if let Expr::Variable(caught, ..) = &flow.expr {
-                        names.insert(caught.1.to_string());
-                    }
-                }
-                _ => {}
-            }
+            look(path);
             true
         });
     }
+}
+
+/// The names that a block declares anywhere in it.
+fn declared(block: &StmtBlock) -> BTreeSet<String> {
+    let mut names = BTreeSet::new();
+    walk(block, &mut |path| match path.last() {
+        Some(ASTNode::Stmt(Stmt::Var(var, ..))) => {
+            names.insert(var.0.name.to_string());
+        }
+        Some(ASTNode::Stmt(Stmt::For(each, _))) => {
+            names.insert(each.0.name.to_string());
+            names.extend(each.1.iter().map(|counter| counter.name.to_string()));
+        }
+        Some(ASTNode::Stmt(Stmt::TryCatch(flow, _))) => {
+            if let Expr::Variable(caught, ..) = &flow.expr {
+                names.insert(caught.1.to_string());
+            }
+        }
+        _ => {}
+    });
     names
+}
+
+/// Whether an expression of an action changes one of the action's variables, or a property of an object: by an
+/// assignment in it, a function that changes what it is called on, or a closure that shares the variable.
+pub(crate) fn changes_in_expressions(block: &StmtBlock, patterns: &Patterns) -> bool {
+    let inside = |path: &[ASTNode]| path.iter().any(|node| matches!(node, ASTNode::Expr(_)));
+    let mut own: BTreeSet<String> = patterns.0.iter().cloned().collect();
+    walk(block, &mut |path| match path.last() {
+        Some(ASTNode::Stmt(Stmt::Var(var, ..))) if !inside(path) => {
+            own.insert(var.0.name.to_string());
+        }
+        _ => {}
+    });
+    let of_own = |expr: &Expr| root(expr).is_some_and(|name| own.contains(name));
+    let mut changes = false;
+    walk(block, &mut |path| {
+        changes |= match path.last() {
+            Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => inside(path) && of_own(&assignment.1.lhs),
+            Some(ASTNode::Stmt(Stmt::Share(..))) => true,
+            Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) => {
+                CHANGING.contains(&call.name.as_str()) && call.args.first().is_some_and(of_own)
+            }
+            Some(ASTNode::Expr(expr @ Expr::Dot(dot, ..))) => of_own(expr) && calls_changing(&dot.rhs),
+            _ => false,
+        };
+    });
+    changes
+}
+
+/// Whether one of the method calls of a path changes what it is called on.
+fn calls_changing(path: &Expr) -> bool {
+    match path {
+        Expr::MethodCall(call, _) => CHANGING.contains(&call.name.as_str()),
+        Expr::Dot(dot, ..) | Expr::Index(dot, ..) => calls_changing(&dot.lhs) || calls_changing(&dot.rhs),
+        _ => false,
+    }
 }

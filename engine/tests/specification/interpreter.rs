@@ -62,6 +62,41 @@ fn truths() -> impl Strategy<Value = String> + Clone {
     })
 }
 
+/// Statements over the variables `v`, a number, and `s`, a text; `#` stands for the letter of a rule.
+fn statements() -> impl Strategy<Value = String> + Clone {
+    let plain = prop::sample::select(vec![
+        "s += \"bc\";",
+        "s += v;",
+        "s.pad(5, \"y\");",
+        "pad(s, 4, \"z\");",
+        "s.truncate(1);",
+        "s.make_upper();",
+        "let u = s.pop(); s += u;",
+        "let u = s.len(); v -= u;",
+        "let v = v + 1;",
+        "t.w# = v;",
+        "t.z# = s;",
+        "t.w# = if v > 2 { v += 1; v } else { v };",
+    ]);
+    let leaf = prop_oneof![
+        3 => plain.prop_map(str::to_owned),
+        1 => (prop::sample::select(vec!["=", "+=", "-=", "*="]), numbers())
+            .prop_map(|(sign, value)| format!("v {sign} {value};")),
+        1 => texts().prop_map(|value| format!("s = {value};")),
+    ];
+    let one = leaf.prop_recursive(2, 8, 2, |inner| {
+        prop_oneof![
+            4 => (truths(), inner.clone(), inner.clone())
+                .prop_map(|(c, a, b)| format!("if {c} {{ {a} }} else {{ {b} }}")),
+            2 => (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("{{ let v = 2.5; {a} {b} }}")),
+            1 => (inner.clone(), inner.clone())
+                .prop_map(|(a, b)| format!("switch s {{ \"a\" => {{ {a} }}, _ => {{ {b} }} }}")),
+            1 => inner.prop_map(|a| format!("for i in 0..2 {{ {a} }}")),
+        ]
+    });
+    prop::collection::vec(one, 1..4).prop_map(|statements| of_object(&statements.join("\n")))
+}
+
 /// Values of x, y, s and b.
 type Row<'a> = (Option<f64>, Option<f64>, Option<&'a str>, Option<bool>);
 
@@ -168,18 +203,21 @@ proptest! {
 
     #[test]
     fn an_action_is_compiled_as_it_is_interpreted(
-        a in numbers(), b in numbers(), c in truths(), d in truths()
+        a in numbers(), b in numbers(), c in truths(), d in truths(), more in statements()
     ) {
         let body = format!("
             let v = {a};
+            let s = t.s;
             if {c} {{ v = {b}; t.p# = v + 1; }} else {{ let v = 2.5; t.q# = v * {a}; }}
             if {d} {{ v += 1; t.p# = {b}; }}
-            t.r# = v;", a = of_object(&a), b = of_object(&b), c = of_object(&c), d = of_object(&d));
+            {more}
+            t.r# = v;
+            t.s# = s;", a = of_object(&a), b = of_object(&b), c = of_object(&c), d = of_object(&d));
         // The loop keeps the second action from being compiled.
         let script = format!("rule \"c\" each t in T then {{ {} }}
             rule \"i\" each t in T then {{ for i in 0..1 {{ }} {} }}", body.replace('#', "c"), body.replace('#', "i"));
         let (base, _) = concluded(&script, [class(&ROWS)]);
-        for property in ["p", "q", "r"] {
+        for property in ["p", "q", "r", "s", "w", "z"] {
             prop_assert_eq!(
                 values(&base, &format!("{property}c")), values(&base, &format!("{property}i")), "{}", script
             );
@@ -275,4 +313,43 @@ fn an_and_within_an_or_stays_together() {
     let rule = r#"rule "r" each t in T then { t.r = t.b || (t.b && t.x < 100); }"#;
     let (base, _) = concluded(rule, [class(&ROWS)]);
     assert_eq!(base.truths("T", "r"), base.truths("T", "b"));
+}
+
+/// Statements whose effect is on a variable were looked through for mistakes, and dropped.
+#[test]
+fn what_changes_a_variable_is_not_dropped() {
+    let cases = [
+        (r#"let v = ""; v.pad(5, "y"); t.r = v.len();"#, 5.0),
+        (r#"let v = "abc"; pad(v, 5, "y"); t.r = v.len();"#, 5.0),
+        (r#"let v = "abc"; let last = v.pop(); t.r = v.len();"#, 2.0),
+        (r#"let v = "abc"; let last = pop(v); t.r = v.len();"#, 2.0),
+        (r#"let v = "abc"; if v.pop() == "c" { t.r = v.len(); }"#, 2.0),
+        (r#"let v = "abc"; v += "d"; v += 5; t.r = v.len();"#, 5.0),
+        (r#"t.q = "abc"; t.q.truncate(1); t.r = t.q.len();"#, 1.0),
+        (r#"let v = "abc"; switch t.b { true => v.clear(), _ => v.clear() } t.r = v.len();"#, 0.0),
+        ("let v = [1]; v.push(2); t.r = v.len();", 2.0),
+        ("let v = [1, 2]; v[0] = 7; t.r = v[0];", 7.0),
+        ("let v = [1, 2]; v += [3]; t.r = v.len();", 3.0),
+        ("let v = [1, 2]; v = [3]; t.r = v.len();", 1.0),
+        ("let v = #{ a: 1 }; v.a += 2; t.r = v.a;", 3.0),
+        ("let v = 1; let w = if t.b { v += 1; v } else { 0 }; t.r = v + w;", 4.0),
+        ("let v = 1; t.r = switch t.b { true => { v += 1; v }, _ => 0 } + v;", 4.0),
+        ("let v = 1; [1, 2].for_each(|i| v += i); t.r = v;", 2.0),
+        ("let v = [3, 1]; let f = |a| a + v.len(); t.r = f.call(1);", 3.0),
+        ("let f = |a| a + 2; t.r = f.call(1);", 3.0),
+        ("let v = 1; { let v = 2; v += 1; } t.r = v;", 1.0),
+        ("let v = 1; let v = v + 1; { v += 1; } t.r = v;", 3.0),
+        ("let v = 1; while v < 5 { v += 1; } t.r = v;", 5.0),
+        ("let v = 1; let w = loop { v += 1; if v > 3 { break v; } }; t.r = v + w;", 8.0),
+    ];
+    for (action, wanted) in cases {
+        // The loop leaves the whole action to the interpreter.
+        for before in ["", "for i in 0..1 { } "] {
+            let text = format!("rule \"r\" each t in T then {{ {before}{action} }}");
+            let mut base = KnowledgeBase::new();
+            base.assert(class(&ROWS[..1])).unwrap();
+            let problems = base.conclude(&rules(&text)).diagnostics;
+            assert_eq!(base.value("T", "1", "r"), Some(wanted.into()), "{problems:?} {text}");
+        }
+    }
 }
