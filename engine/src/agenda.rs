@@ -35,10 +35,8 @@ pub(crate) struct Agenda {
     stale: bool,
 }
 
-/// A rule that reacts, with its matches.
 #[derive(Debug)]
 struct Reacting {
-    /// Its number in the rule base.
     rule: usize,
     made_for: MadeFor,
     /// `None` while it waits for a class or property, or is wrong.
@@ -59,7 +57,6 @@ struct MadeFor {
 #[derive(Debug)]
 pub(crate) struct Checkpoint(Vec<Arc<Vec<u32>>>);
 
-/// Matching was stopped in a rule.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stopped {
     pub(crate) rule: usize,
@@ -67,12 +64,10 @@ pub(crate) struct Stopped {
 }
 
 impl Agenda {
-    /// Whether there are rules that react.
     pub(crate) const fn is_used(&self) -> bool {
         !self.rules.is_empty()
     }
 
-    /// Notes what an inference changed.
     pub(crate) fn note(&mut self, changes: &Changes) {
         for (class, changes) in &changes.classes {
             self.world.note(class, changes);
@@ -109,19 +104,16 @@ impl Agenda {
             .find_map(|reacting| Some((reacting.rule, Arc::clone(reacting.set.open().next()?))))
     }
 
-    /// All activations that wait, in order.
     pub(crate) fn open(&self) -> impl Iterator<Item = (usize, &Binding)> {
         self.rules.iter().flat_map(|reacting| reacting.set.open().map(|binding| (reacting.rule, binding)))
     }
 
-    /// All matches of a rule, carried out or not.
     #[cfg(test)]
     pub(crate) fn all(&self, rule: usize) -> Vec<Binding> {
         let reacting = self.rules.iter().filter(|reacting| reacting.rule == rule);
         reacting.flat_map(|reacting| reacting.set.all().keys().cloned()).collect()
     }
 
-    /// Marks an activation as carried out.
     pub(crate) fn carry_out(&mut self, rule: usize, binding: &Binding) {
         for reacting in self.rules.iter_mut().filter(|reacting| reacting.rule == rule) {
             reacting.set.carry_out(binding);
@@ -183,7 +175,6 @@ fn wanted(outside: &Outside) -> Vec<(usize, MadeFor)> {
 }
 
 impl Agenda {
-    /// How many matches all rules but one have.
     fn others(&self, at: usize) -> usize {
         self.rules
             .iter()

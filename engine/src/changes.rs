@@ -14,7 +14,6 @@ pub struct Changes {
     pub reasons: BTreeMap<String, BTreeMap<String, Vec<u32>>>,
 }
 
-/// What changed in one class.
 #[derive(Clone, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct ClassChanges {
     /// Where objects went: for each row of before its row now, `None` if it was removed. `None` as a whole: no
@@ -27,7 +26,6 @@ pub struct ClassChanges {
 }
 
 impl Changes {
-    /// Whether nothing changed.
     pub fn is_empty(&self) -> bool {
         self.classes.is_empty()
     }
@@ -107,7 +105,6 @@ impl ClassChanges {
     }
 }
 
-/// Brings together two ascending lists.
 fn merge(into: &mut Vec<u32>, from: Vec<u32>) {
     let ascends = into.last().zip(from.first()).is_none_or(|(last, first)| last < first);
     into.extend(from);

@@ -114,7 +114,6 @@ fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTo
 struct Declared<'s> {
     schema: &'s Schema,
     concluded: BTreeMap<PropertyName, Option<Type>>,
-    /// Those that rules tell.
     told: BTreeMap<PropertyName, Option<Type>>,
 }
 

@@ -8,15 +8,11 @@ use crate::column::Column;
 use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth, Type, Value};
 
-/// Why a class cannot be asserted.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub enum ClassError {
-    /// A property was given twice.
     #[error("class {class} has the property `{property}` twice")]
     Twice { class: String, property: String },
-    /// Columns differ in length.
     #[error("class {class} has {expected} objects, but `{property}` has {found} values")]
     Ragged {
         class: String,
@@ -24,20 +20,17 @@ pub enum ClassError {
         property: String,
         /// Objects by the first property.
         expected: usize,
-        /// Values of this property.
         found: usize,
     },
     /// The key, or what NULL means, names no property.
     #[error("class {class} has no property `{property}`")]
     Missing { class: String, property: String },
-    /// An object has no key.
     #[error("class {class}: the key of object {row} is unknown")]
     UnknownKey {
         class: String,
         /// Row from 0.
         row: usize,
     },
-    /// Two objects have one key.
     #[error("class {class} has two objects with the key {key}")]
     SameKey {
         class: String,
@@ -47,7 +40,6 @@ pub enum ClassError {
     /// What NULL means is of another type than the property.
     #[error("class {class}: NULL of `{property}` cannot mean {value}: it holds {}", holds.plural())]
     NullType { class: String, property: String, value: String, holds: Type },
-    /// More objects than a row number holds.
     #[error("class {class} has more than 4 billion objects")]
     TooLarge { class: String },
 }
@@ -98,7 +90,6 @@ impl Class {
         self
     }
 
-    /// Adds a property that holds texts.
     #[must_use]
     pub fn texts<T: Into<String>>(
         mut self,
@@ -110,7 +101,6 @@ impl Class {
         self
     }
 
-    /// Adds a property that holds truth values.
     #[must_use]
     pub fn truths(
         mut self,
@@ -129,7 +119,6 @@ impl Class {
     }
 }
 
-/// A class as the knowledge base holds it.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) name: String,
@@ -275,7 +264,6 @@ impl Table {
     }
 }
 
-/// The value that hosts see.
 pub(crate) fn value(cell: Cell, symbols: &Symbols) -> Option<Value> {
     match cell {
         Cell::Unknown => None,

@@ -59,7 +59,6 @@ impl Column {
         }
     }
 
-    /// Whether the row's value is unknown.
     pub(crate) fn is_unknown(&self, row: usize) -> bool {
         self.cell(row) == Cell::Unknown
     }

@@ -6,7 +6,6 @@ use crate::diagnostic::Diagnostic;
 use crate::rule::{Operator, PropertyName};
 use crate::value::Value;
 
-/// The outcome of an inference.
 #[derive(Clone, Debug, Default)]
 pub struct Conclusions {
     /// Rules that were evaluated now, in that order; the conclusions of others still held.
@@ -23,10 +22,8 @@ pub struct Conclusions {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// A rule that waits for facts.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Waiting {
-    /// The rule.
     pub rule: String,
     /// Classes (`ROOMS`) and properties (`ROOMS.moves`) that nobody has asserted or concluded yet.
     pub needs: Vec<String>,
@@ -34,7 +31,6 @@ pub struct Waiting {
 
 /// A property of one object that rules set to different values.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Conflict {
     pub property: PropertyName,
     pub key: String,
@@ -45,7 +41,6 @@ pub struct Conflict {
 /// A concluded property that some objects have no value of.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Gap {
-    /// The property.
     pub property: PropertyName,
     /// Rows of the objects, ascending.
     pub rows: Vec<u32>,
@@ -56,9 +51,7 @@ pub struct Gap {
 /// Why an object has no value of a property.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub enum Reason {
-    /// Rules disagree.
     Conflict,
     /// A clause of the rule was met by no candidate.
     Unmet { rule: String, variable: String },
@@ -70,7 +63,6 @@ pub enum Reason {
     Undecided { rule: String, variable: String },
     /// The rule gave a value that is unknown.
     Unknown { rule: String },
-    /// No rule applied to the object.
     NoRule,
 }
 
@@ -96,68 +88,51 @@ impl fmt::Display for Reason {
 
 /// Objects of a clause's class that were no candidates, since what is asked of them is unknown.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct LeftOut {
     pub rule: String,
     pub variable: String,
     pub class: String,
-    /// How many.
     pub objects: usize,
 }
 
-/// An object that a conclusion rests on.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Witness {
     pub variable: String,
     pub class: String,
     pub key: String,
 }
 
-/// The rule and the objects behind a value.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Support {
     pub rule: String,
     pub version: String,
     pub file: String,
     pub line: usize,
-    /// What its variables stand for.
     pub witnesses: Vec<Witness>,
 }
 
-/// Where a value comes from.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
-    /// It was asserted.
     Told,
-    /// A rule concluded it.
     Rule(Support),
 }
 
-/// A revision of a value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Revision {
-    /// Its level.
     pub level: i64,
-    /// How it changes the value.
     pub operator: Operator,
     /// By how much; `None` is unknown.
     pub amount: Option<f64>,
-    /// The rule and its objects.
     pub support: Support,
 }
 
-/// Why a property of an object has its value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Justification {
     pub property: PropertyName,
     pub key: String,
     /// The value; `None` is unknown.
     pub value: Option<Value>,
-    /// Where it comes from.
     pub origin: Origin,
     /// What changed it after that, in order.
     pub revisions: Vec<Revision>,

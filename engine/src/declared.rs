@@ -10,15 +10,11 @@ use rhai::Position;
 
 use crate::rule::{Condition, FileScope, PropertyName, Rule};
 
-/// Where a property may come from.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// It is told.
     Table,
-    /// A planner finds it.
     Planner,
-    /// Rules conclude it.
     Rule,
     /// A value where nothing before gives one; the expression as it is written.
     Default(String),
@@ -71,7 +67,6 @@ impl Declarations {
     }
 }
 
-/// A class declared by a condition.
 #[derive(Clone, Debug)]
 pub(crate) struct Subclass {
     pub(crate) parent: String,
@@ -85,7 +80,6 @@ pub(crate) struct Subclass {
     pub(crate) file: Arc<FileScope>,
 }
 
-/// A property that names an object of another class.
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) class: String,
@@ -100,7 +94,6 @@ pub(crate) struct Link {
 /// What is declared of a property, for the objects of one class.
 #[derive(Clone, Debug)]
 pub(crate) struct Declaration {
-    /// The class that it was declared for.
     pub(crate) class: String,
     pub(crate) class_position: Position,
     pub(crate) position: Position,

@@ -18,7 +18,6 @@ macro_rules! codes {
         }
 
         impl Code {
-            /// The name that users and programs see.
             pub const fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$code => $name,)*
@@ -35,15 +34,10 @@ codes! {
     TooLarge = "rule/too-large",
     /// Something other than a rule, a function or a constant stands in the file.
     Statement = "rule/statement",
-    /// Two rules have one name.
     DuplicateName = "rule/duplicate-name",
-    /// No such class.
     UnknownClass = "rule/unknown-class",
-    /// No such property of a class.
     UnknownProperty = "rule/unknown-property",
-    /// No such variable in the rule.
     UnknownVariable = "rule/unknown-variable",
-    /// No such function.
     UnknownFunction = "rule/unknown-function",
     /// A value of the wrong type.
     Type = "rule/type",
@@ -81,7 +75,6 @@ codes! {
     Panic = "rule/panic",
     /// A file of rule tests does not read as tests.
     TestSyntax = "test/syntax",
-    /// A rule test does not hold.
     TestFailed = "test/failed",
 }
 
@@ -97,7 +90,6 @@ impl fmt::Display for Code {
     }
 }
 
-/// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -110,9 +102,7 @@ pub enum Severity {
 /// One message about a rule file. It prints with a caret through [`miette`].
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct Diagnostic {
-    /// What kind of thing is wrong.
     pub code: Code,
-    /// How bad it is.
     pub severity: Severity,
     /// One sentence with the names and values in it.
     pub message: String,
@@ -126,7 +116,6 @@ pub struct Diagnostic {
     pub column: usize,
     /// What stands at the caret.
     pub label: Option<String>,
-    /// What to do about it.
     pub help: Option<String>,
     #[serde(skip)]
     source: Arc<NamedSource<String>>,

@@ -60,12 +60,10 @@ pub struct KnowledgeBase {
 }
 
 impl KnowledgeBase {
-    /// An empty knowledge base with the default limits.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// An empty knowledge base with other limits.
     pub fn with_limits(limits: Limits) -> Self {
         Self { limits, ..Self::default() }
     }
@@ -116,7 +114,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// The asserted classes with their properties.
     pub fn schema(&self) -> Schema {
         let mut schema = Schema::default();
         for (name, Held { table, .. }) in &self.held {
@@ -134,7 +131,6 @@ impl KnowledgeBase {
         self.held.get(class).map(|held| held.table.len)
     }
 
-    /// Whether nothing was asserted.
     pub fn is_empty(&self) -> bool {
         self.held.is_empty()
     }

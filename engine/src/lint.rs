@@ -7,7 +7,6 @@ pub(crate) mod unused;
 use crate::diagnostic::Diagnostic;
 use crate::rule::{Action, Rule};
 
-/// What can be seen in the rules alone.
 pub(crate) fn lint(rules: &[Rule]) -> Vec<Diagnostic> {
     let mut found = vec![];
     for rule in rules {

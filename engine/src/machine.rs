@@ -34,7 +34,6 @@ const BETWEEN_LOOKS: u32 = 16;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stopped;
 
-/// What the evaluation of one rule shares.
 pub(crate) struct Machine<'a> {
     pub(crate) rule: &'a Rule,
     pub(crate) columns: Vec<&'a Column>,
@@ -66,7 +65,6 @@ impl<'a> Machine<'a> {
 }
 
 impl Machine<'_> {
-    /// Looks at the clock, every now and then.
     pub(crate) fn tick(&self) -> Result<(), Stopped> {
         if self.stopped.get() && !self.goes_on {
             return Err(Stopped);

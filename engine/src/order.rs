@@ -6,10 +6,8 @@ use crate::declared::Declarations;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{PropertyName, Rule};
 
-/// One step of an inference.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Step {
-    /// Evaluate a rule.
     Rule(usize),
     /// Bring together what rules concluded of a property, and what was told.
     Merge(PropertyName),

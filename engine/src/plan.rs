@@ -27,32 +27,26 @@ use node::Node;
 /// What is known of a property before objects are looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// There is no such property.
     Missing,
     /// It holds this type; `None` is a type that only running tells.
     Holds(Option<Type>),
 }
 
-/// What is known of a class's key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Key {
-    /// Only objects will tell.
     Unsaid,
     Properties(Vec<String>),
 }
 
-/// Tells what kind a property is.
 pub(crate) trait Kinds {
     fn kind(&self, property: &PropertyName) -> Kind;
     /// The type that a property was declared with, whatever rules conclude of it.
     fn declared(&self, property: &PropertyName) -> Option<Type>;
-    /// What tells the objects of a class apart.
     fn key(&self, class: &str) -> Key;
     /// Names to suggest for a misspelt one.
     fn properties(&self, class: &str) -> Vec<String>;
 }
 
-/// What a rule does for each binding.
 #[derive(Clone, Debug)]
 pub(crate) enum Effect {
     Conclude {
@@ -73,14 +67,12 @@ pub(crate) enum Effect {
     React(Option<Box<Fragment>>),
 }
 
-/// A rule ready to run.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) clauses: Vec<ClausePlan>,
     pub(crate) effect: Effect,
     /// The truth value that the rule gives to each object of its first clause.
     pub(crate) hypothesis: Option<PropertyName>,
-    /// The columns that the nodes name by number.
     pub(crate) columns: Vec<PropertyName>,
 }
 
@@ -116,7 +108,6 @@ pub(crate) fn plan(
 }
 
 impl Plan {
-    /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         let clause = |clause: &ClausePlan| {
             let nodes = clause.parts.iter().chain(&clause.by).chain(&clause.have);

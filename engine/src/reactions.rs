@@ -7,10 +7,8 @@ use crate::conclusions::Witness;
 use crate::diagnostic::Diagnostic;
 use crate::value::Value;
 
-/// The outcome of a run of reactions.
 #[derive(Clone, Debug, Default, serde::Serialize)]
 pub struct Reactions {
-    /// What was carried out, in that order.
     pub firings: Vec<Firing>,
     /// What is different now from after the last update, told and concluded.
     pub changes: Changes,
@@ -28,7 +26,6 @@ impl Reactions {
 
 /// A rule that was carried out for the objects that its clauses bound.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Firing {
     /// The number of the state that it left: one more than that before.
     pub generation: u64,
@@ -36,13 +33,11 @@ pub struct Firing {
     pub version: String,
     /// The objects, as they were called then.
     pub witnesses: Vec<Witness>,
-    /// What it told.
     pub told: Vec<Told>,
 }
 
 /// A rule that may be carried out for the objects that its clauses bind.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Activation {
     pub rule: String,
     pub version: String,
@@ -54,16 +49,12 @@ pub struct Activation {
 /// its row from 1.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub enum Told {
-    /// A new object.
     Object {
         class: String,
-        /// Its properties that are known.
         properties: BTreeMap<String, Value>,
     },
     /// A value of an object; `None` takes back what was told.
     Value { class: String, key: String, property: String, value: Option<Value> },
-    /// An object that is forgotten.
     Gone { class: String, key: String },
 }

@@ -5,9 +5,7 @@ use std::fmt;
 use crate::rule::{PropertyName, Rule};
 use crate::value::Value;
 
-/// Why a property of an object has no other value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct WhyNot {
     pub property: PropertyName,
     pub key: String,
@@ -21,7 +19,6 @@ pub struct WhyNot {
 
 /// An object that a clause of a rule did not take, or a clause or rule that as a whole did not hold.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Rejected {
     pub rule: String,
     pub version: String,
@@ -32,13 +29,11 @@ pub struct Rejected {
     pub class: Option<String>,
     /// The object's key; `None`: the clause as a whole.
     pub key: Option<String>,
-    /// What for.
     #[serde(flatten)]
     pub reason: Rejection,
 }
 
 impl Rejected {
-    /// The rule as a whole.
     pub(crate) fn of_rule(rule: &Rule, reason: Rejection) -> Self {
         Self {
             rule: rule.name.clone(),
@@ -53,37 +48,29 @@ impl Rejected {
     }
 }
 
-/// What something is rejected for.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(tag = "reason", rename_all = "snake_case")]
 pub enum Rejection {
-    /// A part of a condition is false.
     Failed {
         /// The part, as the rule writes it.
         test: String,
         /// The value on its left side, or its own where it has no sides.
         left: Option<Value>,
-        /// The value on its right side.
         right: Option<Value>,
     },
-    /// A part of a condition is unknown.
     Unknown {
         /// The part, as the rule writes it.
         test: String,
-        /// The value on its left side; `None` is unknown.
         left: Option<Value>,
-        /// The value on its right side; `None` is unknown.
         right: Option<Value>,
     },
     /// Another object has the lesser (of `most`: the greater) value.
     Lost {
         /// What is compared, as the rule writes it.
         by: String,
-        /// The object's value.
         value: f64,
         /// The key of the object that was taken.
         winner: String,
-        /// Its value.
         winner_value: f64,
     },
     /// What is compared is unknown of the object.
@@ -100,10 +87,8 @@ pub enum Rejection {
     Found,
     /// No object passes, or an `all` does not hold.
     Unmet {
-        /// How many objects there are.
         objects: usize,
     },
-    /// A row of a decision table does not match.
     Row {
         /// The row, from 1.
         row: usize,
@@ -111,12 +96,9 @@ pub enum Rejection {
         input: String,
         /// What the cell asks, in words.
         cell: String,
-        /// The input's value; `None` is unknown.
         value: Option<Value>,
     },
-    /// The rule waits for classes or properties that nobody gives.
     Waiting {
-        /// Their names.
         needs: Vec<String>,
     },
     /// What the rule says does not count.

@@ -14,14 +14,12 @@ use crate::value::Cell;
 
 /// A property of a class, as rules name it: `DOORS.hardness`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct PropertyName {
     pub class: String,
     pub property: String,
 }
 
 impl PropertyName {
-    /// The property of the class.
     pub fn new(class: impl Into<String>, property: impl Into<String>) -> Self {
         Self { class: class.into(), property: property.into() }
     }
@@ -50,7 +48,6 @@ pub enum Operator {
 }
 
 impl Operator {
-    /// The sign that rules write.
     pub const fn sign(self) -> &'static str {
         match self {
             Self::Times => "*",
@@ -79,7 +76,6 @@ impl Operator {
     }
 }
 
-/// One line of a rule's condition.
 #[derive(Clone, Debug)]
 pub(crate) struct Clause {
     pub(crate) quantifier: Quantifier,
@@ -137,7 +133,6 @@ impl Clause {
     }
 }
 
-/// What a rule does with what its clauses bind.
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
     Conclude {
@@ -188,7 +183,6 @@ pub(crate) struct Setting {
     pub(crate) value: Option<Expr>,
 }
 
-/// What all rules of a file share.
 #[derive(Clone, Debug)]
 pub(crate) struct FileScope {
     pub(crate) source: SourceFile,
@@ -199,14 +193,12 @@ pub(crate) struct FileScope {
     pub(crate) tells: Vec<Telling>,
 }
 
-/// A constant of a file.
 #[derive(Clone, Debug)]
 pub(crate) enum Constant {
     Cell(Cell),
     Text(String),
 }
 
-/// A rule that was read from a file.
 #[derive(Clone, Debug)]
 pub struct Rule {
     pub(crate) name: String,
@@ -229,7 +221,6 @@ impl Rule {
         &self.name
     }
 
-    /// The file that it stands in.
     pub fn file(&self) -> &str {
         self.file.source.name()
     }

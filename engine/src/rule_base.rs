@@ -23,12 +23,10 @@ use crate::script::source::SourceFile;
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
 pub struct RuleBase {
-    /// Tells one compilation from another.
     pub(crate) id: u64,
     pub(crate) rules: Vec<Rule>,
     pub(crate) order: Vec<Step>,
     pub(crate) declared: Declarations,
-    /// What was found that is not wrong.
     pub(crate) warnings: Vec<Diagnostic>,
 }
 
@@ -65,12 +63,10 @@ impl RuleBase {
         Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
     }
 
-    /// The rules, in the order of the files.
     pub fn rules(&self) -> &[Rule] {
         &self.rules
     }
 
-    /// Classes by condition, links, and where properties come from.
     pub const fn declared(&self) -> &Declarations {
         &self.declared
     }

@@ -45,15 +45,12 @@ pub struct RuleTests {
     files: Vec<read::TestFile>,
 }
 
-/// What became of a test.
 #[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct TestOutcome {
     pub test: String,
     pub file: String,
     /// Its line, from 1.
     pub line: usize,
-    /// Whether all that it expects is concluded.
     pub passed: bool,
     /// What is not as expected, in the order of the file.
     pub failures: Vec<TestFailure>,
@@ -61,7 +58,6 @@ pub struct TestOutcome {
 
 /// A value that is not as a test expects it.
 #[derive(Clone, Debug, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct TestFailure {
     /// Number of the edit (`[[test.then]]`) after which it was expected; 0 before all edits.
     pub step: usize,
@@ -92,12 +88,10 @@ impl RuleTests {
         if problems.is_empty() { Ok(Self { files: read }) } else { Err(Diagnostics(problems)) }
     }
 
-    /// How many tests there are.
     pub fn len(&self) -> usize {
         self.files.iter().map(|file| file.tests.len()).sum()
     }
 
-    /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

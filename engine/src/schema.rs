@@ -21,14 +21,12 @@ impl Schema {
         self
     }
 
-    /// Says what tells the objects of a class apart.
     #[must_use]
     pub fn key(mut self, class: &str, key: &[&str]) -> Self {
         self.set_key(class, key);
         self
     }
 
-    /// Says what tells the objects of a class apart.
     pub fn set_key(&mut self, class: &str, key: &[&str]) {
         self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
     }
@@ -38,7 +36,6 @@ impl Schema {
         self.keys.get(class).map(Vec::as_slice)
     }
 
-    /// Adds one property.
     pub fn add(&mut self, class: &str, property: &str, kind: Type) {
         self.classes.entry(class.to_owned()).or_default().insert(property.to_owned(), kind);
     }
@@ -53,12 +50,10 @@ impl Schema {
         self.nulls.get(class).into_iter().flatten().map(|(property, means)| (property.as_str(), means))
     }
 
-    /// Whether a class is known.
     pub fn has(&self, class: &str) -> bool {
         self.classes.contains_key(class)
     }
 
-    /// The type of a property.
     pub fn kind(&self, class: &str, property: &str) -> Option<Type> {
         self.classes.get(class)?.get(property).copied()
     }

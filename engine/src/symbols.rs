@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A text of a knowledge base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Symbol(u32);
 
@@ -16,7 +15,6 @@ impl Symbol {
     }
 }
 
-/// All texts of a knowledge base.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
     texts: Vec<Arc<str>>,
@@ -24,7 +22,6 @@ pub(crate) struct Symbols {
 }
 
 impl Symbols {
-    /// The symbol of a text, new or known.
     pub(crate) fn intern(&mut self, text: &str) -> Symbol {
         if let Some(&id) = self.ids.get(text) {
             return Symbol(id);
@@ -39,7 +36,6 @@ impl Symbols {
         Symbol(id)
     }
 
-    /// The symbol of a text that is known.
     pub(crate) fn find(&self, text: &str) -> Option<Symbol> {
         self.ids.get(text).copied().map(Symbol)
     }

@@ -40,7 +40,6 @@ pub(crate) enum Fold {
     Count,
 }
 
-/// A plain value in a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Literal {
     Number(f64),
@@ -68,7 +67,6 @@ impl std::fmt::Display for Literal {
     }
 }
 
-/// What a cell asks of its input.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Test {
     Any,
@@ -83,7 +81,6 @@ pub(crate) enum Test {
 }
 
 impl Test {
-    /// The values that it names.
     pub(crate) fn literals(&self) -> Vec<Literal> {
         match self {
             Self::Any => vec![],
@@ -101,7 +98,6 @@ impl Test {
         matches!(self, Self::Any)
     }
 
-    /// Whether a known value passes.
     pub(crate) fn passes(&self, value: &Literal) -> bool {
         let number = |holds: &dyn Fn(f64) -> bool| matches!(value, Literal::Number(number) if holds(*number));
         match self {
@@ -143,7 +139,6 @@ pub(crate) struct Row {
     pub(crate) outputs: Vec<Expr>,
 }
 
-/// A table as it was read.
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     pub(crate) hit: Hit,

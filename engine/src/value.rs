@@ -5,15 +5,12 @@ use std::sync::Arc;
 
 use crate::symbols::{Symbol, Symbols};
 
-/// What a property holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Type {
     /// A number; infinite is allowed, NaN is unknown.
     Number,
-    /// A text.
     Text,
-    /// True or false.
     Truth,
 }
 
@@ -32,11 +29,8 @@ impl Type {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// A number.
     Number(f64),
-    /// A text.
     Text(#[serde(serialize_with = "as_str")] Arc<str>),
-    /// True or false.
     Truth(bool),
 }
 

@@ -13,7 +13,6 @@ pub(crate) type Binding = Arc<[u32]>;
 /// All bindings for which a rule's clauses are met, in the order of the rows.
 #[derive(Debug, Default)]
 pub(crate) struct ConflictSet {
-    /// With each binding whether it was carried out.
     all: BTreeMap<Binding, bool>,
     open: BTreeSet<Binding>,
     /// For each variable but the first: objects, with the bindings that hold them.
@@ -73,7 +72,6 @@ impl ConflictSet {
         Ok(())
     }
 
-    /// Only bindings that were carried out.
     pub(crate) fn of_fired(variables: usize, fired: &BTreeSet<Binding>) -> Self {
         let mut set = Self::new(variables);
         for binding in fired {
@@ -96,7 +94,6 @@ impl ConflictSet {
         Some(fired)
     }
 
-    /// The bindings that begin with these objects.
     pub(crate) fn beginning(&self, prefix: &[u32]) -> Vec<Binding> {
         self.all
             .range::<[u32], _>((Bound::Included(prefix), Bound::Unbounded))
@@ -124,7 +121,6 @@ impl ConflictSet {
         self.open.iter()
     }
 
-    /// The bindings that were carried out.
     pub(crate) fn fired(&self) -> impl Iterator<Item = &Binding> {
         self.all.iter().filter(|(_, fired)| **fired).map(|(binding, _)| binding)
     }
@@ -149,7 +145,6 @@ impl ConflictSet {
         self.journal.clear();
     }
 
-    /// What had been carried out at the checkpoint.
     pub(crate) fn fired_before(&self) -> BTreeSet<Binding> {
         let mut fired: BTreeSet<Binding> = self.fired().cloned().collect();
         for (binding, was) in self.journal.iter().rev() {

@@ -55,7 +55,6 @@ impl Agenda {
 }
 
 impl Program {
-    /// Whether any clause looks at what is different.
     fn is_touched(&self, differences: &[Difference]) -> bool {
         self.clauses.iter().any(|clause| {
             let Difference { added, removed, .. } = &differences[clause.class];
@@ -143,7 +142,6 @@ fn decide_anew(
     Ok(())
 }
 
-/// Bindings of the first clauses as one batch.
 fn together(clauses: &[Clause], prefixes: &[(&Vec<u32>, &Vec<f64>)]) -> Frame {
     let rows = |(variable, clause): (usize, &Clause)| match prefixes.first() {
         Some((first, _)) if variable >= first.len() => Rows::Unbound,

@@ -15,7 +15,6 @@ use crate::rule_base::RuleBase;
 use crate::script::syntax::Quantifier;
 use crate::symbols::Symbols;
 
-/// What matching needs from outside.
 pub(crate) struct Outside<'o> {
     pub(crate) rules: &'o RuleBase,
     pub(crate) facts: &'o dyn Facts,
@@ -38,16 +37,13 @@ impl Outside<'_> {
     }
 }
 
-/// Why matching was stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Halt {
-    /// It took too long.
     Late,
     /// There are more matches than may be kept.
     Full,
 }
 
-/// The machine, made ready for one rule.
 pub(crate) struct Matching<'m> {
     pub(crate) program: &'m Program,
     world: &'m World,
@@ -63,14 +59,12 @@ impl<'m> Matching<'m> {
         Self { program, world, machine, most: outside.matches }
     }
 
-    /// Says what failed in a condition.
     pub(crate) fn report(self, outside: &Outside, rule: usize) {
         if let Some(problem) = self.machine.trouble.take() {
             outside.trouble(rule, problem);
         }
     }
 
-    /// All matches.
     pub(crate) fn all(&self) -> Result<Vec<Frame>, Halt> {
         let class = &self.world.classes[self.program.clauses[0].class];
         self.run(

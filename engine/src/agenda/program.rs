@@ -8,11 +8,9 @@ use crate::plan::uses::Uses;
 use crate::rule::{PropertyName, Reaction, Rule};
 use crate::script::syntax::Quantifier;
 
-/// A clause of the rule.
 #[derive(Debug)]
 pub(crate) struct Clause {
     pub(crate) quantifier: Quantifier,
-    /// Its class by number.
     pub(crate) class: usize,
     /// For its variable the columns that the rule reads.
     reads: Vec<usize>,
@@ -25,7 +23,6 @@ pub(crate) struct Path {
     pub(crate) candidates: Vec<usize>,
 }
 
-/// A rule ready for matching.
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) clauses: Vec<Clause>,

@@ -10,9 +10,7 @@ use crate::machine::candidates::Candidates;
 use crate::rule::PropertyName;
 use crate::value::{Cell, Type};
 
-/// Where the values come from.
 pub(crate) trait Facts {
-    /// Whether there is such a class.
     fn has(&self, class: &str) -> bool;
     /// How many objects a class has; 0 if there is no such class.
     fn count(&self, class: &str) -> usize;
@@ -34,7 +32,6 @@ pub(crate) struct Objects {
     changed: BTreeSet<(u32, usize)>,
 }
 
-/// What happened to the objects of one class.
 #[derive(Debug, Default)]
 pub(crate) struct Difference {
     pub(crate) added: Vec<u32>,
@@ -51,7 +48,6 @@ pub(crate) struct Found {
     pub(crate) candidates: Candidates,
 }
 
-/// All objects that the rules look at.
 #[derive(Debug, Default)]
 pub(crate) struct World {
     pub(crate) classes: Vec<Objects>,
@@ -64,7 +60,6 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// The number of a class.
     pub(crate) fn class(&mut self, name: &str, facts: &dyn Facts) -> usize {
         if let Some(&number) = self.numbers.get(name) {
             return number;
@@ -82,7 +77,6 @@ impl World {
         self.classes.len() - 1
     }
 
-    /// The number of a column.
     pub(crate) fn column(&mut self, name: &PropertyName, facts: &dyn Facts) -> usize {
         if let Some(number) = self.names.iter().position(|known| known == name) {
             return number;
@@ -110,7 +104,6 @@ impl World {
         self.candidates.len() - 1
     }
 
-    /// The row of an object.
     pub(crate) fn row(&self, class: usize, id: u32) -> Option<usize> {
         let ids = &self.classes[class].ids;
         if self.scrambled {
@@ -175,7 +168,6 @@ impl World {
         }
     }
 
-    /// Fetches the values of what happened.
     pub(crate) fn fetch(&mut self, differences: &[Difference], facts: &dyn Facts) {
         for (class, difference) in differences.iter().enumerate() {
             let objects = &mut self.classes[class];
@@ -218,7 +210,6 @@ impl World {
         facts.column(&self.names[column]).map_or(Cell::Unknown, |column| column.cell(row))
     }
 
-    /// The objects are again those of before.
     pub(crate) fn go_back(&mut self, ids: Vec<Arc<Vec<u32>>>) {
         for (objects, ids) in self.classes.iter_mut().zip(ids) {
             objects.ids = ids;

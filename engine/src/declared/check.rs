@@ -91,7 +91,6 @@ pub(crate) fn check(
     (types, problems)
 }
 
-/// The properties that a question names.
 fn questions(declaration: &super::Declaration, name: &PropertyName, kinds: &dyn Kinds) -> Vec<Diagnostic> {
     let asked = declaration.sources.iter().filter_map(|source| match source {
         Source::Ask(text) => Some(text),

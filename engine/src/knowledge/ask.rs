@@ -20,11 +20,9 @@ use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::value::{Truth, Value};
 
-/// What comes of asking for a value.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
-    /// Its value.
     Known(Value),
     /// No source gives one but the user: tell it, or that it is not known, and ask again.
     Ask(Question),
@@ -32,9 +30,7 @@ pub enum Answer {
     NotKnown,
 }
 
-/// A question to the user.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Question {
     pub property: PropertyName,
     pub key: String,

@@ -17,7 +17,6 @@ use crate::rule_base::{RuleBase, on_deep_stack};
 /// For each rule the objects of its first clause that are asked for.
 pub(super) type Asked = BTreeMap<usize, Dirty>;
 
-/// One inference on its way.
 pub(super) struct Run<'b> {
     pub(super) base: &'b RuleBase,
     pub(super) until: Instant,
@@ -25,7 +24,6 @@ pub(super) struct Run<'b> {
     pub(super) told: BTreeMap<String, Pending>,
     /// For each property the rows that changed, stage by stage; one stage where no rule concludes it.
     pub(super) deltas: BTreeMap<PropertyName, Vec<Dirty>>,
-    /// Classes in which anything changed.
     pub(super) touched: BTreeSet<String>,
     pub(super) evaluated: Vec<(usize, usize)>,
     /// For each concluded property the rows whose reason may have changed.
@@ -158,7 +156,6 @@ impl KnowledgeBase {
         self.network.nodes.iter().any(|node| node.planned.as_ref().is_some_and(|planned| planned.interprets))
     }
 
-    /// Takes in what was told.
     pub(super) fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
         let gone = self.take_over(base);
         let mut run = Run::new(base, self.limits.end(self.limits.inference));
@@ -210,7 +207,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// Evaluates a rule as far as it is touched.
     fn step(&mut self, run: &mut Run, index: usize) {
         let rule = &run.base.rules[index];
         if run.recheck {
@@ -275,7 +271,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// Forgets what a rule gave.
     pub(super) fn drop_memory(&mut self, index: usize) {
         let Some(memory) = self.network.nodes[index].memory.take() else { return };
         for given in &memory.given {
@@ -293,7 +288,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// What a rule waits for.
     fn needs(&self, rule: &Rule) -> Vec<String> {
         let mut needs: BTreeSet<String> =
             rule.classes().filter(|class| !self.held.contains_key(*class)).map(str::to_owned).collect();

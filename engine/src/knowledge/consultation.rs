@@ -19,13 +19,10 @@ pub use explain::{Considered, Miss};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(u64)]
 pub enum Datum<'a> {
-    /// Nobody knows it.
     Unknown,
     /// A number; NaN is unknown.
     Number(f64),
-    /// A text.
     Text(&'a str),
-    /// True or false.
     Truth(bool),
 }
 
@@ -137,7 +134,6 @@ impl Consultation {
         self.direct.is_some()
     }
 
-    /// The rules.
     pub fn rules(&self) -> Arc<RuleBase> {
         Arc::clone(&self.rules)
     }
@@ -170,12 +166,10 @@ impl Consultation {
         if let Cell::Number(number) = self.answers[output] { Some(number) } else { None }
     }
 
-    /// An output as a truth value.
     pub fn truth(&self, output: usize) -> Option<bool> {
         if let Cell::Truth(truth) = self.answers[output] { Some(truth) } else { None }
     }
 
-    /// An output as a text.
     pub fn text(&self, output: usize) -> Option<Arc<str>> {
         if let Cell::Text(symbol) = self.answers[output] {
             self.base.symbols.borrow().text(symbol).cloned()
@@ -184,13 +178,11 @@ impl Consultation {
         }
     }
 
-    /// Whether an output is this text.
     pub fn is(&self, output: usize, text: &str) -> bool {
         matches!(self.answers[output], Cell::Text(symbol)
             if self.base.symbols.borrow().text(symbol).is_some_and(|known| **known == *text))
     }
 
-    /// An output as it is.
     pub fn value(&self, output: usize) -> Option<Value> {
         value(self.answers[output], &self.base.symbols.borrow())
     }

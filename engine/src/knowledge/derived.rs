@@ -30,7 +30,6 @@ pub(crate) struct Derived {
     pub(crate) pending: Vec<Dirty>,
     /// Whether the stages hold nothing yet, so that whatever comes counts as changed.
     pub(crate) fresh: bool,
-    /// Rows on which rules disagree.
     pub(crate) disputes: BTreeSet<u32>,
     /// For each stage whether every rule up to it was evaluated.
     pub(crate) complete: Vec<bool>,

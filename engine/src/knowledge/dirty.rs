@@ -1,6 +1,5 @@
 //! Which rows something has to be done for.
 
-/// A set of rows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Dirty {
     #[default]
@@ -53,7 +52,6 @@ impl Dirty {
         self
     }
 
-    /// The rows, of `len`.
     pub(crate) fn rows(&self, len: usize) -> Vec<u32> {
         match self {
             Self::None => vec![],

@@ -20,12 +20,10 @@ const MOST_OBJECTS: usize = 1_000;
 
 /// An object that a `least` or `most` can never choose.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub struct Dominated {
     pub rule: String,
     pub variable: String,
     pub class: String,
-    /// The key of the object that is never chosen.
     pub key: String,
     /// The key of an object that passes wherever that one does, and comes before it.
     pub by: String,

@@ -48,7 +48,6 @@ impl KnowledgeBase {
         (node.planned, node.problems) = (planned, problems);
     }
 
-    /// The types that a plan rests on.
     fn kinds(&self, rule: &Rule, plan: &Plan) -> Vec<Option<Type>> {
         let read = plan.columns.iter().map(|name| self.view(name, below(rule, name)).map(Column::kind));
         let told = |name: &PropertyName| self.held.get(&name.class)?.table.column(&name.property);

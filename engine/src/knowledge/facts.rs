@@ -9,34 +9,27 @@ use crate::column::Column;
 use crate::rule::PropertyName;
 use crate::value::{Cell, Type, Value};
 
-/// Why a fact cannot be told.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
-#[allow(missing_docs)] // the names of the fields say what they are
 pub enum FactError {
-    /// No such class.
     #[error("there is no class {class}")]
     NoClass { class: String },
-    /// No such object.
     #[error("class {class} has no object {key}")]
     NoObject {
         class: String,
         /// Its key, or its row from 0.
         key: String,
     },
-    /// The value is of another type than the property.
     #[error("{class}.{property} holds {}, not {value}", holds.plural())]
     Type {
         class: String,
         property: String,
-        /// What the property holds.
         holds: Type,
         value: String,
     },
     /// A property of the key says which object it is and does not change.
     #[error("{class}.{property} is part of the key, which does not change")]
     Key { class: String, property: String },
-    /// An object that cannot be added.
     #[error(transparent)]
     Class(#[from] ClassError),
 }
@@ -222,7 +215,6 @@ impl Table {
         self.columns.len() - 1
     }
 
-    /// What NULL means in a column.
     fn null_of(&self, at: usize) -> Cell {
         self.nulls.iter().find(|(column, _)| *column == at).map_or(Cell::Unknown, |&(_, cell)| cell)
     }

@@ -12,7 +12,6 @@ use crate::rule::Rule;
 use crate::script::syntax::Quantifier;
 use crate::value::Cell;
 
-/// How many firings a rule can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Shape {
     /// At most one for each object of the first clause: the firing has that object's row as number.
@@ -35,7 +34,6 @@ impl Shape {
     }
 }
 
-/// All that is kept of a rule between inferences.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     pub(crate) shape: Shape,
@@ -58,7 +56,6 @@ pub(crate) struct Memory {
     pub(crate) problem: Option<Diagnostic>,
 }
 
-/// Firings by the row that they set.
 #[derive(Clone, Debug)]
 struct Inverse {
     starts: Vec<u32>,
@@ -66,7 +63,6 @@ struct Inverse {
 }
 
 impl Memory {
-    /// Nothing given yet.
     pub(crate) fn new(rule: &Rule, plan: &Plan, drivers: usize) -> Self {
         let shape = Shape::of(plan);
         let drivers = if shape == Shape::Whole { 1 } else { drivers };
@@ -104,7 +100,6 @@ impl Memory {
         self.witnesses[clause].get(firing).copied().unwrap_or(NO_ROW)
     }
 
-    /// The value that a firing gives, if it gives one.
     pub(crate) fn claim(&self, given: usize, firing: usize) -> Option<Cell> {
         let given = &self.given[given];
         (given.written.get(firing) == Some(&true)).then(|| given.values.cell(firing))
@@ -340,7 +335,6 @@ impl Memory {
         touched
     }
 
-    /// Keeps these firings, in this order.
     fn select(&mut self, firings: &[usize]) {
         self.ways = firings.iter().map(|&firing| self.ways[firing]).collect();
         for column in &mut self.witnesses {

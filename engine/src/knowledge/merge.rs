@@ -12,10 +12,8 @@ use crate::machine::output::Buffer;
 use crate::rule::PropertyName;
 use crate::value::{Cell, Type};
 
-/// Where a value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Source {
-    /// Nobody gives one.
     Nobody,
     Told,
     /// A rule, by number, in one of its firings. What it gives may be unknown.
@@ -281,7 +279,6 @@ impl KnowledgeBase {
         concluded
     }
 
-    /// What rules conclude of one object.
     fn concluded(&self, name: &PropertyName, derived: &Derived, row: u32, kind: Type) -> (Cell, Source) {
         let mut chosen = (Cell::Unknown, Source::Nobody);
         let mut priority = None;

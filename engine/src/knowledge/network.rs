@@ -20,10 +20,8 @@ use crate::value::Type;
 pub(super) struct Node {
     pub(super) name: String,
     pub(super) version: String,
-    /// What it waits for.
     pub(super) needs: Vec<String>,
     pub(super) planned: Option<Planned>,
-    /// Why it has no plan.
     pub(super) problems: Vec<Diagnostic>,
     pub(super) memory: Option<Memory>,
 }
@@ -35,11 +33,9 @@ pub(super) struct Planned {
     pub(super) uses: Uses,
     /// Of the columns that it names, and the told types of what it sets.
     pub(super) kinds: Vec<Option<Type>>,
-    /// Whether any part of it is interpreted.
     pub(super) interprets: bool,
 }
 
-/// All rules of a base.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Network {
     /// The rule base that it was made for.
@@ -47,7 +43,6 @@ pub(super) struct Network {
     pub(super) nodes: Vec<Node>,
     /// Whether classes or properties came or went: then it is found out anew which rules wait.
     pub(super) recheck: bool,
-    /// Classes that were taken away.
     pub(super) retracted: BTreeSet<String>,
     /// Values, by property and key, of which the user has said that they are not known.
     pub(super) not_known: BTreeSet<(PropertyName, String)>,

@@ -12,14 +12,12 @@ pub(super) struct Held {
     pub(super) pending: Pending,
 }
 
-/// Edits of one class, brought together.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending {
     /// The class is new, or other properties than before: nothing that rests on it holds.
     pub(super) anew: bool,
     /// For each row of before its row now; `None`: no row moved.
     pub(super) moved: Option<Vec<Option<u32>>>,
-    /// New rows.
     pub(super) added: Vec<u32>,
     /// Rows whose told value changed, by property.
     pub(super) changed: BTreeMap<String, Dirty>,
@@ -55,7 +53,6 @@ impl Pending {
         }
     }
 
-    /// Whether objects came, went or moved.
     pub(super) const fn reshaped(&self) -> bool {
         self.moved.is_some() || !self.added.is_empty()
     }
@@ -69,7 +66,6 @@ impl Pending {
         self.anew || self.reshaped() || !self.changed.is_empty()
     }
 
-    /// Adds what changed after it.
     pub(super) fn join(&mut self, later: Self) {
         if self.anew || later.anew {
             *self = Self::anew();

@@ -154,7 +154,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// The rows of the objects that the clauses bind.
     fn rows(&self, number: usize, binding: &Binding) -> Vec<Option<usize>> {
         let row = |(clause, &id): (usize, &u32)| {
             let class = self.agenda.class_of(number, clause)?;
@@ -163,7 +162,6 @@ impl KnowledgeBase {
         binding.iter().enumerate().map(row).collect()
     }
 
-    /// The objects as hosts call them.
     fn called(&self, rule: &Rule, rows: &[Option<usize>]) -> Vec<Witness> {
         let witness = |(clause, row): (&Clause, &Option<usize>)| {
             let key = self.key(&clause.class, (*row).filter(|_| clause.link.is_none())?)?;
@@ -188,13 +186,11 @@ impl KnowledgeBase {
     }
 }
 
-/// One run of reactions.
 pub(super) struct Run<'r> {
     pub(super) rules: &'r RuleBase,
     told: NamesTold<'r>,
     pub(super) until: Instant,
     firings: Vec<Firing>,
-    /// The rules of the firings, by number.
     fired: Vec<usize>,
     undo: Undo,
     /// Rules whose bodies were stopped by a limit.
@@ -243,7 +239,6 @@ fn refused(rule: &Rule, wrong: &FactError) -> Diagnostic {
     Diagnostic::error(Code::Evaluation, &place, message).help("nothing of this action was done")
 }
 
-/// Names the rules that kept firing.
 fn endless(rules: &RuleBase, fired: &[usize], most: usize) -> Diagnostic {
     let last = &fired[fired.len() - fired.len().div_ceil(2).min(WINDOW)..];
     let mut names: Vec<usize> = vec![];

@@ -67,7 +67,6 @@ impl KnowledgeBase {
         problems
     }
 
-    /// Where a rule stands in the order of evaluation.
     #[allow(clippy::unused_self)] // it reads as a question to the knowledge base
     fn place(&self, base: &RuleBase, rule: &str) -> usize {
         let is = |step: &crate::order::Step| matches!(step, crate::order::Step::Rule(number) if base.rules[*number].name == rule);
@@ -196,7 +195,6 @@ impl KnowledgeBase {
     }
 }
 
-/// One message for all conflicts about a property.
 fn disagreement(base: &RuleBase, first: &Conflict, count: usize) -> Option<Diagnostic> {
     let said: Vec<String> =
         first.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();

@@ -11,7 +11,6 @@ use crate::value::{Cell, Value};
 /// What was done to a class, with what takes it back.
 #[derive(Debug)]
 pub(super) enum Done {
-    /// The class was made.
     Class,
     /// A property was added, the last one.
     Property,
@@ -34,7 +33,6 @@ impl Undo {
 }
 
 impl KnowledgeBase {
-    /// Takes back all edits.
     pub(super) fn take_back(&mut self, undo: &mut Undo) {
         for (class, table) in self.before(undo) {
             match table {
@@ -101,9 +99,7 @@ impl Done {
 pub(super) enum Edit {
     /// Tells a value; `None` takes back what was told.
     Value { class: String, row: usize, property: String, value: Option<Value> },
-    /// Removes an object.
     Gone { class: String, row: usize },
-    /// Adds an object.
     Object { class: String, properties: BTreeMap<String, Value> },
 }
 

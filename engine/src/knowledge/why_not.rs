@@ -99,7 +99,6 @@ impl KnowledgeBase {
     }
 }
 
-/// What came of going through a rule.
 #[derive(Default)]
 struct Walked {
     rejected: Vec<Rejected>,

@@ -12,7 +12,6 @@ use crate::value::Cell;
 /// What a condition asks of one property: the path, the test, the place.
 type Asked = (String, Test, Position);
 
-/// Clauses that no object can pass, whatever comes.
 pub(super) fn lint(rule: &Rule) -> Vec<Diagnostic> {
     let mut before: Vec<Asked> = vec![];
     let mut found = vec![];

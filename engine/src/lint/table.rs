@@ -8,7 +8,6 @@ use crate::script::names::property_of;
 use crate::table::overlap::{Left, MAX_REGIONS, Space};
 use crate::table::{Hit, Table, plain};
 
-/// Overlaps that are told of one table.
 const MAX_FOUND: usize = 20;
 
 const TOO_LARGE: &str = "the table is too large for all its rows to be compared";

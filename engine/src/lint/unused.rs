@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::FileScope;
 
-/// Warnings about what is declared and never named again.
 pub(crate) fn lint(file: &FileScope) -> Vec<Diagnostic> {
     let words = words(file.source.text());
     let functions = file.function_names.iter().map(|(name, _)| ("function", name));

@@ -13,7 +13,6 @@ pub(crate) struct Slots {
     pub(crate) written: Vec<Written>,
 }
 
-/// Which bindings wrote a slot.
 #[derive(Clone, Debug)]
 pub(crate) enum Written {
     Nowhere,

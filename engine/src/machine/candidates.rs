@@ -55,7 +55,6 @@ impl Candidates {
         self.all = self.rows.last().is_none_or(|&last| last as usize + 1 == self.rows.len());
     }
 
-    /// The candidates of a clause whose class has `size` objects.
     pub(crate) fn of(machine: &Machine, plan: &Plan, number: usize, size: usize) -> Result<Self, Stopped> {
         let clause = &plan.clauses[number];
         let mut rows: Vec<u32> = (0..size as u32).collect();

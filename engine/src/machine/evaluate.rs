@@ -232,7 +232,6 @@ pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
     }
 }
 
-/// One number to one.
 #[inline]
 pub(crate) fn apply(function: Function, a: f64) -> f64 {
     match function {

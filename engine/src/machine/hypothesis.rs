@@ -11,7 +11,6 @@ use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::value::{Cell, Truth};
 
-/// What came up for the objects of the first clause.
 #[derive(Debug, Default)]
 pub(super) struct Verdicts {
     proved: HashSet<u32>,
@@ -45,7 +44,6 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// The bindings met all clauses.
     pub(super) fn prove(&mut self, frame: &Frame) {
         if self.plan.hypothesis.is_some() {
             self.verdicts.proved.extend((0..frame.len).map(|index| frame.rows[0].at(index)));

@@ -19,12 +19,10 @@ pub(crate) struct Index {
     rows: Vec<u32>,
 }
 
-/// Where the rows of a group stand.
 #[derive(Clone, Copy, Debug, Default)]
 struct Span {
     start: u32,
     len: u32,
-    /// How many rows there is room for.
     room: u32,
 }
 
@@ -157,7 +155,6 @@ fn dense(column: &Column, rows: &[u32]) -> Option<Vec<u32>> {
     (greatest < 8 * rows.len() + 64).then(|| vec![NO_GROUP; greatest + 1])
 }
 
-/// A value as a whole number, where it is one.
 fn whole(cell: Cell) -> Option<usize> {
     match cell {
         Cell::Number(number) => {

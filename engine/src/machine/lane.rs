@@ -196,7 +196,6 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The values of some bindings.
     pub(crate) fn select(&self, chosen: &[u32]) -> Values<'static> {
         match self {
             Self::Numbers(lane) => Values::Numbers(lane.select(chosen)),
@@ -257,9 +256,7 @@ fn truth_cell(truth: Truth) -> Cell {
 pub(crate) enum Rows {
     /// Not bound: all its properties are unknown.
     Unbound,
-    /// This row and the following ones.
     From(u32),
-    /// One row for the whole batch.
     Same(u32),
     Each(Vec<u32>),
     /// No rows: the number that a clause of `count` or `sum` gives.
@@ -270,7 +267,6 @@ pub(crate) enum Rows {
 pub(crate) const NO_ROW: u32 = u32::MAX;
 
 impl Rows {
-    /// One row for each binding.
     pub(crate) fn each(rows: Vec<u32>) -> Self {
         // What is the same for the whole batch is looked at once, which counts where it is small.
         if let [row] = rows.as_slice() { Self::Same(*row) } else { Self::Each(rows) }
@@ -313,7 +309,6 @@ impl Rows {
     }
 }
 
-/// A batch of bindings.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) len: usize,
@@ -333,7 +328,6 @@ impl Frame {
         Self { len: chosen.len(), rows: self.rows.iter().map(|rows| rows.select(chosen)).collect() }
     }
 
-    /// The rows of one binding, by variable.
     pub(crate) fn binding(&self, index: usize) -> Vec<u32> {
         self.rows.iter().map(|rows| rows.at(index)).collect()
     }

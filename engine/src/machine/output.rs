@@ -18,7 +18,6 @@ impl Buffer {
         kind.map_or(Self::Cells(vec![]), |kind| Self::Typed(Column::unknown(kind, 0)))
     }
 
-    /// None of the same type.
     pub(crate) fn empty(&self) -> Self {
         match self {
             Self::Typed(column) => Self::Typed(Column::unknown(column.kind(), 0)),
@@ -64,7 +63,6 @@ impl Buffer {
         }
     }
 
-    /// Adds the values of a batch.
     pub(crate) fn extend(&mut self, values: &Values, len: usize) {
         match (self, values) {
             (Self::Typed(Column::Numbers(out)), Values::Numbers(lane)) => lane.extend(out, len),
@@ -74,7 +72,6 @@ impl Buffer {
         }
     }
 
-    /// Adds all of another.
     pub(crate) fn append(&mut self, other: &Self) {
         match (self, other) {
             (Self::Typed(Column::Numbers(out)), Self::Typed(Column::Numbers(more))) => out.extend(more),
@@ -109,7 +106,6 @@ impl Given {
 /// A binding of the clauses before, for which a clause was not met.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Failure {
-    /// Row of the first clause's object.
     pub(crate) row: u32,
     pub(crate) clause: u32,
 }
@@ -138,7 +134,6 @@ impl Status {
         Self(128 + clause as u8)
     }
 
-    /// The clause that was not met.
     pub(crate) const fn unmet(self) -> Option<usize> {
         match self.0 {
             64..=127 => Some(self.0 as usize - 64),

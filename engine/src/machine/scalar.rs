@@ -8,7 +8,6 @@ use crate::plan::node::Node;
 use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth};
 
-/// One object, and no other.
 pub(crate) struct Object<'a> {
     /// For each column of a plan the property.
     pub(crate) columns: &'a [usize],
@@ -130,7 +129,6 @@ pub(crate) struct Written {
 }
 
 impl Written {
-    /// Empties so many slots.
     pub(crate) fn clear(&mut self, slots: usize) {
         self.cells.clear();
         self.cells.resize(slots, Cell::Unknown);

@@ -15,13 +15,11 @@ use crate::rule::PropertyName;
 use crate::script::syntax::Quantifier;
 use crate::value::{Truth, Type};
 
-/// Most firings of one rule.
 pub(crate) const MAX_FIRINGS: usize = 20_000_000;
 
 /// The objects of the first clause from which a search starts.
 #[derive(Clone, Debug)]
 pub(crate) enum Drivers<'d> {
-    /// Rows from and up to.
     Range(u32, u32),
     Rows(&'d [u32]),
     /// The first clause binds one object, or none, of so many.
@@ -30,7 +28,6 @@ pub(crate) enum Drivers<'d> {
     Bound(usize, Frame),
 }
 
-/// A search through the clauses of one rule.
 pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
@@ -138,7 +135,6 @@ impl<'s> Search<'s> {
         Ok(())
     }
 
-    /// A batch of objects of the first clause.
     fn drive(&mut self, frame: Frame) -> Result<(), Stopped> {
         self.machine.tick()?;
         let Some(own) = &self.clauses[0].own else { return self.advance(1, frame) };
@@ -290,7 +286,6 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// Goes on with the bindings that pass.
     fn filtered(&mut self, number: usize, test: Option<&Node>, frame: Frame) -> Result<(), Stopped> {
         let Some(test) = test else { return self.advance(number + 1, frame) };
         let truths = self.machine.values(test, &frame).truths().into_static();
@@ -310,7 +305,6 @@ impl<'s> Search<'s> {
         self.advance(number + 1, next)
     }
 
-    /// For each binding the rows that the index gives.
     pub(crate) fn groups(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Vec<&'s [u32]> {
         let Some(index) = &self.candidates(number).index else { return vec![] };
         let keys = self.machine.keys(clause, frame);
@@ -398,7 +392,6 @@ impl<'s> Search<'s> {
         Ok(())
     }
 
-    /// Keeps what the bindings rest on.
     pub(super) fn record(&mut self, frame: &Frame, status: Status) -> Result<(), Stopped> {
         if self.output.firings > self.most {
             return Err(Stopped);

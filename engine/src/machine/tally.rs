@@ -9,9 +9,7 @@ use crate::plan::node::Node;
 use crate::script::syntax::Quantifier;
 use crate::value::{Cell, Truth};
 
-/// What came together for each binding.
 pub(crate) struct Tally {
-    /// What is added up, for each binding.
     amounts: Vec<Vec<f64>>,
     passed: Vec<u32>,
     /// Objects that passed without having what `all` asks.
@@ -44,7 +42,6 @@ impl Tally {
         (0..self.passed.len()).map(number).collect()
     }
 
-    /// Whether all objects have what is asked.
     pub(super) fn holds(&self, binding: usize) -> Truth {
         match (self.without[binding], self.undecided[binding]) {
             (0, 0) => Truth::True,

@@ -12,14 +12,12 @@ use crate::rule::PropertyName;
 use crate::script::names::{Names, Patterns, changes_in_expressions, property_of};
 use crate::value::Type;
 
-/// One step of an action.
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
     /// Writes a slot: a `let`, an assignment, or a property that is set.
     Put { slot: usize, value: Node },
     /// `changes` are the slots that either branch writes: unknown where the condition is.
     If { condition: Node, then: Vec<Self>, otherwise: Vec<Self>, changes: Vec<usize> },
-    /// A whole action for the interpreter.
     Interpret(Box<Fragment>),
 }
 
@@ -33,7 +31,6 @@ impl Step {
     }
 }
 
-/// A property that an action sets.
 #[derive(Clone, Debug)]
 pub(crate) struct Target {
     pub(crate) variable: usize,
@@ -42,7 +39,6 @@ pub(crate) struct Target {
     pub(crate) kind: Option<Type>,
 }
 
-/// An action ready to run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ActionPlan {
     pub(crate) steps: Vec<Step>,
@@ -51,7 +47,6 @@ pub(crate) struct ActionPlan {
 }
 
 impl ActionPlan {
-    /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         fn any(steps: &[Step]) -> bool {
             steps.iter().any(|step| match step {

@@ -16,7 +16,6 @@ pub(crate) struct Threshold {
     pub(crate) binding: Node,
 }
 
-/// A clause ready to run.
 #[derive(Clone, Debug)]
 pub(crate) struct ClausePlan {
     /// Its number among the clauses of the rule, which is that of its variable too.
@@ -114,7 +113,6 @@ fn of_class(lowering: &mut Lowering, index: usize) -> Vec<Node> {
     nodes
 }
 
-/// The parts of a condition that all must be true.
 pub(crate) fn parts(condition: Node) -> Vec<Node> {
     match condition {
         Node::And(parts) => parts,

@@ -20,7 +20,6 @@ pub(crate) struct Fragment {
     pub(crate) bare: Vec<(String, usize, usize)>,
     /// Numbers that clauses of `count` and `sum` give: name, number of the clause.
     pub(crate) numbers: Vec<(String, usize)>,
-    /// Constants of the file.
     pub(crate) constants: Vec<(String, Dynamic)>,
     /// All `let` variables in scope, oldest first (the script counts them from the end): name, slot, and
     /// whether the script looks at it.
@@ -34,7 +33,6 @@ pub(crate) struct Object {
     pub(crate) properties: Vec<(String, Source)>,
 }
 
-/// Where a property's value comes from.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Source {
     Column(usize),

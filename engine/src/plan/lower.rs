@@ -31,7 +31,6 @@ pub(crate) enum Stop {
     Wrong,
 }
 
-/// A variable made by `let`.
 #[derive(Clone, Debug)]
 pub(crate) struct Local {
     pub(crate) name: String,
@@ -39,7 +38,6 @@ pub(crate) struct Local {
     pub(crate) kind: Option<Type>,
 }
 
-/// One rule on its way to a plan.
 pub(crate) struct Lowering<'r> {
     pub(crate) rule: &'r Rule,
     pub(crate) kinds: &'r dyn Kinds,
@@ -88,7 +86,6 @@ impl<'r> Lowering<'r> {
         self.variables = clauses.iter().enumerate().map(in_scope).collect();
     }
 
-    /// The names of the variables in scope.
     pub(crate) fn variables(&self) -> Vec<String> {
         self.variables.clone()
     }
@@ -269,7 +266,6 @@ impl<'r> Lowering<'r> {
         })
     }
 
-    /// The node where this type is wanted.
     pub(crate) fn narrow(
         &mut self,
         (node, kind): Typed,
@@ -337,7 +333,6 @@ impl<'r> Lowering<'r> {
         Ok((Node::Interpret(Box::new(fragment)), None))
     }
 
-    /// A script with all that it names.
     pub(crate) fn fragment(
         &mut self,
         statements: Vec<Stmt>,
@@ -384,7 +379,6 @@ impl<'r> Lowering<'r> {
         Ok(Fragment { script, file, position, objects, bare, numbers, constants, locals })
     }
 
-    /// The numbers that clauses give.
     fn numbers(&self) -> impl Iterator<Item = (usize, &'r str)> {
         let rule = self.rule;
         let number = |(clause, of): (usize, &'r Clause)| Some((clause, of.number.as_ref()?.0.as_str()));

@@ -4,7 +4,6 @@ use super::fragment::Fragment;
 use crate::symbols::Symbol;
 use crate::value::{Truth, Type};
 
-/// Two numbers to one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arithmetic {
     Add,
@@ -18,7 +17,6 @@ pub(crate) enum Arithmetic {
     Hypot,
 }
 
-/// One number to one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Function {
     Negate,
@@ -40,7 +38,6 @@ pub(crate) enum Comparison {
 }
 
 impl Comparison {
-    /// The same comparison with its sides exchanged.
     pub(crate) const fn turned(self) -> Self {
         match self {
             Self::Equal => Self::Equal,
@@ -60,7 +57,6 @@ pub(crate) enum Node {
     Number(f64),
     Text(Symbol),
     Truth(Truth),
-    /// Variable and column by number.
     Property {
         variable: usize,
         column: usize,
@@ -104,7 +100,6 @@ impl Node {
         }
     }
 
-    /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         match self {
             Self::Interpret(_) => true,

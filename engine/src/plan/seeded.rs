@@ -88,7 +88,6 @@ fn or_unknown(node: Node) -> Node {
     Node::Coalesce(Box::new(node), Box::new(Node::Truth(Truth::True)))
 }
 
-/// All that a clause asks.
 fn parts(plan: &ClausePlan) -> Vec<Part> {
     let clause = plan.variable;
     let link = plan.quantifier == Quantifier::Link;

@@ -35,7 +35,6 @@ pub(super) fn action(lowering: &mut Lowering, table: &Table) -> ActionPlan {
     plan
 }
 
-/// Looks at an input once.
 fn input(lowering: &mut Lowering, expr: &rhai::Expr, plan: &mut ActionPlan) -> Typed {
     let (value, kind) = lowering.lower(expr).unwrap_or((Node::Unknown, None));
     let slot = slot(lowering);

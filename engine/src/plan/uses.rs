@@ -11,7 +11,6 @@ use super::{Effect, Plan};
 /// Columns by the number of the variable through which they are read.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Uses {
-    /// Anywhere.
     pub(crate) anywhere: Vec<BTreeSet<usize>>,
     /// In the variable's own clause: what decides whether it is bound.
     pub(crate) matching: Vec<BTreeSet<usize>>,
@@ -20,7 +19,6 @@ pub(crate) struct Uses {
 }
 
 impl Uses {
-    /// What clauses look at.
     pub(crate) fn of_clauses(clauses: &[ClausePlan]) -> Self {
         let none = || vec![BTreeSet::new(); clauses.len()];
         let mut uses = Self { anywhere: none(), matching: none(), passing: none() };

@@ -9,7 +9,6 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::script::source::{MAX_FILE_BYTES, SourceFile};
 use crate::value::Value;
 
-/// The tests of one file.
 #[derive(Clone, Debug)]
 pub(super) struct TestFile {
     pub(super) source: SourceFile,
@@ -27,7 +26,6 @@ pub(super) struct Test {
     pub(super) steps: Vec<Step>,
 }
 
-/// Objects of one class.
 #[derive(Clone, Debug)]
 pub(super) struct Objects {
     pub(super) class: Located<String>,
@@ -41,7 +39,6 @@ pub(super) struct Object {
     pub(super) place: Located<()>,
 }
 
-/// Edits, and what must be concluded after them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Step {
     pub(super) tell: Vec<Fact>,
@@ -50,7 +47,6 @@ pub(super) struct Step {
     pub(super) expected: Vec<Fact>,
 }
 
-/// A value of a property of an object.
 #[derive(Clone, Debug)]
 pub(super) struct Fact {
     pub(super) class: Located<String>,
@@ -59,7 +55,6 @@ pub(super) struct Fact {
     pub(super) value: Located<Option<Value>>,
 }
 
-/// Reads a file.
 pub(super) fn file(source: &SourceFile) -> Result<TestFile, Vec<Diagnostic>> {
     let refused = |code, span, message| vec![Diagnostic::error(code, &source.place_of(&span), message)];
     if source.text().len() > MAX_FILE_BYTES {

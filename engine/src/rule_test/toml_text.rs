@@ -17,7 +17,6 @@ pub(super) struct Located<T> {
     pub(super) span: Range<usize>,
 }
 
-/// A value of the text.
 pub(super) type Entry<'t> = Spanned<DeValue<'t>>;
 
 /// A text that is being read, and what is wrong with it so far.
@@ -57,7 +56,6 @@ impl Reader<'_> {
         }
     }
 
-    /// A table with whatever keys.
     pub(super) fn free_table<'t, 'i>(&mut self, entry: &'t Entry<'i>, what: &str) -> Option<&'t DeTable<'i>> {
         let DeValue::Table(table) = entry.get_ref() else {
             self.wrong_kind(entry, what, "a table");
@@ -118,7 +116,6 @@ impl Reader<'_> {
     }
 }
 
-/// The entry of a key.
 pub(super) fn get<'t, 'i>(table: &'t DeTable<'i>, key: &str) -> Option<&'t Entry<'i>> {
     table.iter().find(|(name, _)| &**name.get_ref() == key).map(|(_, entry)| entry)
 }

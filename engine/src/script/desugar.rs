@@ -41,7 +41,6 @@ struct Links<'d> {
     own: Option<usize>,
     /// Whether a link of that clause's own object was found.
     own_used: bool,
-    /// Where clauses were put in.
     inserted: Vec<usize>,
 }
 

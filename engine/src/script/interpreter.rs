@@ -21,13 +21,10 @@ pub(crate) const MAX_CALL_LEVELS: usize = 32;
 pub(crate) const MAX_DEPTHS: (usize, usize) = (64, 32);
 /// Bytes of a text.
 pub(crate) const MAX_TEXT: usize = 64 * 1024;
-/// Elements of an array.
 pub(crate) const MAX_ARRAY: usize = 10_000;
-/// Entries of a map.
 pub(crate) const MAX_MAP: usize = 1_000;
 /// Variables alive at once.
 pub(crate) const MAX_VARIABLES: usize = 256;
-/// Functions of a file.
 pub(crate) const MAX_FUNCTIONS: usize = 128;
 /// Stack of the threads that read rules and run them, in bytes: the deepest script allowed needs more than
 /// 2 MiB in a debug build, and a stack overflow cannot be caught.
@@ -38,7 +35,6 @@ thread_local! {
     static STEPS: Cell<u64> = const { Cell::new(0) };
 }
 
-/// Starts the budget of one run on this thread.
 pub(crate) fn start_run(deadline: Instant) {
     DEADLINE.set(Some(deadline));
     STEPS.set(0);
@@ -202,7 +198,6 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("unknown", |value: Dynamic| value.is_unit());
 }
 
-/// How long rules may take.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// One rule in one inference.

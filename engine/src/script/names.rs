@@ -9,7 +9,6 @@ use super::interpreter::CHANGING;
 /// A property of a pattern variable: its clause, and the property's name.
 pub(crate) type Use = (usize, String);
 
-/// What was found in the parts of one rule.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
     pub(crate) reads: BTreeMap<Use, Position>,
@@ -26,7 +25,6 @@ pub(crate) struct Names {
     pub(crate) misplaced: Vec<Position>,
     /// Functions called: name, number of arguments, place.
     pub(crate) calls: Vec<(String, usize, Position)>,
-    /// A rule inside a rule.
     pub(crate) nested: Vec<Position>,
 }
 

@@ -33,7 +33,6 @@ pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
     Action::React(Box::new(Reaction { body, reads: BTreeSet::new(), tells, sets }))
 }
 
-/// What the functions of a file tell.
 pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
     let mut tells = vec![];
     AST::new(Vec::<Stmt>::new(), Shared::clone(functions)).walk(&mut |path| {
@@ -43,7 +42,6 @@ pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
     tells
 }
 
-/// The call at which a walk has come.
 fn call<'a>(path: &[ASTNode<'a>]) -> Option<&'a FnCallExpr> {
     match path.last() {
         Some(ASTNode::Stmt(Stmt::FnCall(call, _)) | ASTNode::Expr(Expr::FnCall(call, _))) => Some(call),
@@ -85,7 +83,6 @@ pub(super) fn call_complaint(
     (arguments != wanted).then(|| Diagnostic::error(Code::Syntax, &place(), message()))
 }
 
-/// The engine's own functions for bodies.
 pub(super) fn is_own(name: &str) -> bool {
     matches!(name, "tell" | "forget")
 }

@@ -14,7 +14,6 @@ use super::interpreter::bare;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Object(pub(crate) usize);
 
-/// What a body asks for.
 #[derive(Clone, Debug)]
 pub(crate) enum Write {
     /// `x.property = value`
@@ -25,7 +24,6 @@ pub(crate) enum Write {
     Gone { variable: usize },
 }
 
-/// One run of a body.
 #[derive(Debug, Default)]
 pub(crate) struct Run {
     /// For each variable the known properties that the body looks at.
@@ -44,7 +42,6 @@ pub(crate) fn with_run<T>(known: Vec<BTreeMap<String, Dynamic>>, run: impl FnOnc
     (outcome, RUN.take().writes)
 }
 
-/// For running the bodies of reactions.
 pub(crate) fn reactor() -> &'static Engine {
     static REACTOR: OnceLock<Engine> = OnceLock::new();
     REACTOR.get_or_init(|| {

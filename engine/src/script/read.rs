@@ -27,7 +27,6 @@ pub(crate) struct Draft {
     pub(crate) outside: Arc<str>,
 }
 
-/// What stands in a file.
 #[derive(Debug, Default)]
 pub(crate) struct Read {
     pub(crate) drafts: Vec<Draft>,
@@ -70,7 +69,6 @@ fn compile(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>)
     }
 }
 
-/// Syntax errors that are told of one file.
 const MAX_SYNTAX_ERRORS: usize = 20;
 
 /// Reads what comes after an error, with blank lines before it so that places hold.

@@ -59,7 +59,6 @@ fn pad_array(array: &mut Array, len: i64, item: Dynamic) -> Measured {
     Ok(())
 }
 
-/// How many values are in a value.
 fn elements(value: &Dynamic) -> usize {
     if let Ok(array) = value.as_array_ref() {
         return array.iter().map(|element| 1 + elements(element)).sum();

@@ -21,12 +21,10 @@ impl SourceFile {
         Self { named: Arc::new(NamedSource::new(name, text.into())) }
     }
 
-    /// The name in messages.
     pub fn name(&self) -> &str {
         self.named.name()
     }
 
-    /// The text.
     pub fn text(&self) -> &str {
         self.named.inner()
     }
@@ -35,7 +33,6 @@ impl SourceFile {
         &self.named
     }
 
-    /// The place of the token at this byte.
     pub(crate) fn place_at(&self, offset: usize) -> Place {
         let before = &self.text()[..offset];
         let line = before.matches('\n').count() + 1;
@@ -56,7 +53,6 @@ impl SourceFile {
 }
 
 impl SourceFile {
-    /// The place of some bytes of the text.
     pub(crate) fn place_of(&self, bytes: &Range<usize>) -> Place {
         let text = self.text();
         let start = text.floor_char_boundary(bytes.start.min(text.len()));
@@ -72,7 +68,6 @@ impl SourceFile {
     }
 }
 
-/// A token's place in a file.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     pub(crate) source: SourceFile,

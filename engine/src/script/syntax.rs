@@ -50,7 +50,6 @@ pub(crate) enum Slot {
     Level,
 }
 
-/// Where the reading of an item stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum At {
     Name,
@@ -82,7 +81,6 @@ enum At {
     Done,
 }
 
-/// The state that travels with one custom expression.
 #[derive(Clone, Debug)]
 pub(crate) struct Shape {
     pub(crate) slots: Vec<Slot>,
@@ -99,7 +97,6 @@ const END: &str = "{EOF}";
 
 type Next = Result<Option<ImmutableString>, ParseError>;
 
-/// Teaches an engine the rule syntax.
 pub(crate) fn register(engine: &mut Engine) {
     for word in Word::ALL {
         engine.register_custom_syntax_with_state_raw(

@@ -1,6 +1,5 @@
 //! A set of small numbers.
 
-/// Which of an input's regions are in.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Bits(Vec<u64>);
 

@@ -15,7 +15,6 @@ const MAX_WORK: usize = 200_000_000;
 /// For each input the regions that are in.
 type Cut = Vec<Bits>;
 
-/// A table's inputs cut into regions.
 pub(crate) struct Space {
     regions: Vec<Vec<Region>>,
     rows: Vec<Cut>,
@@ -25,9 +24,7 @@ pub(crate) struct Space {
 /// What is left of some inputs when those of rows are taken away.
 pub(crate) enum Left {
     Nothing,
-    /// An input that is left.
     Example(String),
-    /// Too much to say.
     GaveUp,
 }
 
@@ -47,12 +44,10 @@ impl Space {
         Self { regions, rows, work: Cell::new(0) }
     }
 
-    /// Whether a row matches no input at all.
     pub(crate) fn is_empty(&self, row: usize) -> bool {
         self.rows[row].iter().any(Bits::is_empty)
     }
 
-    /// Whether the searches may go on.
     pub(crate) fn may_go_on(&self) -> bool {
         self.work.get() < MAX_WORK
     }
@@ -71,7 +66,6 @@ impl Space {
         self.left(table, self.rows[row].clone(), before)
     }
 
-    /// What no row matches.
     pub(crate) fn gap(&self, table: &Table) -> Left {
         let all = self.regions.iter().map(|regions| Bits::new(regions.len(), |_| true)).collect();
         let rows: Vec<usize> = (0..self.rows.len()).collect();

@@ -6,7 +6,6 @@ use crate::value::Type;
 /// One region: all its values pass the same tests.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
-    /// A value in it.
     example: Literal,
     /// How it reads after the input's name, as in `is below 3`; nothing if it is the only one.
     pub(crate) reads: String,
@@ -95,7 +94,6 @@ fn above(limit: f64) -> f64 {
 }
 
 impl Region {
-    /// Whether its values pass.
     pub(crate) fn passes(&self, test: &Test) -> bool {
         test.passes(&self.example)
     }

@@ -43,10 +43,8 @@ struct Merge {
     writers: Vec<(i64, usize, usize)>,
 }
 
-/// A rule as it runs.
 #[derive(Debug)]
 struct Running {
-    /// Its number in the rule base.
     rule: usize,
     /// For each column of its plan the property.
     columns: Vec<usize>,

@@ -16,9 +16,7 @@ use crate::value::{Cell, Truth, Value};
 /// A rule, or one row of a decision table, and whether it spoke of an object.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Considered {
-    /// The rule or table.
     pub rule: String,
-    /// Its file.
     pub file: String,
     /// The line of the rule, or of the table's row, from 1.
     pub line: usize,
@@ -28,7 +26,6 @@ pub struct Considered {
     pub miss: Option<Miss>,
 }
 
-/// The first thing that an object does not meet.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Miss {
     /// What is looked at, as the rule writes it; empty for a rule's whole condition.

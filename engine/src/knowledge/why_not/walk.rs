@@ -28,11 +28,9 @@ pub(super) struct Walk<'w> {
     pub(super) knowledge: &'w KnowledgeBase,
     pub(super) machine: &'w Machine<'w>,
     pub(super) plan: &'w Plan,
-    /// For each clause its candidates.
     pub(super) candidates: &'w [Option<&'w Candidates>],
     /// The clause that stands for the object, and its row.
     pub(super) target: (usize, u32),
-    /// How many objects may still be named.
     pub(super) budget: usize,
     pub(super) rejected: Vec<Rejected>,
     pub(super) truncated: bool,
@@ -42,7 +40,6 @@ pub(super) struct Walk<'w> {
 type Untrue = Option<(usize, Truth)>;
 
 impl Walk<'_> {
-    /// Whether the rule applies to the object.
     pub(super) fn run(&mut self) -> bool {
         let frame = Frame { len: 1, rows: vec![Rows::Unbound; self.plan.clauses.len()] };
         self.clause(0, &frame)

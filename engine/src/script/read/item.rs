@@ -11,7 +11,6 @@ pub(super) struct Item<'a> {
 }
 
 impl Item<'_> {
-    /// The word that begins it.
     pub(super) fn word(&self) -> Word {
         match self.inputs.first() {
             Some((Slot::Name(word), _)) => *word,
@@ -19,7 +18,6 @@ impl Item<'_> {
         }
     }
 
-    /// What follows the word.
     pub(super) fn name(&self) -> Option<(&str, Position)> {
         text(self.inputs.first()?.1)
     }

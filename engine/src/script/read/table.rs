@@ -11,7 +11,6 @@ use crate::suggest::nearest;
 use crate::table::{Fold, Hit, Literal, Row, Table, Test, plain};
 use crate::value::{Cell, Type};
 
-/// Most rows of a table.
 const MAX_ROWS: usize = 10_000;
 
 /// The functions that cells may hold, with the number of their arguments.

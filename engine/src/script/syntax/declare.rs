@@ -2,7 +2,6 @@
 
 use super::{At, Next, Shape, Slot, Word, found, wrong};
 
-/// Where the reading of a declaration stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Declaring {
     Of,

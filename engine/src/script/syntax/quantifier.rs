@@ -57,7 +57,6 @@ impl Quantifier {
         matches!(self, Self::Least | Self::Most | Self::Some | Self::None | Self::Link)
     }
 
-    /// Whether it gives a number.
     pub(crate) const fn counts(self) -> bool {
         matches!(self, Self::Count | Self::Sum)
     }

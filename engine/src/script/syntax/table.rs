@@ -3,7 +3,6 @@
 use super::{At, Next, Shape, Slot, found, wrong};
 use crate::suggest::nearest;
 
-/// Where the reading of a table stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Tabling {
     Hit,

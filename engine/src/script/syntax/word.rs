@@ -47,7 +47,6 @@ impl Word {
     }
 }
 
-/// Whether a line of a file begins an item.
 pub(crate) fn starts_item(line: &str) -> bool {
     let end = line.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(line.len());
     Word::of(&line[..end]).is_some() && line[end..].starts_with([' ', '\t'])
@@ -59,7 +58,6 @@ struct Before {
     line: usize,
     /// Whether an item may follow on the same line.
     ended: bool,
-    /// The brackets that are open.
     open: Vec<Bracket>,
 }
 
@@ -73,7 +71,6 @@ thread_local! {
     static BEFORE: RefCell<Before> = RefCell::new(Before::default());
 }
 
-/// Forgets the file before.
 pub(crate) fn start_file() {
     BEFORE.set(Before::default());
 }
