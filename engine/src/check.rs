@@ -1,4 +1,4 @@
-//! Names and types of a rule base against a schema. A rule base has itself checked, so the two import each other.
+//! Names and types of a rule base against a schema.
 
 mod told;
 
@@ -7,16 +7,23 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::order::Step;
-use crate::plan::{Effect, Key, Kind, Kinds, plan};
+use crate::plan::{Key, Kind, Kinds, plan};
 use crate::rule::{Action, PropertyName, Rule};
-use crate::rule_base::RuleBase;
+use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::schema::Schema;
 use crate::suggest::nearest;
 use crate::symbols::Symbols;
 use crate::told::NamesTold;
 use crate::value::Type;
 
-pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
+impl RuleBase {
+    /// Names and types against the classes that there are, and warnings; empty if all is well.
+    pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
+        on_deep_stack(|| check(self, schema))
+    }
+}
+
+fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
     let symbols = RefCell::new(Symbols::default());
     let told = NamesTold::of(&base.rules);
     let mut known = Declared { schema, concluded: BTreeMap::new(), told: BTreeMap::new() };
@@ -56,13 +63,9 @@ pub(crate) fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
         }
         match plan(rule, &known, &symbols) {
             Ok(plan) => {
-                if let Effect::Conclude { then, otherwise } = &plan.effect {
-                    for target in
-                        then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets))
-                    {
-                        let kind = known.concluded.entry(target.name.clone()).or_default();
-                        *kind = kind.or(target.kind);
-                    }
+                for target in plan.effect.actions().flat_map(|action| &action.targets) {
+                    let kind = known.concluded.entry(target.name.clone()).or_default();
+                    *kind = kind.or(target.kind);
                 }
             }
             Err(wrong) => problems.push((*index, wrong)),

@@ -54,15 +54,29 @@ pub struct Gap {
 pub enum Reason {
     Conflict,
     /// A clause of the rule was met by no candidate.
-    Unmet { rule: String, variable: String },
+    Unmet {
+        rule: String,
+        variable: String,
+    },
     /// A `none` of the rule was not met: there is such an object.
-    Found { rule: String, variable: String },
+    Found {
+        rule: String,
+        variable: String,
+    },
     /// An `all` of the rule was not met: an object that passes lacks what it asks.
-    NotAll { rule: String, variable: String },
+    NotAll {
+        rule: String,
+        variable: String,
+    },
     /// A clause of the rule was not met, and for some candidates that could not be decided.
-    Undecided { rule: String, variable: String },
+    Undecided {
+        rule: String,
+        variable: String,
+    },
     /// The rule gave a value that is unknown.
-    Unknown { rule: String },
+    Unknown {
+        rule: String,
+    },
     NoRule,
 }
 

@@ -18,6 +18,7 @@ mod pending;
 mod react;
 mod replay;
 mod report;
+mod reshape;
 mod revise;
 mod undo;
 mod why;
@@ -33,7 +34,7 @@ use crate::class::{Class, ClassError, Table, value};
 use crate::column::Column;
 use crate::rule::PropertyName;
 use crate::schema::Schema;
-use crate::script::interpreter::Limits;
+use crate::script::limits::Limits;
 use crate::symbols::Symbols;
 use crate::value::{Cell, Value};
 use derived::Derived;
@@ -198,6 +199,10 @@ impl KnowledgeBase {
             Some(derived) if !derived.stages.is_empty() => derived.stages.get(derived.stage(below)),
             _ => held.table.column(&name.property),
         }
+    }
+
+    fn told_column(&self, name: &PropertyName) -> Option<&Column> {
+        self.held.get(&name.class)?.table.column(&name.property)
     }
 
     fn host_value(&self, cell: Cell) -> Option<Value> {

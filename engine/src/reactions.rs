@@ -55,6 +55,14 @@ pub enum Told {
         properties: BTreeMap<String, Value>,
     },
     /// A value of an object; `None` takes back what was told.
-    Value { class: String, key: String, property: String, value: Option<Value> },
-    Gone { class: String, key: String },
+    Value {
+        class: String,
+        key: String,
+        property: String,
+        value: Option<Value>,
+    },
+    Gone {
+        class: String,
+        key: String,
+    },
 }

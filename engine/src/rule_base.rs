@@ -13,9 +13,9 @@ use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 use crate::lint::lint;
 use crate::order::{Step, order};
 use crate::rule::{Action, Operator, PropertyName, Rule};
-use crate::schema::Schema;
 use crate::script::desugar::desugar;
-use crate::script::interpreter::{STACK_BYTES, function_names, reader};
+use crate::script::interpreter::{function_names, reader};
+use crate::script::limits::STACK_BYTES;
 use crate::script::read::{Draft, read, version};
 use crate::script::resolve::resolve;
 use crate::script::source::SourceFile;
@@ -69,11 +69,6 @@ impl RuleBase {
 
     pub const fn declared(&self) -> &Declarations {
         &self.declared
-    }
-
-    /// Names and types against the classes that there are, and warnings; empty if all is well.
-    pub fn check(&self, schema: &Schema) -> Vec<Diagnostic> {
-        on_deep_stack(|| crate::check::check(self, schema))
     }
 
     /// The properties that are hypotheses: true if one rule proves them, false if all refute them.

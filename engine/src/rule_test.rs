@@ -10,7 +10,7 @@ use std::fmt;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
-use crate::script::interpreter::Limits;
+use crate::script::limits::Limits;
 use crate::script::source::SourceFile;
 use crate::value::Value;
 

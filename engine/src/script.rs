@@ -3,6 +3,7 @@
 pub(crate) mod desugar;
 pub(crate) mod failure;
 pub(crate) mod interpreter;
+pub(crate) mod limits;
 pub(crate) mod names;
 mod reaction;
 pub(crate) mod reactor;

@@ -296,12 +296,11 @@ impl KnowledgeBase {
             if needs.contains(&name.class) {
                 continue;
             }
-            let told = || self.held[&name.class].table.column(&name.property).is_some();
             let there = match self.derived.get(name) {
                 Some(derived) => {
                     derived.complete[derived.stage(below(rule, name))] && !derived.stages.is_empty()
                 }
-                None => told(),
+                None => self.told_column(name).is_some(),
             };
             if !there {
                 needs.insert(name.to_string());

@@ -1,7 +1,7 @@
 //! A consultation: objects of one class that come one at a time, each judged by the rules as soon as it is known.
 
 mod direct;
-mod explain;
+pub(crate) mod explain;
 
 use std::sync::Arc;
 
@@ -12,7 +12,6 @@ use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
 use crate::value::{Cell, Type, Value};
 use direct::Direct;
-pub use explain::{Considered, Miss};
 
 /// A value of a case; it borrows its text.
 // The wide tag makes it quick to copy, as with `Cell`.
@@ -208,6 +207,10 @@ impl Consultation {
     pub fn knowledge(&mut self) -> &KnowledgeBase {
         self.infer();
         &self.base
+    }
+
+    fn plan_direct(&self) -> Option<Direct> {
+        Direct::of(&self.base, &self.rules, &self.class, &self.inputs, &self.outputs)
     }
 
     /// Tells the knowledge base of the last object.

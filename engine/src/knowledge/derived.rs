@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::dirty::Dirty;
 use crate::column::Column;
+use crate::value::Cell;
 
 /// A rule among those that give values to a property: its number, and the priority of what it says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,9 +37,35 @@ pub(crate) struct Derived {
 }
 
 impl Derived {
+    /// The rules that conclude it, by number.
+    pub(crate) fn rules(&self) -> Vec<usize> {
+        self.writers.iter().map(|writer| writer.rule).collect()
+    }
+
     /// The stage that a rule sees which revises at this level; without a level, the last.
     pub(crate) fn stage(&self, below: Option<i64>) -> usize {
         below
             .map_or(self.levels.len(), |below| self.levels.iter().filter(|(level, _)| *level < below).count())
     }
+}
+
+/// What comes of what rules say of one object.
+pub(crate) enum Heard {
+    Nothing,
+    Value(Cell),
+    Dispute,
+}
+
+/// The greatest priority with a value is heard; where its rules disagree, nobody is. The greatest comes first.
+pub(crate) fn heard(said: impl Iterator<Item = (i64, Option<Cell>)>) -> Heard {
+    let mut chosen: Option<(i64, Cell)> = None;
+    for (priority, cell) in said {
+        match (chosen, cell) {
+            (Some((heard, _)), _) if priority < heard => break,
+            (Some((_, value)), Some(other)) if value != other => return Heard::Dispute,
+            (None, Some(cell)) => chosen = Some((priority, cell)),
+            _ => {}
+        }
+    }
+    chosen.map_or(Heard::Nothing, |(_, cell)| Heard::Value(cell))
 }

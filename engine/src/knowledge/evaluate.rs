@@ -50,8 +50,7 @@ impl KnowledgeBase {
 
     fn kinds(&self, rule: &Rule, plan: &Plan) -> Vec<Option<Type>> {
         let read = plan.columns.iter().map(|name| self.view(name, below(rule, name)).map(Column::kind));
-        let told = |name: &PropertyName| self.held.get(&name.class)?.table.column(&name.property);
-        read.chain(rule.sets.keys().map(|name| told(name).map(Column::kind))).collect()
+        read.chain(rule.sets.keys().map(|name| self.told_column(name).map(Column::kind))).collect()
     }
 
     /// What a rule gives for some objects of its first clause.
@@ -73,7 +72,7 @@ impl KnowledgeBase {
             // What was found until then is not whole, and would hang on the order of the search.
             let problem = output.problem.take();
             *memory = Memory::new(rule, plan, memory.statuses.len());
-            output = Output { problem, stopped: true, ..memory.nothing() };
+            output = Output { problem, stopped: true, ..Output::nothing(plan, rule) };
         }
         memory.problem = output.problem.take().map(|problem| match output.problems {
             0 | 1 => problem,
@@ -150,7 +149,7 @@ impl Kinds for Known<'_> {
     }
 
     fn declared(&self, name: &PropertyName) -> Option<Type> {
-        self.table(&name.class)?.column(&name.property).map(Column::kind)
+        self.base.told_column(name).map(Column::kind)
     }
 
     fn key(&self, class: &str) -> Key {

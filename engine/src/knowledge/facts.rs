@@ -21,12 +21,7 @@ pub enum FactError {
         key: String,
     },
     #[error("{class}.{property} holds {}, not {value}", holds.plural())]
-    Type {
-        class: String,
-        property: String,
-        holds: Type,
-        value: String,
-    },
+    Type { class: String, property: String, holds: Type, value: String },
     /// A property of the key says which object it is and does not change.
     #[error("{class}.{property} is part of the key, which does not change")]
     Key { class: String, property: String },

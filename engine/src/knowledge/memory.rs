@@ -6,7 +6,7 @@ use super::dirty::Dirty;
 use crate::diagnostic::Diagnostic;
 use crate::machine::candidates::Candidates;
 use crate::machine::lane::NO_ROW;
-use crate::machine::output::{Buffer, Given, Output, Status};
+use crate::machine::output::{Given, Output, Status};
 use crate::plan::Plan;
 use crate::rule::Rule;
 use crate::script::syntax::Quantifier;
@@ -66,13 +66,7 @@ impl Memory {
     pub(crate) fn new(rule: &Rule, plan: &Plan, drivers: usize) -> Self {
         let shape = Shape::of(plan);
         let drivers = if shape == Shape::Whole { 1 } else { drivers };
-        let given = plan.targets(rule).into_iter().map(|(name, variable, kind)| Given {
-            name: name.clone(),
-            variable,
-            values: Buffer::new(kind),
-            written: vec![],
-        });
-        let given: Vec<Given> = given.collect();
+        let given = Given::expected(plan, rule);
         Self {
             shape,
             statuses: vec![Status::UNASKED; drivers],
@@ -102,23 +96,23 @@ impl Memory {
 
     pub(crate) fn claim(&self, given: usize, firing: usize) -> Option<Cell> {
         let given = &self.given[given];
-        (given.written.get(firing) == Some(&true)).then(|| given.values.cell(firing))
+        given.is_written(firing).then(|| given.values.cell(firing))
     }
 
     /// Whether a firing sets the object with its own number.
-    fn sets_own(&self, given: usize) -> bool {
-        self.shape == Shape::Single && self.given[given].variable == 0
+    pub(crate) fn sets_own(&self, given: &Given) -> bool {
+        self.shape == Shape::Single && given.variable == 0
     }
 
     /// Makes what [`firings_of`](Self::firings_of) looks up.
     pub(crate) fn prepare(&mut self, given: usize, rows: usize) {
-        if self.sets_own(given) || self.inverse[given].is_some() {
+        let of = &self.given[given];
+        if self.sets_own(of) || self.inverse[given].is_some() {
             return;
         }
-        let variable = self.given[given].variable;
         let set: Vec<(u32, u32)> = (0..self.firings())
-            .filter(|&firing| self.given[given].written.get(firing) == Some(&true))
-            .map(|firing| (self.witness(variable, firing), firing as u32))
+            .filter(|&firing| of.is_written(firing))
+            .map(|firing| (self.witness(of.variable, firing), firing as u32))
             .filter(|&(row, _)| (row as usize) < rows)
             .collect();
         let mut starts = vec![0_u32; rows + 1];
@@ -140,9 +134,8 @@ impl Memory {
 
     /// The firings that set this row, ascending.
     pub(crate) fn firings_of(&self, given: usize, row: u32) -> Vec<u32> {
-        if self.sets_own(given) {
-            let written = self.given[given].written.get(row as usize) == Some(&true);
-            return if written { vec![row] } else { vec![] };
+        if self.sets_own(&self.given[given]) {
+            return Some(row).filter(|&row| self.given[given].is_written(row as usize)).into_iter().collect();
         }
         match &self.inverse[given] {
             Some(Inverse { starts, firings }) if (row as usize) + 1 < starts.len() => {
@@ -421,21 +414,5 @@ impl Memory {
     pub(crate) fn waiting(&self) -> Vec<u32> {
         let rows = self.statuses.iter().zip(0..);
         rows.filter(|(status, _)| **status == Status::UNASKED).map(|(_, row)| row).collect()
-    }
-
-    /// What an evaluation gives that finds nothing.
-    pub(crate) fn nothing(&self) -> Output {
-        let empty = |given: &Given| Given {
-            name: given.name.clone(),
-            variable: given.variable,
-            values: given.values.empty(),
-            written: vec![],
-        };
-        Output {
-            witnesses: vec![vec![]; self.witnesses.len()],
-            failed: vec![vec![]; self.witnesses.len()],
-            given: self.given.iter().map(empty).collect(),
-            ..Output::default()
-        }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::KnowledgeBase;
 use super::conclude::Run;
-use super::derived::Derived;
+use super::derived::{Derived, Heard, heard};
 use super::dirty::Dirty;
 use super::memory::Memory;
 use crate::column::Column;
@@ -37,7 +37,7 @@ impl KnowledgeBase {
         }
         let len = derived.stages[0].len();
         let pending = std::mem::take(&mut derived.pending[0]).settle(len);
-        self.index(name, &derived.writers.iter().map(|writer| writer.rule).collect::<Vec<_>>());
+        self.index(name, &derived.rules());
         let kind = derived.stages[0].kind();
         let changed = match pending {
             Dirty::All => self.merge_all(name, &mut derived),
@@ -60,11 +60,11 @@ impl KnowledgeBase {
             derived.stages.clear();
             return;
         };
-        let told = held.table.column(&name.property);
+        let told = held.table.column(&name.property).is_some();
         let done = |&rule: &usize| self.network.nodes[rule].needs.is_empty();
-        let writers: Vec<usize> = derived.writers.iter().map(|writer| writer.rule).collect();
+        let writers = derived.rules();
         derived.complete[0] = writers.iter().all(done);
-        if told.is_none() && !writers.iter().any(done) {
+        if !told && !writers.iter().any(done) {
             if !derived.stages.is_empty() {
                 run.changed(name, (0, derived.stages.len()), &Dirty::All);
             }
@@ -72,7 +72,7 @@ impl KnowledgeBase {
             derived.pending.fill(Dirty::All);
             return;
         }
-        let kind = self.kind(name, told, &writers);
+        let kind = self.kind(name, &writers);
         let fits = derived
             .stages
             .first()
@@ -88,7 +88,7 @@ impl KnowledgeBase {
     }
 
     /// The told type, or that of the first rule that has one.
-    fn kind(&self, name: &PropertyName, told: Option<&Column>, writers: &[usize]) -> Type {
+    fn kind(&self, name: &PropertyName, writers: &[usize]) -> Type {
         let given = || {
             let memories = writers.iter().filter_map(|&rule| self.network.nodes[rule].memory.as_ref());
             memories.flat_map(|memory| &memory.given).filter(|given| given.name == *name)
@@ -101,7 +101,8 @@ impl KnowledgeBase {
             Buffer::Cells(cells) => cells.iter().find_map(|cell| cell.kind()),
             Buffer::Typed(_) => None,
         };
-        told.map(Column::kind)
+        self.told_column(name)
+            .map(Column::kind)
             .or_else(|| given().find_map(|given| typed(&given.values)))
             .or_else(|| given().find_map(|given| found(&given.values)))
             .unwrap_or(Type::Number)
@@ -162,16 +163,14 @@ impl KnowledgeBase {
 
     /// The type that the values have now, if it is another one: of a property that only interpreted parts give.
     fn retyped(&self, name: &PropertyName, derived: &Derived) -> Option<Type> {
-        let told = self.held.get(&name.class)?.table.column(&name.property);
-        let writers: Vec<usize> = derived.writers.iter().map(|writer| writer.rule).collect();
-        let kind = self.kind(name, told, &writers);
+        let kind = self.kind(name, &derived.rules());
         (kind != derived.stages[0].kind()).then_some(kind)
     }
 
     /// The whole column where one rule alone gives it, object by object.
     fn straight(&self, name: &PropertyName, derived: &Derived, before: &Column) -> Option<&Column> {
         let [writer] = derived.writers.as_slice() else { return None };
-        if self.held.get(&name.class)?.table.column(&name.property).is_some() {
+        if self.told_column(name).is_some() {
             return None;
         }
         let memory = self.network.nodes[writer.rule].memory.as_ref()?;
@@ -179,7 +178,7 @@ impl KnowledgeBase {
         let (given, None) = (given.next()?, given.next()) else { return None };
         match &given.values {
             Buffer::Typed(column)
-                if memory.sets_objects(given)
+                if memory.sets_own(given)
                     && column.kind() == before.kind()
                     && column.len() == before.len() =>
             {
@@ -196,14 +195,14 @@ impl KnowledgeBase {
         derived: &Derived,
         before: &Column,
     ) -> Option<(Column, BTreeSet<u32>)> {
-        if derived.hypothesis || self.held.get(&name.class)?.table.column(&name.property).is_some() {
+        if derived.hypothesis || self.told_column(name).is_some() {
             return None;
         }
         let mut sides: Vec<(i64, &Memory, usize)> = vec![];
         for writer in &derived.writers {
             let Some(memory) = &self.network.nodes[writer.rule].memory else { continue };
             for (at, given) in memory.given.iter().enumerate().filter(|(_, given)| given.name == *name) {
-                if !memory.sets_objects(given) {
+                if !memory.sets_own(given) {
                     return None;
                 }
                 sides.push((writer.priority, memory, at));
@@ -213,23 +212,17 @@ impl KnowledgeBase {
         let mut column = Column::unknown(kind, before.len());
         let mut disputes = BTreeSet::new();
         for row in 0..before.len() {
-            let mut chosen: Option<(Cell, i64)> = None;
-            for &(priority, memory, at) in &sides {
-                if chosen.is_some_and(|(_, of)| priority < of) {
-                    break;
+            let said = |&(priority, memory, at): &(i64, &Memory, usize)| {
+                (priority, memory.claim(at, row).filter(|cell| cell.kind() == Some(kind)))
+            };
+            match heard(sides.iter().map(said)) {
+                Heard::Value(cell) => {
+                    column.set(row, cell);
                 }
-                match memory.claim(at, row).filter(|cell| cell.kind() == Some(kind)) {
-                    Some(cell) if chosen.is_some_and(|(said, _)| said != cell) => {
-                        disputes.insert(row as u32);
-                        chosen = None;
-                        break;
-                    }
-                    Some(cell) => chosen = Some((cell, priority)),
-                    None => {}
+                Heard::Dispute => {
+                    disputes.insert(row as u32);
                 }
-            }
-            if let Some((cell, _)) = chosen {
-                column.set(row, cell);
+                Heard::Nothing => {}
             }
         }
         Some((column, disputes))
@@ -264,8 +257,7 @@ impl KnowledgeBase {
         row: u32,
         kind: Type,
     ) -> (Cell, Source) {
-        let told = self.held.get(&name.class).and_then(|held| held.table.column(&name.property));
-        let told = told.map_or(Cell::Unknown, |column| column.cell(row as usize));
+        let told = self.told_column(name).map_or(Cell::Unknown, |column| column.cell(row as usize));
         if told != Cell::Unknown && !derived.rules_first {
             return (told, Source::Told);
         }
@@ -332,12 +324,5 @@ impl KnowledgeBase {
             }
         }
         claims
-    }
-}
-
-impl Memory {
-    /// Whether what is given stands object by object.
-    fn sets_objects(&self, given: &crate::machine::output::Given) -> bool {
-        self.shape == super::memory::Shape::Single && given.variable == 0
     }
 }

@@ -20,8 +20,7 @@ impl KnowledgeBase {
     pub(super) fn report(&mut self, base: &RuleBase) -> Conclusions {
         let names: Vec<PropertyName> = self.derived.keys().cloned().collect();
         for name in &names {
-            let writers: Vec<usize> = self.derived[name].writers.iter().map(|writer| writer.rule).collect();
-            self.index(name, &writers);
+            self.index(name, &self.derived[name].rules());
         }
         let until = self.limits.end(self.limits.inference);
         let mut report = Conclusions::default();

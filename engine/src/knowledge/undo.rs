@@ -15,11 +15,18 @@ pub(super) enum Done {
     /// A property was added, the last one.
     Property,
     /// A value was told where this was.
-    Value { row: usize, property: usize, before: Cell },
+    Value {
+        row: usize,
+        property: usize,
+        before: Cell,
+    },
     /// An object was added, the last one.
     Object,
     /// An object with these values was removed.
-    Gone { row: usize, cells: Vec<Cell> },
+    Gone {
+        row: usize,
+        cells: Vec<Cell>,
+    },
 }
 
 /// The edits of a run, oldest first: by class.
@@ -98,9 +105,20 @@ impl Done {
 #[derive(Clone, Debug)]
 pub(super) enum Edit {
     /// Tells a value; `None` takes back what was told.
-    Value { class: String, row: usize, property: String, value: Option<Value> },
-    Gone { class: String, row: usize },
-    Object { class: String, properties: BTreeMap<String, Value> },
+    Value {
+        class: String,
+        row: usize,
+        property: String,
+        value: Option<Value>,
+    },
+    Gone {
+        class: String,
+        row: usize,
+    },
+    Object {
+        class: String,
+        properties: BTreeMap<String, Value>,
+    },
 }
 
 impl KnowledgeBase {

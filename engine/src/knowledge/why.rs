@@ -98,8 +98,7 @@ impl KnowledgeBase {
             let mut rows = vec![];
             if let Some(memory) = &node.memory {
                 for given in memory.given.iter().filter(|given| given.name == name) {
-                    let firings =
-                        (0..memory.firings()).filter(|&firing| given.written.get(firing) == Some(&true));
+                    let firings = (0..memory.firings()).filter(|&firing| given.is_written(firing));
                     rows.extend(firings.map(|firing| memory.witness(given.variable, firing)));
                 }
             }

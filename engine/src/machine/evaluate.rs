@@ -175,7 +175,7 @@ pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Sym
             Cell::Truth(_) | Cell::Unknown => return None,
         }
     }
-    (whole.len() <= crate::script::interpreter::MAX_TEXT).then(|| symbols.intern(&whole))
+    (whole.len() <= crate::script::limits::MAX_TEXT).then(|| symbols.intern(&whole))
 }
 
 fn gather<'b>(column: &'b Column, rows: &Rows, len: usize) -> Values<'b> {

@@ -1,27 +1,11 @@
 //! What a rule says of each object of its first clause: proved, refuted, or undecided.
-//!
-//! It is a part of the search, which keeps the verdicts; so the two files import each other.
-
-use std::collections::HashSet;
 
 use super::lane::Frame;
-use super::output::Status;
+use super::output::{Status, Verdicts};
 use super::search::{Search, pairs};
 use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::value::{Cell, Truth};
-
-#[derive(Debug, Default)]
-pub(super) struct Verdicts {
-    proved: HashSet<u32>,
-    open: HashSet<u32>,
-}
-
-impl Verdicts {
-    pub(super) fn leave_open(&mut self, rows: impl Iterator<Item = u32>) {
-        self.open.extend(rows);
-    }
-}
 
 impl Search<'_> {
     /// Leaves open what rests on objects of this clause of which an unknown hides whether they pass.

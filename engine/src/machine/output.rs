@@ -1,9 +1,12 @@
 //! What the evaluation of one rule gives.
 
+use std::collections::HashSet;
+
 use super::lane::Values;
 use crate::column::Column;
 use crate::diagnostic::Diagnostic;
-use crate::rule::PropertyName;
+use crate::plan::Plan;
+use crate::rule::{PropertyName, Rule};
 use crate::value::{Cell, Type};
 
 /// Values side by side, of one type where it is known before running.
@@ -92,6 +95,20 @@ pub(crate) struct Given {
 }
 
 impl Given {
+    pub(crate) fn expected(plan: &Plan, rule: &Rule) -> Vec<Self> {
+        let given = |(name, variable, kind): (&PropertyName, usize, _)| Self {
+            name: name.clone(),
+            variable,
+            values: Buffer::new(kind),
+            written: vec![],
+        };
+        plan.targets(rule).into_iter().map(given).collect()
+    }
+
+    pub(crate) fn is_written(&self, firing: usize) -> bool {
+        self.written.get(firing) == Some(&true)
+    }
+
     /// What some of the firings give, in this order.
     pub(crate) fn select(&self, firings: &[usize]) -> Self {
         let mut values = self.values.empty();
@@ -173,17 +190,22 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    pub(crate) fn given(&mut self, name: &PropertyName, variable: usize, kind: Option<Type>) -> &mut Given {
-        let same = |given: &Given| given.name == *name && given.variable == variable;
-        let at = self.given.iter().position(same).unwrap_or_else(|| {
-            self.given.push(Given {
-                name: name.clone(),
-                variable,
-                values: Buffer::new(kind),
-                written: vec![],
-            });
-            self.given.len() - 1
-        });
-        &mut self.given[at]
+    /// Nothing found yet, with room for all that the rule sets: a type is known even where nothing is given.
+    pub(crate) fn nothing(plan: &Plan, rule: &Rule) -> Self {
+        let none = || vec![vec![]; plan.clauses.len()];
+        Self { witnesses: none(), failed: none(), given: Given::expected(plan, rule), ..Self::default() }
+    }
+}
+
+/// Which objects of the first clause a hypothesis was proved of, and of which it is open.
+#[derive(Debug, Default)]
+pub(super) struct Verdicts {
+    pub(super) proved: HashSet<u32>,
+    pub(super) open: HashSet<u32>,
+}
+
+impl Verdicts {
+    pub(super) fn leave_open(&mut self, rows: impl Iterator<Item = u32>) {
+        self.open.extend(rows);
     }
 }

@@ -2,18 +2,16 @@
 
 use super::action::Slots;
 use super::candidates::Candidates;
-use super::hypothesis::Verdicts;
 use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
-use super::output::{Failure, Output, Status};
+use super::output::{Failure, Output, Status, Verdicts};
 use super::{BATCH, Machine, Stopped};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::action::{ActionPlan, Target};
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Node;
 use crate::plan::{Effect, Plan};
-use crate::rule::PropertyName;
 use crate::script::syntax::Quantifier;
-use crate::value::{Truth, Type};
+use crate::value::Truth;
 
 pub(crate) const MAX_FIRINGS: usize = 20_000_000;
 
@@ -53,9 +51,7 @@ pub(crate) fn search(
 ) -> Output {
     let mut search =
         Search::new(machine, plan, &plan.clauses, candidates.iter().map(Option::as_ref).collect());
-    search.output.witnesses = vec![vec![]; plan.clauses.len()];
-    search.output.failed = vec![vec![]; plan.clauses.len()];
-    search.expect();
+    search.output = Output::nothing(plan, machine.rule);
     let stopped = search.start(drivers);
     let mut output = search.output;
     output.problem = machine.trouble.take();
@@ -97,13 +93,6 @@ impl<'s> Search<'s> {
     pub(crate) fn bindings(mut self, drivers: Drivers, most: usize) -> Result<Vec<Frame>, Stopped> {
         (self.most, self.bindings) = (most, Some(vec![]));
         self.start(drivers).map(|()| self.bindings.unwrap_or_default())
-    }
-
-    /// Makes room for what may be concluded, so that a type is known even where nothing is.
-    fn expect(&mut self) {
-        for (name, variable, kind) in self.plan.targets(self.machine.rule) {
-            self.output.given(name, variable, kind);
-        }
     }
 
     fn start(&mut self, drivers: Drivers) -> Result<(), Stopped> {
@@ -402,36 +391,6 @@ impl<'s> Search<'s> {
         self.output.statuses.resize(self.output.firings + frame.len, status);
         self.output.firings += frame.len;
         Ok(())
-    }
-}
-
-impl Plan {
-    /// What the rule sets: each property with its variable and, where it is known before running, its type.
-    pub(crate) fn targets<'p>(
-        &'p self,
-        rule: &'p crate::rule::Rule,
-    ) -> Vec<(&'p PropertyName, usize, Option<Type>)> {
-        let mut out: Vec<(&PropertyName, usize, Option<Type>)> = vec![];
-        match &self.effect {
-            Effect::Conclude { then, otherwise } => {
-                for target in then.targets.iter().chain(otherwise.iter().flat_map(|action| &action.targets)) {
-                    match out
-                        .iter_mut()
-                        .find(|(name, variable, _)| *variable == target.variable && **name == target.name)
-                    {
-                        Some((_, _, kind)) => *kind = kind.or(target.kind),
-                        None => out.push((&target.name, target.variable, target.kind)),
-                    }
-                }
-                out.extend(self.hypothesis.iter().map(|name| (name, 0, Some(Type::Truth))));
-            }
-            Effect::Default { name, kind, .. } => out.push((name, 0, *kind)),
-            Effect::React(_) => {}
-            Effect::Revise { variable, .. } => {
-                out.extend(rule.sets.keys().map(|name| (name, *variable, Some(Type::Number))));
-            }
-        }
-        out
     }
 }
 

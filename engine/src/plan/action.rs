@@ -2,12 +2,10 @@
 
 use rhai::{Expr, Position, Stmt, StmtBlock};
 
-use super::Effect;
 use super::call::arithmetic;
 use super::fragment::Fragment;
 use super::lower::{Local, Lowering, Stop, Typed};
 use super::node::Node;
-use crate::diagnostic::Code;
 use crate::rule::PropertyName;
 use crate::script::names::{Names, Patterns, changes_in_expressions, property_of};
 use crate::value::Type;
@@ -15,9 +13,17 @@ use crate::value::Type;
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
     /// Writes a slot: a `let`, an assignment, or a property that is set.
-    Put { slot: usize, value: Node },
+    Put {
+        slot: usize,
+        value: Node,
+    },
     /// `changes` are the slots that either branch writes: unknown where the condition is.
-    If { condition: Node, then: Vec<Self>, otherwise: Vec<Self>, changes: Vec<usize> },
+    If {
+        condition: Node,
+        then: Vec<Self>,
+        otherwise: Vec<Self>,
+        changes: Vec<usize>,
+    },
     Interpret(Box<Fragment>),
 }
 
@@ -203,7 +209,7 @@ fn assign(
 fn set(
     lowering: &mut Lowering,
     (variable, property, position): (&str, &str, Position),
-    (value, kind): Typed,
+    value: Typed,
     plan: &mut ActionPlan,
     top: bool,
     out: &mut Vec<Step>,
@@ -213,15 +219,7 @@ fn set(
     let declared = lowering.kinds.declared(&name);
     let earlier = plan.targets.iter().position(|target| target.variable == index && target.name == name);
     let wanted = declared.or_else(|| earlier.and_then(|earlier| plan.targets[earlier].kind));
-    let (value, kind) = match (wanted, kind) {
-        (Some(wanted), Some(kind)) if wanted != kind => {
-            let message = format!("{name} holds {}, and this gives {}", wanted.plural(), kind.plural());
-            lowering.problem(Code::Type, position, message);
-            return Err(Stop::Wrong);
-        }
-        (Some(wanted), None) => (Node::Narrow(wanted, Box::new(value)), Some(wanted)),
-        (_, kind) => (value, kind),
-    };
+    let (value, kind) = lowering.given("this", &name, wanted, value, position)?;
     let slot = if let Some(earlier) = earlier {
         let target = &plan.targets[earlier];
         if target.kind != kind {
@@ -267,57 +265,4 @@ fn interpreted(lowering: &mut Lowering, block: &StmtBlock) -> Result<ActionPlan,
     }
     plan.steps.push(Step::Interpret(Box::new(fragment)));
     Ok(plan)
-}
-
-/// A revision needs a property that holds numbers.
-pub(crate) fn check_revised(
-    lowering: &mut Lowering,
-    (variable, property): &(usize, String),
-    position: Position,
-) {
-    let name = lowering.rule.clauses[*variable].variable.clone();
-    if let Ok((_, Some(kind))) = lowering.property(&name, property, position)
-        && kind != Type::Number
-    {
-        let message = format!("a revision changes numbers; `{name}.{property}` holds {}", kind.plural());
-        lowering.problem(Code::Type, position, message);
-    }
-}
-
-/// What a property is if nothing else gives it a value.
-pub(crate) fn default(
-    lowering: &mut Lowering,
-    property: &str,
-    value: Option<&Expr>,
-    position: Position,
-) -> Effect {
-    let name = PropertyName::new(&lowering.rule.clauses[0].class, property);
-    lowering.own = Some(0);
-    let lowered = value.map_or(Ok((Node::Unknown, None)), |value| lowering.lower(value));
-    lowering.own = None;
-    let (value, kind) = match (lowering.kinds.declared(&name), lowered) {
-        (Some(wanted), Ok((_, Some(kind)))) if wanted != kind => {
-            let message =
-                format!("{name} holds {}, and its default gives {}", wanted.plural(), kind.plural());
-            lowering.problem(Code::Type, position, message);
-            (Node::Unknown, None)
-        }
-        (Some(wanted), Ok((value, None))) => (Node::Narrow(wanted, Box::new(value)), Some(wanted)),
-        (_, lowered) => lowered.unwrap_or((Node::Unknown, None)),
-    };
-    Effect::Default { name, value, kind }
-}
-
-/// A hypothesis needs a property that holds truth values.
-pub(crate) fn hypothesis(lowering: &mut Lowering) -> Option<PropertyName> {
-    let name = lowering.rule.hypothesis()?;
-    let (_, _, position) = lowering.rule.hypothesis.as_ref()?;
-    match lowering.kinds.declared(&name) {
-        Some(kind) if kind != Type::Truth => {
-            let message = format!("a hypothesis is true or false; {name} holds {}", kind.plural());
-            lowering.problem(Code::Type, *position, message);
-            None
-        }
-        _ => Some(name),
-    }
 }

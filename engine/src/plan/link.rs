@@ -1,8 +1,8 @@
 //! Equations that an index answers; and how a link finds its object by one.
 
+use super::kinds::{Key, Kind};
 use super::lower::Lowering;
 use super::node::Node;
-use super::{Key, Kind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{LinkUse, PropertyName};
 

@@ -1,7 +1,4 @@
 //! From rhai's expression trees to typed nodes.
-//!
-//! Whoever makes a part of a plan ready gets a [`Lowering`]; what a plan is made of, and what is known of properties,
-//! stands above. So `plan` and the files in it import each other.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,8 +7,8 @@ use std::sync::Arc;
 use rhai::{AST, Dynamic, Expr, Position, Stmt, StmtBlock};
 
 use super::fragment::{Fragment, Object, Source};
+use super::kinds::{Kind, Kinds};
 use super::node::{Comparison, Node};
-use super::{Kind, Kinds};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Clause, Constant, FileScope, PropertyName, Rule};
 use crate::script::names::{Names, Patterns, property_of};
@@ -43,7 +40,7 @@ pub(crate) struct Lowering<'r> {
     pub(crate) kinds: &'r dyn Kinds,
     /// The file of the expressions that are lowered: its constants and functions count.
     pub(crate) file: Arc<FileScope>,
-    symbols: &'r RefCell<Symbols>,
+    pub(super) symbols: &'r RefCell<Symbols>,
     columns: Vec<PropertyName>,
     problems: Vec<Diagnostic>,
     /// Pattern variables by the number of their clause; nameless where they are not in scope.
@@ -281,6 +278,26 @@ impl<'r> Lowering<'r> {
                 Err(Stop::Wrong)
             }
             None => Ok(Node::Narrow(wanted, Box::new(node))),
+        }
+    }
+
+    /// A value that is given to a property, brought to the type that is wanted of it; `what` gives it.
+    pub(super) fn given(
+        &mut self,
+        what: &str,
+        name: &PropertyName,
+        wanted: Option<Type>,
+        (node, kind): Typed,
+        position: Position,
+    ) -> Result<Typed, Stop> {
+        match (wanted, kind) {
+            (Some(wanted), Some(kind)) if wanted != kind => {
+                let message = format!("{name} holds {}, and {what} gives {}", wanted.plural(), kind.plural());
+                self.problem(Code::Type, position, message);
+                Err(Stop::Wrong)
+            }
+            (Some(wanted), None) => Ok((Node::Narrow(wanted, Box::new(node)), Some(wanted))),
+            (_, kind) => Ok((node, kind)),
         }
     }
 

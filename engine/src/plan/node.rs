@@ -84,33 +84,42 @@ pub(crate) enum Node {
 }
 
 impl Node {
-    /// The pattern variables that it looks at, as bits.
-    pub(crate) fn variables(&self) -> u64 {
+    /// Looks at it and at all nodes in it.
+    pub(crate) fn walk(&self, look: &mut dyn FnMut(&Self)) {
+        look(self);
         match self {
-            Self::Unknown | Self::Number(_) | Self::Text(_) | Self::Truth(_) | Self::Local(_) => 0,
-            Self::Property { variable, .. } | Self::Aggregate(variable) => 1 << variable,
+            Self::Unknown
+            | Self::Number(_)
+            | Self::Text(_)
+            | Self::Truth(_)
+            | Self::Property { .. }
+            | Self::Aggregate(_)
+            | Self::Local(_)
+            | Self::Interpret(_) => {}
+            Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.walk(look),
             Self::Arithmetic(_, a, b)
             | Self::Compare(_, a, b)
             | Self::Concat(a, b)
-            | Self::Coalesce(a, b) => a.variables() | b.variables(),
-            Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.variables(),
-            Self::And(parts) | Self::Or(parts) => parts.iter().fold(0, |bits, part| bits | part.variables()),
-            Self::Choose(a, b, c) => a.variables() | b.variables() | c.variables(),
-            Self::Interpret(fragment) => fragment.variables(),
+            | Self::Coalesce(a, b) => [a, b].into_iter().for_each(|part| part.walk(look)),
+            Self::Choose(a, b, c) => [a, b, c].into_iter().for_each(|part| part.walk(look)),
+            Self::And(parts) | Self::Or(parts) => parts.iter().for_each(|part| part.walk(look)),
         }
     }
 
+    /// The pattern variables that it looks at, as bits.
+    pub(crate) fn variables(&self) -> u64 {
+        let mut bits = 0;
+        self.walk(&mut |node| match node {
+            Self::Property { variable, .. } | Self::Aggregate(variable) => bits |= 1 << variable,
+            Self::Interpret(fragment) => bits |= fragment.variables(),
+            _ => {}
+        });
+        bits
+    }
+
     pub(crate) fn interprets(&self) -> bool {
-        match self {
-            Self::Interpret(_) => true,
-            Self::Arithmetic(_, a, b)
-            | Self::Compare(_, a, b)
-            | Self::Concat(a, b)
-            | Self::Coalesce(a, b) => a.interprets() || b.interprets(),
-            Self::Function(_, a) | Self::Not(a) | Self::Known(a) | Self::Narrow(_, a) => a.interprets(),
-            Self::And(parts) | Self::Or(parts) => parts.iter().any(Self::interprets),
-            Self::Choose(a, b, c) => a.interprets() || b.interprets() || c.interprets(),
-            _ => false,
-        }
+        let mut found = false;
+        self.walk(&mut |node| found |= matches!(node, Self::Interpret(_)));
+        found
     }
 }

@@ -4,29 +4,26 @@ use std::cell::RefCell;
 
 use rhai::{Expr, Position, Stmt};
 
+use super::fragment::Fragment;
+use super::kinds::Kinds;
 use super::lower::Lowering;
-use super::{Effect, Kinds};
-use crate::diagnostic::Code;
+use super::node::Node;
 use crate::rule::{PropertyName, Reaction, Rule};
 use crate::script::names::{Names, Patterns};
 use crate::symbols::Symbols;
 use crate::value::Type;
 
-/// What an `on` rule does; `None` where its body cannot be run, which is on the list of problems.
-pub(super) fn effect(lowering: &mut Lowering, reaction: &Reaction, symbols: &RefCell<Symbols>) -> Effect {
-    for (name, kind, position) in told(lowering.rule, reaction, lowering.kinds, symbols) {
-        if let (Some(holds), Some(kind)) = (lowering.kinds.declared(&name), kind)
-            && holds != kind
-        {
-            let message = format!("{name} holds {}, and this gives {}", holds.plural(), kind.plural());
-            lowering.problem(Code::Type, position, message);
-        }
+/// What an `on` rule runs; `None` where it cannot be run, which is on the list of problems.
+pub(super) fn body(lowering: &mut Lowering, reaction: &Reaction) -> Option<Fragment> {
+    for (name, kind, position) in told(lowering.rule, reaction, lowering.kinds, lowering.symbols) {
+        let holds = lowering.kinds.declared(&name);
+        // What is wrong is on the list.
+        lowering.given("this", &name, holds, (Node::Unknown, kind), position).ok();
     }
     let mut names = Names::default();
     names.block(&reaction.body, &Patterns(&lowering.variables()));
     let statements = vec![Stmt::Block(Box::new(reaction.body.clone()))];
-    let body = lowering.fragment(statements, &names, reaction.body.position());
-    Effect::React(body.ok().map(Box::new))
+    lowering.fragment(statements, &names, reaction.body.position()).ok()
 }
 
 /// The properties that the body tells, as far as they are named in it, with the types that can be seen.

@@ -48,25 +48,10 @@ fn outputs(lowering: &mut Lowering, table: &Table, plan: &mut ActionPlan) -> Vec
     for row in &table.rows {
         let mut nodes = vec![];
         for (expr, target) in row.outputs.iter().zip(&mut plan.targets) {
-            let (node, kind) = lowering.lower(expr).unwrap_or((Node::Unknown, None));
-            let node = match (target.kind, kind) {
-                (Some(wanted), Some(kind)) if wanted != kind => {
-                    let message = format!(
-                        "{} holds {}, and this gives {}",
-                        target.name,
-                        wanted.plural(),
-                        kind.plural()
-                    );
-                    lowering.problem(Code::Type, expr.start_position(), message);
-                    Node::Unknown
-                }
-                (Some(wanted), None) => Node::Narrow(wanted, Box::new(node)),
-                (None, _) => {
-                    target.kind = kind;
-                    node
-                }
-                _ => node,
-            };
+            let value = lowering.lower(expr).unwrap_or((Node::Unknown, None));
+            let given = lowering.given("this", &target.name, target.kind, value, expr.start_position());
+            let (node, kind) = given.unwrap_or((Node::Unknown, target.kind));
+            target.kind = kind;
             nodes.push(node);
         }
         rows.push(nodes);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::action::{ActionPlan, Step};
+use super::action::Step;
 use super::clause::ClausePlan;
 use super::fragment::{Fragment, Source};
 use super::node::Node;
@@ -44,15 +44,9 @@ impl Uses {
     pub(crate) fn of(plan: &Plan) -> Self {
         let mut uses = Self::of_clauses(&plan.clauses);
         let mut found = vec![];
-        match &plan.effect {
-            Effect::Conclude { then, otherwise } => {
-                for ActionPlan { steps, .. } in std::iter::once(then).chain(otherwise) {
-                    of_steps(steps, &mut found);
-                }
-            }
-            Effect::Revise { amount, .. } => properties(amount, &mut found),
-            Effect::Default { value, .. } => properties(value, &mut found),
-            Effect::React(_) => {}
+        plan.effect.actions().for_each(|action| of_steps(&action.steps, &mut found));
+        if let Effect::Revise { amount: node, .. } | Effect::Default { value: node, .. } = &plan.effect {
+            properties(node, &mut found);
         }
         uses.add(&found);
         uses
@@ -91,21 +85,9 @@ fn of_fragment(fragment: &Fragment, found: &mut Vec<(usize, usize)>) {
 }
 
 fn properties(node: &Node, found: &mut Vec<(usize, usize)>) {
-    match node {
-        Node::Unknown
-        | Node::Number(_)
-        | Node::Text(_)
-        | Node::Truth(_)
-        | Node::Local(_)
-        | Node::Aggregate(_) => {}
+    node.walk(&mut |node| match node {
         Node::Property { variable, column } => found.push((*variable, *column)),
-        Node::Arithmetic(_, a, b) | Node::Compare(_, a, b) | Node::Concat(a, b) | Node::Coalesce(a, b) => {
-            properties(a, found);
-            properties(b, found);
-        }
-        Node::Function(_, a) | Node::Not(a) | Node::Known(a) | Node::Narrow(_, a) => properties(a, found),
-        Node::And(parts) | Node::Or(parts) => parts.iter().for_each(|part| properties(part, found)),
-        Node::Choose(a, b, c) => [a, b, c].into_iter().for_each(|part| properties(part, found)),
         Node::Interpret(fragment) => of_fragment(fragment, found),
-    }
+        _ => {}
+    });
 }

@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::knowledge::KnowledgeBase;
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
-use crate::script::interpreter::Limits;
+use crate::script::limits::Limits;
 use crate::value::Value;
 
 struct Run<'t> {

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use rhai::packages::{
     BasicArrayPackage, BasicMapPackage, BasicMathPackage, CorePackage, LogicPackage, MoreStringPackage,
@@ -11,24 +11,10 @@ use rhai::packages::{
 };
 use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, OptimizationLevel};
 
+use super::limits::{
+    MAX_ARRAY, MAX_CALL_LEVELS, MAX_DEPTHS, MAX_FUNCTIONS, MAX_MAP, MAX_STEPS, MAX_TEXT, MAX_VARIABLES,
+};
 use super::{sizes, syntax};
-
-/// Steps that one run of an interpreted part may take, its closures included.
-pub(crate) const MAX_STEPS: u64 = 1_000_000;
-/// Function calls inside each other.
-pub(crate) const MAX_CALL_LEVELS: usize = 32;
-/// Nesting of expressions, outside and inside functions.
-pub(crate) const MAX_DEPTHS: (usize, usize) = (64, 32);
-/// Bytes of a text.
-pub(crate) const MAX_TEXT: usize = 64 * 1024;
-pub(crate) const MAX_ARRAY: usize = 10_000;
-pub(crate) const MAX_MAP: usize = 1_000;
-/// Variables alive at once.
-pub(crate) const MAX_VARIABLES: usize = 256;
-pub(crate) const MAX_FUNCTIONS: usize = 128;
-/// Stack of the threads that read rules and run them, in bytes: the deepest script allowed needs more than
-/// 2 MiB in a debug build, and a stack overflow cannot be caught.
-pub(crate) const STACK_BYTES: usize = 16 * 1024 * 1024;
 
 thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
@@ -196,43 +182,6 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("max", |a: f64, b: f64, c: f64| a.max(b).max(c))
         .register_fn("known", |value: Dynamic| !value.is_unit())
         .register_fn("unknown", |value: Dynamic| value.is_unit());
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Limits {
-    /// One rule in one inference.
-    pub rule: Duration,
-    /// All rules of one inference.
-    pub inference: Duration,
-    /// One run of reactions, with the inferences between them.
-    pub reactions: Duration,
-    /// Firings of one run of reactions.
-    pub firings: usize,
-    /// Matches of all rules that react, kept at once; some 200 bytes each.
-    pub matches: usize,
-    /// The moment at which all of it ends, inferences and questions after one another, whatever is left of the others.
-    pub until: Option<Instant>,
-}
-
-impl Limits {
-    /// When something has to end that begins now and may take so long.
-    pub(crate) fn end(&self, time: Duration) -> Instant {
-        let end = Instant::now() + time;
-        self.until.map_or(end, |until| until.min(end))
-    }
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            rule: Duration::from_secs(10),
-            inference: Duration::from_mins(1),
-            reactions: Duration::from_mins(1),
-            firings: 10_000,
-            matches: 1_000_000,
-            until: None,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -46,7 +46,7 @@ pub(crate) fn reactor() -> &'static Engine {
     static REACTOR: OnceLock<Engine> = OnceLock::new();
     REACTOR.get_or_init(|| {
         let mut engine = bare();
-        engine.set_max_variables(super::interpreter::MAX_VARIABLES);
+        engine.set_max_variables(super::limits::MAX_VARIABLES);
         engine
             .register_type_with_name::<Object>("object")
             .register_indexer_get(|object: &mut Object, property: ImmutableString| read(*object, &property))

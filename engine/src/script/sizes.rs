@@ -4,7 +4,7 @@
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, ImmutableString, Position};
 
-use super::interpreter::{MAX_ARRAY, MAX_TEXT};
+use super::limits::{MAX_ARRAY, MAX_TEXT};
 
 type Measured = Result<(), Box<EvalAltResult>>;
 

@@ -2,100 +2,17 @@
 
 mod declare;
 mod quantifier;
+mod shape;
 mod table;
 mod word;
 
-use rhai::{Dynamic, Engine, ImmutableString, LexError, ParseError, Position};
+use rhai::{Dynamic, Engine};
 
 use crate::suggest::nearest;
-use declare::Declaring;
 pub(crate) use quantifier::Quantifier;
-use table::Tabling;
+use shape::{At, Next, Tabling, found, wrong};
+pub(crate) use shape::{Shape, Slot};
 pub(crate) use word::{Word, start_file, starts_item};
-
-/// What an input of the custom syntax is; there is one for each input, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Slot {
-    Name(Word),
-    /// The policy of a table; what its values are ranked by; how they are brought together.
-    Hit,
-    HitValues,
-    HitFold,
-    Given,
-    Set,
-    Rows,
-    /// A declared class: its parent and condition.
-    Parent,
-    Declared,
-    /// Where a property links to: class and key.
-    LinkClass,
-    LinkKey,
-    /// Where a property comes from.
-    Source,
-    Ask,
-    Default,
-    Priority,
-    Number,
-    Variable(Quantifier),
-    Class,
-    Where,
-    By,
-    Have,
-    Hypothesis,
-    Then,
-    Else,
-    Target,
-    Operator,
-    Amount,
-    Level,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum At {
-    Name,
-    Declaring(Declaring),
-    Tabling(Tabling),
-    Priority,
-    Clause,
-    Number(Quantifier),
-    Of(Quantifier),
-    Variable(Quantifier),
-    In,
-    Class,
-    Options { by: bool, condition: bool },
-    By,
-    Where,
-    Have,
-    Hypothesis,
-    AfterHypothesis,
-    Then,
-    AfterThen,
-    Else,
-    Target,
-    TargetBy,
-    Operator,
-    Amount,
-    AfterAmount,
-    Level,
-    End,
-    Done,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct Shape {
-    pub(crate) slots: Vec<Slot>,
-    at: At,
-    item: Word,
-    clause: Option<Quantifier>,
-    needs_have: bool,
-    /// Whether the next token begins an item on its own.
-    keyed: bool,
-}
-
-/// How rhai shows the end of the file.
-const END: &str = "{EOF}";
-
-type Next = Result<Option<ImmutableString>, ParseError>;
 
 pub(crate) fn register(engine: &mut Engine) {
     for word in Word::ALL {
@@ -295,25 +212,4 @@ impl Shape {
         let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
         wrong(format!("another clause or `{end}` belongs here, not {}{meant}", found(ahead)))
     }
-
-    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
-    fn input(&mut self, slot: Slot, at: At, marker: &'static str) -> Next {
-        self.slots.push(slot);
-        self.at = at;
-        Ok(Some(marker.into()))
-    }
-
-    #[allow(clippy::unnecessary_wraps)] // it is the answer itself
-    fn word(&mut self, word: &'static str, at: At) -> Next {
-        self.at = at;
-        Ok(Some(word.into()))
-    }
-}
-
-fn found(ahead: &str) -> String {
-    if ahead == END { "the end of the file".to_owned() } else { format!("`{ahead}`") }
-}
-
-fn wrong(message: String) -> Next {
-    Err(LexError::ImproperSymbol(String::new(), message).into_err(Position::NONE))
 }

@@ -1,14 +1,13 @@
 //! The rules of one class, run for one object without the bookkeeping of an inference.
-//!
-//! A consultation keeps the direct way, which is found by looking at the consultation: the two import each other.
 
-use super::Consultation;
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::derived::{Heard, heard};
 use crate::machine::scalar::{Object, Scalar, Written};
 use crate::order::Step;
 use crate::plan::clause::ClausePlan;
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, Operator, PropertyName};
+use crate::rule_base::RuleBase;
 use crate::script::syntax::Quantifier;
 use crate::value::{Cell, Truth, Type};
 
@@ -18,8 +17,8 @@ pub(super) struct Direct {
     steps: Vec<Do>,
     /// The rules that run, by the number that steps give them.
     rules: Vec<Running>,
-    /// Where each input stands among the properties, and its type.
-    inputs: Vec<(usize, Type)>,
+    /// The types of the inputs, which are the first of the properties.
+    inputs: Vec<Type>,
     /// Where each output stands; `None` is never known.
     outputs: Vec<Option<usize>>,
     /// The properties of the object, as far as they are known yet.
@@ -54,26 +53,33 @@ struct Running {
     claims: Vec<Option<Cell>>,
 }
 
-impl Consultation {
-    /// The direct way, if every rule that sets a property of the class looks at one object alone.
-    pub(super) fn plan_direct(&self) -> Option<Direct> {
-        let mut properties: Vec<String> = self.inputs.clone();
+impl Direct {
+    /// The direct way from inputs to outputs, if every rule that sets a property of the class looks at one object alone.
+    pub(super) fn of(
+        base: &KnowledgeBase,
+        rules: &RuleBase,
+        class: &str,
+        inputs: &[String],
+        outputs: &[PropertyName],
+    ) -> Option<Self> {
+        let mut properties: Vec<String> = inputs.to_vec();
         let mut at = |name: &PropertyName| {
             properties.iter().position(|known| *known == name.property).unwrap_or_else(|| {
                 properties.push(name.property.clone());
                 properties.len() - 1
             })
         };
-        let (mut rules, mut steps) = (Vec::<Running>::new(), vec![]);
-        let running = |rules: &[Running], rule: usize| rules.iter().position(|running| running.rule == rule);
-        for step in &self.rules.order {
+        let (mut running, mut steps) = (Vec::<Running>::new(), vec![]);
+        let place =
+            |running: &[Running], rule: usize| running.iter().position(|running| running.rule == rule);
+        for step in &rules.order {
             match step {
                 Step::Rule(number) => {
-                    let rule = &self.rules.rules[*number];
-                    if !rule.sets.keys().any(|name| name.class == self.class) {
+                    let rule = &rules.rules[*number];
+                    if !rule.sets.keys().any(|name| name.class == class) {
                         continue;
                     }
-                    let planned = self.base.network.nodes[*number].planned.as_ref()?;
+                    let planned = base.network.nodes[*number].planned.as_ref()?;
                     if !looks_at_one(&planned.plan) || planned.interprets || rule.hypothesis.is_some() {
                         return None;
                     }
@@ -84,60 +90,57 @@ impl Consultation {
                         Effect::React(_) => vec![],
                     };
                     let claims = vec![None; sets.len()];
-                    steps.push(Do::Run(rules.len()));
-                    rules.push(Running { rule: *number, columns, sets, claims });
+                    steps.push(Do::Run(running.len()));
+                    running.push(Running { rule: *number, columns, sets, claims });
                 }
-                Step::Merge(name) if name.class == self.class => {
-                    let Some(derived) = self.base.derived.get(name) else { continue };
+                Step::Merge(name) if name.class == class => {
+                    let Some(derived) = base.derived.get(name) else { continue };
                     if derived.hypothesis {
                         return None;
                     }
                     let mut writers = vec![];
                     for writer in &derived.writers {
-                        let of = running(&rules, writer.rule)?;
-                        writers.push((writer.priority, of, self.claim(writer.rule, name)?));
+                        let of = place(&running, writer.rule)?;
+                        writers.push((writer.priority, of, claim(base, writer.rule, name)?));
                     }
                     let (kind, rules_first) = (derived.stages.first()?.kind(), derived.rules_first);
                     steps.push(Do::Merge(Merge { property: at(name), kind, rules_first, writers }));
                 }
-                Step::Level(name, level) if name.class == self.class => {
-                    let derived = self.base.derived.get(name)?;
+                Step::Level(name, level) if name.class == class => {
+                    let derived = base.derived.get(name)?;
                     let (_, revising) = derived.levels.iter().find(|(known, _)| known == level)?;
                     let mut by = vec![];
                     for &rule in revising {
-                        let Action::Revise { operator, .. } = self.rules.rules[rule].action else {
+                        let Action::Revise { operator, .. } = rules.rules[rule].action else {
                             return None;
                         };
-                        by.push((running(&rules, rule)?, operator));
+                        by.push((place(&running, rule)?, operator));
                     }
                     steps.push(Do::Level { property: at(name), by });
                 }
                 Step::Merge(_) | Step::Level(..) => {}
             }
         }
-        let mut inputs = vec![];
-        for (place, name) in self.inputs.iter().enumerate() {
-            inputs.push((place, self.base.held.get(&self.class)?.table.column(name)?.kind()));
-        }
-        let outputs =
-            self.outputs.iter().map(|name| properties.iter().position(|known| *known == name.property));
-        Some(Direct {
+        let told = &base.held.get(class)?.table;
+        let inputs = inputs.iter().map(|name| Some(told.column(name)?.kind()));
+        let outputs = outputs.iter().map(|name| properties.iter().position(|known| *known == name.property));
+        Some(Self {
             outputs: outputs.collect(),
             steps,
-            rules,
-            inputs,
+            rules: running,
+            inputs: inputs.collect::<Option<_>>()?,
             cells: vec![Cell::Unknown; properties.len()],
             slots: Written::default(),
         })
     }
+}
 
-    /// Which of a rule's claims is about this property.
-    fn claim(&self, rule: usize, name: &PropertyName) -> Option<usize> {
-        match &self.base.network.nodes[rule].planned.as_ref()?.plan.effect {
-            Effect::Conclude { then, .. } => then.targets.iter().position(|target| target.name == *name),
-            Effect::Revise { .. } | Effect::Default { .. } => Some(0),
-            Effect::React(_) => None,
-        }
+/// Which of a rule's claims is about this property.
+fn claim(base: &KnowledgeBase, rule: usize, name: &PropertyName) -> Option<usize> {
+    match &base.network.nodes[rule].planned.as_ref()?.plan.effect {
+        Effect::Conclude { then, .. } => then.targets.iter().position(|target| target.name == *name),
+        Effect::Revise { .. } | Effect::Default { .. } => Some(0),
+        Effect::React(_) => None,
     }
 }
 
@@ -153,9 +156,9 @@ impl Direct {
     /// Runs the rules for an object with these inputs, and puts down what is asked for.
     pub(super) fn run(&mut self, knowledge: &KnowledgeBase, inputs: &[Cell], answers: &mut [Cell]) {
         self.cells.fill(Cell::Unknown);
-        for (&(place, kind), &cell) in self.inputs.iter().zip(inputs) {
+        for ((place, &kind), &cell) in self.cells.iter_mut().zip(&self.inputs).zip(inputs) {
             if cell.kind() == Some(kind) {
-                self.cells[place] = cell;
+                *place = cell;
             }
         }
         for step in &self.steps {
@@ -218,18 +221,14 @@ impl Merge {
         if told != Cell::Unknown && !self.rules_first {
             return told;
         }
-        let mut chosen: Option<(i64, Cell)> = None;
-        for &(priority, rule, claim) in &self.writers {
-            if chosen.is_some_and(|(of, _)| priority < of) {
-                break;
-            }
-            match rules[rule].claims[claim].filter(|cell| cell.kind() == Some(self.kind)) {
-                Some(cell) if chosen.is_some_and(|(_, said)| said != cell) => return Cell::Unknown,
-                Some(cell) => chosen = Some((priority, cell)),
-                None => {}
-            }
+        let said = |&(priority, rule, claim): &(i64, usize, usize)| {
+            (priority, rules[rule].claims[claim].filter(|cell| cell.kind() == Some(self.kind)))
+        };
+        match heard(self.writers.iter().map(said)) {
+            Heard::Value(cell) => cell,
+            Heard::Nothing => told,
+            Heard::Dispute => Cell::Unknown,
         }
-        chosen.map_or(told, |(_, cell)| cell)
     }
 }
 

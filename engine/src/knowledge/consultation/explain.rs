@@ -1,5 +1,4 @@
-//! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it: answers of a
-//! consultation, which hosts find beside it; so the two import each other.
+//! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it.
 
 use std::cell::RefCell;
 use std::fmt;

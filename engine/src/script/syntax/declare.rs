@@ -1,24 +1,7 @@
-//! The grammar of `class` and `property`: a part of the one state machine, so it and `syntax` import each other.
+//! The grammar of `class` and `property`.
 
-use super::{At, Next, Shape, Slot, Word, found, wrong};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Declaring {
-    Of,
-    Parent,
-    AfterParent,
-    Condition,
-    Dot,
-    Property,
-    AfterProperty,
-    Link,
-    AfterLink,
-    LinkKey,
-    Source,
-    Ask,
-    Default,
-    AfterSource,
-}
+use super::shape::{At, Declaring, Next, Shape, Slot, found, wrong};
+use super::word::Word;
 
 impl Shape {
     pub(super) fn declared_name(&mut self) -> Next {

@@ -1,19 +1,7 @@
-//! The grammar of `table`: a part of the one state machine, so it and `syntax` import each other.
+//! The grammar of `table`.
 
-use super::{At, Next, Shape, Slot, found, wrong};
+use super::shape::{At, Next, Shape, Slot, Tabling, found, wrong};
 use crate::suggest::nearest;
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Tabling {
-    Hit,
-    Values,
-    Fold,
-    Given,
-    AfterGiven,
-    Set,
-    AfterSet,
-    Rows,
-}
 
 impl Shape {
     pub(super) fn tabling(&mut self, at: Tabling, ahead: &str) -> Next {
