@@ -103,8 +103,12 @@ fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTo
         .filter(|clause| !schema.has(&clause.class) && !told.classes.contains_key(clause.class.as_str()))
         .filter(|clause| named.insert(&clause.class))
         .map(|clause| {
-            let place = rule.file.source.place(clause.class_position);
-            Diagnostic::error(Code::UnknownClass, &place, format!("there is no class {}", clause.class))
+            rule.file
+                .error(
+                    Code::UnknownClass,
+                    clause.class_position,
+                    format!("there is no class {}", clause.class),
+                )
                 .did_you_mean(nearest(
                     &clause.class,
                     schema.classes().chain(told.classes.keys().copied()).chain(declared()),

@@ -122,10 +122,7 @@ fn cycle(rules: &[Rule], needs: &BTreeMap<Step, BTreeSet<Step>>, done: &BTreeSet
     }
     parts.extend(parts.first().cloned());
     let rule = first.unwrap_or(&rules[0]);
-    Diagnostic::error(
-        Code::Cycle,
-        &rule.file.source.place(rule.position),
-        format!("these rules wait for each other: {}", parts.join(" -> ")),
-    )
-    .help("a rule must not depend on what it helps to conclude")
+    rule.file
+        .error(Code::Cycle, rule.position, format!("these rules wait for each other: {}", parts.join(" -> ")))
+        .help("a rule must not depend on what it helps to conclude")
 }

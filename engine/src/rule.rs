@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use rhai::{Expr, Module, Position, Shared, StmtBlock};
 
+use crate::diagnostic::{Code, Diagnostic};
 use crate::script::source::SourceFile;
 use crate::script::syntax::Quantifier;
 use crate::table::Table;
@@ -191,6 +192,12 @@ pub(crate) struct FileScope {
     pub(crate) function_names: BTreeSet<(String, usize)>,
     /// What its functions tell, for the reactions that call them.
     pub(crate) tells: Vec<Telling>,
+}
+
+impl FileScope {
+    pub(crate) fn error(&self, code: Code, position: Position, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::error(code, &self.source.place(position), message)
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -142,15 +142,15 @@ fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
     let mut problems = vec![];
     for rule in rules {
         if let Some(first) = seen.get(rule.name()) {
-            let place = rule.file.source.place(rule.position);
             problems.push(
-                Diagnostic::error(
-                    Code::DuplicateName,
-                    &place,
-                    format!("two rules are called \"{}\"", rule.name),
-                )
-                .label("the second")
-                .help(format!("the first is in {}, line {}", first.file(), first.line)),
+                rule.file
+                    .error(
+                        Code::DuplicateName,
+                        rule.position,
+                        format!("two rules are called \"{}\"", rule.name),
+                    )
+                    .label("the second")
+                    .help(format!("the first is in {}, line {}", first.file(), first.line)),
             );
         } else {
             seen.insert(rule.name(), rule);
@@ -170,7 +170,8 @@ fn hypotheses(rules: &[Rule]) -> Vec<Diagnostic> {
             let Some(prover) = proved.get(name) else { continue };
             let message = format!("{name} is a hypothesis of rule \"{}\", and is set here", prover.name);
             problems.push(
-                Diagnostic::error(Code::Hypothesis, &rule.file.source.place(*position), message)
+                rule.file
+                    .error(Code::Hypothesis, *position, message)
                     .help("a property is a hypothesis of all rules that conclude it, or of none"),
             );
         }
@@ -193,10 +194,11 @@ fn operators(rules: &[Rule]) -> Vec<Diagnostic> {
                 first.sign(),
                 other.name
             );
-            problems
-                .push(Diagnostic::error(Code::Operator, &rule.file.source.place(*position), message).help(
-                    "give one of them another level: each level starts from what the level below gave",
-                ));
+            problems.push(
+                rule.file
+                    .error(Code::Operator, *position, message)
+                    .help("give one of them another level: each level starts from what the level below gave"),
+            );
         }
     }
     problems

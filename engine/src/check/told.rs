@@ -20,9 +20,8 @@ pub(super) fn slips<'r>(
             continue;
         }
         if let Some(meant) = nearest(class, known.schema.classes().chain(ranged())) {
-            let place = rule.file.source.place(*position);
             let message = format!("there is no class {class}");
-            let problem = Diagnostic::error(Code::UnknownClass, &place, message).did_you_mean(Some(meant));
+            let problem = rule.file.error(Code::UnknownClass, *position, message).did_you_mean(Some(meant));
             problems.push((*rule, problem));
         }
     }
@@ -40,9 +39,9 @@ pub(super) fn slips<'r>(
             .properties(&name.class)
             .chain(concluded.chain(read).map(|other| other.property.as_str()));
         if let Some(meant) = nearest(&name.property, others) {
-            let place = rule.file.source.place(*position);
             let message = format!("{} has no property `{}`", name.class, name.property);
-            let problem = Diagnostic::error(Code::UnknownProperty, &place, message).did_you_mean(Some(meant));
+            let problem =
+                rule.file.error(Code::UnknownProperty, *position, message).did_you_mean(Some(meant));
             problems.push((*rule, problem));
         }
     }

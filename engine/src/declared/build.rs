@@ -92,13 +92,12 @@ fn classes(
         let mut chain = vec![item];
         while let Some(parent) = chain.last().and_then(|last| named.get(&last.parent)) {
             if chain.iter().any(|class| class.name == parent.name) {
-                let place = item.file.source.place(item.position);
                 let names: Vec<&str> = chain.iter().map(|class| class.name.as_str()).collect();
                 let message =
                     format!("these classes are of each other: {} -> {}", names.join(" -> "), parent.name);
                 // Said once, of the first of them.
                 if parent.name == item.name && names.iter().all(|name| **name >= *item.name) {
-                    problems.push(Diagnostic::error(Code::Cycle, &place, message));
+                    problems.push(item.file.error(Code::Cycle, item.position, message));
                 }
                 break;
             }
@@ -148,13 +147,14 @@ fn property(
             file: Arc::clone(&item.file),
         };
         if declared.classes.contains_key(&link.class) {
-            let place = link.file.source.place(link.class_position);
             let message = format!(
                 "a link leads to a class of objects, and {} is a part of one, by a condition",
                 link.class
             );
             let root = declared.root(&link.class).to_owned();
-            problems.push(Diagnostic::error(Code::Declaration, &place, message).did_you_mean(Some(&root)));
+            problems.push(
+                link.file.error(Code::Declaration, link.class_position, message).did_you_mean(Some(&root)),
+            );
         } else if declared.links.insert(name.clone(), link).is_some() {
             problems.push(twice("the link"));
         }
@@ -216,8 +216,7 @@ pub(super) fn object_rule(
 /// A condition or default speaks of the object's own properties by their bare names.
 fn complaints(expr: &Expr, file: &FileScope, known: &BTreeSet<String>) -> Vec<Diagnostic> {
     let mut problems = vec![];
-    let complain =
-        |code, position, message: String| Diagnostic::error(code, &file.source.place(position), message);
+    let complain = |code, position, message: String| file.error(code, position, message);
     expr.walk(&mut vec![], &mut |path| {
         match path.last() {
             Some(ASTNode::Expr(Expr::Dot(dot, ..))) => {
@@ -266,10 +265,9 @@ pub(crate) fn against_rules(declared: &Declarations, rules: &[Rule]) -> Vec<Diag
             if declarations.iter().any(|declaration| declaration.sources.contains(&Source::Rule)) {
                 continue;
             }
-            let place = rule.file.source.place(*position);
             let message = format!("{name} is declared to come from elsewhere, not from a rule");
             let help = "add `rule` to its sources where it should be heard";
-            problems.push(Diagnostic::error(Code::Declaration, &place, message).help(help));
+            problems.push(rule.file.error(Code::Declaration, *position, message).help(help));
         }
     }
     let concluded: BTreeSet<&PropertyName> = rules.iter().flat_map(|rule| rule.sets.keys()).collect();
@@ -279,11 +277,11 @@ pub(crate) fn against_rules(declared: &Declarations, rules: &[Rule]) -> Vec<Diag
         let derived = |name: &&PropertyName| concluded.contains(name) || supplied.contains(name);
         let Some(derived) = declaration.rule.reads.keys().find(derived) else { continue };
         let how = if concluded.contains(derived) { "rules conclude" } else { "has a default itself" };
-        let place = declaration.rule.file.source.place(declaration.position);
         let message = format!("this default depends on {derived}, which {how}");
         let help = "a default and the condition of its class may look at told properties only; a `rule` with a low \
                     priority may look at all";
-        problems.push(Diagnostic::error(Code::Declaration, &place, message).help(help));
+        problems
+            .push(declaration.rule.file.error(Code::Declaration, declaration.position, message).help(help));
     }
     problems
 }

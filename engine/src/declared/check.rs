@@ -24,9 +24,8 @@ pub(crate) fn check(
     let (mut types, mut problems) = (vec![], vec![]);
     for (name, class) in &declared.classes {
         if schema.has(name) {
-            let place = class.file.source.place(class.position);
             let message = format!("there is a class {name} already");
-            problems.push(Diagnostic::error(Code::DuplicateName, &place, message));
+            problems.push(class.file.error(Code::DuplicateName, class.position, message));
         }
         if !schema.has(&class.root) {
             // Said where the missing class is named.
@@ -113,7 +112,7 @@ fn unknown_class(
     schema: &Schema,
 ) -> Diagnostic {
     let names = schema.classes().chain(declared.classes.keys().map(String::as_str));
-    Diagnostic::error(Code::UnknownClass, &file.source.place(position), format!("there is no class {class}"))
+    file.error(Code::UnknownClass, position, format!("there is no class {class}"))
         .did_you_mean(nearest(class, names))
 }
 
@@ -128,6 +127,6 @@ fn unknown_property(
     }
     let there = kinds.properties(&name.class);
     let message = format!("{} has no property `{}`", name.class, name.property);
-    let problem = Diagnostic::error(Code::UnknownProperty, &file.source.place(position), message);
+    let problem = file.error(Code::UnknownProperty, position, message);
     Some(problem.did_you_mean(nearest(&name.property, there.iter().map(String::as_str))))
 }

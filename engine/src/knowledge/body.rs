@@ -103,8 +103,7 @@ impl KnowledgeBase {
             Ok(Err(error)) => return Err(failure(rule, body.position, &error).0.into()),
             Err(_) => {
                 let message = format!("rule \"{}\" failed inside the engine", rule.name);
-                let place = rule.file.source.place(rule.position);
-                return Err(Diagnostic::error(Code::Panic, &place, message).into());
+                return Err(rule.file.error(Code::Panic, rule.position, message).into());
             }
         }
         let edits = writes.into_iter().filter_map(|write| edit(rule, body, rows, write).transpose());
@@ -142,9 +141,8 @@ fn edit(
 ) -> Result<Option<Edit>, Box<Diagnostic>> {
     let value = |property: &str, value: &Dynamic| -> Result<Option<Value>, Box<Diagnostic>> {
         plain(value).map_err(|kind| {
-            let place = rule.file.source.place(body.position);
             let message = format!("rule \"{}\": `{property}` cannot hold a value of type {kind}", rule.name);
-            let problem = Diagnostic::error(Code::Evaluation, &place, message);
+            let problem = rule.file.error(Code::Evaluation, body.position, message);
             problem.help("nothing of this action was done").into()
         })
     };

@@ -116,8 +116,7 @@ impl KnowledgeBase {
 }
 
 fn failed_inside(rule: &Rule) -> Diagnostic {
-    let place = rule.file.source.place(rule.position);
-    Diagnostic::error(Code::Panic, &place, format!("rule \"{}\" failed inside the engine", rule.name))
+    rule.file.error(Code::Panic, rule.position, format!("rule \"{}\" failed inside the engine", rule.name))
 }
 
 /// A revision reads its own property as the level below left it; everyone reads the last level.

@@ -175,12 +175,11 @@ impl KnowledgeBase {
         match halt {
             Halt::Late => late(rule),
             Halt::Full => {
-                let place = rule.file.source.place(rule.position);
                 let most = self.limits.matches;
                 let message =
                     format!("rule \"{}\" has more matches than the {most} that are kept", rule.name);
                 let help = "an `each` more than is meant, or a `where` too few; nothing of this run was kept";
-                Diagnostic::error(Code::Matches, &place, message).help(help)
+                rule.file.error(Code::Matches, rule.position, message).help(help)
             }
         }
     }
@@ -227,16 +226,14 @@ impl<'r> Run<'r> {
 }
 
 fn late(rule: &Rule) -> Diagnostic {
-    let place = rule.file.source.place(rule.position);
     let message = format!("the reactions took longer than they may; rule \"{}\" was at work", rule.name);
-    Diagnostic::error(Code::Deadline, &place, message).help("nothing of this run was kept")
+    rule.file.error(Code::Deadline, rule.position, message).help("nothing of this run was kept")
 }
 
 fn refused(rule: &Rule, wrong: &FactError) -> Diagnostic {
     let position = rule.reaction().map_or(rule.position, |reaction| reaction.body.position());
-    let place = rule.file.source.place(position);
     let message = format!("rule \"{}\" told what cannot be: {wrong}", rule.name);
-    Diagnostic::error(Code::Evaluation, &place, message).help("nothing of this action was done")
+    rule.file.error(Code::Evaluation, position, message).help("nothing of this action was done")
 }
 
 fn endless(rules: &RuleBase, fired: &[usize], most: usize) -> Diagnostic {
@@ -256,7 +253,8 @@ fn endless(rules: &RuleBase, fired: &[usize], most: usize) -> Diagnostic {
     };
     let rule = &rules.rules[names.first().copied().unwrap_or(0)];
     let message = format!("{who}: no end after {most} firings");
-    Diagnostic::error(Code::Loop, &rule.file.source.place(rule.position), message)
+    rule.file
+        .error(Code::Loop, rule.position, message)
         .help("a reaction must make its own condition false in the end; nothing of this run was kept")
 }
 

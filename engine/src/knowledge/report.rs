@@ -115,11 +115,10 @@ impl KnowledgeBase {
             if count > 0
                 && let Some(position) = rule.sets.get(name)
             {
-                let place = rule.file.source.place(*position);
                 let message =
                     format!("{name} holds {}; rule \"{}\" gave something else", kind.plural(), rule.name);
                 problems.push(
-                    Diagnostic::error(Code::Type, &place, message).label(format!("for {count} objects")),
+                    rule.file.error(Code::Type, *position, message).label(format!("for {count} objects")),
                 );
             }
         }
@@ -199,12 +198,11 @@ fn disagreement(base: &RuleBase, first: &Conflict, count: usize) -> Option<Diagn
         first.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
     let (last, _) = first.values.last()?;
     let rule = base.rules.iter().find(|rule| rule.name == *last)?;
-    let place = rule.file.source.place(*rule.sets.get(&first.property)?);
     let (property, key) = (&first.property, &first.key);
     let message = format!("rules disagree about {property} of {key}: {}", said.join(", "));
     let others = if count == 1 { String::new() } else { format!(", as {} others", count - 1) };
     let help = format!(
         "{key} has no value of it now{others}; give one of the rules a `where` that keeps them apart"
     );
-    Some(Diagnostic::error(Code::Conflict, &place, message).warning().help(help))
+    Some(rule.file.error(Code::Conflict, *rule.sets.get(&first.property)?, message).warning().help(help))
 }

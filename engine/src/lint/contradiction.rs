@@ -20,8 +20,7 @@ pub(super) fn lint(rule: &Rule) -> Vec<Diagnostic> {
         if let Some((path, _, position)) = asked.iter().find(|(path, ..)| contradicts(path, &asked, &before))
         {
             let message = format!("nothing can pass: what is asked of `{path}` contradicts itself");
-            let place = rule.file.source.place(*position);
-            found.push(Diagnostic::error(Code::Unreachable, &place, message).warning());
+            found.push(rule.file.error(Code::Unreachable, *position, message).warning());
         }
         if clause.quantifier.binds() {
             before.extend(asked);

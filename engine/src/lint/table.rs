@@ -38,8 +38,7 @@ struct Lint<'l> {
 
 impl Lint<'_> {
     fn of_row(&self, code: Code, row: usize, message: String) -> Diagnostic {
-        Diagnostic::error(code, &self.rule.file.source.place(self.table.rows[row].position), message)
-            .label(format!("row {}", row + 1))
+        self.rule.file.error(code, self.table.rows[row].position, message).label(format!("row {}", row + 1))
     }
 
     fn overlaps(&self) -> Vec<Diagnostic> {
@@ -119,7 +118,7 @@ impl Lint<'_> {
     }
 
     fn of_table(&self, message: String) -> Diagnostic {
-        Diagnostic::error(Code::Gap, &self.rule.file.source.place(self.rule.position), message).warning()
+        self.rule.file.error(Code::Gap, self.rule.position, message).warning()
     }
 }
 

@@ -5,7 +5,7 @@ use rhai::{Dynamic, EvalAltResult, ImmutableString, Map, Scope};
 use super::Machine;
 use super::evaluate::Batch;
 use super::lane::Rows;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
 use crate::script::failure::failure;
@@ -117,11 +117,10 @@ impl Machine<'_> {
         match plain(value) {
             Ok(value) => value.map_or(Cell::Unknown, |value| self.symbols.borrow_mut().cell(&value)),
             Err(kind) => {
-                let place = fragment.file.source.place(fragment.position);
                 let message =
                     format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);
                 self.troubles.set(self.troubles.get() + 1);
-                let problem = Diagnostic::error(Code::Evaluation, &place, message);
+                let problem = fragment.file.error(Code::Evaluation, fragment.position, message);
                 self.trouble.borrow_mut().get_or_insert(problem);
                 Cell::Unknown
             }

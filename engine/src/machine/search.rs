@@ -5,7 +5,7 @@ use super::candidates::Candidates;
 use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
 use super::output::{Failure, Output, Status, Verdicts};
 use super::{BATCH, Machine, Stopped};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Code;
 use crate::plan::action::{ActionPlan, Target};
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Node;
@@ -57,12 +57,11 @@ pub(crate) fn search(
     output.problem = machine.trouble.take();
     output.problems = machine.troubles.get();
     if stopped.is_err() || machine.stopped.get() {
-        let place = machine.rule.file.source.place(machine.rule.position);
         let message = format!(
             "rule \"{}\" was stopped: it did more, or took longer, than a rule may",
             machine.rule.name
         );
-        let stopped = Diagnostic::error(Code::Deadline, &place, message);
+        let stopped = machine.rule.file.error(Code::Deadline, machine.rule.position, message);
         output.problem = output.problem.or(Some(stopped));
         output.problems = output.problems.max(1);
         output.stopped = true;

@@ -50,5 +50,5 @@ pub(crate) fn join(lowering: &mut Lowering, index: usize, link: &LinkUse) -> Opt
 
 fn problem(link: &LinkUse, message: String) -> Diagnostic {
     let (file, position) = &link.declared;
-    Diagnostic::error(Code::Declaration, &file.source.place(*position), message)
+    file.error(Code::Declaration, *position, message)
 }

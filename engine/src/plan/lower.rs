@@ -97,8 +97,7 @@ impl<'r> Lowering<'r> {
         position: Position,
         message: impl Into<String>,
     ) -> &mut Diagnostic {
-        let place = self.file.source.place(position);
-        self.problems.push(Diagnostic::error(code, &place, message));
+        self.problems.push(self.file.error(code, position, message));
         let last = self.problems.len() - 1;
         &mut self.problems[last]
     }

@@ -72,8 +72,7 @@ impl Links<'_> {
                 let word = clause.quantifier.word();
                 let message = format!("`{word}` cannot look through a link of its own object");
                 let help = "let a rule copy what it reads there into a property of the object itself";
-                let place = rule.file.source.place(expr.start_position());
-                problems.push(Diagnostic::error(Code::Declaration, &place, message).help(help));
+                problems.push(rule.file.error(Code::Declaration, expr.start_position(), message).help(help));
             }
             (expr, links.own_used)
         };

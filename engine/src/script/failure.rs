@@ -11,12 +11,18 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
     let limit =
         matches!(cause, EvalAltResult::ErrorTerminated(..) | EvalAltResult::ErrorTooManyOperations(_));
     let position = error.position();
-    let place = rule.file.source.place(if position.is_none() { start } else { position });
     let code = if limit { Code::Deadline } else { Code::Evaluation };
     let reason = match cause {
         EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
         EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
         _ => error.to_string(),
     };
-    (Diagnostic::error(code, &place, format!("rule \"{}\": {reason}", rule.name)), limit)
+    (
+        rule.file.error(
+            code,
+            if position.is_none() { start } else { position },
+            format!("rule \"{}\": {reason}", rule.name),
+        ),
+        limit,
+    )
 }

@@ -96,9 +96,8 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             return;
         }
         let object = &call.args[0];
-        let place = rule.file.source.place(object.start_position());
         let message = "`forget` takes one of the rule's objects by its variable, as in `forget(report)`";
-        let problem = Diagnostic::error(Code::Assignment, &place, message);
+        let problem = rule.file.error(Code::Assignment, object.start_position(), message);
         let Expr::Variable(variable, ..) = object else { return problems.push(problem) };
         let name = variable.1.as_str();
         let bound = || rule.clauses.iter().filter(|clause| clause.quantifier.binds());
@@ -126,5 +125,5 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
 pub(super) fn taken_names(file: &FileScope, position: Position) -> Option<Diagnostic> {
     let taken = file.function_names.iter().find(|(name, _)| is_own(name))?;
     let message = format!("this file has a function `{}` of its own, which hides the engine's", taken.0);
-    Some(Diagnostic::error(Code::DuplicateName, &file.source.place(position), message).help("rename it"))
+    Some(file.error(Code::DuplicateName, position, message).help("rename it"))
 }

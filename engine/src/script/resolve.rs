@@ -191,7 +191,7 @@ fn merge(into: &mut Names, from: Names) {
 }
 
 fn complaint(rule: &Rule, code: Code, position: Position, message: String) -> Diagnostic {
-    Diagnostic::error(code, &rule.file.source.place(position), message)
+    rule.file.error(code, position, message)
 }
 
 fn clause_complaints(rule: &Rule, variables: &[String]) -> Vec<Diagnostic> {

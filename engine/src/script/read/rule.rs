@@ -41,9 +41,8 @@ fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i6
         None => 0,
         Some((_, Expr::IntegerConstant(priority, _))) => *priority,
         Some((_, other)) => {
-            let place = file.source.place(other.start_position());
             let message = "a priority is a whole number, as in `priority 10` or `priority -1`";
-            problems.push(Diagnostic::error(Code::Syntax, &place, message));
+            problems.push(file.error(Code::Syntax, other.start_position(), message));
             0
         }
     }
@@ -64,10 +63,9 @@ fn hypothesis(
             Some((0, property.to_owned(), position))
         }
         _ => {
-            let place = file.source.place(given.start_position());
             let message = "a hypothesis is a property of the object of the rule's first `each`";
             let help = format!("as in `hypothesis {}.reachable`", first.variable);
-            problems.push(Diagnostic::error(Code::Hypothesis, &place, message).help(help));
+            problems.push(file.error(Code::Hypothesis, given.start_position(), message).help(help));
             None
         }
     }
@@ -136,9 +134,8 @@ fn action(
             clauses.iter().position(|clause| clause.quantifier.binds() && clause.variable == variable)?;
         Some((index, property.to_owned(), position))
     }) else {
-        let place = file.source.place(target.start_position());
         let message = "a revision sets one property of one of its variables, as in `set door.hardness`";
-        problems.push(Diagnostic::error(Code::Assignment, &place, message));
+        problems.push(file.error(Code::Assignment, target.start_position(), message));
         return None;
     };
     let operator = match item.input(Slot::Operator)? {

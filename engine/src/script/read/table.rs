@@ -48,7 +48,7 @@ struct Reader<'r> {
 
 impl Reader<'_> {
     fn wrong(&mut self, position: Position, message: String) -> &mut Diagnostic {
-        self.problems.push(Diagnostic::error(Code::Table, &self.file.source.place(position), message));
+        self.problems.push(self.file.error(Code::Table, position, message));
         let last = self.problems.len() - 1;
         &mut self.problems[last]
     }
@@ -217,9 +217,8 @@ impl Reader<'_> {
             _ => {
                 let names = self.file.constants.keys().map(String::as_str).chain(["any"]);
                 let meant = nearest(&name.1, names).map(str::to_owned);
-                let place = self.file.source.place(*position);
                 let message = format!("nothing here is called `{}`", name.1);
-                let problem = Diagnostic::error(Code::UnknownVariable, &place, message);
+                let problem = self.file.error(Code::UnknownVariable, *position, message);
                 self.problems.push(problem.did_you_mean(meant.as_deref()));
                 None
             }
