@@ -195,10 +195,15 @@ impl KnowledgeBase {
     /// The column as revised by levels below the given one (`None`: by all).
     fn view(&self, name: &PropertyName, below: Option<i64>) -> Option<&Column> {
         let held = self.held.get(&name.class)?;
-        match self.derived.get(name) {
-            Some(derived) if !derived.stages.is_empty() => derived.stages.get(derived.stage(below)),
-            _ => held.table.column(&name.property),
+        match self.known_derived(name) {
+            Some(derived) => derived.stages.get(derived.stage(below)),
+            None => held.table.column(&name.property),
         }
+    }
+
+    /// A property that rules conclude or revise, if it has values yet.
+    fn known_derived(&self, name: &PropertyName) -> Option<&Derived> {
+        self.derived.get(name).filter(|derived| !derived.stages.is_empty())
     }
 
     fn told_column(&self, name: &PropertyName) -> Option<&Column> {

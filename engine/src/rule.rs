@@ -290,17 +290,15 @@ impl Rule {
     pub(crate) const fn reaction(&self) -> Option<&Reaction> {
         match &self.action {
             Action::React(reaction) => Some(reaction),
-            Action::Conclude { .. } | Action::Revise { .. } | Action::Table(_) | Action::Default { .. } => {
-                None
-            }
+            _ => None,
         }
     }
 
     /// The level of a revision; `None` for a rule that concludes.
     pub const fn level(&self) -> Option<i64> {
         match &self.action {
-            Action::Conclude { .. } | Action::React(_) | Action::Table(_) | Action::Default { .. } => None,
             Action::Revise { level, .. } => Some(*level),
+            _ => None,
         }
     }
 }

@@ -31,19 +31,10 @@ pub(crate) struct PropertyItem {
     pub(crate) class_position: Position,
     pub(crate) property: String,
     pub(crate) position: Position,
-    pub(crate) link: Option<LinkItem>,
+    pub(crate) link: Option<Link>,
     pub(crate) sources: Vec<Source>,
     pub(crate) default: Option<Expr>,
-    pub(crate) text: String,
     pub(crate) file: Arc<FileScope>,
-}
-
-/// `names CLASS.KEY`
-#[derive(Debug)]
-pub(crate) struct LinkItem {
-    pub(crate) class: String,
-    pub(crate) class_position: Position,
-    pub(crate) key: Option<(String, Position)>,
 }
 
 pub(crate) fn declarations(
@@ -137,15 +128,7 @@ fn property(
             format!("{what} of {written} {} declared twice", if what.ends_with('s') { "are" } else { "is" }),
         )
     };
-    if let Some(LinkItem { class, class_position, key }) = item.link {
-        let link = Link {
-            class,
-            class_position,
-            key,
-            position: item.position,
-            signature: item.text.clone(),
-            file: Arc::clone(&item.file),
-        };
+    if let Some(link) = item.link {
         if declared.classes.contains_key(&link.class) {
             let message = format!(
                 "a link leads to a class of objects, and {} is a part of one, by a condition",

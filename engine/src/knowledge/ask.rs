@@ -48,11 +48,10 @@ impl KnowledgeBase {
         key: &str,
         property: &str,
     ) -> Result<Answer, FactError> {
-        let no_object = || FactError::NoObject { class: class.to_owned(), key: key.to_owned() };
         if self.len(class).is_none() {
             return Err(FactError::NoClass { class: class.to_owned() });
         }
-        let row = self.row(class, key).ok_or_else(no_object)?;
+        let row = self.row(class, key).ok_or_else(|| FactError::no_object(class, key))?;
         self.ask_rows(rules, class, &[row as u32], &[property]);
         if let Some(value) = self.value_at(class, row, property) {
             return Ok(Answer::Known(value));

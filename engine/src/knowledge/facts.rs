@@ -29,6 +29,16 @@ pub enum FactError {
     Class(#[from] ClassError),
 }
 
+impl FactError {
+    pub(super) fn no_object(class: &str, key: impl ToString) -> Self {
+        Self::NoObject { class: class.to_owned(), key: key.to_string() }
+    }
+
+    fn mistyped(class: &str, property: &str, holds: Type, value: String) -> Self {
+        Self::Type { class: class.to_owned(), property: property.to_owned(), holds, value }
+    }
+}
+
 impl KnowledgeBase {
     /// Tells one value of the object with this key; `None` takes back what was told, and what rules conclude
     /// holds again. A property that the class does not have yet is added, unknown for the other objects.
@@ -40,8 +50,7 @@ impl KnowledgeBase {
         value: Option<Value>,
     ) -> Result<(), FactError> {
         let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
-        let no_object = || FactError::NoObject { class: class.to_owned(), key: key.to_owned() };
-        self.tell_row(class, row.ok_or_else(no_object)?, property, value)
+        self.tell_row(class, row.ok_or_else(|| FactError::no_object(class, key))?, property, value)
     }
 
     /// As [`tell`](Self::tell), by the object's row from 0.
@@ -54,7 +63,7 @@ impl KnowledgeBase {
     ) -> Result<(), FactError> {
         let table = &self.told_class(class)?.table;
         if row >= table.len {
-            return Err(FactError::NoObject { class: class.to_owned(), key: row.to_string() });
+            return Err(FactError::no_object(class, row));
         }
         let at = table.names.iter().position(|name| name == property);
         if at.is_some_and(|at| table.key.contains(&at)) {
@@ -78,12 +87,8 @@ impl KnowledgeBase {
         let column = &mut table.columns[at];
         let before = column.cell(row);
         if cell.kind().is_some_and(|kind| kind != column.kind()) {
-            return Err(FactError::Type {
-                class: class.to_owned(),
-                property: property.to_owned(),
-                holds: column.kind(),
-                value: value.map_or_else(String::new, |value| value.to_string()),
-            });
+            let value = value.map_or_else(String::new, |value| value.to_string());
+            return Err(FactError::mistyped(class, property, column.kind(), value));
         }
         column.set(row, cell);
         if value.is_some() && !self.network.not_known.is_empty() {
@@ -115,12 +120,12 @@ impl KnowledgeBase {
                 continue;
             };
             if cell.kind().is_some_and(|kind| kind != table.columns[at].kind()) {
-                return Err(FactError::Type {
-                    class: class.to_owned(),
-                    property: property.to_owned(),
-                    holds: table.columns[at].kind(),
-                    value: value.to_string(),
-                });
+                return Err(FactError::mistyped(
+                    class,
+                    property,
+                    table.columns[at].kind(),
+                    value.to_string(),
+                ));
             }
             row[at] = cell;
         }
@@ -151,15 +156,14 @@ impl KnowledgeBase {
     /// Removes the object with this key; those after it move up.
     pub fn remove(&mut self, class: &str, key: &str) -> Result<(), FactError> {
         let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
-        let no_object = || FactError::NoObject { class: class.to_owned(), key: key.to_owned() };
-        self.remove_row(class, row.ok_or_else(no_object)?)
+        self.remove_row(class, row.ok_or_else(|| FactError::no_object(class, key))?)
     }
 
     /// As [`remove`](Self::remove), by the object's row from 0.
     pub fn remove_row(&mut self, class: &str, row: usize) -> Result<(), FactError> {
         let table = &self.told_class(class)?.table;
         if row >= table.len {
-            return Err(FactError::NoObject { class: class.to_owned(), key: row.to_string() });
+            return Err(FactError::no_object(class, row));
         }
         if let Some(Held { table, pending }) = self.held.get_mut(class) {
             let before = table.len as u32;
@@ -191,12 +195,10 @@ impl KnowledgeBase {
     ) -> Result<(), FactError> {
         let holds = self.view(&PropertyName::new(class, property), None).map(Column::kind);
         match holds {
-            Some(holds) if holds != kind => Err(FactError::Type {
-                class: class.to_owned(),
-                property: property.to_owned(),
-                holds,
-                value: value.map_or_else(|| kind.plural().to_owned(), ToString::to_string),
-            }),
+            Some(holds) if holds != kind => {
+                let value = value.map_or_else(|| kind.plural().to_owned(), ToString::to_string);
+                Err(FactError::mistyped(class, property, holds, value))
+            }
             _ => Ok(()),
         }
     }

@@ -24,7 +24,6 @@ impl KnowledgeBase {
 
     fn edit_of(&self, told: &Told) -> Result<Edit, FactError> {
         let row = |class: &String, key: &String| {
-            let no_object = || FactError::NoObject { class: class.clone(), key: key.clone() };
             let keyless = self.held.get(class).is_some_and(|held| held.table.key.is_empty());
             let row = if keyless {
                 let row = key.parse::<usize>().ok().and_then(|row| row.checked_sub(1));
@@ -32,7 +31,7 @@ impl KnowledgeBase {
             } else {
                 self.row(class, key)
             };
-            row.ok_or_else(no_object)
+            row.ok_or_else(|| FactError::no_object(class, key))
         };
         Ok(match told {
             Told::Object { class, properties } => {

@@ -23,7 +23,7 @@ impl KnowledgeBase {
             origin: Origin::Told,
             revisions: vec![],
         };
-        let Some(derived) = self.derived.get(&name).filter(|derived| !derived.stages.is_empty()) else {
+        let Some(derived) = self.known_derived(&name) else {
             return value.is_some().then(|| told(value));
         };
         let origin = match self.source(&name, derived, row as u32) {
@@ -48,7 +48,7 @@ impl KnowledgeBase {
     /// For a property that rules conclude: the rule behind each object's value.
     pub fn justifications(&self, class: &str, property: &str) -> Option<Justifications> {
         let name = PropertyName::new(class, property);
-        let derived = self.derived.get(&name).filter(|derived| !derived.stages.is_empty())?;
+        let derived = self.known_derived(&name)?;
         let of = |rule: usize| self.network.nodes.get(rule);
         let rules = derived
             .writers
@@ -72,7 +72,7 @@ impl KnowledgeBase {
     /// rows that the variables after the first stand for; `None` where the value was told or is unknown.
     pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> Vec<Option<Grounds>> {
         let name = PropertyName::new(class, property);
-        let Some(derived) = self.derived.get(&name).filter(|derived| !derived.stages.is_empty()) else {
+        let Some(derived) = self.known_derived(&name) else {
             return vec![None; rows.len()];
         };
         let grounds = |&row: &u32| match self.source(&name, derived, row) {

@@ -1,7 +1,7 @@
 //! The objects of a clause's class that may be bound, and how to find them.
 
 use super::index::Index;
-use super::lane::{Frame, Values};
+use super::lane::{Frame, Rows, Values};
 use super::{BATCH, Machine, Stopped};
 use crate::plan::Plan;
 use crate::plan::clause::Threshold;
@@ -105,6 +105,21 @@ impl Candidates {
         });
         let thresholds = thresholds(machine, plan, number, &rows);
         Ok(Self { rows, all, index, undecided, thresholds, left_out })
+    }
+
+    /// The rows batch by batch, each as a frame in which they stand beside one binding of the clauses before.
+    pub(super) fn batches(
+        &self,
+        variable: usize,
+        frame: &Frame,
+        binding: usize,
+    ) -> impl Iterator<Item = (&[u32], Frame)> {
+        self.rows.chunks(BATCH).enumerate().map(move |(nth, chunk)| {
+            let mut next = frame.repeat(binding, chunk.len());
+            let first = (nth * BATCH) as u32;
+            next.rows[variable] = if self.all { Rows::From(first) } else { Rows::each(chunk.to_vec()) };
+            (chunk, next)
+        })
     }
 
     /// The rows that an unknown leaves open; all of them where the key to look for is unknown.

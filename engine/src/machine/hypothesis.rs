@@ -51,9 +51,7 @@ impl Search<'_> {
                         given.written.push(true);
                     }
                 } else {
-                    let len = given.values.len() + chunk.len();
-                    given.values.resize(len);
-                    given.written.resize(len, false);
+                    given.say_nothing(chunk.len());
                 }
             }
         }

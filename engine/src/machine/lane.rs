@@ -328,6 +328,11 @@ impl Frame {
         Self { len: chosen.len(), rows: self.rows.iter().map(|rows| rows.select(chosen)).collect() }
     }
 
+    /// Those of the bindings that are kept: all, or as [`select`](Self::select).
+    pub(crate) fn kept(self, kept: &[u32]) -> Self {
+        if kept.len() == self.len { self } else { self.select(kept) }
+    }
+
     pub(crate) fn binding(&self, index: usize) -> Vec<u32> {
         self.rows.iter().map(|rows| rows.at(index)).collect()
     }

@@ -1,8 +1,8 @@
 //! Finds one witness for each binding: the least, the most, or the first that passes.
 
+use super::Stopped;
 use super::lane::{Frame, Lane, NO_ROW, Rows, Values};
 use super::search::{Search, pairs};
-use super::{BATCH, Stopped};
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::Comparison;
 use crate::script::syntax::Quantifier;
@@ -176,14 +176,8 @@ impl Search<'_> {
     ) -> Result<(), Stopped> {
         let candidates = self.candidates(number);
         for binding in 0..frame.len {
-            for (nth, chunk) in candidates.rows.chunks(BATCH).enumerate() {
+            for (chunk, tried) in candidates.batches(clause.variable, frame, binding) {
                 self.machine.tick()?;
-                let mut tried = frame.repeat(binding, chunk.len());
-                tried.rows[clause.variable] = if candidates.all {
-                    Rows::From((nth * BATCH) as u32)
-                } else {
-                    Rows::each(chunk.to_vec())
-                };
                 let (truths, values) = self.tried(clause, &tried);
                 for (index, &row) in chunk.iter().enumerate() {
                     found.consider(binding, row, truths.at(index), values.at(index));

@@ -105,6 +105,17 @@ impl Given {
         plan.targets(rule).into_iter().map(given).collect()
     }
 
+    /// One value more for each of so many firings.
+    pub(crate) fn say(&mut self, values: &Values, firings: usize) {
+        self.values.extend(values, firings);
+        self.written.resize(self.values.len(), true);
+    }
+
+    pub(crate) fn say_nothing(&mut self, firings: usize) {
+        self.values.resize(self.values.len() + firings);
+        self.written.resize(self.values.len(), false);
+    }
+
     pub(crate) fn is_written(&self, firing: usize) -> bool {
         self.written.get(firing) == Some(&true)
     }

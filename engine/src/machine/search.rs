@@ -140,8 +140,7 @@ impl<'s> Search<'s> {
         if passing.is_empty() {
             return Ok(());
         }
-        let next = if passing.len() == frame.len { frame } else { frame.select(&passing) };
-        self.advance(1, next)
+        self.advance(1, frame.kept(&passing))
     }
 
     #[allow(clippy::unused_self)] // it reads as a step of the search
@@ -196,7 +195,7 @@ impl<'s> Search<'s> {
         if passing.is_empty() {
             return Ok(());
         }
-        let mut next = if failing.is_empty() { frame } else { frame.select(&passing) };
+        let mut next = frame.kept(&passing);
         next.rows[clause.variable] = if wanted {
             Rows::each(passing.iter().map(|&index| found.rows[index as usize]).collect())
         } else {
@@ -215,11 +214,10 @@ impl<'s> Search<'s> {
                 failing.iter().map(|&index| (NO_ROW, tally.undecided(index as usize))).collect();
             self.fail(number, frame.select(&failing), &found)?;
         }
-        match passing.len() {
-            0 => Ok(()),
-            all if all == frame.len => self.filtered(number, clause.after.as_ref(), frame),
-            _ => self.filtered(number, clause.after.as_ref(), frame.select(&passing)),
+        if passing.is_empty() {
+            return Ok(());
         }
+        self.filtered(number, clause.after.as_ref(), frame.kept(&passing))
     }
 
     /// Every candidate that passes, for every binding.
@@ -230,27 +228,14 @@ impl<'s> Search<'s> {
             let unknown_key = if clause.perhaps { self.unknown_keys(clause, frame) } else { vec![] };
             let perhaps = |binding: usize| unknown_key.get(binding).map(|&key| candidates.perhaps(key));
             let rows = |binding: usize| groups[binding].iter().chain(perhaps(binding).into_iter().flatten());
-            let mut pairs = pairs(frame, rows);
-            loop {
-                let batch: Vec<(u32, u32)> = pairs.by_ref().take(BATCH).collect();
-                if batch.is_empty() {
-                    return Ok(());
-                }
+            for batch in batches(pairs(frame, rows)) {
                 self.filtered(number, clause.test.as_ref(), frame.paired(clause.variable, &batch))?;
             }
+            return Ok(());
         }
         for binding in 0..frame.len {
-            let mut from = 0;
-            while from < candidates.rows.len() {
-                let to = (from + BATCH).min(candidates.rows.len());
-                let mut next = frame.repeat(binding, to - from);
-                next.rows[clause.variable] = if candidates.all {
-                    Rows::From(from as u32)
-                } else {
-                    Rows::each(candidates.rows[from..to].to_vec())
-                };
+            for (_, next) in candidates.batches(clause.variable, frame, binding) {
                 self.filtered(number, clause.test.as_ref(), next)?;
-                from = to;
             }
         }
         Ok(())
@@ -261,17 +246,14 @@ impl<'s> Search<'s> {
         &self,
         clause: &ClausePlan,
         frame: &Frame,
-        mut pairs: impl Iterator<Item = (u32, u32)>,
+        pairs: impl Iterator<Item = (u32, u32)>,
         mut look: impl FnMut(&Frame, &[(u32, u32)]),
     ) -> Result<(), Stopped> {
-        loop {
-            let batch: Vec<(u32, u32)> = pairs.by_ref().take(BATCH).collect();
-            if batch.is_empty() {
-                return Ok(());
-            }
+        for batch in batches(pairs) {
             self.machine.tick()?;
             look(&frame.paired(clause.variable, &batch), &batch);
         }
+        Ok(())
     }
 
     fn filtered(&mut self, number: usize, test: Option<&Node>, frame: Frame) -> Result<(), Stopped> {
@@ -289,8 +271,7 @@ impl<'s> Search<'s> {
         if passing.is_empty() {
             return Ok(());
         }
-        let next = if passing.len() == frame.len { frame } else { frame.select(&passing) };
-        self.advance(number + 1, next)
+        self.advance(number + 1, frame.kept(&passing))
     }
 
     pub(crate) fn groups(&self, number: usize, clause: &ClausePlan, frame: &Frame) -> Vec<&'s [u32]> {
@@ -347,10 +328,7 @@ impl<'s> Search<'s> {
             Effect::Default { value: node, .. } | Effect::Revise { amount: node, .. } => {
                 self.record(frame, Status::THEN)?;
                 let values = self.machine.values(node, frame);
-                for given in &mut self.output.given {
-                    given.values.extend(&values, frame.len);
-                    given.written.resize(given.values.len(), true);
-                }
+                self.output.given.iter_mut().for_each(|given| given.say(&values, frame.len));
                 Ok(())
             }
             Effect::React(_) => Ok(()),
@@ -363,8 +341,7 @@ impl<'s> Search<'s> {
         let proves = (status == Status::THEN).then_some(self.plan.hypothesis.as_ref()).flatten();
         for given in &mut self.output.given {
             if Some(&given.name) == proves && given.variable == 0 {
-                given.values.extend(&Values::Truths(Lane::Same(Truth::True)), frame.len);
-                given.written.resize(given.values.len(), true);
+                given.say(&Values::Truths(Lane::Same(Truth::True)), frame.len);
                 continue;
             }
             let of = |target: &&Target| target.variable == given.variable && target.name == given.name;
@@ -372,9 +349,7 @@ impl<'s> Search<'s> {
                 given.values.extend(&values[target.slot], frame.len);
                 written[target.slot].extend(&mut given.written, frame.len);
             } else {
-                let len = given.values.len() + frame.len;
-                given.values.resize(len);
-                given.written.resize(len, false);
+                given.say_nothing(frame.len);
             }
         }
         Ok(())
@@ -399,4 +374,9 @@ pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
     rows: impl Fn(usize) -> I,
 ) -> impl Iterator<Item = (u32, u32)> {
     (0..frame.len).flat_map(move |binding| rows(binding).map(move |&row| (binding as u32, row)))
+}
+
+fn batches(mut pairs: impl Iterator<Item = (u32, u32)>) -> impl Iterator<Item = Vec<(u32, u32)>> {
+    let next = move || Some(pairs.by_ref().take(BATCH).collect());
+    std::iter::from_fn(next).take_while(|batch: &Vec<_>| !batch.is_empty())
 }

@@ -109,7 +109,7 @@ fn items(source: &SourceFile, ast: &AST, read: &mut Read) {
         let text = source.text()[start..end].to_owned();
         match item.word() {
             Word::Class => read.classes.extend(declared::class(item, text, &file)),
-            Word::Property => read.properties.extend(declared::property(item, text, &file)),
+            Word::Property => read.properties.extend(declared::property(item, &text, &file)),
             Word::Rule | Word::Revise | Word::On | Word::Table => {
                 let rule = rule::rule(item, &file, problems);
                 let outside = Arc::clone(&outside);

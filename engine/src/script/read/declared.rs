@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rhai::Expr;
 
 use super::item::{Item, text};
-use crate::declared::Source;
-use crate::declared::build::{ClassItem, LinkItem, PropertyItem};
+use crate::declared::build::{ClassItem, PropertyItem};
+use crate::declared::{Link, Source};
 use crate::rule::FileScope;
 use crate::script::syntax::Slot;
 
@@ -26,17 +26,20 @@ pub(super) fn class(item: &Item, written: String, file: &Arc<FileScope>) -> Opti
 }
 
 /// `property CLASS.NAME names ... from ...`
-pub(super) fn property(item: &Item, written: String, file: &Arc<FileScope>) -> Option<PropertyItem> {
+pub(super) fn property(item: &Item, written: &str, file: &Arc<FileScope>) -> Option<PropertyItem> {
     let (class, class_position) = item.name()?;
     let (property, position) = item.text(Slot::Declared)?;
     let key = item.text(Slot::LinkKey).map(|(key, position)| (key.to_owned(), position));
-    let link = item.text(Slot::LinkClass).map(|(class, class_position)| LinkItem {
+    let link = item.text(Slot::LinkClass).map(|(class, class_position)| Link {
         class: class.to_owned(),
         class_position,
         key,
+        position,
+        signature: written.to_owned(),
+        file: Arc::clone(file),
     });
     let default = item.input(Slot::Default).cloned();
-    let sources = item.inputs.iter().filter_map(|(slot, input)| source(*slot, input, &written)).collect();
+    let sources = item.inputs.iter().filter_map(|(slot, input)| source(*slot, input, written)).collect();
     Some(PropertyItem {
         class: class.to_owned(),
         class_position,
@@ -45,7 +48,6 @@ pub(super) fn property(item: &Item, written: String, file: &Arc<FileScope>) -> O
         link,
         sources,
         default,
-        text: written,
         file: Arc::clone(file),
     })
 }
