@@ -25,7 +25,6 @@ pub(crate) use matching::{Halt, Outside};
 use program::Program;
 use world::{Difference, World};
 
-/// The matches of all rules that react.
 #[derive(Debug, Default)]
 pub(crate) struct Agenda {
     pub(crate) world: World,
@@ -133,7 +132,6 @@ impl Agenda {
         Some((body, &program.columns, numbers))
     }
 
-    /// The class that a clause of a rule ranges over, by number.
     pub(crate) fn class_of(&self, rule: usize, clause: usize) -> Option<usize> {
         let program = self.rules.iter().find(|reacting| reacting.rule == rule)?.program.as_ref()?;
         Some(program.clauses.get(clause)?.class)

@@ -18,7 +18,6 @@ pub enum ClassError {
         class: String,
         /// The property that differs from the first.
         property: String,
-        /// Objects by the first property.
         expected: usize,
         found: usize,
     },

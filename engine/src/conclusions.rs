@@ -10,7 +10,6 @@ use crate::value::Value;
 pub struct Conclusions {
     /// Rules that were evaluated now, in that order; the conclusions of others still held.
     pub evaluated: Vec<String>,
-    /// Rules that could not be evaluated.
     pub waiting: Vec<Waiting>,
     /// Properties that rules set to different values; such a value is unknown.
     pub conflicts: Vec<Conflict>,
@@ -48,12 +47,10 @@ pub struct Gap {
     pub reasons: Vec<(Reason, usize)>,
 }
 
-/// Why an object has no value of a property.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     Conflict,
-    /// A clause of the rule was met by no candidate.
     Unmet {
         rule: String,
         variable: String,
@@ -73,7 +70,6 @@ pub enum Reason {
         rule: String,
         variable: String,
     },
-    /// The rule gave a value that is unknown.
     Unknown {
         rule: String,
     },
@@ -148,7 +144,6 @@ pub struct Justification {
     /// The value; `None` is unknown.
     pub value: Option<Value>,
     pub origin: Origin,
-    /// What changed it after that, in order.
     pub revisions: Vec<Revision>,
 }
 

@@ -22,7 +22,6 @@ pub enum Source {
     Ask(String),
 }
 
-/// All that the files of a rule base declare.
 #[derive(Clone, Debug, Default)]
 pub struct Declarations {
     /// The order of sources of each property, by the class that the declaration names.

@@ -30,7 +30,6 @@ macro_rules! codes {
 codes! {
     /// The file does not read as rules.
     Syntax = "rule/syntax",
-    /// A file is larger than is accepted.
     TooLarge = "rule/too-large",
     /// Something other than a rule, a function or a constant stands in the file.
     Statement = "rule/statement",
@@ -39,23 +38,19 @@ codes! {
     UnknownProperty = "rule/unknown-property",
     UnknownVariable = "rule/unknown-variable",
     UnknownFunction = "rule/unknown-function",
-    /// A value of the wrong type.
     Type = "rule/type",
     /// Something that cannot be set, or not like this.
     Assignment = "rule/assignment",
-    /// Rules that need each other's conclusions.
     Cycle = "rule/cycle",
     /// A declaration that cannot be, or that a rule does not keep to.
     Declaration = "rule/declaration",
     /// A table that does not read as one.
     Table = "rule/table",
-    /// Rows of a table that match the same.
     Overlap = "rule/overlap",
     /// Inputs without a row.
     Gap = "rule/gap",
     /// A row, or a rule, that never counts.
     Unreachable = "rule/unreachable",
-    /// What is named and never used.
     Unused = "rule/unused",
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis = "rule/hypothesis",
@@ -63,7 +58,6 @@ codes! {
     Operator = "rule/operator",
     /// Two rules set one property of one object to different values.
     Conflict = "rule/conflict",
-    /// A part that the interpreter runs has failed.
     Evaluation = "rule/evaluation",
     /// A rule took longer, or did more, than it may.
     Deadline = "rule/deadline",
@@ -71,7 +65,6 @@ codes! {
     Loop = "rule/loop",
     /// A rule that reacts has more matches than are kept.
     Matches = "rule/matches",
-    /// The engine itself failed.
     Panic = "rule/panic",
     /// A file of rule tests does not read as tests.
     TestSyntax = "test/syntax",
@@ -95,7 +88,6 @@ impl fmt::Display for Code {
 pub enum Severity {
     /// The rules work, but perhaps not as meant.
     Warning,
-    /// The rules, or some of them, do not work.
     Error,
 }
 

@@ -95,7 +95,6 @@ impl KnowledgeBase {
         Ok(())
     }
 
-    /// Takes a table as what is told of its class.
     fn hold(&mut self, table: Table) {
         if let Some(held) = self.held.get_mut(&table.name) {
             held.pending.join(difference::difference(&held.table, &table));
@@ -187,7 +186,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// The column that hosts and rules see.
     fn column(&self, name: &PropertyName) -> Option<&Column> {
         self.view(name, None)
     }

@@ -9,9 +9,7 @@ use crate::rule::{PropertyName, Rule};
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Step {
     Rule(usize),
-    /// Bring together what rules concluded of a property, and what was told.
     Merge(PropertyName),
-    /// Revise a property by all revisions of one level.
     Level(PropertyName, i64),
 }
 

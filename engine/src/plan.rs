@@ -32,7 +32,6 @@ pub(crate) struct Plan {
     pub(crate) effect: Effect,
     /// The truth value that the rule gives to each object of its first clause.
     pub(crate) hypothesis: Option<PropertyName>,
-    /// Those that the nodes name by number.
     pub(crate) columns: Vec<PropertyName>,
 }
 

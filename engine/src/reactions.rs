@@ -12,7 +12,6 @@ pub struct Reactions {
     pub firings: Vec<Firing>,
     /// What is different now from after the last update, told and concluded.
     pub changes: Changes,
-    /// What failed, and what the rules' author should look at.
     #[serde(skip)]
     pub diagnostics: Vec<Diagnostic>,
 }

@@ -69,7 +69,6 @@ pub enum Rejection {
         /// What is compared, as the rule writes it.
         by: String,
         value: f64,
-        /// The key of the object that was taken.
         winner: String,
         winner_value: f64,
     },
@@ -80,7 +79,6 @@ pub enum Rejection {
     },
     /// An object before it passes, too, and one is enough.
     Later {
-        /// The key of the object that was taken.
         winner: String,
     },
     /// There must be no such object, and this is one.
@@ -101,7 +99,6 @@ pub enum Rejection {
     Waiting {
         needs: Vec<String>,
     },
-    /// What the rule says does not count.
     Overruled {
         /// The rule that counts; `None`: the value was told.
         by: Option<String>,

@@ -32,7 +32,6 @@ impl fmt::Display for PropertyName {
     }
 }
 
-/// How a revision changes a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Operator {
@@ -42,9 +41,7 @@ pub enum Operator {
     Plus,
     /// `- amount`
     Minus,
-    /// The greater of the two.
     Max,
-    /// The lesser of the two.
     Min,
 }
 
@@ -223,7 +220,6 @@ pub struct Rule {
 }
 
 impl Rule {
-    /// The name, unique in a rule base.
     pub fn name(&self) -> &str {
         &self.name
     }

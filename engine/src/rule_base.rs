@@ -76,7 +76,6 @@ impl RuleBase {
         self.rules.iter().filter_map(Rule::hypothesis).collect()
     }
 
-    /// The properties that rules conclude or revise, sorted.
     pub fn concluded(&self) -> BTreeSet<&PropertyName> {
         self.rules.iter().flat_map(|rule| rule.sets.keys()).collect()
     }

@@ -56,7 +56,6 @@ pub struct TestOutcome {
     pub failures: Vec<TestFailure>,
 }
 
-/// A value that is not as a test expects it.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct TestFailure {
     /// Number of the edit (`[[test.then]]`) after which it was expected; 0 before all edits.

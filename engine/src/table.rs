@@ -16,11 +16,9 @@ pub(crate) enum Hit {
     Unique,
     /// Rows that match one input give the same.
     Any,
-    /// The first that matches.
     First,
     /// The one whose first output comes first in this list.
     Priority(Vec<Literal>),
-    /// All that match, brought together.
     Collect(Fold),
 }
 
@@ -174,7 +172,6 @@ impl Table {
     }
 }
 
-/// The value that an expression writes out.
 pub(crate) fn plain(expr: &Expr) -> Option<Literal> {
     Some(match expr {
         Expr::IntegerConstant(number, _) => Literal::Number(*number as f64),

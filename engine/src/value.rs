@@ -15,7 +15,6 @@ pub enum Type {
 }
 
 impl Type {
-    /// The plural, as messages name it.
     pub const fn plural(self) -> &'static str {
         match self {
             Self::Number => "numbers",

@@ -140,7 +140,6 @@ impl ConflictSet {
         }
     }
 
-    /// From here on, changes can be taken back.
     pub(crate) fn checkpoint(&mut self) {
         self.journal.clear();
     }

@@ -153,7 +153,6 @@ fn together(clauses: &[Clause], prefixes: &[(&Vec<u32>, &Vec<f64>)]) -> Frame {
     Frame { len: prefixes.len(), rows: clauses.iter().enumerate().map(rows).collect() }
 }
 
-/// Searches from each object that is new or has other values.
 fn seed(
     matching: &Matching,
     set: &mut ConflictSet,

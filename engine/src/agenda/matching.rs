@@ -21,7 +21,6 @@ pub(crate) struct Outside<'o> {
     pub(crate) kinds: Box<dyn Kinds + 'o>,
     pub(crate) symbols: &'o RefCell<Symbols>,
     pub(crate) deadline: Instant,
-    /// Most matches that are kept.
     pub(crate) matches: usize,
     /// By rule: what is wrong with it, or failed in a condition.
     pub(crate) troubles: RefCell<BTreeMap<usize, Vec<Diagnostic>>>,

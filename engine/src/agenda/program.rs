@@ -29,14 +29,12 @@ pub(crate) struct Program {
     pub(crate) plan: Plan,
     /// For each column of the plan its number in the world.
     pub(crate) columns: Vec<usize>,
-    /// All clauses in their order.
     pub(crate) full: Path,
     /// For each clause the search that begins at an object of it.
     pub(crate) from: Vec<Path>,
 }
 
 impl Clause {
-    /// Whether the rule reads one of these columns of its object.
     pub(crate) fn reads_any(&self, columns: &[usize]) -> bool {
         columns.iter().any(|column| self.reads.contains(column))
     }

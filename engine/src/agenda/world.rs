@@ -23,9 +23,7 @@ pub(crate) trait Facts {
 pub(crate) struct Objects {
     /// For each row the object's number.
     pub(crate) ids: Arc<Vec<u32>>,
-    /// The first number that was never given.
     next: u32,
-    /// Its columns by their numbers in the world.
     columns: Vec<usize>,
     added: BTreeSet<u32>,
     removed: BTreeSet<u32>,
@@ -90,7 +88,6 @@ impl World {
         self.columns.len() - 1
     }
 
-    /// The number of a class's candidates by these columns.
     pub(crate) fn candidates(&mut self, class: usize, columns: Vec<usize>) -> usize {
         let known = |found: &Found| found.class == class && found.columns == columns;
         if let Some(number) = self.candidates.iter().position(known) {
@@ -147,7 +144,6 @@ impl World {
         }
     }
 
-    /// What happened since the values were fetched, by class.
     pub(crate) fn differences(&self, facts: &dyn Facts) -> Vec<Difference> {
         (0..self.classes.len()).map(|class| self.difference(class, facts)).collect()
     }

@@ -236,7 +236,6 @@ fn complaints(expr: &Expr, file: &FileScope, known: &BTreeSet<String>) -> Vec<Di
     problems
 }
 
-/// What the rules make of the declarations.
 pub(crate) fn against_rules(declared: &Declarations, rules: &[Rule]) -> Vec<Diagnostic> {
     let mut problems = vec![];
     for rule in rules {

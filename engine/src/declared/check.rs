@@ -14,7 +14,6 @@ use crate::suggest::nearest;
 use crate::symbols::Symbols;
 use crate::value::Type;
 
-/// What is wrong with the declarations, and the types that defaults give.
 pub(crate) fn check(
     declared: &Declarations,
     schema: &Schema,

@@ -26,7 +26,6 @@ pub enum Answer {
     Known(Value),
     /// No source gives one but the user: tell it, or that it is not known, and ask again.
     Ask(Question),
-    /// All sources were asked, and none gives a value.
     NotKnown,
 }
 
@@ -116,7 +115,6 @@ impl KnowledgeBase {
         asked
     }
 
-    /// What a rule needs for some objects of its first clause.
     fn spread(
         &self,
         rule: &Rule,

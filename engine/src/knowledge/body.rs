@@ -67,7 +67,6 @@ impl KnowledgeBase {
         }
     }
 
-    /// Runs a body; what it asks for, or why it failed.
     pub(super) fn body(
         &self,
         number: usize,
@@ -110,7 +109,6 @@ impl KnowledgeBase {
         edits.collect()
     }
 
-    /// For each variable the known properties that the body looks at.
     fn known(
         &self,
         rule: &Rule,

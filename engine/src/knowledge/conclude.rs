@@ -108,7 +108,6 @@ impl KnowledgeBase {
         self.unreported.absorb(changes);
     }
 
-    /// What an inference changed; the agenda takes note of it.
     pub(super) fn noted(&mut self, run: &Run) -> Changes {
         let changes = self.changes(run);
         self.agenda.note(&changes);

@@ -81,7 +81,6 @@ pub struct Consultation {
     inputs: Vec<String>,
     outputs: Vec<PropertyName>,
     direct: Option<Direct>,
-    /// The values asked for, of the last object.
     answers: Vec<Cell>,
     /// The last object, as far as the knowledge base was not told of it.
     untold: Option<Vec<Cell>>,
@@ -213,7 +212,6 @@ impl Consultation {
         Direct::of(&self.base, &self.rules, &self.class, &self.inputs, &self.outputs)
     }
 
-    /// Tells the knowledge base of the last object.
     fn infer(&mut self) {
         let Some(object) = self.untold.take() else { return };
         for (name, cell) in self.inputs.iter().zip(&object) {

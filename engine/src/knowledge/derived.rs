@@ -37,7 +37,6 @@ pub(crate) struct Derived {
 }
 
 impl Derived {
-    /// The rules that conclude it, by number.
     pub(crate) fn rules(&self) -> Vec<usize> {
         self.writers.iter().map(|writer| writer.rule).collect()
     }

@@ -6,7 +6,6 @@ use super::pending::Pending;
 use crate::class::Table;
 use crate::column::Column;
 
-/// What changed from one table to another of the same class.
 pub(super) fn difference(old: &Table, new: &Table) -> Pending {
     let kinds = |table: &Table| table.columns.iter().map(Column::kind).collect::<Vec<_>>();
     if old.names != new.names || old.key != new.key || kinds(old) != kinds(new) {

@@ -53,7 +53,6 @@ impl KnowledgeBase {
         read.chain(rule.sets.keys().map(|name| self.told_column(name).map(Column::kind))).collect()
     }
 
-    /// What a rule gives for some objects of its first clause.
     pub(super) fn evaluate(
         &self,
         until: Instant,

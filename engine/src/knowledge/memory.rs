@@ -86,7 +86,6 @@ impl Memory {
         if self.shape == Shape::Single { self.statuses.len() } else { self.ways.len() }
     }
 
-    /// The row that a clause is bound to in a firing.
     pub(crate) fn witness(&self, clause: usize, firing: usize) -> u32 {
         if clause == 0 && self.shape == Shape::Single {
             return firing as u32;
@@ -99,7 +98,6 @@ impl Memory {
         given.is_written(firing).then(|| given.values.cell(firing))
     }
 
-    /// Whether a firing sets the object with its own number.
     pub(crate) fn sets_own(&self, given: &Given) -> bool {
         self.shape == Shape::Single && given.variable == 0
     }
@@ -174,7 +172,6 @@ impl Memory {
         touched
     }
 
-    /// What came of each object of the first clause.
     fn note(&mut self, drivers: &Dirty, output: &Output) {
         let set = |statuses: &mut Vec<Status>, row: u32, status: Status| {
             if let Some(place) = statuses.get_mut(row as usize) {

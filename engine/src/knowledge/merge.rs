@@ -249,7 +249,6 @@ impl KnowledgeBase {
         changed
     }
 
-    /// The value of one object, and where it comes from.
     pub(super) fn resolve(
         &self,
         name: &PropertyName,

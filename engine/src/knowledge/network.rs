@@ -20,7 +20,6 @@ pub(super) struct Node {
     pub(super) memory: Option<Memory>,
 }
 
-/// A plan and the types that it was made for.
 #[derive(Clone, Debug)]
 pub(super) struct Planned {
     pub(super) plan: Plan,

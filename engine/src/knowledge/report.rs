@@ -150,7 +150,6 @@ impl KnowledgeBase {
         derived.disputes.iter().map(conflict).collect()
     }
 
-    /// The objects without a value of a property that rules conclude.
     fn gap(&self, base: &RuleBase, name: &PropertyName, derived: &Derived) -> Option<Gap> {
         let column = derived.stages.last()?;
         let rows: Vec<u32> =

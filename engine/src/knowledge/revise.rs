@@ -81,7 +81,6 @@ impl KnowledgeBase {
         claims.into_iter().map(|(cell, firing)| (number(cell), firing)).collect()
     }
 
-    /// The order of two objects by their keys, then by their rows.
     fn order_of(&self, class: &str, a: u32, b: u32) -> Ordering {
         let Some(held) = self.held.get(class).filter(|_| a != NO_ROW && b != NO_ROW) else {
             return a.cmp(&b);

@@ -14,13 +14,11 @@ pub(super) enum Done {
     Class,
     /// A property was added, the last one.
     Property,
-    /// A value was told where this was.
     Value {
         row: usize,
         property: usize,
         before: Cell,
     },
-    /// An object was added, the last one.
     Object,
     /// An object with these values was removed.
     Gone {
@@ -101,7 +99,6 @@ impl Done {
     }
 }
 
-/// What an edit of an `on` rule does.
 #[derive(Clone, Debug)]
 pub(super) enum Edit {
     /// Tells a value; `None` takes back what was told.
@@ -122,7 +119,6 @@ pub(super) enum Edit {
 }
 
 impl KnowledgeBase {
-    /// Does one edit, and writes down how to take it back.
     pub(super) fn edit(&mut self, edit: &Edit, undo: &mut Undo) -> Result<(), super::facts::FactError> {
         match edit {
             Edit::Value { class, row, property, value } => {

@@ -84,7 +84,6 @@ impl Machine<'_> {
     }
 }
 
-/// The bindings, of those that count, for which the condition is that.
 fn when(condition: &Lane<Truth>, wanted: Truth, len: usize, mask: Mask) -> Vec<bool> {
     let mut chosen: Vec<bool> = match condition {
         Lane::Same(truth) => vec![*truth == wanted; len],
@@ -127,7 +126,6 @@ impl Machine<'_> {
 }
 
 impl Slots {
-    /// Takes over what a branch wrote for some bindings.
     fn scatter(&mut self, slot: usize, values: &Values, written: &Written, taken: &[u32], len: usize) {
         let from: Vec<bool> = match written {
             Written::Nowhere => return,

@@ -24,12 +24,10 @@ pub(crate) struct Batch<'b> {
 }
 
 impl Machine<'_> {
-    /// What a node gives for each binding, outside of an action.
     pub(crate) fn values<'b>(&'b self, node: &Node, frame: &'b Frame) -> Values<'b> {
         self.evaluate(node, Batch { frame, slots: &[], mask: None })
     }
 
-    /// What a clause's joins look for, for each binding.
     pub(crate) fn keys<'b>(&'b self, clause: &ClausePlan, frame: &'b Frame) -> Vec<Values<'b>> {
         clause.joins.iter().map(|join| self.values(&join.key, frame)).collect()
     }

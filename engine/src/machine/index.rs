@@ -128,7 +128,6 @@ impl Index {
         true
     }
 
-    /// Takes out a row that was taken in with these values.
     pub(crate) fn remove(&mut self, row: u32, values: impl Iterator<Item = Cell>) {
         let Some(group) = self.find(values) else { return };
         let span = &mut self.spans[group as usize];

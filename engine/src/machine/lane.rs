@@ -37,7 +37,6 @@ impl<T: Copy> Lane<'_, T> {
         }
     }
 
-    /// Adds the values of a batch to those of others.
     pub(crate) fn extend(&self, out: &mut Vec<T>, len: usize) {
         match self {
             Self::Same(value) => out.resize(out.len() + len, *value),
@@ -251,7 +250,6 @@ fn truth_cell(truth: Truth) -> Cell {
     truth.known().map_or(Cell::Unknown, Cell::Truth)
 }
 
-/// The rows that a variable is bound to in a batch.
 #[derive(Clone, Debug)]
 pub(crate) enum Rows {
     /// Not bound: all its properties are unknown.
@@ -323,7 +321,6 @@ impl Frame {
         Self { len: rows.len(), rows: bound }
     }
 
-    /// The bindings with these numbers, in this order.
     pub(crate) fn select(&self, chosen: &[u32]) -> Self {
         Self { len: chosen.len(), rows: self.rows.iter().map(|rows| rows.select(chosen)).collect() }
     }
@@ -350,7 +347,6 @@ impl Frame {
         next
     }
 
-    /// One binding, repeated.
     pub(crate) fn repeat(&self, index: usize, len: usize) -> Self {
         let rows = self.rows.iter().map(|rows| match rows {
             Rows::Unbound => Rows::Unbound,

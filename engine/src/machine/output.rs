@@ -120,7 +120,6 @@ impl Given {
         self.written.get(firing) == Some(&true)
     }
 
-    /// What some of the firings give, in this order.
     pub(crate) fn select(&self, firings: &[usize]) -> Self {
         let mut values = self.values.empty();
         for &firing in firings {

@@ -29,7 +29,6 @@ pub(crate) enum Drivers<'d> {
 pub(crate) struct Search<'s> {
     pub(crate) machine: &'s Machine<'s>,
     pub(crate) plan: &'s Plan,
-    /// The clauses in the order in which they are gone through.
     clauses: &'s [ClausePlan],
     /// For each of them, but for the one that drives.
     candidates: Vec<Option<&'s Candidates>>,
@@ -220,7 +219,6 @@ impl<'s> Search<'s> {
         self.filtered(number, clause.after.as_ref(), frame.kept(&passing))
     }
 
-    /// Every candidate that passes, for every binding.
     fn each(&mut self, number: usize, clause: &'s ClausePlan, frame: &Frame) -> Result<(), Stopped> {
         let candidates = self.candidates(number);
         if candidates.index.is_some() {
@@ -280,7 +278,6 @@ impl<'s> Search<'s> {
         (0..frame.len).map(|binding| index.rows(keys.iter().map(|key| key.cell(binding)))).collect()
     }
 
-    /// The candidates of a clause, which are made before a search.
     pub(crate) fn candidates(&self, number: usize) -> &'s Candidates {
         static NONE: Candidates = Candidates::NONE;
         self.candidates.get(number).copied().flatten().unwrap_or(&NONE)
@@ -368,7 +365,6 @@ impl<'s> Search<'s> {
     }
 }
 
-/// Each binding with each of its rows.
 pub(super) fn pairs<'r, I: Iterator<Item = &'r u32>>(
     frame: &Frame,
     rows: impl Fn(usize) -> I,

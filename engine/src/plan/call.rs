@@ -8,7 +8,6 @@ use crate::diagnostic::Code;
 use crate::value::Type;
 
 impl Lowering<'_> {
-    /// A call by name; operators are calls too.
     pub(crate) fn call(
         &mut self,
         name: &str,

@@ -26,7 +26,6 @@ pub(crate) struct ClausePlan {
     pub(crate) joins: Vec<Join>,
     /// The part of `where` that looks at this clause's object alone.
     pub(crate) own: Option<Node>,
-    /// The part of `where` that looks at others too.
     pub(crate) test: Option<Node>,
     /// What must be true once an object is bound, whichever was chosen.
     pub(crate) after: Option<Node>,

@@ -19,7 +19,6 @@ use crate::value::{Cell, Truth, Type};
 /// A node and the type that it gives; `None` is a type that only running tells.
 pub(crate) type Typed = (Node, Option<Type>);
 
-/// Why an expression has no typed node.
 #[derive(Debug)]
 pub(crate) enum Stop {
     /// It is not among what is compiled; the interpreter can run it.

@@ -84,7 +84,6 @@ pub(crate) enum Node {
 }
 
 impl Node {
-    /// Looks at it and at all nodes in it.
     pub(crate) fn walk(&self, look: &mut dyn FnMut(&Self)) {
         look(self);
         match self {

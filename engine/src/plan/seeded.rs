@@ -6,7 +6,6 @@ use super::node::{Comparison, Node};
 use crate::script::syntax::Quantifier;
 use crate::value::Truth;
 
-/// A part of a condition, with the clause that asks it.
 struct Part {
     node: Node,
     clause: usize,

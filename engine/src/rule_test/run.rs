@@ -21,7 +21,6 @@ struct Run<'t> {
     failures: Vec<TestFailure>,
 }
 
-/// Tells the facts, concludes, compares, and goes on so with each edit.
 pub(super) fn run(
     file: &TestFile,
     test: &Test,
@@ -117,7 +116,6 @@ impl Run<'_> {
         });
     }
 
-    /// Where a value comes from, or why there is none.
     fn why(&self, fact: &Fact, known: bool, conclusions: &Conclusions) -> String {
         let (class, key, property) = (&fact.class.value, &fact.key.value, &fact.property.value);
         if self.knowledge.row(class, key).is_none() {

@@ -42,7 +42,6 @@ impl Reader<'_> {
         Some(table)
     }
 
-    /// Reports every key that is not among these.
     pub(super) fn refuse_others(&mut self, table: &DeTable<'_>, what: &str, known: &[&str]) {
         for key in table.keys().filter(|key| !known.contains(&&**key.get_ref())) {
             let place = self.source.place_of(&key.span());

@@ -38,7 +38,6 @@ fn on_step() -> Option<Dynamic> {
     late.then(|| "longer than a rule may take".into())
 }
 
-/// For reading files: knows the rule syntax.
 pub(crate) fn reader() -> &'static Engine {
     static READER: OnceLock<Engine> = OnceLock::new();
     READER.get_or_init(|| {
@@ -60,14 +59,12 @@ pub(crate) fn runner() -> &'static Engine {
     })
 }
 
-/// All functions as rhai describes them.
 fn functions() -> Vec<serde_json::Value> {
     let json = runner().gen_fn_metadata_to_json(true).unwrap_or_default();
     let mut listed: serde_json::Value = serde_json::from_str(&json).unwrap_or_default();
     serde_json::from_value(listed["functions"].take()).unwrap_or_default()
 }
 
-/// The names of all functions that rules may call.
 pub(crate) fn function_names() -> &'static BTreeSet<String> {
     static NAMES: OnceLock<BTreeSet<String>> = OnceLock::new();
     NAMES.get_or_init(|| {

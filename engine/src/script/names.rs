@@ -200,7 +200,6 @@ fn skip(target: &Expr, done: &mut Vec<*const Expr>) {
     }
 }
 
-/// Goes through all statements and expressions of a block.
 pub(crate) fn walk(block: &StmtBlock, look: &mut dyn FnMut(&[ASTNode])) {
     for stmt in block.statements() {
         stmt.walk(&mut vec![], &mut |path| {
@@ -210,7 +209,6 @@ pub(crate) fn walk(block: &StmtBlock, look: &mut dyn FnMut(&[ASTNode])) {
     }
 }
 
-/// The names that a block declares anywhere in it.
 fn declared(block: &StmtBlock) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     walk(block, &mut |path| match path.last() {

@@ -4,7 +4,6 @@ use rhai::{Expr, Stmt, StmtBlock};
 
 type Change<'f> = &'f mut dyn FnMut(&mut Expr);
 
-/// Changes an expression, then all inside it.
 pub(super) fn expr_mut(expr: &mut Expr, change: Change) {
     change(expr);
     match expr {

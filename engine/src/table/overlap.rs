@@ -52,7 +52,6 @@ impl Space {
         self.work.get() < MAX_WORK
     }
 
-    /// An input that both rows match, as it reads.
     pub(crate) fn both(&self, table: &Table, a: usize, b: usize) -> Option<String> {
         if !self.meet(&self.rows[a], b) {
             return None;

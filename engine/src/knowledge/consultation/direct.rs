@@ -135,7 +135,6 @@ impl Direct {
     }
 }
 
-/// Which of a rule's claims is about this property.
 fn claim(base: &KnowledgeBase, rule: usize, name: &PropertyName) -> Option<usize> {
     match &base.network.nodes[rule].planned.as_ref()?.plan.effect {
         Effect::Conclude { then, .. } => then.targets.iter().position(|target| target.name == *name),

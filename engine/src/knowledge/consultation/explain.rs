@@ -101,7 +101,6 @@ fn of_rule(rule: &Rule, plan: &Plan, object: &Object) -> Vec<Considered> {
     .collect()
 }
 
-/// For each row what kept it from speaking.
 fn rows(table: &Table, inputs: &[Cell], symbols: &RefCell<Symbols>) -> Vec<Option<Miss>> {
     let symbols = symbols.borrow();
     let miss = |(row, column): (&crate::table::Row, Option<usize>)| {

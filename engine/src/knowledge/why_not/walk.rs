@@ -154,7 +154,6 @@ impl Walk<'_> {
         passing
     }
 
-    /// Rejects those that pass, and are not taken.
     fn losers(&mut self, number: usize, frame: &Frame, passing: &[u32], winner: u32) {
         let clause = &self.machine.rule.clauses[number];
         let key = self.key(clause, winner);
@@ -180,7 +179,6 @@ impl Walk<'_> {
         }
     }
 
-    /// Rejects those that pass, and do not have what `all` asks.
     fn without(&mut self, number: usize, frame: &Frame, passing: &[u32]) {
         let clause = &self.machine.rule.clauses[number];
         let (Some(have), Some(asked)) = (self.plan.clauses[number].have.clone(), &clause.have) else {
@@ -285,7 +283,6 @@ fn bound(frame: &Frame, number: usize, rows: Rows) -> Frame {
     next
 }
 
-/// A binding once with each of these objects.
 fn of_objects(frame: &Frame, number: usize, rows: &[u32]) -> Frame {
     bound(&frame.repeat(0, rows.len()), number, Rows::Each(rows.to_vec()))
 }

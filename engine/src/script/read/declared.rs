@@ -10,7 +10,6 @@ use crate::declared::{Link, Source};
 use crate::rule::FileScope;
 use crate::script::syntax::Slot;
 
-/// `class NAME of PARENT where CONDITION`
 pub(super) fn class(item: &Item, written: String, file: &Arc<FileScope>) -> Option<ClassItem> {
     let (name, position) = item.name()?;
     let (parent, parent_position) = item.text(Slot::Parent)?;
@@ -25,7 +24,6 @@ pub(super) fn class(item: &Item, written: String, file: &Arc<FileScope>) -> Opti
     })
 }
 
-/// `property CLASS.NAME names ... from ...`
 pub(super) fn property(item: &Item, written: &str, file: &Arc<FileScope>) -> Option<PropertyItem> {
     let (class, class_position) = item.name()?;
     let (property, position) = item.text(Slot::Declared)?;

@@ -5,7 +5,6 @@ use rhai::{CustomExpr, Expr, Position};
 use crate::script::source::SourceFile;
 use crate::script::syntax::{Shape, Slot, Word};
 
-/// An item as the inputs of its custom syntax.
 pub(super) struct Item<'a> {
     pub(super) inputs: Vec<(Slot, &'a Expr)>,
 }
@@ -22,7 +21,6 @@ impl Item<'_> {
         text(self.inputs.first()?.1)
     }
 
-    /// The first input of a kind.
     pub(super) fn input(&self, wanted: Slot) -> Option<&Expr> {
         self.inputs.iter().find(|(slot, _)| *slot == wanted).map(|(_, input)| *input)
     }

@@ -1,6 +1,5 @@
 //! What a clause asks of the objects of its class.
 
-/// What a clause asks of the objects of its class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Quantifier {
     Each,

@@ -22,7 +22,6 @@ pub(crate) enum Slot {
     /// Where a property links to: class and key.
     LinkClass,
     LinkKey,
-    /// Where a property comes from.
     Source,
     Ask,
     Default,

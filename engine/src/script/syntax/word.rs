@@ -4,7 +4,6 @@ use std::cell::RefCell;
 
 use rhai::{Engine, Token};
 
-/// A word that begins an item of a rule file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Word {
     Rule,
