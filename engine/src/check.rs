@@ -5,13 +5,12 @@ mod told;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::order::Step;
 use crate::plan::{Key, Kind, Kinds, plan};
 use crate::rule::{Action, PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::schema::Schema;
-use crate::suggest::nearest;
 use crate::symbols::Symbols;
 use crate::told::NamesTold;
 use crate::value::Type;
@@ -103,16 +102,8 @@ fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTo
         .filter(|clause| !schema.has(&clause.class) && !told.classes.contains_key(clause.class.as_str()))
         .filter(|clause| named.insert(&clause.class))
         .map(|clause| {
-            rule.file
-                .error(
-                    Code::UnknownClass,
-                    clause.class_position,
-                    format!("there is no class {}", clause.class),
-                )
-                .did_you_mean(nearest(
-                    &clause.class,
-                    schema.classes().chain(told.classes.keys().copied()).chain(declared()),
-                ))
+            let others = schema.classes().chain(told.classes.keys().copied()).chain(declared());
+            rule.file.unknown_class(clause.class_position, &clause.class, others)
         })
         .collect()
 }

@@ -110,6 +110,33 @@ impl Class {
         self
     }
 
+    /// Adds a property that holds this type; a value of another type is unknown.
+    #[must_use]
+    pub fn values(
+        self,
+        property: impl Into<String>,
+        kind: Type,
+        values: impl IntoIterator<Item = Option<Value>>,
+    ) -> Self {
+        let values = values.into_iter();
+        match kind {
+            Type::Number => self.numbers(
+                property,
+                values.map(|value| if let Some(Value::Number(number)) = value { Some(number) } else { None }),
+            ),
+            Type::Text => self.texts(
+                property,
+                values.map(
+                    |value| if let Some(Value::Text(text)) = value { Some(text.to_string()) } else { None },
+                ),
+            ),
+            Type::Truth => self.truths(
+                property,
+                values.map(|value| if let Some(Value::Truth(truth)) = value { Some(truth) } else { None }),
+            ),
+        }
+    }
+
     /// Declares that `None` of this property is not unknown but this value: a height without limit.
     #[must_use]
     pub fn null_means(mut self, property: impl Into<String>, value: impl Into<Value>) -> Self {

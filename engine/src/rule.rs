@@ -10,8 +10,9 @@ use rhai::{Expr, Module, Position, Shared, StmtBlock};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::script::source::SourceFile;
 use crate::script::syntax::Quantifier;
+use crate::suggest::nearest;
 use crate::table::Table;
-use crate::value::Cell;
+use crate::value::Value;
 
 /// A property of a class, as rules name it: `DOORS.hardness`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -184,7 +185,7 @@ pub(crate) struct Setting {
 #[derive(Clone, Debug)]
 pub(crate) struct FileScope {
     pub(crate) source: SourceFile,
-    pub(crate) constants: BTreeMap<String, Constant>,
+    pub(crate) constants: BTreeMap<String, Value>,
     pub(crate) functions: Shared<Module>,
     pub(crate) function_names: BTreeSet<(String, usize)>,
     /// What its functions tell, for the reactions that call them.
@@ -195,12 +196,28 @@ impl FileScope {
     pub(crate) fn error(&self, code: Code, position: Position, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(code, &self.source.place(position), message)
     }
-}
 
-#[derive(Clone, Debug)]
-pub(crate) enum Constant {
-    Cell(Cell),
-    Text(String),
+    /// The help names the nearest of the others, where one is near.
+    pub(crate) fn unknown_class<'n>(
+        &self,
+        position: Position,
+        class: &str,
+        others: impl Iterator<Item = &'n str>,
+    ) -> Diagnostic {
+        let message = format!("there is no class {class}");
+        self.error(Code::UnknownClass, position, message).did_you_mean(nearest(class, others))
+    }
+
+    /// As [`unknown_class`](Self::unknown_class).
+    pub(crate) fn unknown_property<'n>(
+        &self,
+        position: Position,
+        name: &PropertyName,
+        others: impl Iterator<Item = &'n str>,
+    ) -> Diagnostic {
+        let message = format!("{} has no property `{}`", name.class, name.property);
+        self.error(Code::UnknownProperty, position, message).did_you_mean(nearest(&name.property, others))
+    }
 }
 
 #[derive(Clone, Debug)]

@@ -6,8 +6,9 @@ pub(crate) mod region;
 
 use rhai::{Expr, Position};
 
+use crate::class::value;
 use crate::symbols::Symbols;
-use crate::value::{Cell, Type};
+use crate::value::{Cell, Value};
 
 /// Which rows of a table count where several match (DMN's hit policies).
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub(crate) enum Hit {
     Any,
     First,
     /// The one whose first output comes first in this list.
-    Priority(Vec<Literal>),
+    Priority(Vec<Value>),
     Collect(Fold),
 }
 
@@ -39,36 +40,9 @@ pub(crate) enum Fold {
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Literal {
-    Number(f64),
-    Text(String),
-    Truth(bool),
-}
-
-impl Literal {
-    pub(crate) const fn kind(&self) -> Type {
-        match self {
-            Self::Number(_) => Type::Number,
-            Self::Text(_) => Type::Text,
-            Self::Truth(_) => Type::Truth,
-        }
-    }
-}
-
-impl std::fmt::Display for Literal {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Number(number) => write!(out, "{number}"),
-            Self::Text(text) => write!(out, "\"{text}\""),
-            Self::Truth(truth) => write!(out, "{truth}"),
-        }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Test {
     Any,
-    OneOf(Vec<Literal>),
+    OneOf(Vec<Value>),
     Not(Box<Self>),
     Below(f64),
     AtMost(f64),
@@ -79,15 +53,15 @@ pub(crate) enum Test {
 }
 
 impl Test {
-    pub(crate) fn literals(&self) -> Vec<Literal> {
+    pub(crate) fn literals(&self) -> Vec<Value> {
         match self {
             Self::Any => vec![],
             Self::OneOf(literals) => literals.clone(),
             Self::Not(test) => test.literals(),
             Self::Below(number) | Self::AtMost(number) | Self::Above(number) | Self::AtLeast(number) => {
-                vec![Literal::Number(*number)]
+                vec![Value::Number(*number)]
             }
-            Self::Between(from, to) => vec![Literal::Number(*from), Literal::Number(*to)],
+            Self::Between(from, to) => vec![Value::Number(*from), Value::Number(*to)],
         }
     }
 
@@ -96,8 +70,8 @@ impl Test {
         matches!(self, Self::Any)
     }
 
-    pub(crate) fn passes(&self, value: &Literal) -> bool {
-        let number = |holds: &dyn Fn(f64) -> bool| matches!(value, Literal::Number(number) if holds(*number));
+    pub(crate) fn passes(&self, value: &Value) -> bool {
+        let number = |holds: &dyn Fn(f64) -> bool| matches!(value, Value::Number(number) if holds(*number));
         match self {
             Self::Any => true,
             Self::OneOf(literals) => literals.contains(value),
@@ -116,7 +90,7 @@ impl std::fmt::Display for Test {
         match self {
             Self::Any => out.write_str("any"),
             Self::OneOf(literals) => {
-                let literals: Vec<String> = literals.iter().map(ToString::to_string).collect();
+                let literals: Vec<String> = literals.iter().map(written).collect();
                 out.write_str(&literals.join(" or "))
             }
             Self::Not(test) => write!(out, "other than {test}"),
@@ -150,8 +124,8 @@ pub(crate) struct Table {
 impl Table {
     /// For each row the first cell whose input does not pass.
     pub(crate) fn misses(&self, inputs: &[Cell], symbols: &Symbols) -> Vec<Option<usize>> {
-        let known: Vec<Option<Literal>> = inputs.iter().map(|&cell| literal(cell, symbols)).collect();
-        let passes = |(test, _): &(Test, Position), found: &Option<Literal>| {
+        let known: Vec<Option<Value>> = inputs.iter().map(|&cell| value(cell, symbols)).collect();
+        let passes = |(test, _): &(Test, Position), found: &Option<Value>| {
             found.as_ref().map_or(test.asks_nothing(), |found| test.passes(found))
         };
         let miss = |row: &Row| row.tests.iter().zip(&known).position(|(test, found)| !passes(test, found));
@@ -172,25 +146,24 @@ impl Table {
     }
 }
 
-pub(crate) fn plain(expr: &Expr) -> Option<Literal> {
+pub(crate) fn plain(expr: &Expr) -> Option<Value> {
     Some(match expr {
-        Expr::IntegerConstant(number, _) => Literal::Number(*number as f64),
-        Expr::FloatConstant(number, _) => Literal::Number(**number),
-        Expr::BoolConstant(truth, _) => Literal::Truth(*truth),
-        Expr::StringConstant(text, _) => Literal::Text(text.to_string()),
+        Expr::IntegerConstant(number, _) => Value::Number(*number as f64),
+        Expr::FloatConstant(number, _) => Value::Number(**number),
+        Expr::BoolConstant(truth, _) => Value::Truth(*truth),
+        Expr::StringConstant(text, _) => Value::from(text.as_str()),
         Expr::FnCall(call, _) if call.name == "-" && call.args.len() == 1 => match plain(&call.args[0])? {
-            Literal::Number(number) => Literal::Number(-number),
+            Value::Number(number) => Value::Number(-number),
             _ => return None,
         },
         _ => return None,
     })
 }
 
-fn literal(cell: Cell, symbols: &Symbols) -> Option<Literal> {
-    match cell {
-        Cell::Unknown => None,
-        Cell::Number(number) => Some(Literal::Number(number)),
-        Cell::Text(symbol) => symbols.text(symbol).map(|text| Literal::Text(text.to_string())),
-        Cell::Truth(truth) => Some(Literal::Truth(truth)),
+/// A value as rules write it: a text in quotes.
+pub(crate) fn written(value: &Value) -> String {
+    match value {
+        Value::Text(text) => format!("\"{text}\""),
+        other => other.to_string(),
     }
 }

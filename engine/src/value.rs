@@ -3,6 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use rhai::{Dynamic, ImmutableString};
+
 use crate::symbols::{Symbol, Symbols};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize)]
@@ -31,6 +33,27 @@ pub enum Value {
     Number(f64),
     Text(#[serde(serialize_with = "as_str")] Arc<str>),
     Truth(bool),
+}
+
+impl Value {
+    pub(crate) const fn kind(&self) -> Type {
+        match self {
+            Self::Number(_) => Type::Number,
+            Self::Text(_) => Type::Text,
+            Self::Truth(_) => Type::Truth,
+        }
+    }
+}
+
+/// As scripts see it.
+impl From<&Value> for Dynamic {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Number(number) => (*number).into(),
+            Value::Text(text) => ImmutableString::from(&**text).into(),
+            Value::Truth(truth) => (*truth).into(),
+        }
+    }
 }
 
 fn as_str<S: serde::Serializer>(text: &str, out: S) -> Result<S::Ok, S::Error> {

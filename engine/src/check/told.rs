@@ -1,10 +1,9 @@
 //! Names that rules which react tell: new ones are allowed, but not those that look like a slip.
 
 use super::Declared;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
-use crate::suggest::nearest;
 use crate::told::NamesTold;
 
 /// A told class or property that nobody else has, beside one of nearly the same name that somebody has.
@@ -19,11 +18,8 @@ pub(super) fn slips<'r>(
         if known.schema.has(class) || ranged().any(|other| other == *class) {
             continue;
         }
-        if let Some(meant) = nearest(class, known.schema.classes().chain(ranged())) {
-            let message = format!("there is no class {class}");
-            let problem = rule.file.error(Code::UnknownClass, *position, message).did_you_mean(Some(meant));
-            problems.push((*rule, problem));
-        }
+        let others = known.schema.classes().chain(ranged());
+        problems.push((*rule, rule.file.unknown_class(*position, class, others)));
     }
     let read = |name: &PropertyName| base.rules.iter().any(|rule| rule.reads.contains_key(name));
     for (name, (rule, position)) in &told.properties {
@@ -38,12 +34,9 @@ pub(super) fn slips<'r>(
             .schema
             .properties(&name.class)
             .chain(concluded.chain(read).map(|other| other.property.as_str()));
-        if let Some(meant) = nearest(&name.property, others) {
-            let message = format!("{} has no property `{}`", name.class, name.property);
-            let problem =
-                rule.file.error(Code::UnknownProperty, *position, message).did_you_mean(Some(meant));
-            problems.push((*rule, problem));
-        }
+        problems.push((*rule, rule.file.unknown_property(*position, name, others)));
     }
+    // What is near to no other name is new.
+    problems.retain(|(_, problem)| problem.help.is_some());
     problems
 }

@@ -10,7 +10,6 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::{Effect, Kind, Kinds, plan};
 use crate::rule::{FileScope, PropertyName};
 use crate::schema::Schema;
-use crate::suggest::nearest;
 use crate::symbols::Symbols;
 use crate::value::Type;
 
@@ -111,8 +110,7 @@ fn unknown_class(
     schema: &Schema,
 ) -> Diagnostic {
     let names = schema.classes().chain(declared.classes.keys().map(String::as_str));
-    file.error(Code::UnknownClass, position, format!("there is no class {class}"))
-        .did_you_mean(nearest(class, names))
+    file.unknown_class(position, class, names)
 }
 
 fn unknown_property(
@@ -125,7 +123,5 @@ fn unknown_property(
         return None;
     }
     let there = kinds.properties(&name.class);
-    let message = format!("{} has no property `{}`", name.class, name.property);
-    let problem = file.error(Code::UnknownProperty, position, message);
-    Some(problem.did_you_mean(nearest(&name.property, there.iter().map(String::as_str))))
+    Some(file.unknown_property(position, name, there.iter().map(String::as_str)))
 }

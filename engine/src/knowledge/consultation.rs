@@ -96,11 +96,7 @@ impl Consultation {
     ) -> Result<Self, ClassError> {
         let mut object = Class::new(class, &[]);
         for &(name, kind) in inputs {
-            object = match kind {
-                Type::Number => object.numbers(name, [None]),
-                Type::Text => object.texts(name, [None::<&str>]),
-                Type::Truth => object.truths(name, [None]),
-            };
+            object = object.values(name, kind, [None]);
         }
         let mut base = KnowledgeBase::new();
         base.assert(object)?;

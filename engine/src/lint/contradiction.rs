@@ -3,11 +3,11 @@
 use rhai::{Expr, Position};
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Clause, Constant, FileScope, Rule};
+use crate::rule::{Clause, FileScope, Rule};
 use crate::script::names::property_of;
 use crate::table::region::regions;
-use crate::table::{Literal, Test, plain};
-use crate::value::Cell;
+use crate::table::{Test, plain};
+use crate::value::Value;
 
 /// What a condition asks of one property: the path, the test, the place.
 type Asked = (String, Test, Position);
@@ -80,21 +80,16 @@ fn collect(expr: &Expr, file: &FileScope, named: &dyn Fn(&Expr) -> Option<String
     }
 }
 
-fn literal(expr: &Expr, file: &FileScope) -> Option<Literal> {
+fn literal(expr: &Expr, file: &FileScope) -> Option<Value> {
     match expr {
-        Expr::Variable(name, ..) => match file.constants.get(name.1.as_str())? {
-            Constant::Text(text) => Some(Literal::Text(text.clone())),
-            Constant::Cell(Cell::Number(number)) => Some(Literal::Number(*number)),
-            Constant::Cell(Cell::Truth(truth)) => Some(Literal::Truth(*truth)),
-            Constant::Cell(_) => None,
-        },
+        Expr::Variable(name, ..) => file.constants.get(name.1.as_str()).cloned(),
         other => plain(other),
     }
 }
 
 /// `turned` is the value on the left: `3 < door.width`.
-fn test(operator: &str, value: Literal, turned: bool) -> Option<Test> {
-    let number = || if let Literal::Number(number) = value { Some(number) } else { None };
+fn test(operator: &str, value: Value, turned: bool) -> Option<Test> {
+    let number = || if let Value::Number(number) = value { Some(number) } else { None };
     Some(match (operator, turned) {
         ("==", _) => Test::OneOf(vec![value]),
         ("!=", _) => Test::Not(Box::new(Test::OneOf(vec![value]))),

@@ -1,10 +1,11 @@
 //! Runs what stays with the interpreter, binding by binding.
 
-use rhai::{Dynamic, EvalAltResult, ImmutableString, Map, Scope};
+use rhai::{Dynamic, EvalAltResult, Map, Scope};
 
 use super::Machine;
 use super::evaluate::Batch;
 use super::lane::Rows;
+use crate::class::value;
 use crate::diagnostic::Code;
 use crate::plan::action::Target;
 use crate::plan::fragment::{Fragment, Source};
@@ -130,15 +131,7 @@ impl Machine<'_> {
 
 /// A value as scripts see it; `None` is unknown.
 pub(crate) fn dynamic(cell: Cell, symbols: &Symbols) -> Option<Dynamic> {
-    Some(match cell {
-        Cell::Unknown => return None,
-        Cell::Number(number) => number.into(),
-        Cell::Truth(truth) => truth.into(),
-        Cell::Text(symbol) => {
-            let text: &str = symbols.text(symbol)?;
-            Dynamic::from(ImmutableString::from(text))
-        }
-    })
+    value(cell, symbols).map(|value| (&value).into())
 }
 
 /// What a script gave as a property can hold it; the name of its type if it cannot.

@@ -299,10 +299,7 @@ impl Rows {
             Self::Same(row) => Self::Same(*row),
             Self::From(first) => Self::each(chosen.iter().map(|&index| first + index).collect()),
             Self::Each(rows) => Self::each(chosen.iter().map(|&index| rows[index as usize]).collect()),
-            Self::Numbers(Lane::Same(number)) => Self::Numbers(Lane::Same(*number)),
-            Self::Numbers(Lane::Each(numbers)) => {
-                Self::Numbers(Lane::Each(chosen.iter().map(|&index| numbers[index as usize]).collect()))
-            }
+            Self::Numbers(numbers) => Self::Numbers(numbers.select(chosen)),
         }
     }
 }

@@ -4,17 +4,16 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use rhai::{AST, Dynamic, Expr, Position, Stmt, StmtBlock};
+use rhai::{AST, Expr, Position, Stmt, StmtBlock};
 
 use super::fragment::{Fragment, Object, Source};
 use super::kinds::{Kind, Kinds};
 use super::node::{Comparison, Node};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Clause, Constant, FileScope, PropertyName, Rule};
+use crate::rule::{Clause, FileScope, PropertyName, Rule};
 use crate::script::names::{Names, Patterns, property_of};
-use crate::suggest::nearest;
 use crate::symbols::{Symbol, Symbols};
-use crate::value::{Cell, Truth, Type};
+use crate::value::{Type, Value};
 
 /// A node and the type that it gives; `None` is a type that only running tells.
 pub(crate) type Typed = (Node, Option<Type>);
@@ -90,15 +89,8 @@ impl<'r> Lowering<'r> {
         self.variables.iter().position(|variable| variable == name)
     }
 
-    pub(crate) fn problem(
-        &mut self,
-        code: Code,
-        position: Position,
-        message: impl Into<String>,
-    ) -> &mut Diagnostic {
-        self.problems.push(self.file.error(code, position, message));
-        let last = self.problems.len() - 1;
-        &mut self.problems[last]
+    pub(crate) fn problem(&mut self, code: Code, position: Position, message: impl Into<String>) {
+        self.complain(self.file.error(code, position, message));
     }
 
     pub(crate) fn complain(&mut self, problem: Diagnostic) {
@@ -215,12 +207,7 @@ impl<'r> Lowering<'r> {
             return Ok((Node::Aggregate(clause), Some(Type::Number)));
         }
         if let Some(constant) = self.file.constants.get(name) {
-            return Ok(match constant {
-                Constant::Text(text) => (Node::Text(self.intern(text)), Some(Type::Text)),
-                Constant::Cell(Cell::Number(number)) => (Node::Number(*number), Some(Type::Number)),
-                Constant::Cell(Cell::Truth(truth)) => (Node::Truth(Truth::from(*truth)), Some(Type::Truth)),
-                Constant::Cell(_) => (Node::Unknown, None),
-            });
+            return Ok(self.literal(constant));
         }
         if let Some(own) = self.own {
             let variable = self.variables[own].clone();
@@ -244,10 +231,8 @@ impl<'r> Lowering<'r> {
         match self.kinds.kind(&name) {
             Kind::Missing => {
                 let known = self.kinds.properties(&name.class);
-                let meant = nearest(property, known.iter().map(String::as_str)).map(str::to_owned);
-                let message = format!("{} has no property `{property}`", name.class);
-                let problem = self.problem(Code::UnknownProperty, position, message);
-                *problem = problem.clone().did_you_mean(meant.as_deref());
+                let known = known.iter().map(String::as_str);
+                self.complain(self.file.unknown_property(position, &name, known));
                 Err(Stop::Wrong)
             }
             Kind::Holds(kind) => Ok((Node::Property { variable: index, column: self.column(name) }, kind)),
@@ -335,6 +320,15 @@ impl<'r> Lowering<'r> {
         Ok((Node::Compare(comparison, Box::new(a), Box::new(b)), Some(Type::Truth)))
     }
 
+    pub(super) fn literal(&self, value: &Value) -> Typed {
+        let node = match value {
+            Value::Number(number) => Node::Number(*number),
+            Value::Text(text) => Node::Text(self.intern(text)),
+            Value::Truth(truth) => Node::Truth((*truth).into()),
+        };
+        (node, Some(value.kind()))
+    }
+
     pub(crate) fn intern(&self, text: &str) -> Symbol {
         self.symbols.borrow_mut().intern(text)
     }
@@ -377,7 +371,7 @@ impl<'r> Lowering<'r> {
             object.properties.push((property.clone(), source));
         }
         let constants =
-            self.file.constants.iter().map(|(name, constant)| (name.clone(), dynamic(constant))).collect();
+            self.file.constants.iter().map(|(name, constant)| (name.clone(), constant.into())).collect();
         let locals = self
             .locals
             .iter()
@@ -411,15 +405,6 @@ impl<'r> Lowering<'r> {
 fn flat(parts: Vec<Node>) -> Vec<Node> {
     let inner = |part| if let Node::And(inner) = part { inner } else { vec![part] };
     parts.into_iter().flat_map(inner).collect()
-}
-
-fn dynamic(constant: &Constant) -> Dynamic {
-    match constant {
-        Constant::Text(text) => text.clone().into(),
-        Constant::Cell(Cell::Number(number)) => (*number).into(),
-        Constant::Cell(Cell::Truth(truth)) => (*truth).into(),
-        Constant::Cell(_) => Dynamic::UNIT,
-    }
 }
 
 fn compared(these: &str, those: &str) -> String {

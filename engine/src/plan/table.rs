@@ -7,8 +7,8 @@ use super::lower::{Lowering, Typed};
 use super::node::{Arithmetic, Comparison, Node};
 use crate::diagnostic::Code;
 use crate::rule::PropertyName;
-use crate::table::{Fold, Hit, Literal, Table, Test};
-use crate::value::{Truth, Type};
+use crate::table::{Fold, Hit, Table, Test};
+use crate::value::{Truth, Type, Value};
 
 pub(super) fn action(lowering: &mut Lowering, table: &Table) -> ActionPlan {
     let mut plan = ActionPlan::default();
@@ -156,12 +156,8 @@ fn node(lowering: &mut Lowering, test: &Test, value: &Node) -> Node {
     match test {
         Test::Any => Node::Truth(Truth::True),
         Test::OneOf(literals) => {
-            let equal = |literal: &Literal| {
-                let literal = match literal {
-                    Literal::Number(number) => Node::Number(*number),
-                    Literal::Text(text) => Node::Text(lowering.intern(text)),
-                    Literal::Truth(truth) => Node::Truth((*truth).into()),
-                };
+            let equal = |literal: &Value| {
+                let literal = lowering.literal(literal).0;
                 Node::Compare(Comparison::Equal, Box::new(value.clone()), Box::new(literal))
             };
             let mut equal: Vec<Node> = literals.iter().map(equal).collect();

@@ -65,11 +65,7 @@ impl<'s> Vocabulary<'s> {
         let mut class = Class::new(name, &key);
         for (property, kind) in &self.kinds[name] {
             let cells = objects.iter().map(|object| cell(object, property));
-            class = match kind {
-                Type::Number => class.numbers(property, cells.map(number)),
-                Type::Text => class.texts(property, cells.map(text)),
-                Type::Truth => class.truths(property, cells.map(truth)),
-            };
+            class = class.values(property, *kind, cells);
         }
         for (property, means) in self.schema.nulls(name) {
             if self.kinds[name].contains_key(property) {
@@ -134,12 +130,7 @@ impl<'s> Vocabulary<'s> {
     }
 
     fn learn_value(&mut self, file: &TestFile, class: &str, property: &str, value: &Located<Option<Value>>) {
-        let kind = match &value.value {
-            None => return,
-            Some(Value::Number(_)) => Type::Number,
-            Some(Value::Text(_)) => Type::Text,
-            Some(Value::Truth(_)) => Type::Truth,
-        };
+        let Some(kind) = value.value.as_ref().map(Value::kind) else { return };
         let properties = self.kinds.entry(class.to_owned()).or_default();
         let holds = *properties.entry(property.to_owned()).or_insert(kind);
         if holds != kind {
@@ -183,27 +174,6 @@ fn at<T>(file: &TestFile, code: Code, what: &Located<T>, message: String) -> Dia
     Diagnostic::error(code, &file.source.place_of(&what.span), message)
 }
 
-fn cell<'o>(object: &'o Object, property: &str) -> Option<&'o Value> {
-    object.cells.iter().find(|(name, _)| name.value == property)?.1.value.as_ref()
-}
-
-fn number(value: Option<&Value>) -> Option<f64> {
-    match value {
-        Some(Value::Number(number)) => Some(*number),
-        _ => None,
-    }
-}
-
-fn text(value: Option<&Value>) -> Option<String> {
-    match value {
-        Some(Value::Text(text)) => Some(text.to_string()),
-        _ => None,
-    }
-}
-
-fn truth(value: Option<&Value>) -> Option<bool> {
-    match value {
-        Some(Value::Truth(truth)) => Some(*truth),
-        _ => None,
-    }
+fn cell(object: &Object, property: &str) -> Option<Value> {
+    object.cells.iter().find(|(name, _)| name.value == property)?.1.value.clone()
 }

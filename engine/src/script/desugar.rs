@@ -221,13 +221,9 @@ fn shift(action: &mut Action, at: usize) {
 
 fn parts(condition: Expr) -> Vec<Expr> {
     match condition {
-        Expr::And(parts, _) => parts.into_iter().flat_map(parts_of).collect(),
+        Expr::And(joined, _) => joined.into_iter().flat_map(parts).collect(),
         other => vec![other],
     }
-}
-
-fn parts_of(part: Expr) -> Vec<Expr> {
-    parts(part)
 }
 
 fn all(mut parts: Vec<Expr>) -> Option<Expr> {

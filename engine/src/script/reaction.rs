@@ -4,32 +4,26 @@ use std::collections::BTreeSet;
 
 use rhai::{AST, ASTNode, Expr, FnCallExpr, Module, Position, Shared, Stmt, StmtBlock};
 
-use super::names::property_of;
+use super::names::{property_of, walk};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Action, Clause, FileScope, Reaction, Rule, Setting, Telling};
 use crate::suggest::nearest;
 
 pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
     let (mut tells, mut sets) = (vec![], vec![]);
-    for stmt in body.statements() {
-        stmt.walk(&mut vec![], &mut |path| {
-            match path.last() {
-                Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
-                    let sides = &assignment.1;
-                    if let Some((variable, property, position)) = property_of(&sides.lhs)
-                        && let Some(variable) = clauses
-                            .iter()
-                            .position(|clause| clause.quantifier.binds() && clause.variable == variable)
-                    {
-                        let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
-                        sets.push(Setting { variable, property: property.to_owned(), position, value });
-                    }
-                }
-                _ => tells.extend(call(path).and_then(telling)),
+    walk(&body, &mut |path| match path.last() {
+        Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
+            let sides = &assignment.1;
+            if let Some((variable, property, position)) = property_of(&sides.lhs)
+                && let Some(variable) =
+                    clauses.iter().position(|clause| clause.quantifier.binds() && clause.variable == variable)
+            {
+                let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
+                sets.push(Setting { variable, property: property.to_owned(), position, value });
             }
-            true
-        });
-    }
+        }
+        _ => tells.extend(call(path).and_then(telling)),
+    });
     Action::React(Box::new(Reaction { body, reads: BTreeSet::new(), tells, sets }))
 }
 
@@ -112,12 +106,7 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
             });
         }
     };
-    for stmt in reaction.body.statements() {
-        stmt.walk(&mut vec![], &mut |path| {
-            call(path).into_iter().for_each(&mut look);
-            true
-        });
-    }
+    walk(&reaction.body, &mut |path| call(path).into_iter().for_each(&mut look));
     problems
 }
 

@@ -15,8 +15,8 @@ use super::source::{MAX_FILE_BYTES, SourceFile};
 use super::syntax::{Word, start_file, starts_item};
 use crate::declared::build::{ClassItem, PropertyItem};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Constant, FileScope, Rule};
-use crate::value::Cell;
+use crate::rule::{FileScope, Rule};
+use crate::table::plain;
 
 /// A rule whose names are not looked up yet, with what its version rests on: its own text, and what is outside of
 /// all items of its file.
@@ -149,7 +149,7 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
         match stmt {
             Stmt::Noop(_) => {}
             Stmt::Expr(expr) if matches!(**expr, Expr::Custom(..)) => {}
-            Stmt::Var(var, flags, position) if flags.contains(ASTFlags::CONSTANT) => match constant(&var.1) {
+            Stmt::Var(var, flags, position) if flags.contains(ASTFlags::CONSTANT) => match plain(&var.1) {
                 Some(value) => {
                     constants.insert(var.0.name.to_string(), value);
                 }
@@ -178,16 +178,6 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
     let functions = ast.shared_lib().clone();
     let tells = told_by_functions(&functions);
     FileScope { source: source.clone(), constants, functions, function_names, tells }
-}
-
-fn constant(expr: &Expr) -> Option<Constant> {
-    Some(match expr {
-        Expr::IntegerConstant(number, _) => Constant::Cell(Cell::Number(*number as f64)),
-        Expr::FloatConstant(number, _) => Constant::Cell(Cell::number(**number)),
-        Expr::BoolConstant(truth, _) => Constant::Cell(Cell::Truth(*truth)),
-        Expr::StringConstant(text, _) => Constant::Text(text.to_string()),
-        _ => return None,
-    })
 }
 
 /// FNV-1a, 64 bits, folded to 32: eight hexadecimal digits.

@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use rhai::Position;
+use rhai::{Expr, Position};
 
 use super::names::{Names, Patterns, Use};
 use super::reaction;
 use super::syntax::Quantifier;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, Clause, PropertyName, Rule};
+use crate::rule::{Action, Clause, FileScope, PropertyName, Rule};
 use crate::suggest::nearest;
 
 /// Most clauses of a rule: sets of variables are the bits of a word.
@@ -101,10 +101,7 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
         }
         Action::Default { value, .. } => {
             if let Some(value) = value {
-                let mut of_object = Names::default();
-                of_object.expression(value, &Patterns(&[]), Some(0));
-                of_object.reads.retain(|(_, property), _| !rule.file.constants.contains_key(property));
-                merge(&mut names, of_object);
+                merge(&mut names, of_object(value, 0, &rule.file));
             }
         }
     }
@@ -112,13 +109,18 @@ fn names(rule: &Rule, variables: &[String]) -> Names {
     names
 }
 
+/// The names of an expression in which the properties of a clause's object stand bare.
+fn of_object(expr: &Expr, clause: usize, file: &FileScope) -> Names {
+    let mut names = Names::default();
+    names.expression(expr, &Patterns(&[]), Some(clause));
+    names.reads.retain(|(_, property), _| !file.constants.contains_key(property));
+    names
+}
+
 /// What is read to find the object, and to see that it is of the class that the rule names.
 fn of_class(names: &mut Names, clause: &Clause, index: usize) {
     for condition in &clause.conditions {
-        let mut of_object = Names::default();
-        of_object.expression(&condition.expr, &Patterns(&[]), Some(index));
-        of_object.reads.retain(|(_, property), _| !condition.file.constants.contains_key(property));
-        for (used, _) in of_object.reads {
+        for (used, _) in of_object(&condition.expr, index, &condition.file).reads {
             names.reads.entry(used).or_insert(clause.class_position);
         }
     }

@@ -34,10 +34,7 @@ impl SourceFile {
     }
 
     pub(crate) fn place_at(&self, offset: usize) -> Place {
-        let before = &self.text()[..offset];
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-        Place { source: self.clone(), span: (offset, token_len(&self.text()[offset..])), line, column }
+        self.place_of(&(offset..offset + token_len(&self.text()[offset..])))
     }
 
     /// The place of a token. The interpreter counts lines and characters from 1.
@@ -50,9 +47,7 @@ impl SourceFile {
         let offset = start + rest.char_indices().nth(column - 1).map_or(rest.len(), |(at, _)| at);
         Place { source: self.clone(), span: (offset, token_len(&text[offset..])), line, column }
     }
-}
 
-impl SourceFile {
     pub(crate) fn place_of(&self, bytes: &Range<usize>) -> Place {
         let text = self.text();
         let start = text.floor_char_boundary(bytes.start.min(text.len()));

@@ -1,24 +1,23 @@
 //! The finitely many regions into which the cells of a table cut the values of an input.
 
-use super::{Literal, Test};
-use crate::value::Type;
+use super::Test;
+use crate::value::{Type, Value};
 
 /// One region: all its values pass the same tests.
 #[derive(Clone, Debug)]
 pub(crate) struct Region {
-    example: Literal,
+    example: Value,
     /// How it reads after the input's name, as in `is below 3`; nothing if it is the only one.
     pub(crate) reads: String,
 }
 
 /// The regions of an input, by the tests in its column.
 pub(crate) fn regions<'t>(tests: impl Iterator<Item = &'t Test>) -> Vec<Region> {
-    let literals: Vec<Literal> = tests.flat_map(Test::literals).collect();
-    match literals.first().map(Literal::kind) {
-        None => vec![Region { example: Literal::Truth(true), reads: String::new() }],
+    let literals: Vec<Value> = tests.flat_map(Test::literals).collect();
+    match literals.first().map(Value::kind) {
+        None => vec![Region { example: Value::Truth(true), reads: String::new() }],
         Some(Type::Truth) => {
-            let region =
-                |truth: bool| Region { example: Literal::Truth(truth), reads: format!("is {truth}") };
+            let region = |truth: bool| Region { example: Value::Truth(truth), reads: format!("is {truth}") };
             vec![region(true), region(false)]
         }
         Some(Type::Text) => texts(&literals),
@@ -26,17 +25,16 @@ pub(crate) fn regions<'t>(tests: impl Iterator<Item = &'t Test>) -> Vec<Region> 
     }
 }
 
-fn texts(literals: &[Literal]) -> Vec<Region> {
+fn texts(literals: &[Value]) -> Vec<Region> {
     let mut texts: Vec<&str> = vec![];
     for literal in literals {
-        if let Literal::Text(text) = literal
-            && !texts.contains(&text.as_str())
+        if let Value::Text(text) = literal
+            && !texts.contains(&&**text)
         {
             texts.push(text);
         }
     }
-    let region =
-        |text: &&str| Region { example: Literal::Text((*text).to_owned()), reads: format!("is \"{text}\"") };
+    let region = |text: &&str| Region { example: Value::from(*text), reads: format!("is \"{text}\"") };
     let mut regions: Vec<Region> = texts.iter().map(region).collect();
     // A text that is longer than all of them is none of them.
     let longest = texts.iter().map(|text| text.len()).max().unwrap_or(0);
@@ -46,15 +44,15 @@ fn texts(literals: &[Literal]) -> Vec<Region> {
         [first, rest @ ..] => format!("is neither {first} nor {}", rest.join(" nor ")),
         [] => String::new(),
     };
-    regions.push(Region { example: Literal::Text("-".repeat(longest + 1)), reads });
+    regions.push(Region { example: Value::from("-".repeat(longest + 1).as_str()), reads });
     regions
 }
 
-fn numbers(literals: &[Literal]) -> Vec<Region> {
+fn numbers(literals: &[Value]) -> Vec<Region> {
     let mut limits: Vec<f64> = literals
         .iter()
         .filter_map(|literal| match literal {
-            Literal::Number(number) => Some(number + 0.0),
+            Value::Number(number) => Some(number + 0.0),
             _ => None,
         })
         .collect();
@@ -64,7 +62,7 @@ fn numbers(literals: &[Literal]) -> Vec<Region> {
     // Between neighbours, or beyond infinity, there is nothing.
     let mut add = |number: f64, is_there: bool, reads: String| {
         if is_there {
-            regions.push(Region { example: Literal::Number(number), reads });
+            regions.push(Region { example: Value::Number(number), reads });
         }
     };
     let mut before: Option<f64> = None;

@@ -4,12 +4,12 @@ use rhai::{Expr, Position};
 
 use super::item::Item;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, Clause, Constant, FileScope};
+use crate::rule::{Action, Clause, FileScope};
 use crate::script::names::property_of;
 use crate::script::syntax::Slot;
 use crate::suggest::nearest;
-use crate::table::{Fold, Hit, Literal, Row, Table, Test, plain};
-use crate::value::{Cell, Type};
+use crate::table::{Fold, Hit, Row, Table, Test, plain, written};
+use crate::value::{Type, Value};
 
 const MAX_ROWS: usize = 10_000;
 
@@ -193,16 +193,16 @@ impl Reader<'_> {
 
     fn number(&mut self, expr: &Expr) -> Option<f64> {
         match self.literal(expr)? {
-            Literal::Number(number) => Some(number),
+            Value::Number(number) => Some(number),
             other => {
-                let message = format!("a number belongs here, not {other}");
+                let message = format!("a number belongs here, not {}", written(&other));
                 self.wrong(expr.start_position(), message);
                 None
             }
         }
     }
 
-    fn literal(&mut self, expr: &Expr) -> Option<Literal> {
+    fn literal(&mut self, expr: &Expr) -> Option<Value> {
         if let Some(literal) = plain(expr) {
             return Some(literal);
         }
@@ -210,19 +210,15 @@ impl Reader<'_> {
             self.no_cell(expr, "");
             return None;
         };
-        match self.file.constants.get(name.1.as_str()) {
-            Some(Constant::Text(text)) => Some(Literal::Text(text.clone())),
-            Some(Constant::Cell(Cell::Number(number))) => Some(Literal::Number(*number)),
-            Some(Constant::Cell(Cell::Truth(truth))) => Some(Literal::Truth(*truth)),
-            _ => {
-                let names = self.file.constants.keys().map(String::as_str).chain(["any"]);
-                let meant = nearest(&name.1, names).map(str::to_owned);
-                let message = format!("nothing here is called `{}`", name.1);
-                let problem = self.file.error(Code::UnknownVariable, *position, message);
-                self.problems.push(problem.did_you_mean(meant.as_deref()));
-                None
-            }
+        if let Some(constant) = self.file.constants.get(name.1.as_str()) {
+            return Some(constant.clone());
         }
+        let names = self.file.constants.keys().map(String::as_str).chain(["any"]);
+        let meant = nearest(&name.1, names).map(str::to_owned);
+        let message = format!("nothing here is called `{}`", name.1);
+        let problem = self.file.error(Code::UnknownVariable, *position, message);
+        self.problems.push(problem.did_you_mean(meant.as_deref()));
+        None
     }
 
     fn no_cell(&mut self, expr: &Expr, name: &str) {
@@ -255,8 +251,9 @@ impl Reader<'_> {
                     let expected = *first.get_or_insert(literal.kind());
                     if literal.kind() != expected {
                         let message = format!(
-                            "{} stand in this column, and {literal} is none of them",
-                            expected.plural()
+                            "{} stand in this column, and {} is none of them",
+                            expected.plural(),
+                            written(&literal)
                         );
                         self.wrong(*position, message);
                         break;
@@ -272,7 +269,7 @@ impl Reader<'_> {
         for row in &table.rows {
             let first = &row.outputs[0];
             if plain(first).is_none_or(|value| !values.contains(&value)) {
-                let listed: Vec<String> = values.iter().map(Literal::to_string).collect();
+                let listed: Vec<String> = values.iter().map(written).collect();
                 let message = format!("the first output is one of {}", listed.join(", "));
                 self.wrong(first.start_position(), message);
             }
