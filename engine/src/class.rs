@@ -45,9 +45,9 @@ pub enum ClassError {
 
 #[derive(Clone, Debug)]
 enum Given {
-    Numbers(Vec<Option<f64>>),
+    Column(Column),
+    /// Their numbers are the knowledge base's to give.
     Texts(Vec<Option<String>>),
-    Truths(Vec<Option<bool>>),
 }
 
 /// A class under construction: its name, key, and a column for each property. `None` is unknown unless
@@ -85,7 +85,8 @@ impl Class {
         property: impl Into<String>,
         values: impl IntoIterator<Item = Option<f64>>,
     ) -> Self {
-        self.properties.push((property.into(), Given::Numbers(values.into_iter().collect())));
+        let values = values.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect();
+        self.properties.push((property.into(), Given::Column(Column::Numbers(values))));
         self
     }
 
@@ -106,7 +107,8 @@ impl Class {
         property: impl Into<String>,
         values: impl IntoIterator<Item = Option<bool>>,
     ) -> Self {
-        self.properties.push((property.into(), Given::Truths(values.into_iter().collect())));
+        let values = values.into_iter().map(|truth| truth.map_or(Truth::Unknown, Into::into)).collect();
+        self.properties.push((property.into(), Given::Column(Column::Truths(values))));
         self
     }
 
@@ -161,7 +163,14 @@ impl Table {
         let Class { name, key, properties, nulls } = class;
         let mut table = Self { name, key: vec![], names: vec![], columns: vec![], nulls: vec![], len: 0 };
         for (property, given) in properties {
-            let column = intern(given, symbols);
+            let column = match given {
+                Given::Column(column) => column,
+                Given::Texts(texts) => {
+                    let mut symbol =
+                        |text: Option<String>| text.map_or(Symbol::UNKNOWN, |text| symbols.intern(&text));
+                    Column::Texts(texts.into_iter().map(&mut symbol).collect())
+                }
+            };
             table.push(property, column)?;
         }
         if table.len > (u32::MAX - 1) as usize {
@@ -296,22 +305,5 @@ pub(crate) fn value(cell: Cell, symbols: &Symbols) -> Option<Value> {
         Cell::Number(number) => Some(Value::Number(number)),
         Cell::Text(symbol) => symbols.text(symbol).map(|text| Value::Text(text.clone())),
         Cell::Truth(truth) => Some(Value::Truth(truth)),
-    }
-}
-
-fn intern(given: Given, symbols: &mut Symbols) -> Column {
-    match given {
-        Given::Numbers(values) => {
-            Column::Numbers(values.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect())
-        }
-        Given::Texts(values) => Column::Texts(
-            values
-                .into_iter()
-                .map(|text| text.map_or(Symbol::UNKNOWN, |text| symbols.intern(&text)))
-                .collect(),
-        ),
-        Given::Truths(values) => {
-            Column::Truths(values.into_iter().map(|truth| truth.map_or(Truth::Unknown, Into::into)).collect())
-        }
     }
 }

@@ -118,7 +118,8 @@ impl KnowledgeBase {
         let mut schema = Schema::default();
         for (name, Held { table, .. }) in &self.held {
             let key: Vec<&str> = table.key.iter().map(|&column| table.names[column].as_str()).collect();
-            schema = schema.class(name, &[]).key(name, &key);
+            schema = schema.class(name, &[]);
+            schema.set_key(name, &key);
             for (property, column) in table.names.iter().zip(&table.columns) {
                 schema.add(name, property, column.kind());
             }

@@ -237,6 +237,29 @@ pub struct Rule {
 }
 
 impl Rule {
+    /// A rule whose names are not looked up yet.
+    pub(crate) fn new(
+        name: String,
+        position: Position,
+        clauses: Vec<Clause>,
+        action: Action,
+        file: &Arc<FileScope>,
+    ) -> Self {
+        Self {
+            name,
+            position,
+            line: file.source.place(position).line,
+            version: String::new(),
+            priority: 0,
+            clauses,
+            action,
+            reads: BTreeMap::new(),
+            sets: BTreeMap::new(),
+            hypothesis: None,
+            file: Arc::clone(file),
+        }
+    }
+
     pub fn name(&self) -> &str {
         &self.name
     }

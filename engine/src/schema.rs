@@ -21,12 +21,7 @@ impl Schema {
         self
     }
 
-    #[must_use]
-    pub fn key(mut self, class: &str, key: &[&str]) -> Self {
-        self.set_key(class, key);
-        self
-    }
-
+    /// Says what tells the objects of a class apart.
     pub fn set_key(&mut self, class: &str, key: &[&str]) {
         self.keys.insert(class.to_owned(), key.iter().map(ToString::to_string).collect());
     }

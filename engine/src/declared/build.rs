@@ -181,19 +181,8 @@ pub(super) fn object_rule(
     if let Some(subclass) = declared.classes.get(class) {
         clause.conditions.clone_from(&subclass.conditions);
     }
-    Rule {
-        name: format!("class {class}"),
-        position,
-        line: file.source.place(position).line,
-        version: String::new(),
-        priority: 0,
-        clauses: vec![clause],
-        action: Action::Default { property: String::new(), value: None, position },
-        reads: BTreeMap::new(),
-        sets: BTreeMap::new(),
-        hypothesis: None,
-        file: Arc::clone(file),
-    }
+    let action = Action::Default { property: String::new(), value: None, position };
+    Rule::new(format!("class {class}"), position, vec![clause], action, file)
 }
 
 /// A condition or default speaks of the object's own properties by their bare names.

@@ -11,7 +11,6 @@ use super::memory::{Memory, Shape};
 use super::network::Planned;
 use crate::changes::Changes;
 use crate::declared::{Declaration, Source};
-use crate::machine::candidates::Candidates;
 use crate::machine::lane::Frame;
 use crate::machine::output::{Buffer, Status};
 use crate::order::Step;
@@ -172,8 +171,7 @@ impl KnowledgeBase {
         }
         let machine = self.machine(rule, &planned.plan, until);
         if memory.candidates[number].is_none() {
-            let size = self.len(&rule.clauses[number].class).unwrap_or(0);
-            memory.candidates[number] = Candidates::of(&machine, &planned.plan, number, size).ok();
+            memory.candidates[number] = self.candidates(&machine, &planned.plan, number);
         }
         let Some(index) = memory.candidates[number].as_ref().and_then(|found| found.index.as_ref()) else {
             return Dirty::All;

@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use super::KnowledgeBase;
 use crate::machine::Machine;
-use crate::machine::candidates::Candidates;
 use crate::machine::lane::Frame;
 use crate::plan::Plan;
 use crate::plan::clause::ClausePlan;
@@ -70,12 +69,11 @@ impl KnowledgeBase {
 
     fn dominated_in(&self, rule: &Rule, plan: &Plan, number: usize, until: Instant) -> Vec<Dominated> {
         let (clause, choice) = (&rule.clauses[number], &plan.clauses[number]);
-        let size = self.len(&clause.class).unwrap_or(0);
-        if !compares_alone(choice) || size > MOST_OBJECTS {
+        if !compares_alone(choice) || self.len(&clause.class) > Some(MOST_OBJECTS) {
             return vec![];
         }
         let machine = self.machine(rule, plan, until);
-        let Ok(candidates) = Candidates::of(&machine, plan, number, size) else { return vec![] };
+        let Some(candidates) = self.candidates(&machine, plan, number) else { return vec![] };
         let hurdles = hurdles(&machine, plan, number, &candidates.rows);
         let easier = |other: usize, one: usize| {
             hurdles.iter().all(|(comparison, cells)| at_least_as_easy(*comparison, cells[other], cells[one]))

@@ -89,12 +89,10 @@ impl KnowledgeBase {
         drivers: &Dirty,
     ) -> Output {
         let machine = self.machine(rule, plan, until);
-        for (number, clause) in rule.clauses.iter().enumerate() {
-            let needed = number > 0 || memory.shape == Shape::Whole;
-            if needed && memory.candidates[number].is_none() {
-                let size = self.len(&clause.class).unwrap_or(0);
+        for number in usize::from(memory.shape != Shape::Whole)..rule.clauses.len() {
+            if memory.candidates[number].is_none() {
                 // A search without candidates looks at the clock, too, and is stopped.
-                memory.candidates[number] = Candidates::of(&machine, plan, number, size).ok();
+                memory.candidates[number] = self.candidates(&machine, plan, number);
             }
         }
         let len = memory.statuses.len() as u32;
@@ -104,6 +102,12 @@ impl KnowledgeBase {
             _ => Drivers::Range(0, len),
         };
         search(&machine, plan, &memory.candidates, drivers)
+    }
+
+    /// The candidates of a clause; `None` where it takes too long to find them.
+    pub(super) fn candidates(&self, machine: &Machine, plan: &Plan, number: usize) -> Option<Candidates> {
+        let size = self.len(&machine.rule.clauses[number].class).unwrap_or(0);
+        Candidates::of(machine, plan, number, size).ok()
     }
 
     pub(super) fn machine<'m>(&'m self, rule: &'m Rule, plan: &Plan, until: Instant) -> Machine<'m> {

@@ -8,7 +8,6 @@ use super::derived::Derived;
 use super::merge::Source;
 use crate::conclusions::{Conclusions, Conflict, Gap, LeftOut, Reason, Waiting};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::machine::candidates::Candidates;
 use crate::machine::output::{Buffer, Status};
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
@@ -84,8 +83,7 @@ impl KnowledgeBase {
                 }
                 None => {
                     let machine = self.machine(rule, &planned.plan, until);
-                    let size = self.len(&clause.class).unwrap_or(0);
-                    Candidates::of(&machine, &planned.plan, at, size).map_or(0, |found| found.left_out)
+                    self.candidates(&machine, &planned.plan, at).map_or(0, |found| found.left_out)
                 }
             };
             if objects > 0 {

@@ -54,12 +54,11 @@ impl KnowledgeBase {
         let machine = self.machine(rule, &planned.plan, self.limits.end(self.limits.rule));
         let kept = |number: usize| node.memory.as_ref()?.candidates[number].as_ref();
         let made = |number: usize| {
-            let size = self.len(&rule.clauses[number].class).unwrap_or(0);
             let drives = number == 0 && rule.clauses[0].quantifier == Quantifier::Each;
             if drives || kept(number).is_some() {
                 None
             } else {
-                Candidates::of(&machine, &planned.plan, number, size).ok()
+                self.candidates(&machine, &planned.plan, number)
             }
         };
         let made: Vec<Option<Candidates>> = (0..rule.clauses.len()).map(made).collect();

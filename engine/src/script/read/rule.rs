@@ -1,6 +1,5 @@
 //! From an item's inputs to a rule.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rhai::{Expr, Position, StmtBlock};
@@ -20,19 +19,7 @@ pub(super) fn rule(item: &Item, file: &Arc<FileScope>, problems: &mut Vec<Diagno
     let action = action(item, &clauses, file, problems)?;
     let priority = priority(item, file, problems);
     let hypothesis = hypothesis(item, &clauses, file, problems);
-    Some(Rule {
-        name: name.to_owned(),
-        position,
-        line: file.source.place(position).line,
-        version: String::new(),
-        priority,
-        clauses,
-        action,
-        reads: BTreeMap::new(),
-        sets: BTreeMap::new(),
-        hypothesis,
-        file: Arc::clone(file),
-    })
+    Some(Rule { priority, hypothesis, ..Rule::new(name.to_owned(), position, clauses, action, file) })
 }
 
 fn priority(item: &Item, file: &FileScope, problems: &mut Vec<Diagnostic>) -> i64 {
