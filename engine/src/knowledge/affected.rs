@@ -15,6 +15,7 @@ use crate::machine::lane::{Frame, NO_ROW, Rows};
 use crate::machine::output::Status;
 use crate::machine::{BATCH, Machine};
 use crate::plan::clause::ClausePlan;
+use crate::plan::node::Node;
 use crate::rule::Rule;
 use crate::script::syntax::Quantifier;
 use crate::value::Truth;
@@ -125,187 +126,157 @@ impl KnowledgeBase {
             return Dirty::None;
         }
         let clause = &planned.plan.clauses[number];
-        let few = |dirty: &Dirty| !matches!(dirty, Dirty::All);
+        let many = [&change.read, &change.matching].contains(&&Dirty::All);
         // A hypothesis hangs on all that is unknown, too.
         let proves = planned.plan.hypothesis.is_some();
-        if memory.shape != Shape::Single
-            || !clause.quantifier.names()
-            || proves
-            || !few(&change.read)
-            || !few(&change.matching)
-        {
+        if memory.shape != Shape::Single || !clause.quantifier.names() || proves || many {
             return Dirty::All;
         }
         let size = self.len(&rule.clauses[number].class).unwrap_or(0);
-        let mut dirty = resting_on(memory, number, &change.read.rows(size), size);
+        let look = Look { machine, memory, clause, number, size };
+        let mut dirty = look.resting_on(&change.read.rows(size));
         let matching = change.matching.clone().settle(usize::MAX).rows(size);
         if matching.is_empty() {
             return dirty;
         }
         // One of those that were unknown may be decided now.
         dirty.extend(memory.undecided.keys().copied());
-        let reached = reached(machine, planned, memory, number, &matching, change, size);
+        let reached = look.reached(&matching, change);
         if clause.joins.is_empty() {
-            tried(machine, clause, memory, number, &matching, &reached, &mut dirty);
+            look.tried(&matching, &reached, &mut dirty);
         } else {
-            joined(machine, clause, memory, number, &matching, &reached, &mut dirty);
+            look.joined(&matching, &reached, &mut dirty);
         }
         dirty
     }
 }
 
-/// Objects whose firing, or failure, rests on one of these rows.
-fn resting_on(memory: &Memory, number: usize, rows: &[u32], size: usize) -> Dirty {
-    let mut dirty = Dirty::None;
-    let witnesses = memory.witnesses[number].iter().zip(0..);
-    match rows {
-        [] => {}
-        [row] => dirty.extend(witnesses.filter(|(witness, _)| *witness == row).map(|(_, driver)| driver)),
-        rows => {
-            let mut among = vec![false; size];
-            for &row in rows {
-                among[row as usize] = true;
-            }
-            let hit = |witness: u32| among.get(witness as usize) == Some(&true);
-            dirty.extend(witnesses.filter(|(witness, _)| hit(**witness)).map(|(_, driver)| driver));
-        }
-    }
-    dirty
-}
-
-/// Objects whose search came as far as this clause, and for which one of the candidates could win.
-fn reached(
-    machine: &Machine,
-    planned: &Planned,
-    memory: &Memory,
+/// Looks for the objects of the first clause that changed candidates of a later one concern.
+struct Look<'l> {
+    machine: &'l Machine<'l>,
+    memory: &'l Memory,
+    clause: &'l ClausePlan,
     number: usize,
-    matching: &[u32],
-    change: &Change,
+    /// How many objects its class has.
     size: usize,
-) -> Vec<u32> {
-    let clause = &planned.plan.clauses[number];
-    let came = memory.statuses.iter().zip(0_u32..).filter(|(status, _)| status.reached(number));
-    let came = came.map(|(_, driver)| driver);
-    if !clause.joins.is_empty() {
-        return came.collect();
-    }
-    let beaten: Vec<bool> = match (&clause.by, clause.quantifier) {
-        // A `none` that found one finds one still, unless that one changed.
-        (_, Quantifier::None) => vec![false; size],
-        (Some(by), quantifier) if clause.by_own => {
-            let all: Vec<u32> = (0..size as u32).collect();
-            let frame = Frame::of(memory.witnesses.len(), number, &all);
-            let values = machine.values(by, &frame).numbers();
-            let value = |row: u32| values.at(row as usize) + 0.0;
-            let before = |a: u32, b: u32| match (quantifier, value(a).partial_cmp(&value(b))) {
-                (Quantifier::Most, Some(Ordering::Greater)) | (Quantifier::Least, Some(Ordering::Less)) => {
-                    true
+}
+
+impl Look<'_> {
+    /// Objects whose firing, or failure, rests on one of these rows.
+    fn resting_on(&self, rows: &[u32]) -> Dirty {
+        let mut dirty = Dirty::None;
+        let witnesses = self.memory.witnesses[self.number].iter().zip(0..);
+        match rows {
+            [] => {}
+            [row] => dirty.extend(witnesses.filter(|(witness, _)| *witness == row).map(|(_, driver)| driver)),
+            rows => {
+                let mut among = vec![false; self.size];
+                for &row in rows {
+                    among[row as usize] = true;
                 }
-                (_, Some(Ordering::Equal)) => a <= b,
-                _ => false,
-            };
-            // Unknown values are no candidates, but are counted as such.
-            let wins = |a: u32, b: u32| before(a, b) || value(a).is_nan() || value(b).is_nan();
-            let better = Better::of(change, size);
-            all.iter()
-                .map(|&row| {
-                    matching.iter().any(|&candidate| wins(candidate, row) && !better.lost(candidate, row))
-                })
-                .collect()
+                let hit = |witness: u32| among.get(witness as usize) == Some(&true);
+                dirty.extend(witnesses.filter(|(witness, _)| hit(**witness)).map(|(_, driver)| driver));
+            }
         }
-        (None, Quantifier::Some) => {
-            (0..size as u32).map(|row| matching.iter().any(|&candidate| candidate <= row)).collect()
-        }
-        _ => vec![true; size],
-    };
-    let unmet = match (&clause.by, clause.by_own) {
-        (Some(_), true) => {
-            let better = Better::of(change, size);
-            matching.iter().any(|&candidate| better.rank(candidate).is_none())
-        }
-        _ => true,
-    };
-    if !unmet && !beaten.contains(&true) {
-        return vec![];
+        dirty
     }
-    came.filter(|&driver| {
-        let witness = memory.witnesses[number][driver as usize];
-        if witness == NO_ROW { unmet } else { beaten.get(witness as usize) != Some(&false) }
-    })
-    .collect()
-}
 
-/// Objects for which one of the candidates passes now, or may.
-fn tried(
-    machine: &Machine,
-    clause: &ClausePlan,
-    memory: &Memory,
-    number: usize,
-    matching: &[u32],
-    reached: &[u32],
-    dirty: &mut Dirty,
-) {
-    if matching.len() > TRIED {
-        dirty.extend(reached.iter().copied());
-        return;
-    }
-    let own = Frame::of(memory.witnesses.len(), number, matching);
-    let passing: Vec<u32> = match &clause.own {
-        Some(test) => {
-            let truths = machine.values(test, &own).truths();
-            (0..own.len).filter(|&at| truths.at(at) != Truth::False).map(|at| matching[at]).collect()
+    /// Objects whose search came as far as this clause, and for which one of the candidates could win.
+    fn reached(&self, matching: &[u32], change: &Change) -> Vec<u32> {
+        let Self { memory, clause, number, size, .. } = *self;
+        let came = memory.statuses.iter().zip(0_u32..).filter(|(status, _)| status.reached(number));
+        let came = came.map(|(_, driver)| driver);
+        if !clause.joins.is_empty() {
+            return came.collect();
         }
-        None => matching.to_vec(),
-    };
-    for chunk in reached.chunks(BATCH) {
-        let mut frame = bound(memory, number, chunk);
-        for &row in &passing {
-            let Some(test) = &clause.test else {
-                dirty.extend(chunk.iter().copied());
-                break;
-            };
-            frame.rows[number] = Rows::Same(row);
-            let truths = machine.values(test, &frame).truths();
-            dirty.extend(
-                chunk
-                    .iter()
-                    .enumerate()
-                    .filter(|&(at, _)| truths.at(at) != Truth::False)
-                    .map(|(_, &row)| row),
-            );
+        let better = Better::of(change, size);
+        let beaten: Vec<bool> = match (&clause.by, clause.quantifier) {
+            // A `none` that found one finds one still, unless that one changed.
+            (_, Quantifier::None) => vec![false; size],
+            (Some(by), quantifier) if clause.by_own => {
+                let all: Vec<u32> = (0..size as u32).collect();
+                let frame = Frame::of(memory.witnesses.len(), number, &all);
+                let values = self.machine.values(by, &frame).numbers();
+                let value = |row: u32| values.at(row as usize) + 0.0;
+                let before = |a: u32, b: u32| match (quantifier, value(a).partial_cmp(&value(b))) {
+                    (Quantifier::Most, Some(Ordering::Greater))
+                    | (Quantifier::Least, Some(Ordering::Less)) => true,
+                    (_, Some(Ordering::Equal)) => a <= b,
+                    _ => false,
+                };
+                // Unknown values are no candidates, but are counted as such.
+                let wins = |a: u32, b: u32| before(a, b) || value(a).is_nan() || value(b).is_nan();
+                let beats = |candidate: u32, row: u32| wins(candidate, row) && !better.lost(candidate, row);
+                all.iter().map(|&row| matching.iter().any(|&candidate| beats(candidate, row))).collect()
+            }
+            (None, Quantifier::Some) => {
+                (0..size as u32).map(|row| matching.iter().any(|&candidate| candidate <= row)).collect()
+            }
+            _ => vec![true; size],
+        };
+        let ranked = clause.by.is_some() && clause.by_own;
+        let unmet = !ranked || matching.iter().any(|&candidate| better.rank(candidate).is_none());
+        if !unmet && !beaten.contains(&true) {
+            return vec![];
+        }
+        came.filter(|&driver| {
+            let witness = memory.witnesses[number][driver as usize];
+            if witness == NO_ROW { unmet } else { beaten.get(witness as usize) != Some(&false) }
+        })
+        .collect()
+    }
+
+    /// Objects for which one of the candidates passes now, or may.
+    fn tried(&self, matching: &[u32], reached: &[u32], dirty: &mut Dirty) {
+        if matching.len() > TRIED {
+            dirty.extend(reached.iter().copied());
+            return;
+        }
+        let own = Frame::of(self.memory.witnesses.len(), self.number, matching);
+        let passing = self.may_pass(self.clause.own.as_ref(), &own, matching);
+        for chunk in reached.chunks(BATCH) {
+            let mut frame = self.bound(chunk);
+            for &row in &passing {
+                frame.rows[self.number] = Rows::Same(row);
+                dirty.extend(self.may_pass(self.clause.test.as_ref(), &frame, chunk));
+                if self.clause.test.is_none() {
+                    break;
+                }
+            }
         }
     }
-}
 
-/// Objects whose key is that of one of the candidates.
-fn joined(
-    machine: &Machine,
-    clause: &ClausePlan,
-    memory: &Memory,
-    number: usize,
-    matching: &[u32],
-    reached: &[u32],
-    dirty: &mut Dirty,
-) {
-    let columns: Vec<_> = clause.joins.iter().map(|join| machine.columns[join.column]).collect();
-    let index = Index::new(&columns, matching);
-    for chunk in reached.chunks(BATCH) {
-        let frame = bound(memory, number, chunk);
-        let keys = machine.keys(clause, &frame);
-        // An unknown key finds nothing, now as before.
-        let found = |&at: &usize| !index.rows(keys.iter().map(|key| key.cell(at))).is_empty();
-        dirty.extend((0..chunk.len()).filter(found).map(|at| chunk[at]));
+    /// Of these rows, one for each binding, those for which the test is not false.
+    fn may_pass(&self, test: Option<&Node>, frame: &Frame, rows: &[u32]) -> Vec<u32> {
+        let Some(test) = test else { return rows.to_vec() };
+        let truths = self.machine.values(test, frame).truths();
+        let open = rows.iter().enumerate().filter(|&(at, _)| truths.at(at) != Truth::False);
+        open.map(|(_, &row)| row).collect()
     }
-}
 
-/// These objects of the first clause, with what the clauses before this one are bound to.
-fn bound(memory: &Memory, number: usize, drivers: &[u32]) -> Frame {
-    let mut rows = vec![Rows::Unbound; memory.witnesses.len()];
-    rows[0] = Rows::Each(drivers.to_vec());
-    for (rows, column) in rows.iter_mut().zip(&memory.witnesses).take(number).skip(1) {
-        *rows = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
+    /// Objects whose key is that of one of the candidates.
+    fn joined(&self, matching: &[u32], reached: &[u32], dirty: &mut Dirty) {
+        let joins = self.clause.joins.iter();
+        let columns: Vec<_> = joins.map(|join| self.machine.columns[join.column]).collect();
+        let index = Index::new(&columns, matching);
+        for chunk in reached.chunks(BATCH) {
+            let frame = self.bound(chunk);
+            let keys = self.machine.keys(self.clause, &frame);
+            // An unknown key finds nothing, now as before.
+            let found = |&at: &usize| !index.rows(keys.iter().map(|key| key.cell(at))).is_empty();
+            dirty.extend((0..chunk.len()).filter(found).map(|at| chunk[at]));
+        }
     }
-    Frame { len: drivers.len(), rows }
+
+    /// These objects of the first clause, with what the clauses before this one are bound to.
+    fn bound(&self, drivers: &[u32]) -> Frame {
+        let mut rows = vec![Rows::Unbound; self.memory.witnesses.len()];
+        rows[0] = Rows::Each(drivers.to_vec());
+        for (rows, column) in rows.iter_mut().zip(&self.memory.witnesses).take(self.number).skip(1) {
+            *rows = Rows::Each(drivers.iter().map(|&driver| column[driver as usize]).collect());
+        }
+        Frame { len: drivers.len(), rows }
+    }
 }
 
 /// The order of the candidates before a change, as far as what they have to pass is as it was: one that stood before
