@@ -224,26 +224,34 @@ impl Memory {
         let len = self.statuses.len();
         let straight =
             output.firings == len && output.witnesses[0].iter().zip(0..).all(|(&row, at)| row == at);
-        let Output { mut witnesses, given, failures, failed, .. } = output;
-        let drivers = std::mem::take(&mut witnesses[0]);
         if straight {
-            self.witnesses = witnesses;
-            self.given = given;
+            self.witnesses = output.witnesses;
+            self.witnesses[0] = vec![];
+            self.given = output.given;
             return;
         }
         self.make_room();
-        for (to, from) in self.witnesses.iter_mut().zip(&witnesses).skip(1) {
-            to.fill(NO_ROW);
+        self.witnesses.iter_mut().skip(1).for_each(|column| column.fill(NO_ROW));
+        for given in &mut self.given {
+            given.written.fill(false);
+            // A firing that sets nothing leaves nothing of before.
+            given.values.resize(0);
+            given.values.resize(len);
+        }
+        self.write(&output);
+    }
+
+    /// Writes what was found to the rows of the first clause's objects, which hold nothing.
+    fn write(&mut self, output: &Output) {
+        let Output { witnesses, given, failures, failed, .. } = output;
+        let drivers = &witnesses[0];
+        for (to, from) in self.witnesses.iter_mut().zip(witnesses).skip(1) {
             drivers.iter().zip(from).for_each(|(&row, &witness)| to[row as usize] = witness);
         }
-        for (to, from) in self.witnesses.iter_mut().zip(&failed).skip(1) {
+        for (to, from) in self.witnesses.iter_mut().zip(failed).skip(1) {
             failures.iter().zip(from).for_each(|(failure, &witness)| to[failure.row as usize] = witness);
         }
         for (to, from) in self.given.iter_mut().zip(given) {
-            to.written.fill(false);
-            // A firing that sets nothing leaves nothing of before.
-            to.values.resize(0);
-            to.values.resize(len);
             for (firing, &row) in drivers.iter().enumerate() {
                 to.written[row as usize] = from.written[firing];
                 to.values.set(row as usize, from.values.cell(firing));
@@ -267,18 +275,7 @@ impl Memory {
                 given.values.set(row as usize, Cell::Unknown);
             }
         }
-        for (firing, &row) in output.witnesses[0].iter().enumerate() {
-            for (to, from) in self.witnesses.iter_mut().zip(&output.witnesses).skip(1) {
-                to[row as usize] = from[firing];
-            }
-            for (to, from) in self.given.iter_mut().zip(&output.given) {
-                to.written[row as usize] = from.written[firing];
-                to.values.set(row as usize, from.values.cell(firing));
-            }
-        }
-        for (to, from) in self.witnesses.iter_mut().zip(&output.failed).skip(1) {
-            output.failures.iter().zip(from).for_each(|(failure, &row)| to[failure.row as usize] = row);
-        }
+        self.write(output);
         let mut touched = vec![];
         for (at, before) in before.into_iter().enumerate() {
             let mut dirty = Dirty::None;
@@ -349,37 +346,23 @@ impl Memory {
     pub(crate) fn move_drivers(&mut self, moved: Option<&[Option<u32>]>, len: usize) {
         self.make_room();
         let to = |row: usize| moved.map_or(Some(row as u32), |moved| moved.get(row).copied().flatten());
-        let before = std::mem::replace(&mut self.statuses, vec![Status::UNASKED; len]);
-        for (from, &status) in before.iter().enumerate() {
-            if let Some(row) = to(from) {
-                self.statuses[row as usize] = status;
-            }
-        }
+        self.statuses = moved_to(&self.statuses, to, vec![Status::UNASKED; len]);
         self.unasked = self.statuses.iter().filter(|&&status| status == Status::UNASKED).count();
         let undecided = std::mem::take(&mut self.undecided);
         self.undecided =
             undecided.into_iter().filter_map(|(row, count)| Some((to(row as usize)?, count))).collect();
         self.lost = self.lost.iter().filter_map(|&row| to(row as usize)).collect();
         for column in self.witnesses.iter_mut().skip(1) {
-            let mut out = vec![NO_ROW; len];
-            for (from, &witness) in column.iter().enumerate() {
-                if let Some(row) = to(from) {
-                    out[row as usize] = witness;
-                }
-            }
-            *column = out;
+            *column = moved_to(column, to, vec![NO_ROW; len]);
         }
         for given in &mut self.given {
-            let mut written = vec![false; len];
             let mut values = given.values.empty();
             values.resize(len);
-            for from in 0..before.len() {
-                if let Some(row) = to(from) {
-                    written[row as usize] = given.written[from];
-                    values.set(row as usize, given.values.cell(from));
-                }
+            for (from, row) in (0..given.written.len()).filter_map(|from| Some((from, to(from)?))) {
+                values.set(row as usize, given.values.cell(from));
             }
-            (given.written, given.values) = (written, values);
+            given.values = values;
+            given.written = moved_to(&given.written, to, vec![false; len]);
         }
         self.inverse.iter_mut().for_each(|inverse| *inverse = None);
     }
@@ -412,4 +395,15 @@ impl Memory {
         let rows = self.statuses.iter().zip(0..);
         rows.filter(|(status, _)| **status == Status::UNASKED).map(|(_, row)| row).collect()
     }
+}
+
+/// Rows where they went, among those of `none`.
+fn moved_to<T: Copy>(rows: &[T], to: impl Fn(usize) -> Option<u32>, none: Vec<T>) -> Vec<T> {
+    let mut out = none;
+    for (from, &value) in rows.iter().enumerate() {
+        if let Some(row) = to(from) {
+            out[row as usize] = value;
+        }
+    }
+    out
 }

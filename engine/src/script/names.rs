@@ -37,15 +37,24 @@ impl Patterns<'_> {
     }
 }
 
+/// What the names of an expression may stand for.
+struct Scope<'s> {
+    patterns: &'s Patterns<'s>,
+    /// The variable whose properties may stand bare, as in `by hardness`.
+    own: Option<usize>,
+    declared: BTreeSet<String>,
+    /// What an earlier line has set for certain.
+    certain: BTreeSet<Use>,
+}
+
 impl Names {
     /// Looks through an expression. `own` is the variable whose properties may stand bare, as in `by hardness`.
     pub(crate) fn expression(&mut self, expr: &Expr, patterns: &Patterns, own: Option<usize>) {
-        let declared = BTreeSet::new();
-        let mut path = vec![];
-        let mut calls: Vec<*const Expr> = vec![];
-        expr.walk(&mut path, &mut |path| {
+        let scope = Scope { patterns, own, declared: BTreeSet::new(), certain: BTreeSet::new() };
+        let mut done: Vec<*const Expr> = vec![];
+        expr.walk(&mut vec![], &mut |path| {
             if let Some(ASTNode::Expr(expr)) = path.last() {
-                self.node(expr, patterns, &declared, &mut calls, own, &BTreeSet::new());
+                self.node(expr, &scope, &mut done);
             }
             true
         });
@@ -53,37 +62,31 @@ impl Names {
 
     /// Looks through an action. What an earlier line has set for certain may be read by a later one.
     pub(crate) fn block(&mut self, block: &StmtBlock, patterns: &Patterns) {
-        let declared = declared(block);
-        let mut certain: BTreeSet<Use> = BTreeSet::new();
+        let mut scope = Scope { patterns, own: None, declared: declared(block), certain: BTreeSet::new() };
         for stmt in block.statements() {
-            self.statement(stmt, patterns, &declared, &certain);
+            self.statement(stmt, &scope);
             if let Stmt::Assignment(assignment) = stmt
                 && let Some((variable, property, _)) = property_of(&assignment.1.lhs)
                 && let Some(index) = patterns.index(variable)
             {
-                certain.insert((index, property.to_owned()));
+                scope.certain.insert((index, property.to_owned()));
             }
         }
     }
 
-    fn statement(
-        &mut self,
-        stmt: &Stmt,
-        patterns: &Patterns,
-        declared: &BTreeSet<String>,
-        certain: &BTreeSet<Use>,
-    ) {
+    fn statement(&mut self, stmt: &Stmt, scope: &Scope) {
         let mut done: Vec<*const Expr> = vec![];
         stmt.walk(&mut vec![], &mut |path| {
             match path.last() {
                 Some(ASTNode::Stmt(Stmt::Assignment(assignment))) => {
-                    self.assignment(assignment.0.is_op_assignment(), &assignment.1.lhs, patterns, &mut done);
+                    let update = assignment.0.is_op_assignment();
+                    self.assignment(update, &assignment.1.lhs, scope.patterns, &mut done);
                 }
                 Some(ASTNode::Stmt(Stmt::FnCall(call, position))) => {
                     self.calls.push((call.name.to_string(), call.args.len(), *position));
                     done.extend(forgotten(call));
                 }
-                Some(ASTNode::Expr(expr)) => self.node(expr, patterns, declared, &mut done, None, certain),
+                Some(ASTNode::Expr(expr)) => self.node(expr, scope, &mut done),
                 _ => {}
             }
             true
@@ -109,15 +112,8 @@ impl Names {
         }
     }
 
-    fn node(
-        &mut self,
-        expr: &Expr,
-        patterns: &Patterns,
-        declared: &BTreeSet<String>,
-        done: &mut Vec<*const Expr>,
-        own: Option<usize>,
-        certain: &BTreeSet<Use>,
-    ) {
+    fn node(&mut self, expr: &Expr, scope: &Scope, done: &mut Vec<*const Expr>) {
+        let Scope { patterns, own, declared, certain } = scope;
         if done.iter().any(|&seen| std::ptr::eq(seen, expr)) {
             return;
         }
@@ -139,7 +135,7 @@ impl Names {
                 if patterns.index(name).is_some() {
                     self.whole.push((name.to_owned(), *position));
                 } else if let Some(own) = own {
-                    self.reads.entry((own, name.to_owned())).or_insert(*position);
+                    self.reads.entry((*own, name.to_owned())).or_insert(*position);
                 } else if !declared.contains(name) {
                     self.free.push((name.to_owned(), *position));
                 }
