@@ -29,7 +29,7 @@ pub(crate) fn order(rules: &[Rule], declared: &Declarations) -> Result<Vec<Step>
                 Some((Some(target), level)) if target == read => {
                     inputs.extend(below(&levels, read, level));
                 }
-                _ => inputs.extend(top(&levels, read)),
+                _ => inputs.extend(below(&levels, read, i64::MAX)),
             }
         }
         if let Some((Some(target), level)) = own {
@@ -72,10 +72,6 @@ fn below(levels: &Levels, property: &PropertyName, level: i64) -> Option<Step> {
         Some(&lower) => Step::Level(property.clone(), lower),
         None => Step::Merge(property.clone()),
     })
-}
-
-fn top(levels: &Levels, property: &PropertyName) -> Option<Step> {
-    below(levels, property, i64::MAX)
 }
 
 fn sort(rules: &[Rule], needs: &BTreeMap<Step, BTreeSet<Step>>) -> Result<Vec<Step>, Vec<Diagnostic>> {

@@ -49,7 +49,7 @@ impl KnowledgeBase {
         if self.len(class).is_none() {
             return Err(FactError::NoClass { class: class.to_owned() });
         }
-        let row = self.row(class, key).ok_or_else(|| FactError::no_object(class, key))?;
+        let row = self.row(class, key).ok_or_else(|| FactError::no_object(class, &key))?;
         self.ask_rows(rules, class, &[row as u32], &[property]);
         if let Some(value) = self.value_at(class, row, property) {
             return Ok(Answer::Known(value));

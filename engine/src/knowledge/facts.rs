@@ -30,7 +30,7 @@ pub enum FactError {
 }
 
 impl FactError {
-    pub(super) fn no_object(class: &str, key: impl ToString) -> Self {
+    pub(super) fn no_object(class: &str, key: &impl ToString) -> Self {
         Self::NoObject { class: class.to_owned(), key: key.to_string() }
     }
 
@@ -50,7 +50,7 @@ impl KnowledgeBase {
         value: Option<Value>,
     ) -> Result<(), FactError> {
         let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
-        self.tell_row(class, row.ok_or_else(|| FactError::no_object(class, key))?, property, value)
+        self.tell_row(class, row.ok_or_else(|| FactError::no_object(class, &key))?, property, value)
     }
 
     /// As [`tell`](Self::tell), by the object's row from 0.
@@ -63,7 +63,7 @@ impl KnowledgeBase {
     ) -> Result<(), FactError> {
         let table = &self.told_class(class)?.table;
         if row >= table.len {
-            return Err(FactError::no_object(class, row));
+            return Err(FactError::no_object(class, &row));
         }
         let at = table.names.iter().position(|name| name == property);
         if at.is_some_and(|at| table.key.contains(&at)) {
@@ -156,14 +156,14 @@ impl KnowledgeBase {
     /// Removes the object with this key; those after it move up.
     pub fn remove(&mut self, class: &str, key: &str) -> Result<(), FactError> {
         let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
-        self.remove_row(class, row.ok_or_else(|| FactError::no_object(class, key))?)
+        self.remove_row(class, row.ok_or_else(|| FactError::no_object(class, &key))?)
     }
 
     /// As [`remove`](Self::remove), by the object's row from 0.
     pub fn remove_row(&mut self, class: &str, row: usize) -> Result<(), FactError> {
         let table = &self.told_class(class)?.table;
         if row >= table.len {
-            return Err(FactError::no_object(class, row));
+            return Err(FactError::no_object(class, &row));
         }
         if let Some(Held { table, pending }) = self.held.get_mut(class) {
             let before = table.len as u32;
