@@ -4,7 +4,6 @@ use crate::pose::Pose;
 
 /// A round robot with a rotating sonar, wheels that are counted, and a skirt that feels contact.
 pub trait Body {
-    /// Half the width of the robot, metres.
     fn radius_m(&self) -> f64;
 
     /// What it is to do from now on; what it was doing ends.
@@ -17,7 +16,6 @@ pub trait Body {
 /// One thing for the wheels to do. Wheels go by their own count: how far it really was is not told.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Command {
-    /// To stand still.
     #[default]
     Stop,
     /// To turn on the spot: radians, counter-clockwise above 0.

@@ -14,7 +14,6 @@ pub struct SharedEdge {
 }
 
 impl SharedEdge {
-    /// Length of the segment, in metres.
     pub fn length(&self) -> f64 {
         self.segment.dx().max(self.segment.dy())
     }

@@ -20,7 +20,6 @@ impl Column {
         }
     }
 
-    /// Whether there is no object.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -78,7 +77,6 @@ impl Table {
         self.columns.first().map_or(0, |(_, column)| column.len())
     }
 
-    /// Whether there is no object.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -91,7 +89,6 @@ impl Table {
         }
     }
 
-    /// The property as texts.
     pub fn texts(&self, property: &str) -> Result<&[Option<String>], String> {
         match self.column(property) {
             Some(Column::Text(values)) => Ok(values),
@@ -99,7 +96,6 @@ impl Table {
         }
     }
 
-    /// The property as truth values.
     pub fn truths(&self, property: &str) -> Result<&[Option<bool>], String> {
         match self.column(property) {
             Some(Column::Truth(values)) => Ok(values),

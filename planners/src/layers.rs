@@ -48,7 +48,6 @@ pub use planner::RoomsByState;
 pub struct State {
     /// The robot; `None` where there is but one, without a name.
     pub robot: Option<String>,
-    /// The state's name.
     pub state: String,
     /// Metres.
     pub height: f64,
@@ -84,9 +83,7 @@ pub enum Kind {
 /// A way from one room into another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// What sort of way.
     pub kind: Kind,
-    /// A room, by its index.
     pub room1: usize,
     /// The other room; more than `room1` for a door.
     pub room2: usize,

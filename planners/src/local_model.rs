@@ -73,7 +73,6 @@ pub struct LocalModel {
     segments: Vec<ModelSegment>,
     objects: objects::Objects,
     next: u32,
-    /// Scans that were taken into it.
     scans: u32,
 }
 
@@ -94,12 +93,10 @@ impl LocalModel {
         &self.objects.list
     }
 
-    /// Where the robot is thought to be.
     pub fn estimate(&self) -> &Estimate {
         &self.estimate
     }
 
-    /// The figures that this model goes by.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }

@@ -26,20 +26,15 @@ impl Signature {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlannerError {
-    /// A fact that it needs is missing or of the wrong type.
     #[error("planner `{planner}`: {class}: {what}")]
     Fact {
         planner: String,
-        /// Class of the fact.
         class: String,
-        /// What is wrong with it.
         what: String,
     },
-    /// The world does not suit it.
     #[error("planner `{planner}`: {what}")]
     World {
         planner: String,
-        /// What is wrong, in one sentence.
         what: String,
     },
 }

@@ -27,7 +27,6 @@ pub enum Unknown {
     /// Solid: a robot does not go where nobody has looked.
     #[default]
     Wall,
-    /// Free.
     Free,
 }
 

@@ -21,7 +21,6 @@ pub(crate) use table::{GIVES, room_facts};
 /// A room of the paper's modes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Room {
-    /// Where it is, in metres.
     pub rect: Rect,
     /// Clear height, in metres; `None` is unlimited.
     pub height: Option<f64>,
@@ -30,7 +29,6 @@ pub struct Room {
 /// A bridge too low for the tallest state, which makes its area a room: the paper's list 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LowBridge {
-    /// Its outline, in metres.
     pub rect: Rect,
     /// Clear height under it, in metres.
     pub height: f64,

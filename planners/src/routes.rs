@@ -47,7 +47,6 @@ pub use way::{Leg, Way};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RouteRoom {
     pub rect: Rect,
-    /// What walking in it weighs.
     pub walking: Walking,
 }
 
@@ -378,7 +377,6 @@ impl RouteGraph {
         self.passage(door).is_some()
     }
 
-    /// The rooms, by index.
     pub fn rooms(&self) -> &[RouteRoom] {
         &self.rooms
     }

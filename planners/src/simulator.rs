@@ -60,9 +60,7 @@ pub struct Simulator {
 /// A touch, as a judge sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TouchEvent {
-    /// When, in seconds.
     pub time_s: f64,
-    /// Where, in the map's frame.
     pub at: Point,
     /// The obstacle that was touched, by its number from 0; `None` for a wall.
     pub obstacle: Option<usize>,
@@ -147,7 +145,6 @@ impl Simulator {
         self.movers.iter().map(|mover| mover.sides.as_slice())
     }
 
-    /// The figures of the robot.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }

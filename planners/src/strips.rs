@@ -17,13 +17,9 @@ pub struct Strips {
 /// A rectangle of whole strips, from strip `x0` up to but not including strip `x1`, and likewise in y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Block {
-    /// First vertical strip.
     pub x0: u32,
-    /// First horizontal strip.
     pub y0: u32,
-    /// One after the last vertical strip.
     pub x1: u32,
-    /// One after the last horizontal strip.
     pub y1: u32,
 }
 

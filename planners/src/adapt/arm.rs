@@ -20,27 +20,19 @@ pub struct Arm {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArmError {
-    /// There is nothing to move.
     #[error("an arm needs a link at least")]
     NoLinks,
-    /// A link is a point, or runs backwards.
     #[error("link {0} is {1} m long, and must be longer than 0")]
     LinkLength(usize, f64),
-    /// A link cannot be thinner than its axis.
     #[error("the radius of the links is {0} m, and must be 0 at least")]
     Radius(f64),
-    /// The base is at no finite place.
     #[error("the base of the arm is not at a finite place")]
     Base,
-    /// A joint has a low and a high limit.
     #[error("there are {limits} joint limits for {links} links")]
     Limits {
-        /// How many were given.
         limits: usize,
-        /// How many are needed.
         links: usize,
     },
-    /// A joint's limits leave it nothing.
     #[error("joint {0} goes from {1} to {2} rad, and must go from a lower to a higher angle")]
     Limit(usize, f64, f64),
 }
@@ -75,12 +67,10 @@ impl Arm {
         self.base
     }
 
-    /// Lengths of the links, metres.
     pub fn lengths(&self) -> &[f64] {
         &self.lengths
     }
 
-    /// Radius of the links, metres.
     pub fn radius(&self) -> f64 {
         self.radius
     }

@@ -18,13 +18,11 @@ pub enum Clearance {
     },
     /// Everything nearer to this point than so many metres belongs to the object; 0 for a point of its outline.
     Taken {
-        /// A point of the object.
         at: Point,
         within_m: f64,
     },
 }
 
-/// What is known of one object.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
     free: Vec<Room>,

@@ -12,7 +12,6 @@ pub struct Collision {
     pub motion: usize,
     /// The share of the motion (0 to 1) after which it is.
     pub share: f64,
-    /// The name of the object.
     pub object: String,
 }
 

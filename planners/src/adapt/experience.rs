@@ -18,7 +18,6 @@ pub struct EdgeId(pub u32);
 /// Where a subgoal hangs (section 2.3).
 #[derive(Clone, Debug, PartialEq)]
 pub struct TagPoint {
-    /// Name of the object that serves as landmark.
     pub object: String,
     /// The tool's pose in the object's frame.
     pub tool: Pose,
@@ -34,7 +33,6 @@ pub struct Vertex {
     pub at: Configuration,
     /// The object with which it moves along; `None` where no object serves.
     pub tag: Option<TagPoint>,
-    /// The task in which it was made.
     pub made_task: u32,
 }
 
@@ -48,13 +46,10 @@ pub struct Edge {
     pub via: Vec<Configuration>,
     /// Length of the path, by the distance of configurations.
     pub length: f64,
-    /// The task in which it was made.
     pub made_task: u32,
-    /// The task in which it was last verified.
     pub verified_task: u32,
     /// The state of the cell in which it was last verified: it is free of all objects that have not changed since.
     pub verified_revision: Revision,
-    /// How often it was verified, when it was made included.
     pub times_verified: u32,
     /// Whether an end of it moved since, so that it has to be verified against all objects.
     pub is_loose: bool,
@@ -92,10 +87,8 @@ impl PartialEq for Experience {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperienceError {
-    /// A number is used twice, or not below the next one.
     #[error("vertex {} stands twice, or is not below the next number", .0.0)]
     Vertex(VertexId),
-    /// An edge is wrong.
     #[error("edge {} has a vertex that is not there, stands twice, or is not below the next number", .0.0)]
     Edge(EdgeId),
 }
@@ -136,17 +129,14 @@ impl Experience {
         self.edges.values()
     }
 
-    /// The numbers that the next vertex and the next edge get.
     pub fn next_numbers(&self) -> (u32, u32) {
         (self.next_vertex, self.next_edge)
     }
 
-    /// A vertex by its number.
     pub fn vertex(&self, id: VertexId) -> Option<&Vertex> {
         self.vertices.get(&id)
     }
 
-    /// The edge between two vertices.
     pub fn edge(&self, a: VertexId, b: VertexId) -> Option<&Edge> {
         self.edges.get(&ends(a, b))
     }

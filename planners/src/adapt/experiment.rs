@@ -10,16 +10,13 @@ use super::scenario::Scenario;
 use super::workcell::{Workcell, WorkcellError};
 use crate::random::Random;
 
-/// What an experiment is made with.
 pub struct Experiment<'e> {
     pub scenario: &'e Scenario,
-    /// The two planners that are joined.
     pub plugins: &'e Plugins,
     /// The parameters; the seed of each run is told from [`seed`](Self::seed).
     pub settings: &'e Settings,
     /// How near an object counts as touched, metres.
     pub touching_m: f64,
-    /// How often the scenario is run.
     pub runs: u32,
     /// The seed of the first run; each next run has the next one.
     pub seed: u64,
@@ -36,7 +33,6 @@ pub struct Experiment<'e> {
 pub enum Method {
     /// Solve alone, which learns nothing.
     Solve,
-    /// Adapt, with one strategy after the change.
     Adapt(Strategy),
 }
 
@@ -62,7 +58,6 @@ pub struct Row {
 /// What came out, task by task.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
-    /// The tasks in order.
     pub rows: Vec<Row>,
     /// Evaluations up to the end of each task, run by run: to compare methods on the same tasks.
     pub evaluations: Vec<Vec<u64>>,

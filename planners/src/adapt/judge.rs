@@ -38,7 +38,6 @@ pub struct ChangeFacts {
     pub vertices_dropped: u32,
     /// Share of the vertices that are not known to be free any more (0 to 1).
     pub unsure_vertices: f64,
-    /// Edges of the experience graph.
     pub edges: u32,
     /// Share of all edges so far that broke (0 to 1).
     pub broken_edges: f64,
@@ -56,7 +55,6 @@ pub struct LandmarkFacts<'o> {
     pub clearance_m: f64,
     /// Whether it is said to be moved now and then.
     pub is_movable: bool,
-    /// How often it was moved or turned.
     pub times_moved: u32,
     /// How many subgoals are attached to it already.
     pub subgoals: u32,

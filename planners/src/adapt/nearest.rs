@@ -45,7 +45,6 @@ impl Nearest {
     }
 }
 
-/// See [`Nearest::from`].
 #[derive(Debug)]
 pub(super) struct InOrder<'n> {
     nearest: &'n Nearest,

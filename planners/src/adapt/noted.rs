@@ -10,17 +10,14 @@ use super::workcell::Revision;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Noted {
-    /// A subgoal was added.
     VertexAdded(Vertex),
     /// A subgoal went along with its object.
     VertexMoved {
         id: VertexId,
-        /// The configuration there now.
         at: Configuration,
     },
     /// A subgoal was taken out, after its edges.
     VertexRemoved { id: VertexId, why: Removal },
-    /// A connection was added.
     EdgeAdded(Edge),
     /// A connection was verified again, or found another path: it is now as told.
     EdgeVerified(Edge),
@@ -31,9 +28,7 @@ pub enum Noted {
         id: EdgeId,
         ends: (VertexId, VertexId),
         why: Removal,
-        /// In which task.
         task: u32,
-        /// In which state of the cell.
         revision: Revision,
         /// The object that is in its way, where that is known.
         object: Option<String>,
@@ -42,14 +37,12 @@ pub enum Noted {
     CutRefused {
         /// Its ends, the lower number first.
         ends: (VertexId, VertexId),
-        /// In which state of the cell.
         revision: Revision,
     },
     /// The path between two vertices was tightened, and is not again in this state of the cell.
     Tightened {
         /// Its ends, the lower number first.
         ends: (VertexId, VertexId),
-        /// In which state of the cell.
         revision: Revision,
     },
     /// An evaluation taught something about an object.
@@ -82,7 +75,6 @@ pub enum ObjectChange {
     Gone,
     /// It was moved or turned.
     Moved,
-    /// It has another shape.
     Reshaped,
 }
 
@@ -92,7 +84,6 @@ pub enum ObjectChange {
 pub enum Removal {
     /// Reach cannot follow it any more.
     Broken,
-    /// The judge gave it up.
     GivenUp,
     /// The check before execution found it in collision.
     Refused,
@@ -101,6 +92,5 @@ pub enum Removal {
     LandmarkGone,
     /// Its object was moved to where the robot cannot follow.
     OutOfReach,
-    /// The vertex at its end was taken out.
     VertexRemoved,
 }

@@ -46,15 +46,11 @@ impl Plugins {
 /// Where a planner is in its life; with the cell, its clearances and the experience that is all there is to keep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Progress {
-    /// Tasks that were given so far.
     pub tasks: u32,
-    /// Tasks that were given before the last change of the cell.
     pub tasks_before_change: u32,
-    /// Where the robot is.
     pub here: Configuration,
     /// The vertex that Reach connected with it, and in which state of the cell (the paper's u with a hat).
     pub vertex: Option<(VertexId, Revision)>,
-    /// What was called so far, and what it cost.
     pub tally: Tally,
     /// Shortcuts that are not free in the present state of the cell; the lower number first.
     pub refused: BTreeSet<(VertexId, VertexId)>,
@@ -93,7 +89,6 @@ impl Adapt {
         Self { cell, experience, plugins, settings, progress, noted: Vec::new() }
     }
 
-    /// The cell as the planner knows it.
     pub fn cell(&self) -> &Workcell {
         &self.cell
     }
@@ -102,7 +97,6 @@ impl Adapt {
         &self.experience
     }
 
-    /// Where it is in its life.
     pub fn progress(&self) -> &Progress {
         &self.progress
     }

@@ -19,7 +19,6 @@ impl PointRobot {
         Self { limits, radius }
     }
 
-    /// Its radius, metres.
     pub fn radius(&self) -> f64 {
         self.radius
     }

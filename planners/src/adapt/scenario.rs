@@ -13,7 +13,6 @@ use crate::geometry::Point;
 /// Tasks with goals that recur, and a change of the cell after some of them.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// What it is called.
     pub name: String,
     pub robot: Arc<dyn Robot>,
     /// The objects before the change.
@@ -22,7 +21,6 @@ pub struct Scenario {
     pub changed: Vec<Object>,
     /// How many tasks come before it.
     pub change_after_task: u32,
-    /// How many tasks there are.
     pub tasks: u32,
     /// Where the robot is at first.
     pub home: Configuration,
@@ -35,13 +33,9 @@ pub struct Scenario {
 /// A scenario of an arm as its file has it; lengths in metres, angles in radians. Other fields are left to others.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 pub struct ArmScenario {
-    /// What it is called.
     pub name: String,
-    /// Lengths of the links.
     pub links: Vec<f64>,
-    /// Their common radius.
     pub link_radius: f64,
-    /// The base of the arm.
     pub base: [f64; 2],
     /// Low and high limit of each joint.
     pub joint_limits: Vec<[f64; 2]>,
@@ -55,11 +49,8 @@ pub struct ArmScenario {
     /// Corners of the others that come with it.
     #[serde(default)]
     pub added_obstacles: Vec<Vec<[f64; 2]>>,
-    /// How many tasks come before the change.
     pub change_after_task: u32,
-    /// How many tasks there are.
     pub tasks: u32,
-    /// Where the robot is at first.
     pub home: Configuration,
     pub goals: Vec<Configuration>,
     /// The goal that comes with the change, where only one comes.
@@ -74,22 +65,17 @@ pub struct ArmScenario {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScenarioError {
-    /// The arm is none.
     #[error(transparent)]
     Arm(#[from] ArmError),
-    /// An obstacle has no outline.
     #[error("obstacles[{0}]: {1}")]
     Obstacle(usize, ShapeError),
     /// An obstacle that is added has no outline; `added_obstacle` counts before `added_obstacles`.
     #[error("added obstacle {0}: {1}")]
     AddedObstacle(usize, ShapeError),
-    /// Angles that wrap are another configuration space.
     #[error("wrap is true, and only joints that do not wrap are known")]
     Wrap,
-    /// A place to be is beyond the limits of the joints, or has another number of them.
     #[error("{0} is {1:?}, which is no configuration of the arm: {2}")]
     Configuration(String, Configuration, &'static str),
-    /// A task needs another goal than the one where the robot is.
     #[error("there are {0} goals, and two are needed at least")]
     Goals(usize),
 }

@@ -12,13 +12,10 @@ pub struct Shape {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShapeError {
-    /// Two corners enclose nothing.
     #[error("an outline has {0} corners, and needs three at least")]
     TooFewCorners(usize),
-    /// A coordinate is infinite or no number.
     #[error("corner {0} is not at a finite place")]
     NotFinite(usize),
-    /// Two corners that follow one another are at one place.
     #[error("corners {0} and {1} are at the same place")]
     SameCorner(usize, usize),
     /// Two sides cross or touch that are not neighbours. Sides are named by the corner from which they go.

@@ -18,7 +18,6 @@ pub struct Placed {
     pub object: Object,
     /// Since when it is where it is, and as it is.
     pub since: Revision,
-    /// How often it was moved or turned.
     pub times_moved: u32,
     pub(super) frame: Frame,
     pub(super) known: Known,
@@ -46,7 +45,6 @@ pub enum WorkcellError {
     /// What is attached to a name has to find one object.
     #[error("two objects are called {0}")]
     SameName(String),
-    /// An object is at no finite place.
     #[error("object {0} is not at a finite pose")]
     NotFinite(String),
 }
@@ -87,12 +85,10 @@ impl Workcell {
         &self.placed
     }
 
-    /// Number of its state.
     pub fn revision(&self) -> Revision {
         self.revision
     }
 
-    /// How near an object counts as touched, metres.
     pub fn touching_m(&self) -> f64 {
         self.touching_m
     }

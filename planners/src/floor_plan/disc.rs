@@ -17,7 +17,6 @@ const EDGES: usize = 32;
 /// A round robot, and what it keeps free around itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
-    /// Radius of the robot, metres.
     pub radius: f64,
     /// What is kept free besides, metres.
     pub margin: f64,

@@ -55,15 +55,12 @@ pub struct Way {
 /// Adits and ways of a floor plan for a disc.
 #[derive(Clone, Debug)]
 pub struct Network {
-    /// What it is made for.
     pub disc: Disc,
-    /// The regions of the plan.
     pub regions: Regions,
     /// Two for each part of a doorway that the disc can pass, in the order of the doorways.
     pub adits: Vec<Adit>,
     /// Between twins, between adits of a region, and from places to the adits of theirs.
     pub ways: Vec<Way>,
-    /// What was noted about the plan.
     pub notes: Vec<Problem>,
     pub(super) mesh: Mesh,
     pub(super) barriers: Vec<[Point; 2]>,

@@ -44,13 +44,10 @@ pub struct Path {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoPath {
-    /// At the start the disc would touch a wall, or it lies outside.
     #[error("the disc cannot stand at the start: a wall is too near, or it lies outside of the plan")]
     Start,
-    /// At the goal the disc would touch a wall, or it lies outside.
     #[error("the disc cannot stand at the goal: a wall is too near, or it lies outside of the plan")]
     Goal,
-    /// No ways join them, or all that do are closed.
     #[error("no way that is open to the disc joins the start and the goal")]
     NoWay,
 }

@@ -14,7 +14,6 @@ use crate::world::{Bridge, Occupancy, Place, Shape, World};
 /// Walls without thickness, solid things, and named places, in metres.
 #[derive(Clone, Debug)]
 pub struct FloorPlan {
-    /// What it is called.
     pub name: String,
     walls: Vec<[Point; 2]>,
     solids: Vec<Vec<Point>>,
@@ -26,7 +25,6 @@ pub struct FloorPlan {
 /// What a plan is made of, before it is checked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawn {
-    /// What it is called.
     pub name: String,
     /// Walls by their ends. They may end on one another, and must not cross.
     pub walls: Vec<[Point; 2]>,

@@ -42,7 +42,6 @@ impl Doorway {
         self.from.distance(self.to)
     }
 
-    /// The point half way between its ends.
     pub fn middle(&self) -> Point {
         self.from.midpoint(self.to)
     }

@@ -25,7 +25,6 @@ impl Point {
         self.y.atan2(self.x)
     }
 
-    /// Euclidean distance, in metres.
     pub fn distance(self, other: Self) -> f64 {
         // `hypot` minds numbers near the ends of their range, and takes several times as long.
         self.squared_distance(other).sqrt()
@@ -36,12 +35,10 @@ impl Point {
         (self.x - other.x).powi(2) + (self.y - other.y).powi(2)
     }
 
-    /// The length of a displacement, metres.
     pub fn length(self) -> f64 {
         self.x.hypot(self.y)
     }
 
-    /// The scalar product.
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y
     }
@@ -70,7 +67,6 @@ impl Point {
         Self { x: ahead.dot(self), y: ahead.cross(self) }
     }
 
-    /// The point half way.
     #[must_use]
     pub fn midpoint(self, to: Self) -> Self {
         Self { x: f64::midpoint(self.x, to.x), y: f64::midpoint(self.y, to.y) }
@@ -137,7 +133,6 @@ impl Mul<f64> for Point {
     }
 }
 
-/// The length of a way from point to point, metres.
 pub fn path_length(points: &[Point]) -> f64 {
     // A sum of nothing is -0.0.
     points.windows(2).map(|leg| leg[0].distance(leg[1])).fold(0.0, |sum, leg| sum + leg)

@@ -2,7 +2,6 @@
 
 use super::{Point, Segment, orient};
 
-/// The sides, from each corner to the next.
 pub fn sides(corners: &[Point]) -> impl Iterator<Item = Segment> + Clone + '_ {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| Segment::new(a, b))
 }

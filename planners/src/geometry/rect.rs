@@ -5,13 +5,9 @@ use super::{Point, Segment};
 /// A closed axis-parallel rectangle; `x0 <= x1` and `y0 <= y1`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Rect {
-    /// Left edge.
     pub x0: f64,
-    /// Lower edge.
     pub y0: f64,
-    /// Right edge.
     pub x1: f64,
-    /// Upper edge.
     pub y1: f64,
 }
 
@@ -21,17 +17,14 @@ impl Rect {
         Self { x0, y0, x1, y1 }
     }
 
-    /// Extent along x, in metres.
     pub fn dx(&self) -> f64 {
         self.x1 - self.x0
     }
 
-    /// Extent along y, in metres.
     pub fn dy(&self) -> f64 {
         self.y1 - self.y0
     }
 
-    /// Area, in square metres.
     pub fn area(&self) -> f64 {
         self.dx() * self.dy()
     }

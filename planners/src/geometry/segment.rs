@@ -20,7 +20,6 @@ impl Segment {
         Self { a, b }
     }
 
-    /// Metres from end to end.
     pub fn length(&self) -> f64 {
         self.a.distance(self.b)
     }
@@ -46,17 +45,14 @@ impl Segment {
         self.a.lerp(self.b, share)
     }
 
-    /// The point half way.
     pub fn middle(&self) -> Point {
         self.a.midpoint(self.b)
     }
 
-    /// The point of it that is nearest to another one.
     pub fn nearest_to(&self, p: Point) -> Point {
         p.nearest_on(self.a, self.b)
     }
 
-    /// Metres from a point to the nearest point of the segment.
     pub fn distance(&self, p: Point) -> f64 {
         p.distance(self.nearest_to(p))
     }

@@ -10,7 +10,6 @@ pub(super) struct CellRect {
 }
 
 impl CellRect {
-    /// Number of cells.
     pub(super) fn area(&self) -> u64 {
         u64::from(self.x1 - self.x0) * u64::from(self.y1 - self.y0)
     }
@@ -120,7 +119,6 @@ impl Cells {
             .any(|row| self.masks(row, block.x0, block.x1).any(|(word, mask)| self.words[word] & mask != 0))
     }
 
-    /// Number of cells in the set.
     pub(crate) fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }

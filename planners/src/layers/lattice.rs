@@ -43,7 +43,6 @@ impl Lattice {
         Ok(Self { origin, side, columns: columns as u32, rows: rows as u32 })
     }
 
-    /// Side of a cell, metres.
     pub fn side(&self) -> f64 {
         self.side
     }
@@ -66,7 +65,6 @@ impl Lattice {
         self.origin.y + f64::from(row) * self.side
     }
 
-    /// The middle of a cell.
     pub(super) fn centre(&self, column: u32, row: u32) -> Point {
         Point::new(self.x(column) + self.side / 2.0, self.y(row) + self.side / 2.0)
     }

@@ -19,9 +19,7 @@ impl Source {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a column of the state table")]
 pub struct SegmentFacts {
-    /// Which one it is.
     pub id: SegmentId,
-    /// Where it comes from.
     pub source: Source,
     /// 1 to 5 as the table gave it; 0 for a segment that is new and asked about for the first time.
     pub confidence: u8,
@@ -45,7 +43,6 @@ pub struct SegmentFacts {
     pub unseen: u32,
     /// Metres from the robot to its nearest point.
     pub distance_m: f64,
-    /// Its length, metres.
     pub length_m: f64,
     /// Whether the model is to become a global one.
     pub is_learning: bool,
@@ -57,11 +54,8 @@ pub struct SegmentFacts {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a column of the state table")]
 pub struct Transition {
-    /// Its confidence from now on.
     pub confidence: u8,
-    /// Its source from now on.
     pub source: Source,
-    /// Whether it stays in the model.
     pub is_kept: bool,
     /// Whether the pose is corrected by it.
     pub counts_for_pose: bool,

@@ -17,11 +17,9 @@ pub struct ModelSegment {
     pub sigma_m: f64,
     /// Standard deviation of its angle, radians.
     pub sigma_angle: f64,
-    /// Where it comes from.
     pub source: Source,
     /// 1 to 5, as the state table gave it.
     pub confidence: u8,
-    /// Whether the pose is corrected by it.
     pub counts_for_pose: bool,
     /// Whether scans leave it where it is.
     pub is_anchored: bool,

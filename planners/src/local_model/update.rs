@@ -26,9 +26,7 @@ pub struct Update {
     pub seen: usize,
     /// How many of them lie on the model.
     pub matched: usize,
-    /// Segments that were entered, by name.
     pub entered: Vec<SegmentId>,
-    /// Segments that were taken out, by name.
     pub removed: Vec<SegmentId>,
 }
 

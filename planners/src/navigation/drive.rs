@@ -17,7 +17,6 @@ pub enum Order {
     Forward(f64),
     /// To turn on the spot: radians, counter-clockwise above 0.
     Turn(f64),
-    /// To look all around.
     Look,
     /// To call the place where it stands by a name.
     Name(String),

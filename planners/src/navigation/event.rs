@@ -23,9 +23,7 @@ pub enum Happening {
     SetEstimatedPosition(Estimate),
     /// Segments came into the local model or left it.
     Segments {
-        /// By name.
         entered: Vec<SegmentId>,
-        /// By name.
         removed: Vec<SegmentId>,
     },
     /// The skirt touched something.
@@ -51,7 +49,6 @@ pub enum Happening {
     },
     /// A way was reported closed.
     WayClosed {
-        /// Where it is blocked.
         at: Point,
         /// The doorway in which that is, by index.
         doorway: Option<usize>,
@@ -62,16 +59,13 @@ pub enum Happening {
     Retried,
     /// A goal point on the path was reached.
     Reached(Point),
-    /// The mission is over.
     Ended(Ending),
 }
 
 /// How a mission ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// At the goal.
     Arrived,
-    /// There is no way to the goal.
     NoWay,
     /// It took longer than [`Settings::patience_s`].
     OutOfPatience,

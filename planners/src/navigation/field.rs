@@ -21,7 +21,6 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// Free space of a window.
     pub fn new(window: Rect, ground: &Ground) -> Self {
         let Ground { barriers, reach, least, grain, .. } = *ground;
         let is_near = |barrier: &&Segment| {

@@ -58,7 +58,6 @@ impl FreeGrid {
         }
     }
 
-    /// The middle of a cell.
     pub fn at(&self, cell: usize) -> Point {
         let (column, row) = (cell % self.columns, cell / self.columns);
         Point::new(self.origin.x + column as f64 * self.grain, self.origin.y + row as f64 * self.grain)

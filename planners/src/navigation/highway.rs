@@ -6,7 +6,6 @@ use crate::geometry::{Point, Segment};
 /// A disc that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
 const SLIDE_M: f64 = 0.005;
 
-/// How far a disc can go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Free {
     /// Metres; no more than to the goal point.

@@ -37,7 +37,6 @@ pub enum State {
 /// What is done on the way to the next state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Action {
-    /// Nothing besides.
     #[default]
     None,
     /// To withdraw from what was touched.
@@ -58,10 +57,8 @@ pub enum Action {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own, for rules to ask")]
 pub struct StateFacts {
-    /// Who drives.
     pub mode: Mode,
     pub state: State,
-    /// Whether there is a goal point to go to.
     pub has_goal: bool,
     /// Metres to the goal point; 0 without one.
     pub distance_m: f64,
@@ -81,7 +78,6 @@ pub struct StateFacts {
     pub is_contact: bool,
     /// How often it withdrew since it last waited.
     pub back_offs: u32,
-    /// Whether the wheels are still at work.
     pub is_busy: bool,
     /// Whether a whole scan was taken since the robot stands here.
     pub is_scan_complete: bool,
@@ -95,7 +91,6 @@ pub struct StateFacts {
     pub detours_here: u32,
     /// How often it waited at this spot.
     pub waits: u32,
-    /// Whether a way over the whole building is known.
     pub has_way: bool,
     /// How often everything was begun anew.
     pub retries: u32,
@@ -116,7 +111,6 @@ pub struct StateDecision {
 /// What the weight of a way depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WayFacts<'w> {
-    /// The way, with its length and clearance.
     pub way: &'w Way,
     /// Whether what was seen of obstacles leaves no free path between its ends.
     pub is_cut: bool,

@@ -8,7 +8,6 @@ use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
 /// A building that is known before a mission: the global model and the network of places.
 #[derive(Clone, Debug)]
 pub struct Building {
-    /// The network of places for the robot.
     pub network: Network,
     /// The surfaces of the global model.
     pub walls: Vec<Segment>,

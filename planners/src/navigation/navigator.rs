@@ -167,7 +167,6 @@ impl<'b> Navigator<'b> {
         }
     }
 
-    /// Where the robot is thought to be.
     pub fn estimate(&self) -> &Estimate {
         self.model.estimate()
     }
@@ -218,12 +217,10 @@ impl<'b> Navigator<'b> {
         is_manual
     }
 
-    /// Whether a command is still being carried out.
     pub fn is_busy(&self) -> bool {
         self.sensed.is_none_or(|sensed| sensed.is_busy)
     }
 
-    /// The figures that it goes by.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }

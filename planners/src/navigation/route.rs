@@ -18,7 +18,6 @@ const A_RING: usize = 12;
 pub(super) struct Route {
     pub points: Vec<Point>,
     pub length_m: f64,
-    /// Whether the network had none.
     pub is_off_network: bool,
 }
 

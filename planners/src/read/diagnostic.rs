@@ -16,9 +16,7 @@ pub enum Code {
     UnknownFormat,
     /// The text is not TOML or not YAML.
     Syntax,
-    /// A key that means nothing here.
     UnknownKey,
-    /// A key that must be there.
     MissingKey,
     /// A value of the wrong type or with the wrong number of entries.
     WrongType,
@@ -44,15 +42,12 @@ pub enum Code {
     DuplicateName,
     /// A named door that lies in walls wholly, a note.
     DoorInWall,
-    /// A place in something solid.
     PlaceInWall,
-    /// A place outside of the environment.
     PlaceOutside,
     /// Thresholds outside of 0 to 1, or in the wrong order.
     Thresholds,
     /// A `mode` that is not trinary, scale or raw.
     Mode,
-    /// The image file is missing.
     ImageMissing,
     /// The image file holds no PGM or PNG image.
     NotAnImage,
@@ -117,11 +112,9 @@ impl Code {
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{message}")]
 pub struct Problem {
-    /// Its stable name.
     pub code: Code,
     /// One sentence with the values in it.
     pub message: String,
-    /// What to do about it.
     pub help: Option<String>,
     pub severity: Severity,
     text: Option<Text>,
@@ -135,7 +128,6 @@ impl Problem {
         Self { code, message: message.into(), help: None, severity: Severity::Error, text, labels }
     }
 
-    /// Adds what to do about it.
     #[must_use]
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
@@ -183,7 +175,6 @@ impl Diagnostic for Problem {
 #[derive(Clone, Debug, thiserror::Error, Diagnostic)]
 #[error("{}", summary(.problems))]
 pub struct MapErrors {
-    /// What is wrong, one by one.
     #[related]
     pub problems: Vec<Problem>,
 }

@@ -68,7 +68,6 @@ impl Fields<'_, '_> {
         }
     }
 
-    /// The value of a key, whatever it is.
     pub fn get(&self, key: &str) -> Option<&Spanned<DeValue<'_>>> {
         self.table.iter().find(|(name, _)| &**name.get_ref() == key).map(|(_, value)| value)
     }

@@ -17,9 +17,7 @@ use super::ros_map::{MapFile, Pixel};
 pub const MAX_PIXELS: u64 = 100_000_000;
 
 pub(crate) struct Image {
-    /// Pixels along x.
     pub(crate) columns: usize,
-    /// Pixels along y.
     pub(crate) rows: usize,
     colour: ColorType,
     bytes: Vec<u8>,

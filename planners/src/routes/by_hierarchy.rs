@@ -4,7 +4,6 @@ use super::hierarchy::{Hierarchy, Passed};
 use super::{Goal, Leg, RouteGraph, Start, Way};
 use crate::geometry::Point;
 
-/// A way that was found.
 struct Found {
     start: usize,
     goal: usize,
@@ -37,7 +36,6 @@ impl RouteGraph {
         Some((found.goal, self.driven(start, &found, goals[found.goal].at)))
     }
 
-    /// The way from door to door.
     fn driven(&self, start: &Start, found: &Found, goal: Option<Point>) -> Way {
         let mut legs = Vec::with_capacity(found.doors.len() + 1);
         let (mut room, mut from, mut cost) = (found.start, start.at, 0.0);

@@ -73,7 +73,6 @@ impl RouteGraph {
         }
     }
 
-    /// The closed boundaries.
     pub fn closed(&self) -> &[Closed] {
         &self.closed
     }

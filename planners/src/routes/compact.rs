@@ -28,7 +28,6 @@ pub struct CompactTree {
     pub before: Vec<u32>,
     /// The door passed last.
     pub doors: Vec<u32>,
-    /// Doors passed.
     pub hops: Vec<u32>,
 }
 

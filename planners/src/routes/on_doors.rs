@@ -11,7 +11,6 @@ pub struct Arrival {
     pub from: Option<(usize, usize)>,
     /// Total hardness on arrival.
     pub cost: f64,
-    /// Doors passed.
     pub hops: u32,
 }
 

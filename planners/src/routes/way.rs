@@ -12,9 +12,7 @@ use crate::geometry::Point;
 pub struct Leg {
     /// The room, by index.
     pub room: usize,
-    /// Where it begins.
     pub from: Point,
-    /// Where it ends.
     pub to: Point,
     /// Hardness of the way: metres times the room's hardness.
     pub hardness: f64,

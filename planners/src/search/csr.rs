@@ -43,7 +43,6 @@ impl<T> Csr<T> {
         self.begins.push(self.items.len() as u32);
     }
 
-    /// How many lists there are.
     pub fn len(&self) -> usize {
         self.begins.len() - 1
     }
@@ -52,7 +51,6 @@ impl<T> Csr<T> {
         self.len() == 0
     }
 
-    /// The list of an index.
     pub fn of(&self, list: usize) -> &[T] {
         &self.items[self.range(list)]
     }

@@ -7,24 +7,19 @@ pub enum SimulationError {
     /// A figure of the robot that is no use.
     #[error("the robot's {name} is {value}; expected a number that is not below what makes sense")]
     Setting {
-        /// Its name in the settings.
         name: &'static str,
         value: f64,
     },
     /// A coordinate that is no number, or the start.
     #[error("{what} is at {x}, {y}; expected two finite numbers")]
     NotFinite { what: String, x: f64, y: f64 },
-    /// An obstacle with too few corners.
     #[error("obstacle {number} has {corners} corners; expected 3 or more")]
     Outline {
         number: usize,
-        /// How many it has.
         corners: usize,
     },
-    /// A course without a speed.
     #[error("obstacle {number} moves at {speed_m_s} m/s; expected a speed of 0 or more")]
     Speed { number: usize, speed_m_s: f64 },
-    /// A robot that begins in something solid.
     #[error("the robot begins at {x}, {y}, {gap_m:.3} m from {what}; its radius is {radius_m} m")]
     Start {
         x: f64,

@@ -9,9 +9,7 @@ use crate::pose::Pose;
 /// What there was to see at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
-    /// When, in seconds.
     pub time_s: f64,
-    /// Where the robot was.
     pub robot: Pose,
     /// Where it thought that it was; `None` where that is not known.
     pub estimate: Option<Pose>,

@@ -75,7 +75,6 @@ impl Mover {
         Point::new((goal.x - self.shift.x) * share, (goal.y - self.shift.y) * share)
     }
 
-    /// Goes a way.
     pub fn go(&mut self, way: Point) {
         if way == Point::default() {
             return;

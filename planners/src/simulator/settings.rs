@@ -5,7 +5,6 @@
 pub struct Settings {
     /// Half the width of the robot, metres.
     pub radius_m: f64,
-    /// Its greatest speed, metres a second.
     pub greatest_speed_m_s: f64,
     /// How fast it turns, radians a second.
     pub turning_speed: f64,

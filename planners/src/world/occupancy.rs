@@ -16,7 +16,6 @@ pub struct Occupancy {
 }
 
 impl Occupancy {
-    /// Whether the cell is a wall.
     pub fn is_blocked(&self, column: usize, row: usize) -> bool {
         self.blocked[row * self.columns + column]
     }
@@ -32,7 +31,6 @@ impl Occupancy {
         self.block(column, row, column + 1, row + 1)
     }
 
-    /// The rectangle of all cells.
     pub fn bounds(&self) -> Rect {
         self.block(0, 0, self.columns, self.rows)
     }

@@ -11,7 +11,6 @@ use crate::pose::wrapped;
 /// What a change of the cell did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Changed {
-    /// What the judge was told.
     pub facts: ChangeFacts,
     pub strategy: Strategy,
     /// Evaluations that the repair took at once.

@@ -27,9 +27,7 @@ pub struct Tally {
     pub solve_evaluations: u64,
     pub reaches: u64,
     pub reach_evaluations: u64,
-    /// Edges that were added.
     pub edges_added: u64,
-    /// Edges that were removed.
     pub edges_removed: u64,
     /// Edges that were removed since they broke.
     pub edges_broken: u64,
@@ -81,6 +79,5 @@ pub struct Report {
     pub length: f64,
     /// Evaluations of one configuration against one object, all of them.
     pub evaluations: u64,
-    /// Calls, and what was added and removed.
     pub tally: Tally,
 }

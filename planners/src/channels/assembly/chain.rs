@@ -148,29 +148,22 @@ fn check_part<const D: usize>(
 pub enum AssemblyError<const D: usize> {
     #[error("no channel is given; the first one leads out along +z")]
     NoChannel,
-    /// A channel without an interior.
     #[error("channel {channel} is {found}; expected finite numbers, each minimum below its maximum")]
     NotABox { channel: usize, found: Cuboid<D> },
-    /// A part without an interior.
     #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
     PartIsNoBox { found: Cuboid<D> },
-    /// The first channel would not lead out of this one.
     #[error(
         "channel {channel} reaches up to z = {height}, above channel 1, which leads out and ends at {top}"
     )]
     HigherThanTheFirst {
         channel: usize,
         height: f64,
-        /// Where the first channel ends.
         top: f64,
     },
-    /// Two neighbours share no interior.
     #[error("channel {channel} {outer} and channel {next} {inner} do not overlap, so there is no junction")]
     Disconnected {
-        /// The number of the outer one.
         channel: usize,
         outer: Cuboid<D>,
-        /// The number of the inner one.
         next: usize,
         inner: Cuboid<D>,
     },
@@ -180,26 +173,20 @@ pub enum AssemblyError<const D: usize> {
          each must go on from there along an axis of its own, and one must span the other"
     )]
     NotOrthogonal {
-        /// The number of the outer one.
         channel: usize,
         outer: Cuboid<D>,
-        /// The number of the inner one.
         next: usize,
         inner: Cuboid<D>,
-        /// What they share.
         junction: Cuboid<D>,
     },
-    /// The part is not where the chain ends.
     #[error(
         "the part {part} sticks out of channel {last} {channel}, the last one, by {by}; {}",
         lies_in(*holder)
     )]
     PartOutside {
         part: Cuboid<D>,
-        /// The number of the last channel.
         last: usize,
         channel: Cuboid<D>,
-        /// By how much, in metres.
         by: f64,
         /// The number of the channel that it does lie in.
         holder: Option<usize>,

@@ -12,12 +12,10 @@ pub struct Cuboid<const D: usize> {
 }
 
 impl<const D: usize> Cuboid<D> {
-    /// A box from its two extreme corners.
     pub const fn new(min: [f64; D], max: [f64; D]) -> Self {
         Self { min, max }
     }
 
-    /// Extent along an axis, in metres.
     pub fn size(&self, axis: usize) -> f64 {
         self.max[axis] - self.min[axis]
     }
@@ -37,12 +35,10 @@ impl<const D: usize> Cuboid<D> {
         (0..D).all(|axis| self.min[axis] < self.max[axis])
     }
 
-    /// Whether all of its coordinates are numbers, none of them infinite.
     pub fn is_finite(&self) -> bool {
         self.min.iter().chain(&self.max).all(|value| value.is_finite())
     }
 
-    /// The box moved by a displacement.
     #[must_use]
     pub fn moved(&self, by: &[f64; D]) -> Self {
         let shifted = |corner: &[f64; D]| std::array::from_fn(|axis| corner[axis] + by[axis]);

@@ -45,52 +45,41 @@ pub fn channels_of(female: &[[f64; 2]], part: &Cuboid<2>) -> Result<Vec<Cuboid<2
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FemaleError {
-    /// The outline is no simple polygon.
     #[error(transparent)]
     Outline(#[from] OutlineError),
-    /// A part without an interior.
     #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
     PartIsNoBox { found: Cuboid<2> },
-    /// The part and the female part share an interior.
     #[error("the part {part} and the female part overlap: {wall} is solid")]
     PartInWall {
         part: Cuboid<2>,
         /// What of the female part it meets.
         wall: Cuboid<2>,
     },
-    /// The part is beside or below the female part, at least in part.
     #[error("the part {part} sticks out of the box {female} around the female part, to a side or below")]
     PartOutside { part: Cuboid<2>, female: Cuboid<2> },
-    /// There is nothing to take out.
     #[error("the part {part} is above the female part, which ends at z = {top}: it is disassembled")]
     AlreadyOut {
         part: Cuboid<2>,
-        /// The upper side of the female part.
         top: f64,
     },
-    /// A slope where channels would be.
     #[error(
         "the free space cannot be modelled by channels, which are rectangles along the axes: the edge {edge} is \
          sloped, and what lies in the box around it is taken for wall; without it the part {part} {}",
         place(*height)
     )]
     Sloped {
-        /// The sloped edge.
         edge: Edge,
         part: Cuboid<2>,
         /// How far up the free space around the part reaches; `None` where the part itself is in that box.
         height: Option<f64>,
     },
-    /// The cavity is closed.
     #[error(
         "the free space around the part {part} is closed: it reaches up to z = {height}, the female part to {top}, \
          and a way out leads along +z"
     )]
     Closed {
         part: Cuboid<2>,
-        /// How far up it reaches.
         height: f64,
-        /// The upper side of the female part.
         top: f64,
     },
 }

@@ -103,11 +103,9 @@ fn first_crossing(edges: &[Edge]) -> Option<(Edge, Edge, [f64; 2])> {
     first.map(|((one, other), at)| (edges[one], edges[other], at))
 }
 
-/// What is wrong with an outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutlineError {
-    /// A coordinate that is no number, or infinite.
     #[error("corner {corner} is ({}, {}); expected finite numbers", found[0], found[1])]
     NotFinite {
         /// Its number, from 1.
@@ -116,7 +114,6 @@ pub enum OutlineError {
     },
     #[error("the outline has {corners} distinct corners; expected at least 3")]
     TooFew { corners: usize },
-    /// It crosses or touches itself.
     #[error("the outline crosses or touches itself at ({}, {}): the edge {first} and the edge {second}", at[0], at[1])]
     CrossesItself { first: Edge, second: Edge, at: [f64; 2] },
 }

@@ -52,15 +52,11 @@ impl<const D: usize> PartPath<D> {
 pub enum PathError<const D: usize, E> {
     #[error("at junction {junction}: {reason}")]
     Undecided {
-        /// The number of the junction.
         junction: usize,
-        /// What the decision failed with.
         reason: E,
     },
-    /// A gap that is no finite number.
     #[error("at junction {junction} the gap along axis {axis} is {gap}; expected a finite number of metres")]
     BadGap {
-        /// The number of the junction.
         junction: usize,
         /// The axis, from 0.
         axis: usize,
@@ -71,18 +67,14 @@ pub enum PathError<const D: usize, E> {
     Collides {
         /// The junction of the leg; 0 for the way out.
         junction: usize,
-        /// Where the part is then.
         part: Cuboid<D>,
         wall: Cuboid<D>,
     },
-    /// The final position is not outside.
     #[error(
         "the displacement leaves the part at z = {height}; expected a finite one, and z of at least {top}, the top"
     )]
     NotOut {
-        /// The height at which the part would end.
         height: f64,
-        /// That of the free space.
         top: f64,
     },
 }

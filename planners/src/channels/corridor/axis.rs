@@ -38,7 +38,6 @@ impl Axis {
         }
     }
 
-    /// A rectangle's extent along it.
     pub(super) fn extent(self, rect: &Rect) -> f64 {
         match self {
             Self::X => rect.dx(),

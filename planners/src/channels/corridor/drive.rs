@@ -29,7 +29,6 @@ pub enum Primitive {
     Line {
         a: Point,
         b: Point,
-        /// Heading at `a`.
         from_heading: f64,
         /// Heading at `b`, less than a full turn away from that at `a`.
         to_heading: f64,
@@ -38,7 +37,6 @@ pub enum Primitive {
     },
     /// About the corner of a junction, which lies abreast of the robot all the time.
     Arc {
-        /// Number of the junction.
         junction: usize,
         centre: Point,
         /// From the corner to the robot's middle.
@@ -46,11 +44,9 @@ pub enum Primitive {
         turn: Turn,
         a: Point,
         b: Point,
-        /// Heading at `a`.
         from_heading: f64,
         /// Heading at `b`, less than half a turn away from that at `a`.
         to_heading: f64,
-        /// Metres between the robot and the nearest wall where it is nearest.
         clearance: f64,
     },
 }
@@ -59,9 +55,7 @@ pub enum Primitive {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TurnMade {
     pub facts: StepFacts,
-    /// What was said to do.
     pub steer: Steer,
-    /// The corner turned round.
     pub corner: Point,
     /// Radius of the guiding circle: half the robot's width and the gap.
     pub radius: f64,
@@ -84,7 +78,6 @@ impl Primitive {
         }
     }
 
-    /// Metres between the robot and the nearest wall where it is nearest.
     pub fn clearance(&self) -> f64 {
         match *self {
             Self::Line { clearance, .. } | Self::Arc { clearance, .. } => clearance,

@@ -34,7 +34,6 @@ pub enum Overlap {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum CorridorError {
-    /// There is none.
     #[error("there are no channels, expected at least one rectangle")]
     NoChannels,
     #[error(
@@ -50,11 +49,8 @@ pub enum CorridorError {
     )]
     NotOrthogonal {
         first: usize,
-        /// Number of the other.
         second: usize,
-        /// How they overlap.
         how: Overlap,
-        /// What they share.
         rect: Rect,
     },
     /// A channel is upright for one neighbour and lying for another.
@@ -65,11 +61,8 @@ pub enum CorridorError {
     )]
     TwoAxes {
         channel: usize,
-        /// Its axis at the first junction.
         axis: Axis,
-        /// Number of the channel that it meets there.
         one: usize,
-        /// Number of the channel where its axis is the other.
         other: usize,
     },
 }

@@ -14,11 +14,8 @@ pub enum End {
 /// The way inside one channel, from where it is entered to where it is left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
-    /// Number of the channel.
     pub channel: usize,
-    /// Where it is entered.
     pub from: End,
-    /// Where it is left.
     pub to: End,
     /// Metres between the two; a junction counts with its centre.
     pub length: f64,

@@ -13,16 +13,13 @@ use crate::geometry::{Point, Rect};
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum RouteError<E> {
-    /// Start or goal are in no channel.
     #[error("{what} ({}, {}) lies in no channel", point.x, point.y)]
     Outside { what: End, point: Point },
     /// The weights could not be told.
     #[error("{0}")]
     Weigh(E),
-    /// A weight that no path can be weighed by.
     #[error("the weight of {passage} is {weight}, expected a finite number that is not negative")]
     BadWeight { passage: Passage, weight: f64 },
-    /// No way leads from the start to the goal.
     #[error("{0}")]
     NoRoute(NoRoute),
 }
@@ -38,7 +35,6 @@ pub enum NoRoute {
         from_goal: Vec<usize>,
         /// The channel of each of the two parts that is nearest to the other part.
         nearest: (usize, usize),
-        /// Metres between those two.
         gap: f64,
     },
     /// Every chain of channels holds a passage that must not be used.

@@ -9,7 +9,6 @@ use crate::geometry::{Point, Rect};
 /// What is known when the robot is about to enter a junction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepFacts {
-    /// Number of the junction.
     pub junction: usize,
     pub rect: Rect,
     /// Number of the channel that is left there.
@@ -40,7 +39,6 @@ pub struct Steer {
     pub rule: Option<u32>,
     /// The junction's corner to turn round: smallest or largest x, smallest or largest y.
     pub corner: (Extreme, Extreme),
-    /// The sense of the turn.
     pub turn: Turn,
     /// Metres to keep between the robot's side and the corner.
     pub gap: f64,
@@ -54,18 +52,14 @@ pub struct Steer {
 /// One of the two ends of a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extreme {
-    /// The smaller coordinate.
     Min,
-    /// The larger coordinate.
     Max,
 }
 
 /// The sense of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// Counter-clockwise.
     Left,
-    /// Clockwise.
     Right,
 }
 
@@ -80,14 +74,11 @@ pub struct Offset {
 /// A part of the guiding circle's radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// `rho cos theta`.
     Cos,
-    /// `rho sin theta`.
     Sin,
 }
 
 impl Turn {
-    /// `"left"` or `"right"`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",

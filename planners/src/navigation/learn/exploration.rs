@@ -24,7 +24,6 @@ pub struct Exploration {
 pub struct Explored {
     /// [`Ending::Arrived`] where no opening was left that was worth a look.
     pub ending: Ending,
-    /// The building as it was learned.
     pub learned: Learned,
     /// Metres that the robot really went.
     pub path_m: f64,

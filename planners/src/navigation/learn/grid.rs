@@ -67,7 +67,6 @@ impl Window {
         (self.low.0 + (index % columns) as i32, self.low.1 + (index / columns) as i32)
     }
 
-    /// How many cells there are.
     pub fn len(&self) -> usize {
         self.columns as usize * self.rows as usize
     }
@@ -86,7 +85,6 @@ impl Cells {
         Self { window, bits: FixedBitSet::with_capacity(window.len()) }
     }
 
-    /// Whether a cell is one of them.
     pub fn has(&self, cell: Cell) -> bool {
         self.window.index(cell).is_some_and(|index| self.bits.contains(index))
     }

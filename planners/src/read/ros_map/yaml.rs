@@ -48,7 +48,6 @@ pub(crate) struct MapFile {
     pub occupied_thresh: f64,
     /// Below this occupancy (0 to 1) a pixel is free.
     pub free_thresh: f64,
-    /// How brightness is read.
     pub mode: Mode,
     pub(crate) image_span: Range<usize>,
 }

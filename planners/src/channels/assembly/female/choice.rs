@@ -12,7 +12,6 @@ struct Chain {
     channels: usize,
     /// What the tightest junction leaves around the part.
     room: f64,
-    /// The number of the rectangle before.
     before: Option<usize>,
 }
 
