@@ -39,6 +39,7 @@ use disc::{HAIR_M, Touch, touch};
 use obstacle::Mover;
 
 use crate::body::{Body, Command, Contact, Reading, Sensed};
+use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Point, RayGrid, Segment, polygon};
 use crate::pose::{Pose, wrapped};
 use crate::random::Random;
@@ -225,7 +226,7 @@ impl Simulator {
     /// What the robot touches first, if each went on as it wants to; what it touches is at its place at that time.
     fn first_touch(&self, step: &Step, ways: &[Point]) -> Option<(Touch, Option<usize>)> {
         let (at, radius) = (self.pose.at, self.settings.radius_m);
-        let reach = radius + step.way.length() + 1e-6;
+        let reach = radius + step.way.length() + SNAP_M;
         let walls = self.walls.around(at, reach);
         let walls = walls.filter_map(|wall| Some((touch(at, radius, step.way, wall)?, None)));
         let obstacles = self.movers.iter().zip(ways).enumerate().flat_map(|(i, (mover, way))| {
@@ -308,7 +309,7 @@ impl Simulator {
     /// What the skirt feels now.
     fn contact(&self) -> Option<Contact> {
         let (at, radius) = (self.pose.at, self.settings.radius_m);
-        let walls = self.walls.around(at, radius + 1e-6);
+        let walls = self.walls.around(at, radius + SNAP_M);
         let sides = self.movers.iter().flat_map(|mover| &mover.sides);
         let points = walls.chain(sides).map(|side| at.nearest_on(side.a, side.b));
         let nearest = points.min_by(|a, b| at.distance(*a).total_cmp(&at.distance(*b)))?;

@@ -29,10 +29,7 @@ pub enum ArmError {
     #[error("the base of the arm is not at a finite place")]
     Base,
     #[error("there are {limits} joint limits for {links} links")]
-    Limits {
-        limits: usize,
-        links: usize,
-    },
+    Limits { limits: usize, links: usize },
     #[error("joint {0} goes from {1} to {2} rad, and must go from a lower to a higher angle")]
     Limit(usize, f64, f64),
 }

@@ -17,10 +17,7 @@ pub enum Clearance {
         within_m: f64,
     },
     /// Everything nearer to this point than so many metres belongs to the object; 0 for a point of its outline.
-    Taken {
-        at: Point,
-        within_m: f64,
-    },
+    Taken { at: Point, within_m: f64 },
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -17,7 +17,10 @@ pub enum Noted {
         at: Configuration,
     },
     /// A subgoal was taken out, after its edges.
-    VertexRemoved { id: VertexId, why: Removal },
+    VertexRemoved {
+        id: VertexId,
+        why: Removal,
+    },
     EdgeAdded(Edge),
     /// A connection was verified again, or found another path: it is now as told.
     EdgeVerified(Edge),
@@ -46,9 +49,14 @@ pub enum Noted {
         revision: Revision,
     },
     /// An evaluation taught something about an object.
-    Learned { object: String, clearance: Clearance },
+    Learned {
+        object: String,
+        clearance: Clearance,
+    },
     /// Nothing is known any more of an object, since it has another shape or is gone.
-    ClearancesForgotten { object: String },
+    ClearancesForgotten {
+        object: String,
+    },
     /// An object came, went or changed.
     ObjectChanged {
         object: String,
@@ -57,7 +65,10 @@ pub enum Noted {
         revision: Revision,
     },
     /// The judge was asked what becomes of the experience.
-    StrategyChosen { facts: Box<ChangeFacts>, strategy: Strategy },
+    StrategyChosen {
+        facts: Box<ChangeFacts>,
+        strategy: Strategy,
+    },
     /// All experience was forgotten: vertices, edges, clearances. Each of them is out; no other note says so.
     Forgotten,
     /// The robot is somewhere else, next to a vertex where one is told.

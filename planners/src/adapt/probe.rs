@@ -67,7 +67,7 @@ impl Motion<'_> {
         let mut step = f64::INFINITY;
         for (index, (link, travel)) in links.iter().zip(&self.travel).enumerate() {
             let slack = slack(index, &placed.inward(link));
-            step = step.min(if slack < 0.0 { 0.0 } else { slack / travel.max(1e-12) });
+            step = step.min(if slack < 0.0 { 0.0 } else { slack / travel.max(f64::MIN_POSITIVE) });
             if step <= 0.0 {
                 break;
             }

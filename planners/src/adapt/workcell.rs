@@ -7,6 +7,7 @@ use super::clearance::{Clearance, Known};
 use super::object::Object;
 use super::robot::{Link, Robot};
 use crate::geometry::Segment;
+use crate::geometry::tolerance::SNAP_M;
 use crate::pose::Frame;
 
 /// Number of the state of a cell: 0 at first, one more with each change.
@@ -64,7 +65,7 @@ impl Workcell {
         touching_m: f64,
     ) -> Result<Self, WorkcellError> {
         check(placed.iter().map(|placed| &placed.object))?;
-        let touching_m = touching_m.max(1e-6);
+        let touching_m = touching_m.max(SNAP_M);
         Ok(Self {
             robot,
             placed,

@@ -9,6 +9,9 @@ use crate::geometry::{Point, Segment, cross};
 /// Angles that differ by less count as equal, radians.
 pub(super) const ANGLE: f64 = 1e-7;
 
+/// Directions past a bound by less than this sine are looked at closely: more than rounding and [`ANGLE`] make of one.
+const NEARLY: f64 = 1e-5;
+
 /// A wall of a face, and on which sides of it the face lies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
@@ -66,7 +69,7 @@ impl Corner {
     /// Tells most directions quickly that do not resolve: of what it lets pass, some do not either.
     fn may_be_resolved_along(&self, d: Point) -> bool {
         let [(_, from), (_, to)] = self.bounds;
-        let slack = -1e-5 * d.length();
+        let slack = -NEARLY * d.length();
         let left = |a: Point, b: Point, length: Point| a.cross(b) >= slack * length.length();
         left(from, d, from) && left(d, to, to)
     }

@@ -7,6 +7,9 @@ use crate::search::Csr;
 /// The most cells a grid has.
 const MOST_CELLS: f64 = 1_000_000.0;
 
+/// Segments on one line have a grid so wide, metres.
+const LEAST_M: f64 = 1e-3;
+
 /// Cells reach so much further than their side, so that rounding loses no segment on their edge; a share of it.
 const OVERLAP: f64 = 1e-6;
 
@@ -39,7 +42,8 @@ impl RayGrid {
         let bounds = Rect::around(finite().flat_map(|(_, segment)| [segment.a, segment.b]));
         let is_empty = bounds.x0 > bounds.x1;
         let cells = (segments.len() as f64).clamp(1.0, MOST_CELLS);
-        let (dx, dy) = if is_empty { (1.0, 1.0) } else { (bounds.dx().max(1e-3), bounds.dy().max(1e-3)) };
+        let (dx, dy) =
+            if is_empty { (1.0, 1.0) } else { (bounds.dx().max(LEAST_M), bounds.dy().max(LEAST_M)) };
         let cell_m = (dx * dy / cells).sqrt().max(dx.max(dy) / MOST_CELLS);
         let (columns, rows) = ((dx / cell_m) as usize + 1, (dy / cell_m) as usize + 1);
         let origin = if is_empty { Point::default() } else { Point::new(bounds.x0, bounds.y0) };

@@ -7,6 +7,10 @@ use crate::geometry::{Point, Rect};
 /// The most cells that a lattice may have.
 pub const MAX_CELLS: f64 = 1e8;
 
+/// A cell that lacks no more of its side is whole: a map of 93.7 m has 1874 cells of 5 cm, whatever the binary fractions
+/// say.
+const WHOLE: f64 = 1e-6;
+
 /// Square cells from the environment's lower left corner. A remainder at the right or upper edge that is less
 /// than a cell is not covered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +27,7 @@ impl Lattice {
         if !(side.is_finite() && side > 0.0) {
             return Err(format!("a grid of {side:?} m has no cells"));
         }
-        // A map of 93.7 m has 1874 cells of 5 cm, whatever the binary fractions say.
-        let cells = |length: f64| (length / side + 1e-6).floor();
+        let cells = |length: f64| (length / side + WHOLE).floor();
         let (columns, rows) = (cells(bounds.dx()), cells(bounds.dy()));
         if columns * rows > MAX_CELLS {
             return Err(format!(

@@ -4,6 +4,9 @@ use crate::geometry::{Point, Segment};
 
 use super::beam::Beam;
 
+/// No echo is exact, however the beam runs: standard deviation, metres.
+const LEAST_M: f64 = 1e-3;
+
 /// A line through echoes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
@@ -67,8 +70,7 @@ impl Fit {
 
     /// Standard deviation of an echo across this line.
     pub fn deviation(&self, beam: &Beam) -> f64 {
-        // a millimetre: no echo is exact, however the beam runs
-        (beam.sigma_m * self.along.cross(beam.towards)).powi(2).max(1e-6).sqrt()
+        (beam.sigma_m * self.along.cross(beam.towards)).abs().max(LEAST_M)
     }
 
     /// How far along the line a point lies from its centre.

@@ -2,7 +2,7 @@
 
 use super::beam::Beam;
 use super::{ModelSegment, Settings};
-use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::tolerance::{ROUNDING, ROUNDING_M};
 use crate::geometry::{Point, orient};
 
 /// A beam across a segment.
@@ -87,7 +87,7 @@ impl Fan {
         let is_left = orient(c, a, b) >= 0.0;
         let (first, last) = if is_left { (a, b) } else { (b, a) };
         // an angle whose sine is at most a half is at most 1.05 times as large as the sine
-        let widened = 1.05 * self.spread_m / nearest + 1e-9;
+        let widened = 1.05 * self.spread_m / nearest + ROUNDING;
         let from = (first - c).diamond_angle() - widened;
         let mut to = (last - c).diamond_angle() + widened;
         if to < from {

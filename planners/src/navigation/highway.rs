@@ -6,6 +6,9 @@ use crate::geometry::{Point, Segment};
 /// A disc that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
 const SLIDE_M: f64 = 0.005;
 
+/// How far a disc gets is found so finely, metres: no wheels are stopped more finely.
+const FINE_M: f64 = 1e-4;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Free {
     /// Metres; no more than to the goal point.
@@ -68,7 +71,7 @@ fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
 fn first_within(from: Point, to: Point, reach: f64, barrier: &Segment) -> f64 {
     let whole = from.distance(to);
     let (mut low, mut high) = (0.0, whole);
-    while high - low > 1e-4 {
+    while high - low > FINE_M {
         let middle = f64::midpoint(low, high);
         let is_met = Segment::new(from, from.lerp(to, middle / whole)).gap(barrier) < reach;
         (low, high) = if is_met { (low, middle) } else { (middle, high) };

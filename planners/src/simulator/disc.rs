@@ -1,9 +1,13 @@
 //! A disc that moves straight among segments: how far it gets.
 
+use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
 
 /// Discs stop so far before what they touch, metres, so that rounding never puts them into it.
-pub(super) const HAIR_M: f64 = 1e-9;
+pub(super) const HAIR_M: f64 = ROUNDING_M;
+
+/// A way along what is touched leads towards it by no larger a cosine: what rounding leaves of 0.
+const ACROSS: f64 = 1e-12;
 
 /// What a disc touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +28,7 @@ pub(super) fn touch(centre: Point, radius_m: f64, way: Point, segment: &Segment)
     let nearest = centre.nearest_on(segment.a, segment.b);
     if centre.distance(nearest) <= radius_m + 2.0 * HAIR_M {
         let nearer = way.dot(nearest - centre);
-        return (nearer > 1e-12 * length).then_some(Touch { share: 0.0, at: nearest });
+        return (nearer > ACROSS * length).then_some(Touch { share: 0.0, at: nearest });
     }
     let towards = Point::new(way.x / length, way.y / length);
     let reach = radius_m + HAIR_M;

@@ -6,18 +6,12 @@
 pub enum SimulationError {
     /// A figure of the robot that is no use.
     #[error("the robot's {name} is {value}; expected a number that is not below what makes sense")]
-    Setting {
-        name: &'static str,
-        value: f64,
-    },
+    Setting { name: &'static str, value: f64 },
     /// A coordinate that is no number, or the start.
     #[error("{what} is at {x}, {y}; expected two finite numbers")]
     NotFinite { what: String, x: f64, y: f64 },
     #[error("obstacle {number} has {corners} corners; expected 3 or more")]
-    Outline {
-        number: usize,
-        corners: usize,
-    },
+    Outline { number: usize, corners: usize },
     #[error("obstacle {number} moves at {speed_m_s} m/s; expected a speed of 0 or more")]
     Speed { number: usize, speed_m_s: f64 },
     #[error("the robot begins at {x}, {y}, {gap_m:.3} m from {what}; its radius is {radius_m} m")]

@@ -77,7 +77,8 @@ pub(super) fn many_links(arm: &Arm, tool: &Pose, near: &[f64]) -> Option<Configu
 /// Damped least squares (Wampler 1986) from a configuration, place and heading of the tool, inside the limits.
 fn descent(arm: &Arm, tool: &Pose, mut at: Configuration) -> Option<Configuration> {
     const ROUNDS: usize = 200;
-    let mut damping = 1e-2;
+    const LEAST_DAMPING: f64 = 1e-9;
+    let mut damping = 0.01;
     let mut left = residual(arm, tool, &at);
     for _ in 0..ROUNDS {
         if left.norm() < TOLERANCE_M {
@@ -91,7 +92,7 @@ fn descent(arm: &Arm, tool: &Pose, mut at: Configuration) -> Option<Configuratio
             .collect();
         let after = residual(arm, tool, &moved);
         if after.norm() < left.norm() {
-            (at, left, damping) = (moved, after, (damping * 0.3).max(1e-9));
+            (at, left, damping) = (moved, after, (damping * 0.3).max(LEAST_DAMPING));
         } else {
             damping *= 4.0;
         }

@@ -6,6 +6,7 @@ use crate::adapt::judge::{ChangeFacts, Judge, Strategy};
 use crate::adapt::noted::{Noted, ObjectChange, Removal};
 use crate::adapt::object::Object;
 use crate::adapt::workcell::{Placed, WorkcellError, check};
+use crate::geometry::tolerance::ROUNDING;
 use crate::pose::wrapped;
 
 /// What a change of the cell did.
@@ -98,7 +99,7 @@ impl Adapt {
         let robot = self.cell.robot();
         let tool = placed.object.pose.then(&tag.tool);
         let Some(at) = robot.inverse(&tool, tag.branch, &vertex.at) else { return false };
-        if crate::adapt::distance(&at, &vertex.at) <= 1e-9 {
+        if crate::adapt::distance(&at, &vertex.at) <= ROUNDING {
             return true;
         }
         self.experience.move_vertex(id, at.clone());

@@ -1,9 +1,10 @@
 //! Lines from circle to circle; a circle that the way passes by is left out.
 
 use super::circle::{Circle, Tangent};
+use crate::geometry::tolerance::ROUNDING;
 
 /// Radians below which a way passes a circle by. Less is what rounding leaves of a turn by nothing.
-const NOISE: f64 = 1e-9;
+const NOISE: f64 = ROUNDING;
 
 /// A circle that the way touches.
 #[derive(Clone, Copy, Debug)]
