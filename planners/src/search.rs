@@ -1,5 +1,6 @@
 //! Search on graphs and grids, shared by all planners.
 
+pub mod bottleneck;
 mod by_value;
 mod csr;
 pub mod grid;

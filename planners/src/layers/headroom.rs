@@ -1,9 +1,10 @@
 //! Why a state is too tall: how high the best way is, and where it is lowest.
 
-use super::bottleneck::{best_way, neighbours};
 use super::free_space::Solid;
 use super::lattice::Lattice;
 use crate::geometry::Point;
+use crate::search::bottleneck::best_way;
+use crate::search::grid::beside;
 use crate::world::World;
 
 /// How high a robot may be on the highest way.
@@ -51,7 +52,7 @@ pub fn headroom(world: &World, from: Point, to: Point, width: f64, step: f64) ->
         let over = world.bridges.iter().filter(|b| b.rect.nearest_to(here).distance(here) < keep);
         over.map(|bridge| bridge.height).fold(f64::INFINITY, f64::min)
     };
-    let neighbours = |node: usize| neighbours(node, columns, rows).filter(|&next| is_free(next));
+    let neighbours = |node: usize| beside(node, (columns, rows)).filter(|&next| is_free(next));
     let Some(way) = best_way(columns * rows, (start, goal), height, neighbours) else {
         return Ok(Headroom::NoWay);
     };

@@ -1,9 +1,10 @@
 //! Why there is no way: how wide the widest is, and where it is narrowest.
 
-use super::bottleneck::{best_way, neighbours};
 use super::clearance::Clearance;
 use crate::geometry::tolerance::{ROUNDING, ROUNDING_M};
 use crate::geometry::{Point, Rect};
+use crate::search::bottleneck::best_way;
+use crate::search::grid::beside;
 use crate::world::World;
 
 /// The narrowest point of the widest way.
@@ -102,7 +103,7 @@ fn search(
     // Where the discs of two points overlap there is no wall between the points.
     let joined =
         &|a: usize, b: usize| clearance(a) + clearance(b) > point(a).distance(point(b)) * (1.0 + ROUNDING);
-    let neighbours = |node: usize| neighbours(node, columns, rows).filter(move |&next| joined(node, next));
+    let neighbours = |node: usize| beside(node, (columns, rows)).filter(move |&next| joined(node, next));
     let nodes = best_way(columns * rows, (node(from), node(to)), clearance, neighbours)?;
     let inner = nodes.iter().map(|&node| (point(node), clearance(node)));
     let ends = |p: Point| std::iter::once((p, walls.at(p)));

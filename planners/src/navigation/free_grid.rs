@@ -3,11 +3,7 @@
 use fixedbitset::FixedBitSet;
 
 use crate::geometry::{Point, Rect, Segment};
-use crate::search::grid::{AROUND, least_costs};
-
-/// What steps over a side and over a corner of a cell cost.
-const STRAIGHT: u32 = 1000;
-const DIAGONAL: u32 = 1414;
+use crate::search::grid::{around, least_cost, least_costs};
 
 /// A cell is free if its middle is.
 #[derive(Clone, Debug)]
@@ -108,8 +104,7 @@ impl FreeGrid {
     pub fn path(&self, from: usize, to: usize) -> Option<Vec<Point>> {
         let (goal_x, goal_y) = (to % self.columns, to / self.columns);
         let left = |cell: usize| {
-            let (dx, dy) = ((cell % self.columns).abs_diff(goal_x), (cell / self.columns).abs_diff(goal_y));
-            STRAIGHT * dx.max(dy) as u32 + (DIAGONAL - STRAIGHT) * dx.min(dy) as u32
+            least_cost((cell % self.columns).abs_diff(goal_x), (cell / self.columns).abs_diff(goal_y))
         };
         let found = least_costs(self.columns * self.rows, from, Some(to), left, |cell| self.neighbours(cell));
         found.cost(to)?;
@@ -122,11 +117,6 @@ impl FreeGrid {
     }
 
     fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, u32)> {
-        let (column, row) = ((cell % self.columns) as isize, (cell / self.columns) as isize);
-        AROUND.iter().filter_map(move |&(dx, dy)| {
-            let next = self.cell(column + dx as isize, row + dy as isize)?;
-            let cost = if dx == 0 || dy == 0 { STRAIGHT } else { DIAGONAL };
-            self.free.contains(next).then_some((next, cost))
-        })
+        around(cell, (self.columns, self.rows)).filter(|(next, _)| self.free.contains(*next))
     }
 }

@@ -1,6 +1,8 @@
 //! From classified cells to walls: what is unknown, and which specks are noise.
 
 use super::{MapReport, Unknown};
+use crate::geometry::tolerance::ROUNDING;
+use crate::search::grid::around;
 use crate::world::Occupancy;
 
 /// What an image says about a cell.
@@ -35,8 +37,8 @@ pub(crate) fn walls(cells: &[Cell], unknown: Unknown) -> Vec<bool> {
 /// The area freed, square metres.
 pub(crate) fn drop_specks(walls: &mut Occupancy, speck_area: f64) -> f64 {
     let cell_area = walls.resolution * walls.resolution;
-    // 1e-9: a blob of exactly the area, as written in decimals, is not smaller than it.
-    let limit = speck_area / cell_area - 1e-9;
+    // a blob of exactly the area, as written in decimals, is not smaller than it
+    let limit = speck_area / cell_area - ROUNDING;
     if limit <= 1.0 {
         return 0.0;
     }
@@ -67,13 +69,9 @@ fn blob(walls: &Occupancy, start: usize, seen: &mut [bool]) -> (Vec<usize>, bool
         next += 1;
         let (column, row) = (cell % walls.columns, cell / walls.columns);
         at_border |= column == 0 || row == 0 || column + 1 == walls.columns || row + 1 == walls.rows;
-        for y in row.saturating_sub(1)..(row + 2).min(walls.rows) {
-            for x in column.saturating_sub(1)..(column + 2).min(walls.columns) {
-                let neighbour = y * walls.columns + x;
-                if walls.blocked[neighbour] && !seen[neighbour] {
-                    seen[neighbour] = true;
-                    blob.push(neighbour);
-                }
+        for (neighbour, _) in around(cell, (walls.columns, walls.rows)) {
+            if walls.blocked[neighbour] && !std::mem::replace(&mut seen[neighbour], true) {
+                blob.push(neighbour);
             }
         }
     }

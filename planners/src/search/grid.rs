@@ -1,7 +1,7 @@
 //! Least-cost ways over the cells of a grid.
 //!
-//! Cells are numbers and what is known of each lies in arrays; petgraph's searches keep hash maps, which take several times
-//! as long (`cargo bench -p adit-planners --bench routes` has both on graphs of rooms).
+//! Cells are numbers and what is known of each lies in arrays; petgraph's searches keep hash maps, which take RATIO times as
+//! long (`cargo bench -p adit-planners --bench search` has both).
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,6 +11,38 @@ pub const AROUND: [(i32, i32); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (
 
 /// Columns and rows to the four neighbours over its sides.
 pub const BESIDE: [(i32, i32); 4] = [AROUND[0], AROUND[1], AROUND[2], AROUND[3]];
+
+/// What a step over a side of a cell costs.
+pub const STRAIGHT: u32 = 1000;
+
+/// What one over a corner costs: longer by the root of 2, less a part in 6,000.
+const DIAGONAL: u32 = 1414;
+
+/// What a step to one of the cells [`AROUND`] costs.
+pub fn step((dx, dy): (i32, i32)) -> u32 {
+    if dx == 0 || dy == 0 { STRAIGHT } else { DIAGONAL }
+}
+
+/// The least cost of a way over so many columns and rows.
+pub fn least_cost(columns: usize, rows: usize) -> u32 {
+    STRAIGHT * columns.max(rows) as u32 + (DIAGONAL - STRAIGHT) * columns.min(rows) as u32
+}
+
+/// The cells around one that lie on a grid of `size` columns and rows, numbered row by row, with what a step there costs.
+pub fn around(cell: usize, size: (usize, usize)) -> impl Iterator<Item = (usize, u32)> {
+    AROUND.into_iter().filter_map(move |by| Some((stepped(cell, size, by)?, step(by))))
+}
+
+/// Those over its sides.
+pub fn beside(cell: usize, size: (usize, usize)) -> impl Iterator<Item = usize> {
+    BESIDE.into_iter().filter_map(move |by| stepped(cell, size, by))
+}
+
+fn stepped(cell: usize, (columns, rows): (usize, usize), (dx, dy): (i32, i32)) -> Option<usize> {
+    let column = (cell % columns).checked_add_signed(dx as isize)?;
+    let row = (cell / columns).checked_add_signed(dy as isize)?;
+    (column < columns && row < rows).then_some(row * columns + column)
+}
 
 /// Least costs from a cell, and the ways that have them.
 #[derive(Clone, Debug, Default)]

@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use super::grid::{Cell, Cells, GRAIN_M, cell_of, middle_of, touched};
 use crate::geometry::{Point, Segment};
 use crate::navigation::highway::{is_clear, straightened};
-use crate::search::grid::{AROUND, BESIDE, LeastCosts, least_costs};
+use crate::search::grid::{AROUND, BESIDE, LeastCosts, STRAIGHT, least_costs, step};
 
 /// Beside what was seen free so many cells count as free, too: beams end before a wall, and leave out what lies between them.
 const BEYOND: u32 = 3;
@@ -19,10 +19,6 @@ const FAR_M: f64 = 4.0;
 
 /// So many cells of an opening are looked at.
 const LOOKED_AT: usize = 12;
-
-/// What steps over a side and over a corner of a cell cost.
-const STRAIGHT: u32 = 10;
-const DIAGONAL: u32 = 14;
 
 /// Cells where free space ends without a wall, side by side.
 #[derive(Clone, Debug)]
@@ -143,8 +139,8 @@ impl Ground {
                 if let Some(cost) = self.ways.cost(index)
                     && left_m <= far_m
                 {
-                    // nearer to the opening is worth a way that is longer by as much
-                    let left = (left_m / GRAIN_M * 20.0) as u64;
+                    // nearer to the opening is worth a way that is longer by twice as much
+                    let left = (left_m / GRAIN_M * 2.0 * f64::from(STRAIGHT)) as u64;
                     found.push((u64::from(cost) + left, index));
                 }
             }
@@ -189,10 +185,9 @@ impl Ground {
         let standing = &self.standing;
         let next = |index: usize| {
             let (column, row) = window.cell(index);
-            AROUND.iter().filter_map(move |(dx, dy)| {
+            AROUND.into_iter().filter_map(move |(dx, dy)| {
                 let cell = (column + dx, row + dy);
-                let cost = if *dx == 0 || *dy == 0 { STRAIGHT } else { DIAGONAL };
-                window.index(cell).filter(|_| standing.has(cell)).map(|next| (next, cost))
+                window.index(cell).filter(|_| standing.has(cell)).map(|next| (next, step((dx, dy))))
             })
         };
         let ways = first.map(|first| least_costs(window.len(), first, None, |_| 0, next));
