@@ -1,16 +1,15 @@
-//! One start to all rooms: our search beside petgraph's Dijkstra on the same graph, where all hardness lies on the doors;
-//! and the search by metres on the same graph. Any pair of rooms: our hierarchy beside crate `cch`, whose weights are
-//! whole numbers. `cargo bench -p adit-planners --bench routes`
+//! One start to all rooms, by metres; where all hardness lies on the doors, see bench `search`. Any pair of rooms: our
+//! hierarchy beside crate `cch`, whose weights are whole numbers. `cargo bench -p adit-planners --bench routes`
 #![allow(missing_docs)] // divan's macros
 
-use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+#[path = "support/building.rs"]
+mod building;
+
+use adit_planners::geometry::Point;
+use adit_planners::routes::{Goal, RouteGraph, Start, Walking};
+use building::building;
 use cch::graph::Graph;
 use divan::Bencher;
-use petgraph::algo::dijkstra;
-use petgraph::graph::NodeIndex;
-
-const SIDES: [usize; 3] = [32, 100, 316];
 
 /// Of floors with about 1,000, 10,000 and 100,000 doors.
 const FLOORS: [usize; 3] = [23, 71, 224];
@@ -19,57 +18,8 @@ fn main() {
     divan::main();
 }
 
-/// Rooms of 4 m in a square of `side` by `side`, each joined to its right and its upper neighbour.
-fn building(side: usize, walking: Walking) -> RouteGraph {
-    let corner = |i: usize| 4.0 * i as f64;
-    let square = |x: usize, y: usize| Rect::new(corner(x), corner(y), corner(x + 1), corner(y + 1));
-    let rooms = (0..side * side).map(|i| RouteRoom { rect: square(i % side, i / side), walking }).collect();
-    let mut doors = Vec::new();
-    for room in 0..side * side {
-        let (x, y) = (room % side, room / side);
-        let right = (x + 1 < side)
-            .then(|| (room + 1, Rect::new(corner(x + 1), corner(y), corner(x + 1), corner(y + 1))));
-        let upper = (y + 1 < side)
-            .then(|| (room + side, Rect::new(corner(x), corner(y + 1), corner(x + 1), corner(y + 1))));
-        for (room2, crossing) in [right, upper].into_iter().flatten() {
-            let door = doors.len() as u32 + 1;
-            // a spread of weights that no cache or tie helps with (Knuth's multiplicative hash)
-            let hardness = Some(1.0 + f64::from(door.wrapping_mul(2_654_435_761) >> 24));
-            let at = crossing.centre();
-            doors.push(RouteDoor {
-                door,
-                room1: room,
-                room2,
-                crossing,
-                at,
-                hardness,
-                passable: true,
-                one_way: false,
-            });
-        }
-    }
-    RouteGraph::new(rooms, doors)
-}
-
 fn start() -> Start {
     Start { rooms: vec![0], at: Point::new(2.0, 2.0) }
-}
-
-#[divan::bench(args = SIDES)]
-fn ours_on_doors(bencher: Bencher, side: usize) {
-    let graph = building(side, Walking::OnDoors);
-    bencher.bench(|| graph.tree(&start()));
-}
-
-#[divan::bench(args = SIDES)]
-fn petgraph_distances_only(bencher: Bencher, side: usize) {
-    let graph = building(side, Walking::OnDoors);
-    let joined = graph.petgraph();
-    bencher.bench(|| {
-        dijkstra(&joined, NodeIndex::new(0), None, |edge| {
-            graph.doors()[*edge.weight() as usize].hardness.unwrap_or(f64::INFINITY)
-        })
-    });
 }
 
 #[divan::bench(args = [32, 100])]

@@ -4,7 +4,7 @@
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
 use petgraph::algo::dijkstra;
-use petgraph::graph::NodeIndex;
+use petgraph::visit::EdgeRef;
 use proptest::prelude::*;
 
 const SIDE: usize = 6;
@@ -118,9 +118,7 @@ fn check(graph: &RouteGraph) -> Result<(), TestCaseError> {
     for from in (0..ROOMS).step_by(5) {
         let start = Start { rooms: vec![from], at: Point::default() };
         let tree = graph.tree(&start);
-        let reference = dijkstra(&graph.petgraph(), NodeIndex::new(from), None, |edge| {
-            graph.doors()[*edge.weight() as usize].hardness.unwrap()
-        });
+        let reference = dijkstra(graph, from, None, |passage| *passage.weight());
         for to in 0..ROOMS {
             let Some(way) = way(graph, from, to) else {
                 prop_assert!(tree.rooms[to].is_none(), "{from} to {to}");
@@ -128,7 +126,7 @@ fn check(graph: &RouteGraph) -> Result<(), TestCaseError> {
             };
             let arrival = tree.rooms[to].unwrap();
             prop_assert!(is_same(way.cost, arrival.cost), "{from} to {to}: {} {}", way.cost, arrival.cost);
-            prop_assert!(is_same(way.cost, reference[&NodeIndex::new(to)]));
+            prop_assert!(is_same(way.cost, reference[&to]));
             prop_assert!(is_driven(graph, &way, to), "{from} to {to}: {way:?}");
             let (mut room, mut doors) = (to, Vec::new());
             while let Some((before, door)) = tree.rooms[room].unwrap().from {

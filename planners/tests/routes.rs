@@ -3,8 +3,9 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{Blockage, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage};
-use petgraph::algo::{bellman_ford, dijkstra};
-use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::algo::{bellman_ford, dijkstra, kosaraju_scc, tarjan_scc};
+use petgraph::visit::{EdgeCount, EdgeRef, IntoEdgeReferences, IntoEdgesDirected};
+use petgraph::{Direction, Graph};
 use proptest::prelude::*;
 
 fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
@@ -47,17 +48,52 @@ proptest! {
     fn the_cost_of_every_room_is_the_least(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors);
         let tree = graph.tree(&start(0));
-        let reference = dijkstra(&graph.petgraph(), NodeIndex::new(0), None, |edge| {
-            graph.doors()[*edge.weight() as usize].hardness.unwrap()
-        });
-        let weighted: DiGraph<(), f64> =
-            graph.petgraph().map(|_, ()| (), |_, door| graph.doors()[*door as usize].hardness.unwrap());
-        let other = bellman_ford(&weighted, NodeIndex::new(0)).unwrap();
+        let reference = dijkstra(&graph, 0, None, |passage| *passage.weight());
+        let other = bellman_ford(&graph, 0).unwrap();
         for room in 0..12 {
             let ours = tree.rooms[room].map(|arrival| arrival.cost);
-            prop_assert_eq!(ours, reference.get(&NodeIndex::new(room)).copied());
+            prop_assert_eq!(ours, reference.get(&room).copied());
             prop_assert_eq!(ours.unwrap_or(f64::INFINITY), other.distances[room]);
         }
+    }
+
+    #[test]
+    fn petgraph_finds_in_the_graph_of_routes_what_it_finds_in_its_own(doors in any_doors(12)) {
+        let graph = RouteGraph::new(rooms(12), doors.clone());
+        let mut own = Graph::<(), u32>::new();
+        let nodes: Vec<_> = (0..12).map(|_| own.add_node(())).collect();
+        for door in doors.iter().filter(|door| door.passable) {
+            own.add_edge(nodes[door.room1], nodes[door.room2], door.door);
+            if !door.one_way {
+                own.add_edge(nodes[door.room2], nodes[door.room1], door.door);
+            }
+        }
+        prop_assert_eq!(graph.edge_count(), own.edge_count());
+        let key = |passage: usize| graph.doors()[passage].door;
+        for room in 0..12 {
+            for direction in [Direction::Outgoing, Direction::Incoming] {
+                let ours = graph.edges_directed(room, direction);
+                let mut ours: Vec<_> = ours.map(|at| (at.source(), at.target(), key(at.id()))).collect();
+                let theirs = own.edges_directed(nodes[room], direction);
+                let mut theirs: Vec<_> =
+                    theirs.map(|at| (at.source().index(), at.target().index(), *at.weight())).collect();
+                ours.sort_unstable();
+                theirs.sort_unstable();
+                prop_assert_eq!(ours, theirs);
+            }
+        }
+        let passed: f64 = graph.edge_references().map(|passage| *passage.weight()).sum();
+        let weight = |door: &u32| doors[*door as usize - 1].hardness.unwrap();
+        prop_assert_eq!(passed, own.edge_weights().map(weight).sum::<f64>());
+        let sorted = |mut parts: Vec<Vec<usize>>| {
+            parts.iter_mut().for_each(|part| part.sort_unstable());
+            parts.sort_unstable();
+            parts
+        };
+        let theirs = tarjan_scc(&own).into_iter().map(|part| part.into_iter().map(|n| n.index()).collect());
+        let theirs = sorted(theirs.collect());
+        prop_assert_eq!(&sorted(tarjan_scc(&graph)), &theirs);
+        prop_assert_eq!(&sorted(kosaraju_scc(&graph)), &theirs, "which goes against the doors, too");
     }
 
     #[test]

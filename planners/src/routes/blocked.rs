@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::{Goal, RouteGraph, Start};
+use super::graph::RouteGraph;
+use super::parts::{Goal, Start};
 
 /// What stands between a start and a goal that no route joins.
 #[derive(Clone, Debug, PartialEq, Eq)]

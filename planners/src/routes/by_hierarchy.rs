@@ -1,7 +1,9 @@
 //! The way to the goal that costs least, as a hierarchy finds it.
 
+use super::graph::RouteGraph;
 use super::hierarchy::{Hierarchy, Passed};
-use super::{Goal, Leg, RouteGraph, Start, Way};
+use super::parts::{Goal, Start};
+use super::way::{Leg, Way};
 use crate::geometry::Point;
 
 struct Found {

@@ -3,21 +3,14 @@
 
 use super::cone::{Segment, cross};
 use super::gates::without;
+use super::graph::{Closed, Cut, RouteGraph};
 use super::mesh::{EPSILON, NONE};
-use super::{Goal, Leg, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way, Ways};
+use super::parts::{Goal, RouteDoor, RouteRoom, Start, Walking};
+use super::way::{Leg, Way, Ways};
 use crate::geometry::{Point, Rect};
 
 /// So near to a closed boundary no shape is changed, metres.
 const CLEAR_M: f64 = 0.01;
-
-/// A closed boundary.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closed {
-    /// Key of the door that is closed.
-    pub door: u32,
-    /// Its segment, along an axis.
-    pub segment: Rect,
-}
 
 impl Closed {
     fn is_upright(&self) -> bool {
@@ -48,20 +41,6 @@ impl Closed {
         };
         is_on.then(|| Segment::of(s))
     }
-}
-
-/// The graph of the parts into which closed boundaries cut rooms.
-#[derive(Clone, Debug)]
-pub(super) struct Cut {
-    graph: RouteGraph,
-    /// Of each part its room.
-    rooms: Vec<usize>,
-    /// Of each door of the graph the site's; `None` for one between two parts of a room.
-    doors: Vec<Option<usize>>,
-    /// Of each room its parts.
-    parts: Vec<Vec<usize>>,
-    /// Of each door of the site the graph's.
-    pieces: Vec<Vec<usize>>,
 }
 
 impl RouteGraph {

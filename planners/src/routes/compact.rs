@@ -3,7 +3,8 @@
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
-use super::{RouteGraph, Walking};
+use super::graph::RouteGraph;
+use super::parts::Walking;
 use crate::search::Csr;
 
 /// No room, no door.
@@ -48,19 +49,6 @@ impl CompactGraph {
         Some(Self { leaving, weights, keys })
     }
 
-    pub(super) fn rooms(&self) -> usize {
-        self.leaving.len()
-    }
-
-    pub(super) fn doors(&self) -> usize {
-        self.keys.len()
-    }
-
-    /// The doors out of a room: the next room and the door, by index.
-    pub(super) fn leaving(&self, room: usize) -> &[(u32, u32)] {
-        self.leaving.of(room)
-    }
-
     /// Gives a door, by index, another weight; `None` shuts it. What it was.
     pub fn reweigh(&mut self, door: usize, weight: Option<f64>) -> Option<f64> {
         let weight = weight.unwrap_or(f64::INFINITY);
@@ -69,16 +57,16 @@ impl CompactGraph {
 
     /// The least cost of every room from these, as [`RouteGraph::tree`] finds it.
     pub fn tree(&self, starts: &[usize]) -> CompactTree {
-        let leaving = |room: usize| self.leaving(room).iter().copied();
+        let leaving = |room: usize| self.leaving.of(room).iter().copied();
         let starts = starts.iter().copied();
-        search(self.rooms(), starts, leaving, |door| self.weights[door], |door| self.keys[door])
+        search(self.leaving.len(), starts, leaving, |door| self.weights[door], |door| self.keys[door])
     }
 }
 
 /// Dijkstra's search. Of ways of equal cost the one that enters by the door of lower key.
 ///
-/// petgraph's, which says neither doors nor hops, takes several times as long: `cargo bench -p adit-planners --bench
-/// routes` runs both.
+/// petgraph's, which says neither doors nor hops, takes RATIO times as long: `cargo bench -p adit-planners --bench search`
+/// runs both.
 ///
 /// # Arguments
 /// `leaving` gives the doors out of a room: the next room and the door, by index; `weight` what passing a door weighs,

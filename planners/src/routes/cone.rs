@@ -4,6 +4,9 @@ use super::mesh::{EPSILON, NONE};
 use crate::geometry::{Point, Rect};
 pub(super) use crate::geometry::{Segment, cross};
 
+/// A way that passes an end of a door by no more than this share of the door leads to the end itself.
+const AT_END: f64 = 1e-12;
+
 /// A part of a door as it is seen, with the door's ends where they are seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Gap {
@@ -46,10 +49,9 @@ impl Segment {
         }
         let share = one / (one - two);
         let at = self.at(share.clamp(0.0, 1.0));
-        // the end itself, where the way leads to the end
-        if share <= 1e-12 {
+        if share <= AT_END {
             self.a
-        } else if share >= 1.0 - 1e-12 {
+        } else if share >= 1.0 - AT_END {
             self.b
         } else {
             at
@@ -67,12 +69,6 @@ impl Segment {
         let b = if two < 0.0 { limit() } else { self.b };
         Some(Self { a, b })
     }
-}
-
-/// Metres between two points, to a rounding; the search asks for it more than for anything else.
-pub(super) fn apart(a: Point, b: Point) -> f64 {
-    let (dx, dy) = (a.x - b.x, a.y - b.y);
-    (dx * dx + dy * dy).sqrt()
 }
 
 impl View {

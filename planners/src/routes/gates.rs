@@ -1,8 +1,8 @@
 //! Where a change of shape can pay: on the rim of the free space of the easier state.
 
 use super::cone::Segment;
+use super::graph::{Gate, RouteGraph};
 use super::mesh::EPSILON;
-use super::{RouteGraph, Walking};
 use crate::geometry::{Point, Rect};
 
 /// So far a way into the harder state has to lead on beyond a gate, metres, unless a goal lies near: along every wall there
@@ -20,14 +20,6 @@ enum Further {
     Doors,
     /// By doors, and by another change of shape into a state that has room beyond.
     AllWays,
-}
-
-/// Where a change may pay.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gate {
-    pub segment: Segment,
-    /// Whether the harder state has room beyond it for more than half a metre.
-    pub is_deep: bool,
 }
 
 impl RouteGraph {
@@ -233,41 +225,6 @@ impl RouteGraph {
             }
         }
         without(side, &open)
-    }
-
-    /// Whether a door can be passed for nothing, between rooms of equal hardness.
-    pub(super) fn is_free(&self, door: usize) -> bool {
-        let (one, two) = (self.doors()[door].room1, self.doors()[door].room2);
-        !self.doors()[door].one_way
-            && self.passage(door) == Some(0.0)
-            && self.per_m(one).to_bits() == self.per_m(two).to_bits()
-    }
-
-    /// Hardness of a metre; 0 where all hardness lies on the doors, infinite where no route enters.
-    pub(super) fn per_m(&self, room: usize) -> f64 {
-        match self.rooms()[room].walking {
-            Walking::OnDoors => 0.0,
-            Walking::PerMetre(hardness) => hardness,
-            Walking::Unknown => f64::INFINITY,
-        }
-    }
-
-    /// Whether a route may enter the room.
-    pub(super) fn is_entered(&self, room: usize) -> bool {
-        self.rooms()[room].walking != Walking::Unknown
-    }
-
-    /// What passing a door weighs, where it can be passed.
-    pub(super) fn passage(&self, door: usize) -> Option<f64> {
-        let of = &self.doors()[door];
-        of.weight().filter(|_| self.is_entered(of.room1) && self.is_entered(of.room2))
-    }
-
-    /// The least hardness of a metre in a room that may be entered.
-    pub(super) fn least_per_m(&self) -> f64 {
-        let all = (0..self.rooms().len()).map(|room| self.per_m(room));
-        let least = all.fold(f64::INFINITY, f64::min);
-        if least.is_finite() { least } else { 0.0 }
     }
 }
 

@@ -17,14 +17,7 @@ use metric::Metric;
 pub(super) use query::Passed;
 use topology::Topology;
 
-use crate::geometry::Point;
-
-/// A door between two rooms, by index; where several lead from one room to another, the one of lower key counts.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Door {
-    pub rooms: [usize; 2],
-    pub key: u32,
-}
+use super::parts::{RouteDoor, RouteRoom};
 
 /// Rooms and doors, ready for ways between any two rooms.
 #[derive(Clone, Debug)]
@@ -38,9 +31,10 @@ impl Hierarchy {
     /// Ranks the rooms, and weighs all doors.
     ///
     /// # Arguments
-    /// `at` is where each room lies; `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not
-    /// passed.
-    pub fn new(at: Vec<Point>, doors: &[Door], passing: Vec<[f64; 2]>) -> Self {
+    /// `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not passed.
+    /// Where several doors lead from one room to another, the one of lower key counts.
+    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<[f64; 2]>) -> Self {
+        let at = rooms.iter().map(|room| room.rect.centre()).collect();
         let topology = Arc::new(Topology::new(at, doors));
         let metric = Metric::new(&topology, passing);
         Self { topology, metric }

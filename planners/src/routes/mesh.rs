@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use petgraph::unionfind::UnionFind;
 
-use super::{Passing, RouteDoor, RouteRoom};
+use super::parts::{Passing, RouteDoor, RouteRoom};
 use crate::geometry::Point;
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::search::Csr;

@@ -1,7 +1,9 @@
 //! The least-cost ways from one start where all hardness lies on the doors.
 
 use super::compact::{NONE, search};
-use super::{Goal, RouteGraph, Start, Way, Ways};
+use super::graph::RouteGraph;
+use super::parts::{Goal, Start};
+use super::way::{Way, Ways};
 use crate::geometry::Point;
 
 /// The best way into a room.
@@ -28,10 +30,7 @@ impl RouteGraph {
     /// Equal costs: the room, then the door, of lower number. O((rooms + doors) log rooms).
     pub fn tree(&self, start: &Start) -> Tree {
         let starts = start.rooms.iter().copied().filter(|&room| self.is_entered(room));
-        let leaving = |room: usize| {
-            let exits = self.mesh.portals.of(room).iter().chain(self.mesh.changes.of(room));
-            exits.map(|exit| (exit.to, exit.door))
-        };
+        let leaving = |room: usize| self.exits(room).map(|exit| (exit.to, exit.door));
         let weight = |door: usize| self.passage(door).unwrap_or(f64::INFINITY);
         let found = search(self.rooms().len(), starts, leaving, weight, |door| self.doors()[door].door);
         let arrival = |room: usize| {

@@ -1,18 +1,21 @@
 //! Pulling a way tight: straight where nothing is in the way, bent only about corners, refracted where hardness
 //! changes, and a shape changed at the best point of the rim on which it may be changed.
 
-use super::RouteGraph;
 use super::cone::{Gap, Segment, View, cross};
-use super::gates::Gate;
+use super::graph::{Gate, RouteGraph};
 use super::mesh::{EPSILON, NONE};
 use super::way::Way;
 use crate::geometry::Point;
+use crate::geometry::tolerance::SNAP_M;
 
 /// Rounds of sliding and straightening; most ways settle in two or three.
 const ROUNDS: usize = 16;
 
 /// A round that gains less than this share is the last.
 const GAIN: f64 = 1e-7;
+
+/// A stop is slid to its best place so finely, metres: finer than points are told apart.
+const FINE_M: f64 = 0.1 * SNAP_M;
 
 /// A door on a way.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +38,7 @@ impl Link {
         let before = if of.room1 == room { of.room2 } else { of.room1 };
         if of.is_change() {
             let mut gates = graph.gates(door, before).iter().map(|gate| gate.segment);
-            let gate = gates.find(|gate| gate.nearest_to(at).distance(at) <= 1e-6);
+            let gate = gates.find(|gate| gate.nearest_to(at).distance(at) <= SNAP_M);
             let segment = gate.unwrap_or(Segment { a: at, b: at });
             return Self { door, segment, at, room, is_straight: false };
         }
@@ -171,7 +174,7 @@ impl Chain<'_> {
             let share = leaves(from.x, to.x, rect.x0, rect.x1).min(leaves(from.y, to.y, rect.y0, rect.y1));
             let share = share.max(at).min(1.0);
             let on = Segment { a: from, b: to };
-            let (here, beyond) = (on.at(share), on.at((share + 1e-6 / length.max(1e-6)).min(1.0)));
+            let (here, beyond) = (on.at(share), on.at((share + SNAP_M / length.max(SNAP_M)).min(1.0)));
             let near = |p: Point, room: usize| {
                 let rect = &graph.rooms()[room].rect;
                 rect.nearest_to(p).distance(p)
@@ -198,7 +201,7 @@ impl Chain<'_> {
         let mut first = 0;
         while first < self.links.len() {
             let at = self.links[first].at;
-            let is_here = |link: &&Link| link.at.distance(at) <= 1e-6;
+            let is_here = |link: &&Link| link.at.distance(at) <= SNAP_M;
             let count = self.links[first..].iter().take_while(is_here).count();
             let from = self.room_before(first);
             let joined = (2..=count).rev().find_map(|count| {
@@ -211,7 +214,7 @@ impl Chain<'_> {
                 let exit = graph.mesh.changes.of(from).iter().find(|exit| {
                     let area = &graph.doors()[exit.door as usize].crossing;
                     exit.to as usize == to
-                        && area.nearest_to(at).distance(at) <= 1e-6
+                        && area.nearest_to(at).distance(at) <= SNAP_M
                         && graph.passage(exit.door as usize).is_some_and(|weight| weight <= price + EPSILON)
                 })?;
                 Some((count, Some(Link::new(graph, exit.door as usize, at, to))))
@@ -255,7 +258,7 @@ impl Chain<'_> {
                 self.links[stop].at = best;
             }
             let segment = self.links[stop].segment;
-            if [segment.a, segment.b].iter().any(|end| end.distance(self.links[stop].at) <= 1e-6) {
+            if [segment.a, segment.b].iter().any(|end| end.distance(self.links[stop].at) <= SNAP_M) {
                 self.step_over(stop, first, last);
             }
         }
@@ -301,7 +304,7 @@ impl Chain<'_> {
         let mut rooms = vec![before];
         let free = graph.mesh.portals.of(before).iter().filter(|exit| graph.is_free(exit.door as usize));
         rooms.extend(free.map(|exit| exit.to as usize));
-        rooms.retain(|&room| graph.rooms()[room].rect.nearest_to(stop.at).distance(stop.at) <= 1e-6);
+        rooms.retain(|&room| graph.rooms()[room].rect.nearest_to(stop.at).distance(stop.at) <= SNAP_M);
         let mut found = Vec::new();
         for room in rooms {
             let exits = if is_change { &graph.mesh.changes } else { &graph.mesh.portals };
@@ -328,7 +331,7 @@ impl Chain<'_> {
             }
         }
         found.retain(|link| {
-            link.segment != stop.segment && link.segment.nearest_to(stop.at).distance(stop.at) <= 1e-6
+            link.segment != stop.segment && link.segment.nearest_to(stop.at).distance(stop.at) <= SNAP_M
         });
         found
     }
@@ -346,7 +349,7 @@ fn seen_through(from: Point, door: Segment, part: Segment) -> Option<Segment> {
 fn least(segment: &Segment, cost: impl Fn(Point) -> f64) -> Point {
     let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
     let (mut low, mut high) = (0.0, 1.0);
-    while (high - low) * segment.length() > 1e-7 {
+    while (high - low) * segment.length() > FINE_M {
         let (one, two) = (high - golden * (high - low), low + golden * (high - low));
         if cost(segment.at(one)) <= cost(segment.at(two)) {
             high = two;

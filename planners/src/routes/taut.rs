@@ -9,10 +9,11 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
-use super::cone::{Gap, Segment, View, apart};
-use super::gates::{Gate, sides};
+use super::cone::{Gap, Segment, View};
+use super::gates::sides;
+use super::graph::{Gate, RouteGraph};
 use super::mesh::{EPSILON, Exit, NONE};
-use super::{Goal, RouteGraph, Start};
+use super::parts::{Goal, Start};
 use crate::geometry::Point;
 
 /// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
@@ -231,7 +232,7 @@ impl<'g> Search<'g> {
                 let near = segment.nearest_to(node.root).distance(node.root);
                 (near, self.remaining(&|goal| segment.nearest_to(goal).distance(goal)))
             }
-            _ => (0.0, self.remaining(&|goal| apart(node.root, goal))),
+            _ => (0.0, self.remaining(&|goal| node.root.distance(goal))),
         };
         let index = self.nodes.len() as u32;
         self.nodes.push(node);
@@ -280,7 +281,7 @@ impl<'g> Search<'g> {
         }
         let ends = self.graph.mesh.ends[node.door as usize];
         let segment = Segment::of(&self.graph.doors()[node.door as usize].crossing);
-        match (ends, apart(node.root, segment.a) <= EPSILON) {
+        match (ends, node.root.distance(segment.a) <= EPSILON) {
             ([end, _], true) | ([_, end], false) => end,
         }
     }
@@ -304,7 +305,7 @@ impl<'g> Search<'g> {
         // what looks in all directions is needed once; what looks in some must give way to nothing that costs the same
         let slack = if node.view == View::All && node.before != NONE { EPSILON } else { -EPSILON };
         samples[..count].iter().all(|&p| {
-            let cost = node.cost + per_m * apart(node.root, p);
+            let cost = node.cost + per_m * node.root.distance(p);
             self.is_cheaper_in(room, p, cost + slack, per_m)
                 || self.is_cheaper_by_a_change(room, p, cost - EPSILON, per_m)
         })
@@ -313,7 +314,7 @@ impl<'g> Search<'g> {
     fn is_cheaper_in(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
         self.reached[room].iter().any(|&(q, cost)| {
             let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
-            cost + aside * per_m < limit && cost + apart(q, p) * per_m < limit
+            cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
         })
     }
 
@@ -326,7 +327,7 @@ impl<'g> Search<'g> {
                 return false;
             }
             let near = self.graph.doors()[exit.door as usize].crossing.nearest_to(p);
-            let aside = apart(near, p);
+            let aside = near.distance(p);
             let weight = self.graph.passage(exit.door as usize).filter(|_| aside <= CLOSE_M);
             weight
                 .is_some_and(|weight| self.is_cheaper_in(from, near, limit - weight - aside * per_m, easier))
@@ -338,7 +339,7 @@ impl<'g> Search<'g> {
         let per_m = self.graph.per_m(room);
         let (samples, count) = Self::samples(node);
         for &p in &samples[..count] {
-            let cost = node.cost + per_m * apart(node.root, p);
+            let cost = node.cost + per_m * node.root.distance(p);
             if !self.is_cheaper_in(room, p, cost + EPSILON, per_m) {
                 self.reached[room].push((p, cost));
             }
@@ -347,7 +348,7 @@ impl<'g> Search<'g> {
             && known.is_none()
         {
             let at = samples[0];
-            let cost = node.cost + per_m * apart(node.root, at);
+            let cost = node.cost + per_m * node.root.distance(at);
             *known = Some(Found { node: index, at, cost, change: None });
         }
     }
@@ -364,7 +365,7 @@ impl<'g> Search<'g> {
             let at = target.at.unwrap_or_else(|| Self::samples(node).0[0]);
             if self.outcome.goals[target.goal].len() < MOST_WAYS && node.view.sees(node.root, at) {
                 let weight = target.change.map_or(0.0, |(_, weight)| weight);
-                let cost = node.cost + per_m * apart(node.root, at) + weight;
+                let cost = node.cost + per_m * node.root.distance(at) + weight;
                 let change = target.change.map(|(exit, _)| exit);
                 let found = Found { node: index, at, cost, change };
                 let what = What::Goal(self.found.len() as u32);
@@ -382,7 +383,7 @@ impl<'g> Search<'g> {
             if end == NONE || !self.graph.bends[end as usize] {
                 continue;
             }
-            let cost = node.cost + per_m * apart(node.root, root);
+            let cost = node.cost + per_m * node.root.distance(root);
             if cost <= self.bent[end as usize] + EPSILON {
                 let view = View::Side { from: node.root, left };
                 self.push(Node { root, cost, before: index, bent: true, view, ..*node });
@@ -409,14 +410,14 @@ impl<'g> Search<'g> {
         let is_inside = !matches!(node.view, View::Through(_));
         if segment.is_in_line_with(node.root) {
             let near = segment.nearest_to(node.root);
-            let way = apart(near, node.root);
+            let way = near.distance(node.root);
             if way <= EPSILON && is_inside {
                 let view = if is_same { node.view } else { View::All };
                 self.push(next(node.root, 0.0, view));
             } else if node.view.sees(node.root, near) {
                 // along a wall, and about the near end
                 let ends = self.graph.mesh.ends[door];
-                let end = if apart(near, segment.a) <= EPSILON { ends[0] } else { ends[1] };
+                let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
                 if self.graph.bends[end as usize] || !is_same {
                     self.push(next(near, way, View::All));
                 }
@@ -432,7 +433,7 @@ impl<'g> Search<'g> {
             return;
         }
         for p in self.points(room, seen, node.root) {
-            self.push(next(p, apart(node.root, p), View::All));
+            self.push(next(p, node.root.distance(p), View::All));
         }
     }
 
@@ -451,7 +452,7 @@ impl<'g> Search<'g> {
         let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
         let mut points: Vec<Point> = Vec::new();
         for p in std::iter::once(seen.nearest_to(root)).chain(feet).chain(even) {
-            if !points.iter().any(|known| apart(*known, p) <= EPSILON) {
+            if !points.iter().any(|known| known.distance(p) <= EPSILON) {
                 points.push(p);
             }
         }
@@ -468,7 +469,7 @@ impl<'g> Search<'g> {
             if search.graph.is_on_wall(p) {
                 return;
             }
-            let cost = node.cost + apart(node.root, p) * here;
+            let cost = node.cost + node.root.distance(p) * here;
             // reached at less cost otherwise, here or there
             let is_vain = search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
                 || search.is_cheaper_in(room, p, cost + weight + EPSILON, there);

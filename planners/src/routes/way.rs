@@ -1,10 +1,6 @@
 //! A way from a start to a goal, leg by leg.
 
-use super::cone::Segment;
-use super::mesh::{EPSILON, NONE};
-use super::pull::{Chain, Link};
-use super::taut::{Found, Node};
-use super::{RouteGraph, Start};
+use super::graph::RouteGraph;
 use crate::geometry::Point;
 
 /// The straight way through one room, up to the door that is passed then.
@@ -27,6 +23,15 @@ impl Leg {
     pub fn length(&self) -> f64 {
         self.from.distance(self.to)
     }
+}
+
+/// The ways from one start.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub struct Ways {
+    /// To each goal, in their order; `None` where it is not reached.
+    pub goals: Vec<Option<Way>>,
+    /// To each room, by index: to where it is reached first. Empty unless asked for.
+    pub rooms: Vec<Option<Way>>,
 }
 
 /// A way, pulled tight: from the start's point to the goal's.
@@ -60,13 +65,6 @@ impl Way {
         Self { legs, cost }
     }
 
-    /// The way to what a search found, pulled tight.
-    pub(super) fn of(graph: &RouteGraph, nodes: &[Node], start: &Start, found: &Found) -> Self {
-        let (room, links) = links(graph, nodes, found);
-        let chain = Chain { graph, start: (room, start.at), links, goal: found.at };
-        chain.pulled_tight()
-    }
-
     /// Metres.
     pub fn length(&self) -> f64 {
         self.legs.iter().map(Leg::length).sum()
@@ -76,33 +74,4 @@ impl Way {
 fn walked(graph: &RouteGraph, room: usize, from: Point, to: Point) -> f64 {
     let per_m = graph.per_m(room);
     if per_m > 0.0 { per_m * from.distance(to) } else { 0.0 }
-}
-
-/// The room in which a way starts, and the doors that it passes.
-fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> (usize, Vec<Link>) {
-    let mut links = Vec::new();
-    if let Some(exit) = found.change {
-        links.push(Link::new(graph, exit.door as usize, found.at, exit.to as usize));
-    }
-    let (mut index, mut to) = (found.node, found.at);
-    loop {
-        let node = &nodes[index as usize];
-        let before = (node.before != NONE).then(|| &nodes[node.before as usize]);
-        let is_new = before.is_some_and(|before| before.root.distance(node.root) > EPSILON);
-        if before.is_some() && !node.bent {
-            let door = node.door as usize;
-            let segment = Segment::of(&graph.doors()[door].crossing);
-            let is_here = is_new || graph.doors()[door].is_change();
-            let at = if is_here { node.root } else { segment.passed_at(node.root, to) };
-            links.push(Link::new(graph, door, at, node.room as usize));
-        }
-        if before.is_none() {
-            links.reverse();
-            return (node.room as usize, links);
-        }
-        if is_new {
-            to = node.root;
-        }
-        index = node.before;
-    }
 }

@@ -10,6 +10,9 @@ use crate::search::Csr;
 /// The share of rooms that lies on the smaller side at least.
 const SMALLER_SIDE: f64 = 0.3;
 
+/// Of halts with as many rooms in front, the one that parts the rooms more evenly counts so much less.
+const EVENLY: f64 = 1e-3;
+
 /// Parts with fewer rooms are not worth a task of their own.
 const TASK: usize = 2_000;
 
@@ -156,7 +159,7 @@ impl Part {
             }
             let smaller = passed.min(count - passed) as f64 / count as f64;
             let front = fronts.0.min(fronts.1) as f64;
-            let price = front * (1.5 - smaller) - smaller * 1e-3;
+            let price = front * (1.5 - smaller) - smaller * EVENLY;
             if price < best.0 {
                 best = (price, passed, fronts.0 <= fronts.1);
             }

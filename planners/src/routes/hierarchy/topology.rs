@@ -1,8 +1,8 @@
 //! What of a hierarchy does not hang on weights: ranks, arcs, and which doors lie under which arc.
 
-use super::Door;
 use super::order::order;
 use crate::geometry::Point;
+use crate::routes::parts::RouteDoor;
 use crate::search::Csr;
 
 /// No rank, arc or door.
@@ -47,10 +47,10 @@ pub(super) struct Topology {
 }
 
 impl Topology {
-    pub fn new(at: Vec<Point>, doors: &[Door]) -> Self {
+    pub fn new(at: Vec<Point>, doors: &[RouteDoor]) -> Self {
         let mut joined: Vec<(u32, u32)> = doors
             .iter()
-            .map(|door| door.rooms.map(|room| room as u32))
+            .map(|door| [door.room1 as u32, door.room2 as u32])
             .filter(|[one, two]| one != two)
             .map(|[one, two]| (one.min(two), one.max(two)))
             .collect();
@@ -100,12 +100,13 @@ impl Topology {
     }
 
     /// Lays each door under its arc.
-    fn lay_doors(&mut self, doors: &[Door]) {
+    fn lay_doors(&mut self, doors: &[RouteDoor]) {
         self.first_door = vec![NONE; self.tails.len()];
         let mut by_key: Vec<u32> = (0..doors.len() as u32).collect();
-        by_key.sort_unstable_by_key(|&door| std::cmp::Reverse(doors[door as usize].key));
+        by_key.sort_unstable_by_key(|&door| std::cmp::Reverse(doors[door as usize].door));
         for door in by_key {
-            let [one, two] = doors[door as usize].rooms.map(|room| self.rank[room]);
+            let RouteDoor { room1, room2, .. } = doors[door as usize];
+            let (one, two) = (self.rank[room1], self.rank[room2]);
             if let Some(arc) = self.arc(one.min(two), one.max(two)) {
                 self.arc_of[door as usize] = arc;
                 self.is_up[door as usize] = one < two;

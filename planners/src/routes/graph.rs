@@ -1,0 +1,255 @@
+//! The graph of routes: rooms joined by doors, what they weigh, and what is kept of both for searches.
+
+use std::cmp::Ordering;
+use std::sync::OnceLock;
+
+use super::cone::Segment;
+use super::hierarchy::Hierarchy;
+use super::mesh::{Exit, Mesh, NONE};
+use super::parts::{Passing, RouteDoor, RouteRoom, Walking};
+use crate::geometry::Rect;
+use crate::search::Csr;
+
+/// Rooms joined by doors.
+#[derive(Clone, Debug)]
+pub struct RouteGraph {
+    pub(super) rooms: Vec<RouteRoom>,
+    pub(super) doors: Vec<RouteDoor>,
+    /// How many rooms weigh their metres.
+    pub(super) measured: usize,
+    pub(super) hierarchy: Option<Hierarchy>,
+    pub(super) mesh: Mesh,
+    /// The doors into each room; found when first asked for.
+    pub(super) entries: OnceLock<Csr<Exit>>,
+    /// For each end of a door whether a way may bend there.
+    pub(super) bends: Vec<bool>,
+    /// For each door what passing it changes.
+    pub(super) passing: Vec<Passing>,
+    /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
+    pub(super) gates: Vec<[OnceLock<Box<[Gate]>>; 2]>,
+    /// Boundaries that nobody crosses.
+    pub(super) closed: Vec<Closed>,
+    /// The rooms cut along them; found when first asked for.
+    pub(super) cut: OnceLock<Box<Cut>>,
+    /// Boundaries along which these rooms are cut already.
+    pub(super) walls: Vec<Rect>,
+}
+
+impl RouteGraph {
+    /// The graph of all doors with a known hardness that are passable; other doors are kept for [`blockage`].
+    pub fn new(rooms: Vec<RouteRoom>, doors: Vec<RouteDoor>) -> Self {
+        let mesh = Mesh::new(&rooms, &doors);
+        let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
+        let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
+        let measured = rooms.iter().filter(|room| room.is_measured()).count();
+        let mut all = Self {
+            rooms,
+            doors,
+            measured,
+            hierarchy: None,
+            mesh,
+            entries: OnceLock::new(),
+            bends,
+            passing,
+            gates,
+            closed: Vec::new(),
+            cut: OnceLock::new(),
+            walls: Vec::new(),
+        };
+        all.passing = (0..all.doors.len()).map(|door| all.passing_of(door)).collect();
+        all.find_bends(&(0..all.doors.len()).collect::<Vec<_>>());
+        all
+    }
+
+    /// Makes [`way`](Self::way) quick between any two rooms, where all hardness lies on the doors; elsewhere it does
+    /// nothing. What is prepared follows [`reweigh`](Self::reweigh), and clones share what does not hang on weights.
+    ///
+    /// It takes about half a second for 100,000 doors.
+    pub fn prepare(&mut self) {
+        if self.hierarchy.is_none() && self.is_on_doors() {
+            let passing = (0..self.doors.len()).map(|door| self.passing_both_ways(door)).collect();
+            self.hierarchy = Some(Hierarchy::new(&self.rooms, &self.doors, passing));
+        }
+    }
+
+    /// What passing a door weighs from its first room and from its second; infinite where it is not passed.
+    fn passing_both_ways(&self, door: usize) -> [f64; 2] {
+        let weight = self.passage(door).unwrap_or(f64::INFINITY);
+        [weight, if self.doors[door].one_way { f64::INFINITY } else { weight }]
+    }
+
+    /// Weighs rooms and doors anew, by index; what is not named stays as it is.
+    ///
+    /// Where all hardness lies on the doors, and no room comes to weigh or to be entered otherwise, it takes as long as
+    /// there are doors named, and ways that lead through them.
+    pub fn reweigh(
+        &mut self,
+        rooms: impl IntoIterator<Item = (usize, Walking)>,
+        doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
+    ) {
+        let (rooms, doors) = (rooms.into_iter().collect::<Vec<_>>(), doors.into_iter().collect::<Vec<_>>());
+        self.reweigh_cut(&rooms, &doors);
+        let was_on_doors = self.is_on_doors();
+        let (mut touched, mut orders, mut is_other_price) = (Vec::new(), Vec::new(), false);
+        let rooms: Vec<(usize, Walking)> =
+            rooms.into_iter().filter(|(room, walking)| self.rooms[*room].walking != *walking).collect();
+        if !rooms.is_empty() {
+            touched = (0..self.doors.len()).collect();
+            orders = touched.iter().map(|&door| self.order(door)).collect();
+        }
+        for (room, walking) in rooms {
+            let room = &mut self.rooms[room];
+            self.measured -= usize::from(room.is_measured());
+            room.walking = walking;
+            self.measured += usize::from(room.is_measured());
+        }
+        let is_all = !touched.is_empty();
+        for (door, hardness, passable) in doors {
+            let before = self.doors[door].weight();
+            (self.doors[door].hardness, self.doors[door].passable) = (hardness, passable);
+            is_other_price |= self.doors[door].is_change() && self.doors[door].weight() != before;
+            if !is_all {
+                touched.push(door);
+            }
+        }
+        let changed: Vec<usize> =
+            touched.iter().copied().filter(|&door| self.passing[door] != self.passing_of(door)).collect();
+        for &door in &changed {
+            self.passing[door] = self.passing_of(door);
+        }
+        self.find_bends(&changed);
+        self.reweigh_hierarchy(&touched);
+        if was_on_doors && self.is_on_doors() {
+            return;
+        }
+        // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
+        if is_other_price || !changed.is_empty() {
+            self.gates.fill_with(Default::default);
+        } else {
+            for (door, before) in orders.into_iter().enumerate() {
+                if before != self.order(door) {
+                    self.gates[door] = Default::default();
+                }
+            }
+        }
+    }
+
+    /// Weighs these doors, by index, anew where ways between any two rooms are prepared.
+    fn reweigh_hierarchy(&mut self, doors: &[usize]) {
+        let Some(mut hierarchy) = self.hierarchy.take() else { return };
+        hierarchy.reweigh(doors.iter().map(|&door| (door as u32, self.passing_both_ways(door))));
+        self.hierarchy = Some(hierarchy);
+    }
+
+    /// Finds about which ends of these doors a way may bend.
+    fn find_bends(&mut self, doors: &[usize]) {
+        let ends = doors.iter().flat_map(|&door| self.mesh.ends[door]).filter(|&end| end != NONE);
+        let mut ends: Vec<u32> = ends.collect();
+        ends.sort_unstable();
+        ends.dedup();
+        for end in ends {
+            self.bends[end as usize] =
+                self.mesh.bends(&self.rooms, &self.doors, end, |door| self.passing[door]);
+        }
+    }
+
+    fn passing_of(&self, door: usize) -> Passing {
+        if self.is_free(door) {
+            Passing::Free
+        } else if self.passage(door).is_some() {
+            Passing::Open
+        } else {
+            Passing::Shut
+        }
+    }
+
+    /// Which of a door's rooms is easier.
+    fn order(&self, door: usize) -> Ordering {
+        self.per_m(self.doors[door].room2).total_cmp(&self.per_m(self.doors[door].room1))
+    }
+
+    /// Whether no room weighs its metres.
+    pub fn is_on_doors(&self) -> bool {
+        self.measured == 0
+    }
+
+    /// Whether a route may pass the door, by index.
+    pub(super) fn is_open(&self, door: usize) -> bool {
+        self.passage(door).is_some()
+    }
+
+    pub fn rooms(&self) -> &[RouteRoom] {
+        &self.rooms
+    }
+
+    /// The doors, passable or not.
+    pub fn doors(&self) -> &[RouteDoor] {
+        &self.doors
+    }
+
+    /// Whether a door can be passed for nothing, between rooms of equal hardness.
+    pub(super) fn is_free(&self, door: usize) -> bool {
+        let (one, two) = (self.doors()[door].room1, self.doors()[door].room2);
+        !self.doors()[door].one_way
+            && self.passage(door) == Some(0.0)
+            && self.per_m(one).to_bits() == self.per_m(two).to_bits()
+    }
+
+    /// Hardness of a metre; 0 where all hardness lies on the doors, infinite where no route enters.
+    pub(super) fn per_m(&self, room: usize) -> f64 {
+        match self.rooms()[room].walking {
+            Walking::OnDoors => 0.0,
+            Walking::PerMetre(hardness) => hardness,
+            Walking::Unknown => f64::INFINITY,
+        }
+    }
+
+    /// Whether a route may enter the room.
+    pub(super) fn is_entered(&self, room: usize) -> bool {
+        self.rooms()[room].walking != Walking::Unknown
+    }
+
+    /// What passing a door weighs, where it can be passed.
+    pub(super) fn passage(&self, door: usize) -> Option<f64> {
+        let of = &self.doors()[door];
+        of.weight().filter(|_| self.is_entered(of.room1) && self.is_entered(of.room2))
+    }
+
+    /// The least hardness of a metre in a room that may be entered.
+    pub(super) fn least_per_m(&self) -> f64 {
+        let all = (0..self.rooms().len()).map(|room| self.per_m(room));
+        let least = all.fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 0.0 }
+    }
+}
+
+/// Where a change may pay.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gate {
+    pub segment: Segment,
+    /// Whether the harder state has room beyond it for more than half a metre.
+    pub is_deep: bool,
+}
+
+/// A closed boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closed {
+    /// Key of the door that is closed.
+    pub door: u32,
+    /// Its segment, along an axis.
+    pub segment: Rect,
+}
+
+/// The graph of the parts into which closed boundaries cut rooms.
+#[derive(Clone, Debug)]
+pub(super) struct Cut {
+    pub graph: RouteGraph,
+    /// Of each part its room.
+    pub rooms: Vec<usize>,
+    /// Of each door of the graph the site's; `None` for one between two parts of a room.
+    pub doors: Vec<Option<usize>>,
+    /// Of each room its parts.
+    pub parts: Vec<Vec<usize>>,
+    /// Of each door of the site the graph's.
+    pub pieces: Vec<Vec<usize>>,
+}

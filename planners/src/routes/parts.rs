@@ -1,0 +1,89 @@
+//! Rooms and doors as a search sees them, and where it begins and ends.
+
+use crate::geometry::{Point, Rect};
+
+/// A room as the search sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteRoom {
+    pub rect: Rect,
+    pub walking: Walking,
+}
+
+impl RouteRoom {
+    pub(super) fn is_measured(&self) -> bool {
+        matches!(self.walking, Walking::PerMetre(_))
+    }
+}
+
+/// What walking in a room weighs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Walking {
+    /// Nothing by itself: all hardness lies on the doors (the paper's Table 6).
+    OnDoors,
+    /// So much a metre.
+    PerMetre(f64),
+    /// Unknown: no route enters.
+    Unknown,
+}
+
+/// A door as the search sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RouteDoor {
+    /// Its key, unique.
+    pub door: u32,
+    /// Index of the first room.
+    pub room1: usize,
+    /// Index of the second room.
+    pub room2: usize,
+    /// Where it is crossed: a segment shared by both rooms, or the area in which a change of shape is possible.
+    pub crossing: Rect,
+    /// The point that stands for it where no distance in its rooms is weighed.
+    pub at: Point,
+    /// Hardness of passing it; `None`: unknown, so it is not passed.
+    pub hardness: Option<f64>,
+    /// Whether rules let a state through.
+    pub passable: bool,
+    /// Whether it leads from the first room to the second only.
+    pub one_way: bool,
+}
+
+impl RouteDoor {
+    /// Whether it is an area in which the robot changes its shape, not a segment to pass.
+    pub fn is_change(&self) -> bool {
+        self.crossing.dx() > 0.0 && self.crossing.dy() > 0.0
+    }
+
+    /// The hardness of passing it, where it can be passed.
+    pub fn weight(&self) -> Option<f64> {
+        self.hardness.filter(|hardness| self.passable && !hardness.is_nan())
+    }
+}
+
+/// Where a search begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Rooms that hold the start: one in the paper's modes, one for each state that fits there otherwise.
+    pub rooms: Vec<usize>,
+    /// The start point, metres.
+    pub at: Point,
+}
+
+/// Where a search may end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Rooms that hold it.
+    pub rooms: Vec<usize>,
+    /// The point; `None`: anywhere in one of the rooms.
+    pub at: Option<Point>,
+}
+
+/// What passing a door changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Passing {
+    /// Nothing.
+    Free,
+    /// What a metre weighs, or it weighs something itself.
+    Open,
+    /// Nobody passes.
+    Shut,
+}

@@ -1,0 +1,248 @@
+//! The graph of routes as [petgraph](https://docs.rs/petgraph) asks for one: any of its algorithms can be handed it.
+//!
+//! Nodes are rooms and edges are passages of doors that are open, both ways where a door is not one-way; rooms and doors go
+//! by their indices. An edge weighs the hardness of its door: what walking in a room weighs is not in it, nor is a
+//! [closed](RouteGraph::close) boundary.
+
+use std::iter::{Enumerate, Map};
+use std::ops::Range;
+use std::slice::Iter;
+
+use fixedbitset::FixedBitSet;
+use petgraph::visit::{
+    Data, EdgeCount, EdgeIndexable, EdgeRef, GraphBase, GraphProp, IntoEdgeReferences, IntoEdges,
+    IntoEdgesDirected, IntoNeighbors, IntoNeighborsDirected, IntoNodeIdentifiers, IntoNodeReferences,
+    NodeCompactIndexable, NodeCount, NodeIndexable, Visitable,
+};
+use petgraph::{Directed, Direction};
+
+use super::graph::RouteGraph;
+use super::mesh::Exit;
+use super::parts::RouteRoom;
+use crate::search::Csr;
+
+/// A door that is open, passed one way.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage<'g> {
+    from: usize,
+    to: usize,
+    door: usize,
+    hardness: &'g f64,
+}
+
+impl EdgeRef for Passage<'_> {
+    type NodeId = usize;
+    type EdgeId = usize;
+    type Weight = f64;
+
+    fn source(&self) -> usize {
+        self.from
+    }
+
+    fn target(&self) -> usize {
+        self.to
+    }
+
+    fn weight(&self) -> &f64 {
+        self.hardness
+    }
+
+    fn id(&self) -> usize {
+        self.door
+    }
+}
+
+/// The passages out of some rooms, or into one.
+#[derive(Clone, Debug)]
+pub struct Passages<'g> {
+    graph: &'g RouteGraph,
+    room: usize,
+    direction: Direction,
+    exits: std::iter::Chain<Iter<'g, Exit>, Iter<'g, Exit>>,
+    /// Those whose turn comes next.
+    rooms: Range<usize>,
+}
+
+impl<'g> Passages<'g> {
+    fn of(graph: &'g RouteGraph, room: usize, direction: Direction) -> Self {
+        let exits = match direction {
+            Direction::Outgoing => graph.exits(room),
+            Direction::Incoming => graph.entries().of(room).iter().chain(&[]),
+        };
+        Self { graph, room, direction, exits, rooms: 0..0 }
+    }
+}
+
+impl<'g> Iterator for Passages<'g> {
+    type Item = Passage<'g>;
+
+    fn next(&mut self) -> Option<Passage<'g>> {
+        loop {
+            for exit in self.exits.by_ref() {
+                let (door, other) = (exit.door as usize, exit.to as usize);
+                let Some(hardness) = self.graph.doors[door].hardness.as_ref() else { continue };
+                if !self.graph.is_open(door) {
+                    continue;
+                }
+                let (from, to) = match self.direction {
+                    Direction::Outgoing => (self.room, other),
+                    Direction::Incoming => (other, self.room),
+                };
+                return Some(Passage { from, to, door, hardness });
+            }
+            self.room = self.rooms.next()?;
+            self.exits = self.graph.exits(self.room);
+        }
+    }
+}
+
+impl RouteGraph {
+    /// The doors out of a room, open or not.
+    pub(super) fn exits(&self, room: usize) -> std::iter::Chain<Iter<'_, Exit>, Iter<'_, Exit>> {
+        self.mesh.portals.of(room).iter().chain(self.mesh.changes.of(room))
+    }
+
+    /// For each room the doors into it, with the rooms that they lead from; found when first asked for.
+    fn entries(&self) -> &Csr<Exit> {
+        self.entries.get_or_init(|| {
+            let into = |room: usize| {
+                self.exits(room).map(move |exit| (exit.to as usize, Exit { to: room as u32, ..*exit }))
+            };
+            Csr::new(self.rooms.len(), (0..self.rooms.len()).flat_map(into))
+        })
+    }
+}
+
+impl GraphBase for RouteGraph {
+    type NodeId = usize;
+    type EdgeId = usize;
+}
+
+impl GraphProp for RouteGraph {
+    type EdgeType = Directed;
+}
+
+impl Data for RouteGraph {
+    type NodeWeight = RouteRoom;
+    type EdgeWeight = f64;
+}
+
+impl NodeCount for RouteGraph {
+    fn node_count(&self) -> usize {
+        self.rooms.len()
+    }
+}
+
+impl NodeIndexable for RouteGraph {
+    fn node_bound(&self) -> usize {
+        self.rooms.len()
+    }
+
+    fn to_index(&self, room: usize) -> usize {
+        room
+    }
+
+    fn from_index(&self, room: usize) -> usize {
+        room
+    }
+}
+
+impl NodeCompactIndexable for RouteGraph {}
+
+impl EdgeCount for RouteGraph {
+    fn edge_count(&self) -> usize {
+        self.edge_references().count()
+    }
+}
+
+impl EdgeIndexable for RouteGraph {
+    fn edge_bound(&self) -> usize {
+        self.doors.len()
+    }
+
+    fn to_index(&self, door: usize) -> usize {
+        door
+    }
+
+    fn from_index(&self, door: usize) -> usize {
+        door
+    }
+}
+
+impl Visitable for RouteGraph {
+    type Map = FixedBitSet;
+
+    fn visit_map(&self) -> FixedBitSet {
+        FixedBitSet::with_capacity(self.rooms.len())
+    }
+
+    fn reset_map(&self, map: &mut FixedBitSet) {
+        map.clear();
+        map.grow(self.rooms.len());
+    }
+}
+
+impl IntoNodeIdentifiers for &RouteGraph {
+    type NodeIdentifiers = Range<usize>;
+
+    fn node_identifiers(self) -> Range<usize> {
+        0..self.rooms.len()
+    }
+}
+
+impl<'g> IntoNodeReferences for &'g RouteGraph {
+    type NodeRef = (usize, &'g RouteRoom);
+    type NodeReferences = Enumerate<Iter<'g, RouteRoom>>;
+
+    fn node_references(self) -> Self::NodeReferences {
+        self.rooms.iter().enumerate()
+    }
+}
+
+impl<'g> IntoEdgeReferences for &'g RouteGraph {
+    type EdgeRef = Passage<'g>;
+    type EdgeReferences = Passages<'g>;
+
+    fn edge_references(self) -> Passages<'g> {
+        let exits = [].iter().chain(&[]);
+        Passages { graph: self, room: 0, direction: Direction::Outgoing, exits, rooms: 0..self.rooms.len() }
+    }
+}
+
+impl<'g> IntoEdges for &'g RouteGraph {
+    type Edges = Passages<'g>;
+
+    fn edges(self, room: usize) -> Passages<'g> {
+        Passages::of(self, room, Direction::Outgoing)
+    }
+}
+
+impl<'g> IntoEdgesDirected for &'g RouteGraph {
+    type EdgesDirected = Passages<'g>;
+
+    fn edges_directed(self, room: usize, direction: Direction) -> Passages<'g> {
+        Passages::of(self, room, direction)
+    }
+}
+
+type Neighbours<'g> = Map<Passages<'g>, fn(Passage<'g>) -> usize>;
+
+impl<'g> IntoNeighbors for &'g RouteGraph {
+    type Neighbors = Neighbours<'g>;
+
+    fn neighbors(self, room: usize) -> Neighbours<'g> {
+        self.edges(room).map(|passage| passage.to)
+    }
+}
+
+impl<'g> IntoNeighborsDirected for &'g RouteGraph {
+    type NeighborsDirected = Neighbours<'g>;
+
+    fn neighbors_directed(self, room: usize, direction: Direction) -> Neighbours<'g> {
+        let neighbour: fn(Passage<'g>) -> usize = match direction {
+            Direction::Outgoing => |passage| passage.to,
+            Direction::Incoming => |passage| passage.from,
+        };
+        self.edges_directed(room, direction).map(neighbour)
+    }
+}
