@@ -18,6 +18,7 @@ mod read;
 pub mod regions;
 mod search;
 mod solids;
+mod space;
 mod trees;
 
 pub use disc::Disc;

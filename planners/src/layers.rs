@@ -4,7 +4,6 @@
 //! body that cannot turn everywhere, and has a layer for each of eight facings, 22.5 degrees apart. Where the rooms of the
 //! paper ask whether a rectangle is wide enough, here every point of a room is a point at which the state fits.
 
-mod bottleneck;
 mod cells;
 mod changes;
 mod clearance;
@@ -20,16 +19,15 @@ mod maximal;
 mod narrowest;
 mod neighbours;
 mod planner;
+mod record;
 mod slivers;
 mod transform;
-
-use std::sync::Arc;
 
 use cells::CellRect;
 use changes::changes;
 use footprint::{FACINGS, STEP_DEGREES};
 use labels::{Label, Labels};
-use layer::{Layer, Size};
+use layer::{Placed, Size};
 use neighbours::boundary;
 use rayon::prelude::*;
 
@@ -42,55 +40,7 @@ pub use lattice::{Lattice, MAX_CELLS};
 pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
-
-/// A state in which a robot can move.
-#[derive(Clone, Debug, PartialEq)]
-pub struct State {
-    /// The robot; `None` where there is but one, without a name.
-    pub robot: Option<String>,
-    pub state: String,
-    /// Metres.
-    pub height: f64,
-    /// Metres, more than 0; across the facing.
-    pub width: f64,
-    /// Metres along the facing; `None` for a disc of its width, which turns on the spot.
-    pub length: Option<f64>,
-}
-
-/// A room of one state's layer.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Room {
-    /// The state, by its index.
-    pub state: usize,
-    /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
-    pub facing: Option<f64>,
-    /// Where the robot's centre may be.
-    pub rect: Rect,
-    /// The lowest bridge above the room, metres; `None` where there is none.
-    pub height: Option<f64>,
-}
-
-/// How a robot comes from one room into another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// Through a common boundary, both ways, without a change of shape.
-    Door,
-    /// By a change of shape, or a turn to the next facing, where rooms of two layers overlap; from the first room
-    /// into the second.
-    Change,
-}
-
-/// A way from one room into another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    pub kind: Kind,
-    pub room1: usize,
-    /// The other room; more than `room1` for a door.
-    pub room2: usize,
-    /// The common boundary segment of a door, the overlap of a change; of a turn the largest part
-    /// of the overlap in which the body can turn.
-    pub rect: Rect,
-}
+pub use record::{Crossing, Kind, Room, State};
 
 /// All layers of a world.
 #[derive(Clone, Debug, PartialEq)]
@@ -159,15 +109,6 @@ pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> 
     };
     let (area_rooms, door_rooms) = (members(|label| &label.areas), members(|label| &label.doors));
     Ok(Layers { lattice, rooms, crossings, area_rooms, door_rooms })
-}
-
-/// A layer among all of them.
-struct Placed {
-    state: usize,
-    facing: Option<usize>,
-    /// The number of its first room.
-    first: usize,
-    layer: Arc<Layer>,
 }
 
 fn side(world: &World, states: &[State]) -> Result<f64, String> {

@@ -50,8 +50,8 @@ mod sight;
 mod update;
 
 pub use estimate::Estimate;
-pub use facts::{SegmentFacts, Source, Transition};
-pub use model_segment::{ModelSegment, SegmentId};
+pub use facts::{SegmentFacts, SegmentId, Source, Transition};
+pub use model_segment::ModelSegment;
 pub use objects::{Object, ObjectId};
 pub use settings::Settings;
 pub use update::Update;

@@ -27,16 +27,9 @@ impl Signature {
 #[non_exhaustive]
 pub enum PlannerError {
     #[error("planner `{planner}`: {class}: {what}")]
-    Fact {
-        planner: String,
-        class: String,
-        what: String,
-    },
+    Fact { planner: String, class: String, what: String },
     #[error("planner `{planner}`: {what}")]
-    World {
-        planner: String,
-        what: String,
-    },
+    World { planner: String, what: String },
 }
 
 /// A producer of facts. It reads the world and what is known, and asserts classes of objects; rules decide.

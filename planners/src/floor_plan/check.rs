@@ -6,11 +6,11 @@ use std::ops::Range;
 use geo::{Intersects, Validation};
 
 use super::noding::{Clash, Noded, node};
-use super::plan::{Source, Space};
 use super::solids::{outside, polygon, rims, union};
+use super::space::Space;
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
-use crate::read::{Code, MapErrors, Problem};
+use crate::read::{Code, MapErrors, Problem, Text};
 use crate::world::Place;
 
 /// Coordinates are at most so large, metres: beyond it a micrometre is lost.
@@ -20,6 +20,15 @@ const LARGEST_M: f64 = 1e6;
 const MOST_TOLD: usize = 12;
 /// So many walls of open outlines are told: one gap often opens many.
 const MOST_OPEN: usize = 3;
+
+/// Where in a file each thing stands, if it comes from one.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Source {
+    pub text: Option<Text>,
+    pub walls: Vec<Range<usize>>,
+    pub solids: Vec<Range<usize>>,
+    pub places: Vec<Range<usize>>,
+}
 
 /// The problems of a plan, while it is looked at.
 pub(super) struct Check<'s> {

@@ -3,7 +3,7 @@
 use super::funnel::{funnel, straightened};
 use super::mesh::Gate;
 use super::network::{Network, Spot, Standing, Way};
-use super::trees::Trees;
+use super::trees::{Route, Trees};
 use crate::geometry::{Point, path_length};
 
 /// Paths over adits that are longer than the shortest by at most this share are pulled tight, too: straightened they
@@ -50,13 +50,6 @@ pub enum NoPath {
     Goal,
     #[error("no way that is open to the disc joins the start and the goal")]
     NoWay,
-}
-
-/// A path over adits.
-#[derive(Clone, Debug)]
-pub(super) struct Route {
-    pub adits: Vec<usize>,
-    pub weight: f64,
 }
 
 /// What a search has at hand.

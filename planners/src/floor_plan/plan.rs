@@ -1,14 +1,12 @@
 //! A floor plan that was checked: its walls close outlines, cross nowhere, and its places are free.
 
-use std::ops::Range;
 use std::sync::Arc;
 
-use super::check::Check;
-use super::noding::Noded;
-use super::planar::Planar;
+use super::check::{Check, Source};
+use super::space::Space;
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Point, Rect, Segment};
-use crate::read::{Code, MapErrors, Problem, Text};
+use crate::read::{Code, MapErrors, Problem};
 use crate::world::{Bridge, Occupancy, Place, Shape, World};
 
 /// Walls without thickness, solid things, and named places, in metres.
@@ -31,23 +29,6 @@ pub struct Drawn {
     /// Pillars and walls with a thickness, by their corners in order. They may overlap walls and one another.
     pub solids: Vec<Vec<Point>>,
     pub places: Vec<Place>,
-}
-
-/// Where in a file each thing stands, if it comes from one.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Source {
-    pub text: Option<Text>,
-    pub walls: Vec<Range<usize>>,
-    pub solids: Vec<Range<usize>>,
-    pub places: Vec<Range<usize>>,
-}
-
-/// The outline of all that is solid, and on which sides of it there is free space.
-#[derive(Clone, Debug)]
-pub(super) struct Space {
-    pub plan: Planar,
-    /// For each half-edge whether free space lies to its left.
-    pub free_half: Vec<bool>,
 }
 
 impl FloorPlan {
@@ -158,52 +139,6 @@ impl FloorPlan {
     /// A problem with a place, told where it stands in the file.
     pub(super) fn problem_of_place(&self, place: usize, code: Code, message: String) -> Problem {
         Check::new(&self.source).problem(self.source.places.get(place), code, message)
-    }
-}
-
-impl Space {
-    fn new(noded: &Noded, ring_from: usize) -> Self {
-        let plan = Planar::new(noded.points.clone(), noded.edges.clone());
-        let is_solid = |half: u32| half.is_multiple_of(2) && noded.wall_of[half as usize / 2] >= ring_from;
-        let is_free = |face: &Option<u32>| face.is_some_and(|face| !plan.along(face).any(is_solid));
-        let free: Vec<bool> = plan.faces().iter().map(is_free).collect();
-        let free_half = plan.cycle_of.iter().map(|&cycle| free[cycle as usize]).collect();
-        Self { plan, free_half }
-    }
-
-    /// Whether a point lies in free space; on its outline it may or may not.
-    pub fn is_free(&self, p: Point) -> bool {
-        self.cycle_around(p)
-            .is_some_and(|cycle| self.free_half[self.plan.cycles[cycle as usize].first as usize])
-    }
-
-    /// The outline of the face that a point lies in.
-    fn cycle_around(&self, p: Point) -> Option<u32> {
-        let area = |&c: &u32| self.plan.cycles[c as usize].area;
-        let outer = (0..self.plan.cycles.len() as u32).filter(|c| area(c) > 0.0);
-        let around = outer.filter(|&c| self.plan.is_inside(c, p));
-        around.min_by(|a, b| area(a).total_cmp(&area(b)))
-    }
-
-    /// Keeps of the free space the face that a point lies in.
-    fn keep_around(&mut self, p: Point) -> Result<(), MapErrors> {
-        let faces = self.plan.faces();
-        let face = self.cycle_around(p).filter(|_| self.is_free(p)).and_then(|cycle| faces[cycle as usize]);
-        let Some(face) = face else {
-            let message = format!("no free space with a closed outline is around ({}, {})", p.x, p.y);
-            return Err(Problem::of_file(Code::OpenOutline, message).into());
-        };
-        for (half, cycle) in self.plan.cycle_of.iter().enumerate() {
-            self.free_half[half] &= faces[*cycle as usize] == Some(face);
-        }
-        Ok(())
-    }
-
-    /// The edges with free space on a side.
-    fn bounds(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
-        let edges = self.plan.edges.iter().zip(self.free_half.chunks(2));
-        let beside = edges.filter(|(_, halves)| halves.contains(&true));
-        beside.map(|(edge, _)| edge.ends.map(|n| self.plan.points[n as usize]))
     }
 }
 

@@ -9,7 +9,8 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_saphyr::{Location, Spanned};
 
-use super::plan::{Drawn, FloorPlan, Source};
+use super::check::Source;
+use super::plan::{Drawn, FloorPlan};
 use crate::geometry::Point;
 use crate::read::{Code, MapErrors, Problem, Text, nearest};
 use crate::world::Place;

@@ -7,9 +7,15 @@ use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 
 use super::network::{Network, Spot};
-use super::path::Route;
 use crate::geometry::Point;
 use crate::search::ByValue;
+
+/// A path over adits.
+#[derive(Clone, Debug)]
+pub(super) struct Route {
+    pub adits: Vec<usize>,
+    pub weight: f64,
+}
 
 /// The network with the weights of its ways.
 pub(super) struct Trees<'n> {

@@ -1,6 +1,6 @@
 //! Axis-parallel rectangles, in metres in the map's frame.
 
-use super::{Point, Segment};
+use super::Point;
 
 /// A closed axis-parallel rectangle; `x0 <= x1` and `y0 <= y1`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -90,7 +90,7 @@ impl Rect {
 
     /// Whether the segment has a part of some length inside, not just on the boundary.
     pub fn is_crossed_by(&self, from: Point, to: Point) -> bool {
-        let inside = self.clip(from, to).map(|(a, b)| Segment::new(a, b).middle());
+        let inside = self.clip(from, to).map(|(a, b)| a.midpoint(b));
         inside.is_some_and(|p| self.x0 < p.x && p.x < self.x1 && self.y0 < p.y && p.y < self.y1)
     }
 

@@ -6,9 +6,9 @@ use super::cells::CellRect;
 use super::footprint::{FACINGS, largest_within};
 use super::labels::Labels;
 use super::lattice::Lattice;
-use super::layer::Layer;
+use super::layer::{Layer, Placed};
 use super::neighbours::boundary;
-use super::{Crossing, Kind, Placed, State};
+use super::record::{Crossing, Kind, State};
 
 /// An overlap not thicker than so many cells is left out beside a thicker one.
 const THIN: u32 = 2;

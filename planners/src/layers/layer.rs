@@ -9,7 +9,8 @@ use super::free_space::Solid;
 use super::labels::Labels;
 use super::lattice::Lattice;
 use super::neighbours::Owners;
-use super::{State, cut, footprint, slivers};
+use super::record::State;
+use super::{cut, footprint, slivers};
 use crate::geometry::Rect;
 use crate::world::World;
 
@@ -77,6 +78,15 @@ impl Layer {
         }
         Self { rooms, owners, beside, neighbours, turning }
     }
+}
+
+/// A layer among all of them.
+pub(super) struct Placed {
+    pub(super) state: usize,
+    pub(super) facing: Option<usize>,
+    /// The number of its first room.
+    pub(super) first: usize,
+    pub(super) layer: Arc<Layer>,
 }
 
 /// Layers that were cut before: those of the last world, by size. Where they are asked for again, only what has

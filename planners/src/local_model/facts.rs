@@ -1,6 +1,8 @@
 //! What is asked of the state table, and what it answers.
 
-use super::SegmentId;
+/// Names a segment for as long as the model lives; no number is used twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SegmentId(pub u32);
 
 /// Where a segment comes from. The model itself gives the first three; a state table may use other numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

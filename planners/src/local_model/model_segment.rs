@@ -1,11 +1,8 @@
 //! A segment of the model with what is kept of it.
 
-use super::{ObjectId, SegmentFacts, Source, Transition};
+use super::facts::{SegmentFacts, SegmentId, Source, Transition};
+use super::objects::ObjectId;
 use crate::geometry::{Point, Segment};
-
-/// Names a segment for as long as the model lives; no number is used twice.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct SegmentId(pub u32);
 
 /// A surface that the model believes in.
 #[derive(Clone, Copy, Debug, PartialEq)]

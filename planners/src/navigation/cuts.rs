@@ -1,6 +1,6 @@
 //! Which ways obstacles have cut.
 
-use super::detour::Ground;
+use super::field::Ground;
 use super::free_grid::FreeGrid;
 use super::judge::WayFacts;
 use crate::floor_plan::{Network, Spot, Way};

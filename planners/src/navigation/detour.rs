@@ -1,25 +1,8 @@
 //! Local path planning: round an obstacle on the left and on the right (Crowley 1985, section 4.6).
 
-use super::field::Field;
+use super::field::{Field, Ground};
 use super::highway::free_ahead;
 use crate::geometry::{Point, Rect, Segment, cross, path_length};
-
-/// What a detour is planned with.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ground<'b> {
-    /// Whatever the robot must not touch.
-    pub barriers: &'b [Segment],
-    /// From this index on they are obstacles, before it walls.
-    pub obstacles_from: usize,
-    /// What the robot's middle keeps from barriers, metres.
-    pub reach: f64,
-    /// What it keeps from barriers at the goal, at the least, metres.
-    pub least: f64,
-    /// By how much a detour may leave the rectangle about its ends, metres.
-    pub aside: f64,
-    /// The grain of the search, metres.
-    pub grain: f64,
-}
 
 /// The two senses round an obstacle.
 #[derive(Clone, Debug, Default, PartialEq)]

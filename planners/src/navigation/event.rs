@@ -18,7 +18,10 @@ pub struct Event {
 #[non_exhaustive]
 pub enum Happening {
     /// The judge was asked, and the state changed or something was done.
-    State { facts: Box<StateFacts>, decision: StateDecision },
+    State {
+        facts: Box<StateFacts>,
+        decision: StateDecision,
+    },
     /// A whole scan was taken, and the estimated position set.
     SetEstimatedPosition(Estimate),
     /// Segments came into the local model or left it.

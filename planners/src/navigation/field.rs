@@ -1,12 +1,28 @@
 //! Free space for a disc among barriers, and the shortest paths through it.
 
-use super::detour::Ground;
 use super::free_grid::FreeGrid;
 use super::highway::{is_clear, straightened};
 use crate::geometry::{Point, Rect, Segment};
 
 /// The grid may lack a cell at an end of a path; the nearest one up to so far is taken, metres.
 const NEAR_M: f64 = 0.4;
+
+/// What a robot keeps from what, and how finely paths are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ground<'b> {
+    /// Whatever the robot must not touch.
+    pub barriers: &'b [Segment],
+    /// From this index on they are obstacles, before it walls.
+    pub obstacles_from: usize,
+    /// What the robot's middle keeps from barriers, metres.
+    pub reach: f64,
+    /// What it keeps from barriers at the goal, at the least, metres.
+    pub least: f64,
+    /// By how much a detour may leave the rectangle about its ends, metres.
+    pub aside: f64,
+    /// The grain of the search, metres.
+    pub grain: f64,
+}
 
 /// Free space in a window.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
 //! Ways over the whole building.
 
 use super::cuts::{Blocked, Cuts};
-use super::detour::Ground;
 use super::field::Field;
+use super::field::Ground;
 use super::highway::{is_clear, straightened};
 use super::judge::Judge;
 use super::known::Building;

@@ -155,30 +155,15 @@ pub enum AssemblyError<const D: usize> {
     #[error(
         "channel {channel} reaches up to z = {height}, above channel 1, which leads out and ends at {top}"
     )]
-    HigherThanTheFirst {
-        channel: usize,
-        height: f64,
-        top: f64,
-    },
+    HigherThanTheFirst { channel: usize, height: f64, top: f64 },
     #[error("channel {channel} {outer} and channel {next} {inner} do not overlap, so there is no junction")]
-    Disconnected {
-        channel: usize,
-        outer: Cuboid<D>,
-        next: usize,
-        inner: Cuboid<D>,
-    },
+    Disconnected { channel: usize, outer: Cuboid<D>, next: usize, inner: Cuboid<D> },
     /// Two neighbours in line, one within the other, or sharing a corner only.
     #[error(
         "channel {channel} {outer} and channel {next} {inner} share {junction}, which is neither an L nor a T: \
          each must go on from there along an axis of its own, and one must span the other"
     )]
-    NotOrthogonal {
-        channel: usize,
-        outer: Cuboid<D>,
-        next: usize,
-        inner: Cuboid<D>,
-        junction: Cuboid<D>,
-    },
+    NotOrthogonal { channel: usize, outer: Cuboid<D>, next: usize, inner: Cuboid<D>, junction: Cuboid<D> },
     #[error(
         "the part {part} sticks out of channel {last} {channel}, the last one, by {by}; {}",
         lies_in(*holder)

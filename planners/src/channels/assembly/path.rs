@@ -51,10 +51,7 @@ impl<const D: usize> PartPath<D> {
 #[non_exhaustive]
 pub enum PathError<const D: usize, E> {
     #[error("at junction {junction}: {reason}")]
-    Undecided {
-        junction: usize,
-        reason: E,
-    },
+    Undecided { junction: usize, reason: E },
     #[error("at junction {junction} the gap along axis {axis} is {gap}; expected a finite number of metres")]
     BadGap {
         junction: usize,
@@ -73,10 +70,7 @@ pub enum PathError<const D: usize, E> {
     #[error(
         "the displacement leaves the part at z = {height}; expected a finite one, and z of at least {top}, the top"
     )]
-    NotOut {
-        height: f64,
-        top: f64,
-    },
+    NotOut { height: f64, top: f64 },
 }
 
 fn goal(junction: usize) -> String {

@@ -114,6 +114,13 @@ impl Body {
     }
 }
 
+/// Metres between a rectangle and a wall.
+pub(super) fn apart(area: &Rect, wall: &Wall) -> f64 {
+    let dx = (wall.a.x - area.x1).max(area.x0 - wall.b.x).max(0.0);
+    let dy = (wall.a.y - area.y1).max(area.y0 - wall.b.y).max(0.0);
+    length(dx, dy)
+}
+
 fn squared(x: f64, y: f64) -> f64 {
     x * x + y * y
 }

@@ -96,13 +96,7 @@ pub enum DriveError<E> {
         "the robot hits the wall from {} to {} on its way from {} {} to {} {}",
         Coords(wall.a), Coords(wall.b), from, Coords(*a), to, Coords(*b)
     )]
-    HitsOnLine {
-        wall: Wall,
-        from: End,
-        a: Point,
-        to: End,
-        b: Point,
-    },
+    HitsOnLine { wall: Wall, from: End, a: Point, to: End, b: Point },
     #[error(
         "junction {junction}{} is too small for the robot with a gap of {} m: turning about {}, its outer corner reaches {} \
          m, and the wall from {} to {} is {} m away; the safest gap is {} m",

@@ -47,24 +47,14 @@ pub enum CorridorError {
          them should cross the other there, or end in it, over its full width",
         rect.x0, rect.y0, rect.x1, rect.y1
     )]
-    NotOrthogonal {
-        first: usize,
-        second: usize,
-        how: Overlap,
-        rect: Rect,
-    },
+    NotOrthogonal { first: usize, second: usize, how: Overlap, rect: Rect },
     /// A channel is upright for one neighbour and lying for another.
     #[error(
         "channel {channel} lies along {axis} where it meets channel {one}, but along {} where it meets channel {other}; \
          give it as two channels",
         axis.across()
     )]
-    TwoAxes {
-        channel: usize,
-        axis: Axis,
-        one: usize,
-        other: usize,
-    },
+    TwoAxes { channel: usize, axis: Axis, one: usize, other: usize },
 }
 
 impl std::fmt::Display for Overlap {

@@ -1,14 +1,14 @@
 //! What is left between the robot and the walls while it drives.
 
-use super::body::{Body, Robot, length};
+use super::body::{Body, Robot, apart, length};
 use super::circle::{Circle, Tangent};
 use super::turning::Turning;
-use super::walls::{Wall, apart};
-use crate::geometry::tolerance::ROUNDING_M;
+use super::walls::Wall;
+use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
 use crate::geometry::{Point, Rect};
 
-/// The same where distances are not exact.
-const TOUCH_TURNING: f64 = 1e-6;
+/// A wall into which a turning robot comes by less is only touched, metres: its distances are not exact.
+const TOUCH_TURNING: f64 = SNAP_M;
 
 /// Radians by which a heading may change unseen.
 const STRAIGHT: f64 = 1e-12;

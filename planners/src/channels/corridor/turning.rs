@@ -1,7 +1,8 @@
 //! A robot that drives straight and turns while it does.
 
-use super::body::{Body, length};
-use super::walls::{Wall, apart};
+use super::body::{Body, apart, length};
+use super::walls::Wall;
+use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, Rect};
 use crate::pose::{Frame, Pose};
 
@@ -144,8 +145,7 @@ impl Turning {
         let share = f64::midpoint(from.share, to.share);
         let middle = Moment { share, at: way(&self.pose(share)) };
         *least = least.min(body.distance_to(middle.at));
-        // moments that are this near are the same place
-        if time > 1e-9 && *least > 0.0 {
+        if time > ROUNDING && *least > 0.0 {
             self.between(way, bend, body, (from, middle), least);
             self.between(way, bend, body, (middle, to), least);
         }

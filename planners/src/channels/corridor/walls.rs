@@ -1,6 +1,5 @@
 //! Walls: the outline of all channels together.
 
-use super::body::length;
 use crate::geometry::{Point, Rect};
 
 /// A piece of wall, along x or y; `a` is its end with the smaller coordinates.
@@ -58,11 +57,4 @@ fn closed<'a>(rect: &Rect, openings: impl Iterator<Item = &'a Rect>) -> Vec<(f64
     }
     pieces.push((from, rect.y1));
     pieces
-}
-
-/// Metres between a rectangle and a wall.
-pub(super) fn apart(area: &Rect, wall: &Wall) -> f64 {
-    let dx = (wall.a.x - area.x1).max(area.x0 - wall.b.x).max(0.0);
-    let dy = (wall.a.y - area.y1).max(area.y0 - wall.b.y).max(0.0);
-    length(dx, dy)
 }

@@ -1,11 +1,13 @@
 //! Detours, and ways over the whole building.
 
 use super::{Navigator, Spot};
+use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
 use crate::local_model::LocalModel;
 use crate::navigation::cuts::Blocked;
-use crate::navigation::detour::{Detours, Ground};
+use crate::navigation::detour::Detours;
 use crate::navigation::event::Happening;
+use crate::navigation::field::Ground;
 use crate::navigation::highway::{free_ahead, is_clear};
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::Memory;
@@ -62,7 +64,7 @@ impl Navigator<'_> {
         let reach = self.radius_m + self.settings.detour_clearance_m;
         if let Some(&target) = self.legs.front() {
             let free = free_ahead(at, target, [self.radius_m, reach], &self.barriers);
-            let share = free.metres / at.distance(target).max(1e-9);
+            let share = free.metres / at.distance(target).max(ROUNDING_M);
             let stop = at.lerp(target, share);
             let met = free.by.map(|by| self.barriers[by]);
             let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));

@@ -1,6 +1,6 @@
 //! The free space of a female part.
 
-use super::FemaleError;
+use super::error::FemaleError;
 use crate::channels::assembly::{Cuboid, Edge};
 use crate::geometry::Rect;
 use crate::prime_areas::maximal_rects;
