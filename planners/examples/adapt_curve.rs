@@ -4,12 +4,16 @@
 //! `cargo run --release -p adit-planners --example adapt_curve -- FILE.json [RUNS] [NAME] [SEED]`
 #![allow(clippy::print_stdout, missing_docs)]
 
+#[path = "../tests/adapt/arm_scenario.rs"]
+mod arm_scenario;
+
 use std::time::Instant;
 
 use adit_planners::adapt::{
-    ArmScenario, ChangeFacts, Curve, EdgeFacts, Experiment, Judge, LandmarkFacts, Method, Plugins, Scenario,
-    Settings, Strategy, TOUCHING_M, Trust,
+    ChangeFacts, Curve, EdgeFacts, Experiment, Judge, LandmarkFacts, Method, Plugins, Scenario, Settings,
+    Strategy, TOUCHING_M, Trust,
 };
+use arm_scenario::ArmScenario;
 
 const METHODS: [Method; 5] = [
     Method::Solve,

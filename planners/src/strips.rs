@@ -1,5 +1,5 @@
-//! The strips of an environment, and rectangles of whole strips: the paper's pair of binary strings
-//! (Abou-Ali et al., "Isolation of free areas", Figure 4 and Table 2).
+//! The strips of an environment, and rectangles of whole strips: the paper's pair of binary strings, by where their ones
+//! begin and end (Abou-Ali et al., "Isolation of free areas", Figure 4 and Table 2).
 
 use crate::geometry::Rect;
 use crate::world::World;
@@ -75,16 +75,6 @@ impl Strips {
             self.y[block.y1 as usize],
         )
     }
-
-    /// The left binary string of a block: a bit for each vertical strip, x ascending.
-    pub fn left_string(&self, block: Block) -> String {
-        binary_string(block.x0, block.x1, self.columns())
-    }
-
-    /// The right binary string of a block: a bit for each horizontal strip, y ascending.
-    pub fn right_string(&self, block: Block) -> String {
-        binary_string(block.y0, block.y1, self.rows())
-    }
 }
 
 impl Block {
@@ -145,19 +135,15 @@ fn covered(lines: &[f64], low: f64, high: f64) -> (u32, u32) {
     (first as u32, end.saturating_sub(1) as u32)
 }
 
-fn binary_string(first: u32, end: u32, strips: u32) -> String {
-    (0..strips).map(|strip| if (first..end).contains(&strip) { '1' } else { '0' }).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_block_reads_as_the_papers_pair_of_strings() {
+    fn a_block_is_whole_strips() {
         let strips = Strips::new(Rect::new(0.0, 0.0, 10.0, 10.0), [Rect::new(2.0, 3.0, 5.0, 12.0)]);
         let block = strips.block(Rect::new(2.0, 0.0, 5.0, 3.0)).unwrap();
-        assert_eq!((strips.left_string(block), strips.right_string(block)), ("010".into(), "10".into()));
+        assert_eq!(block, Block { x0: 1, y0: 0, x1: 2, y1: 1 });
         assert_eq!(strips.rect(block), Rect::new(2.0, 0.0, 5.0, 3.0));
     }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod adapt {
+    mod arm_scenario;
     mod bad_input;
     mod changes;
     mod figure_3;
@@ -10,6 +11,8 @@ mod adapt {
     mod own_scenario;
     mod plugins;
     mod restart;
+    mod sliding;
     mod strategies;
     pub mod support;
+    mod two_step;
 }

@@ -1,14 +1,36 @@
-//! A scenario over many seeds (Chen 1994, section 4 and Figure 5).
+//! A sequence of tasks with a change in the middle, over many seeds (Chen 1994, section 4, Figures 4 and 5).
+
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::judge::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
+use super::object::Object;
 use super::planner::{Adapt, Outcome, Plugins, Settings};
 use super::probe::Probe;
-use super::robot::{Configuration, length};
-use super::scenario::Scenario;
+use super::robot::{Configuration, Robot, length};
 use super::workcell::{Workcell, WorkcellError};
 use crate::random::Random;
+
+/// Tasks with goals that recur, and a change of the cell after some of them.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    pub name: String,
+    pub robot: Arc<dyn Robot>,
+    /// The objects before the change.
+    pub objects: Vec<Object>,
+    /// The objects after it.
+    pub changed: Vec<Object>,
+    /// How many tasks come before it.
+    pub change_after_task: u32,
+    pub tasks: u32,
+    /// Where the robot is at first.
+    pub home: Configuration,
+    /// The goals among which each task chooses.
+    pub goals: Vec<Configuration>,
+    /// The goals that join them after the change.
+    pub added_goals: Vec<Configuration>,
+}
 
 pub struct Experiment<'e> {
     pub scenario: &'e Scenario,

@@ -2,13 +2,11 @@
 
 mod rrt_connect;
 mod taught;
-mod two_step;
 
 use std::fmt;
 
 pub use rrt_connect::RrtConnect;
 pub use taught::Taught;
-pub use two_step::TwoStep;
 
 use super::probe::Probe;
 use super::robot::Configuration;

@@ -1,11 +1,12 @@
 //! What cannot be is said, and nothing is learned from it.
 
 use adit_planners::adapt::{
-    Adapt, ArmScenario, Object, Outcome, Placed, Plugins, Scenario, ScenarioError, Settings, Shape,
-    ShapeError, Strategy, Workcell, WorkcellError,
+    Adapt, Object, Outcome, Placed, Plugins, Scenario, Settings, Shape, ShapeError, Strategy, Workcell,
+    WorkcellError,
 };
 use adit_planners::geometry::Point;
 
+use super::arm_scenario::{ArmScenario, ScenarioError};
 use super::support::{Table, arm, moved, planner, rect};
 
 /// The arm points to the left, and a box stands on its right.

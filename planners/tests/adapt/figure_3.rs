@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use adit_planners::adapt::{
     Adapt, Limit, Noted, Object, Outcome, Plugins, PointRobot, Removal, Report, Settings, Straight, Strategy,
-    TwoStep, Workcell,
+    Workcell,
 };
 
 use super::support::{Table, edges, moved, places, rect};
+use super::two_step::TwoStep;
 
 const HOME: [f64; 2] = [4.5, 5.0];
 const W1: [f64; 2] = [2.5, 7.5];

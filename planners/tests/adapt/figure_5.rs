@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use adit_planners::adapt::{
-    ArmScenario, Curve, Experiment, Method, Plugins, Scenario, Settings, Strategy, TOUCHING_M,
-};
+use adit_planners::adapt::{Curve, Experiment, Method, Plugins, Scenario, Settings, Strategy, TOUCHING_M};
 
+use super::arm_scenario::ArmScenario;
 use super::support::Table;
 
 /// Runs a method, and tells evaluations by task.

@@ -1,8 +1,9 @@
 //! The strategies after a change (Chen 1994, section 2.5) on a cell of our own: after task 40 one half of it is
 //! filled with fixtures, and most goals are of a new product in the other half.
 
-use adit_planners::adapt::{ArmScenario, Curve, Method, Scenario, Strategy};
+use adit_planners::adapt::{Curve, Method, Scenario, Strategy};
 
+use super::arm_scenario::ArmScenario;
 use super::figure_5::run;
 
 const CELL: &str = include_str!("../../../kb/worlds/new-product.json");

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use adit_planners::adapt::{
-    Adapt, Limit, Outcome, Plugins, PointRobot, Reach, RrtConnect, Settings, Sliding, Straight, Strategy,
-    Taught, Workcell,
+    Adapt, Limit, Outcome, Plugins, PointRobot, Reach, RrtConnect, Settings, Straight, Strategy, Taught,
+    Workcell,
 };
 
+use super::sliding::Sliding;
 use super::support::{Table, rect};
 
 fn planner(plugins: Plugins) -> Adapt {

@@ -43,7 +43,11 @@ fn decide(known: &mut Facts, class: &str, reads: &str, sets: &str, rule: impl Fn
 
 fn strings(strips: &Strips, rect: Rect) -> String {
     let block = strips.block(rect).unwrap();
-    format!("{} - {}", strips.left_string(block), strips.right_string(block))
+    let bits = |ones: std::ops::Range<u32>, strips: u32| -> String {
+        (0..strips).map(|strip| if ones.contains(&strip) { '1' } else { '0' }).collect()
+    };
+    let (left, right) = (bits(block.x0..block.x1, strips.columns()), bits(block.y0..block.y1, strips.rows()));
+    format!("{left} - {right}")
 }
 
 fn rects(table: &Table) -> Vec<Rect> {

@@ -1,34 +1,10 @@
-//! A sequence of tasks with a change in the middle (Chen 1994, section 4 and Figure 4).
+//! Scenarios of arms as the files of the peers have them.
 
 use std::sync::Arc;
 
+use adit_planners::adapt::{Arm, ArmError, Configuration, Limit, Object, Robot, Scenario, Shape, ShapeError};
+use adit_planners::geometry::Point;
 use serde::Deserialize;
-
-use super::arm::{Arm, ArmError};
-use super::object::Object;
-use super::robot::{Configuration, Limit, Robot};
-use super::shape::{Shape, ShapeError};
-use crate::geometry::Point;
-
-/// Tasks with goals that recur, and a change of the cell after some of them.
-#[derive(Clone, Debug)]
-pub struct Scenario {
-    pub name: String,
-    pub robot: Arc<dyn Robot>,
-    /// The objects before the change.
-    pub objects: Vec<Object>,
-    /// The objects after it.
-    pub changed: Vec<Object>,
-    /// How many tasks come before it.
-    pub change_after_task: u32,
-    pub tasks: u32,
-    /// Where the robot is at first.
-    pub home: Configuration,
-    /// The goals among which each task chooses.
-    pub goals: Vec<Configuration>,
-    /// The goals that join them after the change.
-    pub added_goals: Vec<Configuration>,
-}
 
 /// A scenario of an arm as its file has it; lengths in metres, angles in radians. Other fields are left to others.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

@@ -1,8 +1,7 @@
-//! At most two straight motions (Chen 1994, section 3).
+//! The Solve of the paper's example: at most two straight motions (Chen 1994, section 3).
 
-use super::{Configuration, Probe, Solve};
-use crate::adapt::robot::{between, distance};
-use crate::random::Random;
+use adit_planners::adapt::{Configuration, Probe, Solve, between, distance};
+use adit_planners::random::Random;
 
 /// The shortest path of at most two straight motions whose corner lies on a grid over the limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
