@@ -1,9 +1,9 @@
 //! How near to anything solid a straight way comes.
 
-use geo::{Coord, Distance, Euclidean, Line, Polygon, Rect as GeoRect};
+use geo::{Distance, Euclidean, Line, Polygon};
 use rstar::{AABB, RTree, RTreeObject};
 
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Segment};
 use crate::world::{Shape, World};
 
 /// Walls, obstacles and bridges of a world, found by where they are.
@@ -44,10 +44,7 @@ impl Solid {
 
     fn distance(&self, line: &Line<f64>) -> f64 {
         match &self.outline {
-            Outline::Rect(r) => {
-                let rect = GeoRect::new(Coord { x: r.x0, y: r.y0 }, Coord { x: r.x1, y: r.y1 });
-                Euclidean.distance(line, &rect)
-            }
+            Outline::Rect(rect) => Euclidean.distance(line, &geo::Rect::from(*rect)),
             Outline::Polygon(polygon) => Euclidean.distance(line, polygon),
         }
     }
@@ -72,7 +69,7 @@ impl Solids {
             (p.x - b.x0).min(b.x1 - p.x).min(p.y - b.y0).min(b.y1 - p.y)
         });
         let edge = edge.fold(f64::INFINITY, f64::min).max(0.0);
-        let line = Line::new(Coord { x: a.x, y: a.y }, Coord { x: b.x, y: b.y });
+        let line = Line::from(Segment::new(a, b));
         let (low, high) = ([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]);
         // what is nearer than the reach is certainly found; farther than the edge nothing needs to be looked for
         let mut reach = edge.min(1.0);

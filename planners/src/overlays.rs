@@ -116,29 +116,8 @@ fn with_further(mut table: Table, class: &str, further: &[&[(String, Property)]]
 
 fn column(kind: &str, values: impl Iterator<Item = Option<Property>>) -> Column {
     match kind {
-        "text" => Column::Text(
-            values
-                .map(|value| match value {
-                    Some(Property::Text(text)) => Some(text),
-                    _ => None,
-                })
-                .collect(),
-        ),
-        "truth" => Column::Truth(
-            values
-                .map(|value| match value {
-                    Some(Property::Truth(truth)) => Some(truth),
-                    _ => None,
-                })
-                .collect(),
-        ),
-        _ => Column::Number(
-            values
-                .map(|value| match value {
-                    Some(Property::Number(number)) => Some(number),
-                    _ => None,
-                })
-                .collect(),
-        ),
+        "text" => Column::Text(values.map(|value| value.and_then(Property::into_text)).collect()),
+        "truth" => Column::Truth(values.map(|value| value.and_then(Property::into_truth)).collect()),
+        _ => Column::Number(values.map(|value| value.and_then(Property::into_number)).collect()),
     }
 }

@@ -5,7 +5,7 @@ pub(crate) mod maximal;
 mod planner;
 
 use crate::geometry::Rect;
-use crate::strips::{Block, Strips, solid};
+use crate::strips::{Block, Strips};
 use crate::world::World;
 
 pub use planner::PrimeAreas;
@@ -17,7 +17,8 @@ use maximal::MaximalBlocks;
 /// Complexity: O((n + k) log n) for n obstacles and k areas, plus sorting the areas.
 pub fn prime_areas(world: &World) -> (Strips, Vec<Block>) {
     let strips = Strips::of_world(world);
-    let blocked = solid(world).into_iter().filter_map(|rect| strips.block(rect.intersection(&world.bounds)?));
+    let blocked =
+        world.solid_rects().into_iter().filter_map(|rect| strips.block(rect.intersection(&world.bounds)?));
     let areas = maximal_blocks(&strips, &blocked.collect::<Vec<_>>());
     (strips, areas)
 }

@@ -96,12 +96,3 @@ fn check(settings: &MapSettings) -> Result<(), MapErrors> {
     }
     if problems.is_empty() { Ok(()) } else { Err(MapErrors { problems }) }
 }
-
-fn syntax_problem(source: &Text, error: &toml::de::Error) -> Problem {
-    let span = error.span().unwrap_or(0..0);
-    let problem = source.problem(Code::Syntax, &span, error.message().replace('\n', ", "));
-    if error.message().starts_with("duplicate key") {
-        return problem.with_help("a list stands either as `key = [...]` or as [[key]] entries, not as both");
-    }
-    problem
-}

@@ -16,7 +16,7 @@ pub use paper::{PaperRooms, paper_rooms};
 
 pub(crate) use low_bridges::{cut_low_bridges, known_low_bridges};
 pub(crate) use order::area_key;
-pub(crate) use table::{GIVES, room_facts};
+pub(crate) use table::{DoorRow, GIVES, RoomRow, facts, room_facts};
 
 /// A room of the paper's modes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,7 +28,7 @@ impl Strips {
     /// clipped to its bounds. What has no area within the bounds draws no line.
     pub fn of_world(world: &World) -> Self {
         let bridges = world.bridges.iter().map(|bridge| bridge.rect);
-        Self::new(world.bounds, solid(world).into_iter().chain(bridges))
+        Self::new(world.bounds, world.solid_rects().into_iter().chain(bridges))
     }
 
     /// The strips that `rects` make within `bounds`. Bounds without area, or not finite, have no strips.
@@ -102,11 +102,6 @@ impl Block {
     pub(crate) fn transposed(&self) -> Self {
         Self { x0: self.y0, y0: self.x0, x1: self.y1, y1: self.x1 }
     }
-}
-
-/// What no state passes, as rectangles: obstacles, polygons by their enclosing rectangle.
-pub fn solid(world: &World) -> Vec<Rect> {
-    world.solid_rects()
 }
 
 /// The distinct edges along one axis, and for each rectangle the lines that its edges are.

@@ -5,13 +5,13 @@ mod occupancy;
 
 use std::hash::{Hash, Hasher};
 
-use geo::{Contains, Coord, LineString, Polygon};
+use geo::{Contains, Coord, Polygon};
 use siphasher::sip::SipHasher13;
 
 pub use named::{Area, NamedDoor, Property};
 pub use occupancy::Occupancy;
 
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, polygon};
 
 /// Everything a geometric planner may look at. Metres, in the map's frame; the edge of `bounds` is a wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,23 +138,17 @@ impl Shape {
     pub fn contains(&self, p: Point) -> bool {
         match self {
             Self::Rect(r) => r.x0 < p.x && p.x < r.x1 && r.y0 < p.y && p.y < r.y1,
-            Self::Polygon(corners) => to_geo(corners).contains(&Coord { x: p.x, y: p.y }),
+            Self::Polygon(corners) => polygon::to_geo(corners).contains(&Coord::from(p)),
         }
     }
 
     /// The outline as the `geo` crate has it.
     pub fn to_geo(&self) -> Polygon<f64> {
         match self {
-            Self::Rect(r) => {
-                geo::Rect::new(Coord { x: r.x0, y: r.y0 }, Coord { x: r.x1, y: r.y1 }).to_polygon()
-            }
-            Self::Polygon(corners) => to_geo(corners),
+            Self::Rect(rect) => geo::Rect::from(*rect).to_polygon(),
+            Self::Polygon(corners) => polygon::to_geo(corners),
         }
     }
-}
-
-fn to_geo(corners: &[Point]) -> Polygon<f64> {
-    Polygon::new(LineString::new(corners.iter().map(|p| Coord { x: p.x, y: p.y }).collect()), Vec::new())
 }
 
 /// A bridge: the robot may pass under it where its state is lower than `height`.

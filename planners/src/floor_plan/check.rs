@@ -6,9 +6,10 @@ use std::ops::Range;
 use geo::{Intersects, Validation};
 
 use super::noding::{Clash, Noded, node};
-use super::solids::{outside, polygon, rims, union};
+use super::solids::{outside, rims, union};
 use super::space::Space;
 use crate::geometry::Point;
+use crate::geometry::polygon::to_geo;
 use crate::geometry::tolerance::SNAP_M;
 use crate::read::{Code, MapErrors, Problem, Text};
 use crate::world::Place;
@@ -78,7 +79,7 @@ impl<'s> Check<'s> {
             if solid.len() < 3 {
                 let message = format!("a solid needs three corners or more, this one has {}", solid.len());
                 self.tell(span, Code::FewCorners, message, "list the corners in order, each once");
-            } else if let Err(invalid) = polygon(solid).check_validation() {
+            } else if let Err(invalid) = to_geo(solid).check_validation() {
                 let message = format!("this solid is not a simple outline: {invalid}");
                 self.tell(span, Code::SelfCrossing, message, "list the corners in order, each once");
             }
@@ -209,7 +210,7 @@ impl<'s> Check<'s> {
             if let Some(wall) = wall {
                 let message = format!("the place `{name}` at {} lies on the wall {}", told(at), line(*wall));
                 self.tell(span, Code::PlaceInWall, message, "put it where a robot can stand");
-            } else if solids.iter().any(|solid| polygon(solid).intersects(&point)) {
+            } else if solids.iter().any(|solid| to_geo(solid).intersects(&point)) {
                 let message = format!("the place `{name}` at {} lies in something solid", told(at));
                 self.tell(span, Code::PlaceInWall, message, "put it where a robot can stand");
             } else if !is_open && !space.is_free(at) {

@@ -5,9 +5,8 @@ use std::f64::consts::{PI, TAU};
 use geo::{Coord, LineString, MultiPolygon, Polygon};
 
 use super::plan::FloorPlan;
-use super::solids::polygon;
 use crate::geometry::Point;
-use crate::geometry::polygon::sides;
+use crate::geometry::polygon::{sides, to_geo};
 use crate::geometry::tolerance::SNAP_M;
 use crate::read::{Code, MapErrors, Problem};
 
@@ -50,7 +49,7 @@ impl Disc {
         let rims = solids.iter().flat_map(|solid| sides(solid)).map(|side| [side.a, side.b]);
         let walls = plan.walls().iter().copied().chain(rims);
         let mut shapes: Vec<Polygon> = walls.map(|wall| around(wall, self.reach() + SNAP_M)).collect();
-        shapes.extend(solids.iter().map(|solid| polygon(solid)));
+        shapes.extend(solids.iter().map(|solid| to_geo(solid)));
         geo::unary_union(&shapes)
     }
 }

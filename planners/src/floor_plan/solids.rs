@@ -4,18 +4,13 @@ use geo::{Contains, Coord, Intersects, LineString, MultiPolygon, Polygon};
 
 use super::noding::crossing;
 use crate::geometry::Point;
+use crate::geometry::polygon::to_geo;
 use crate::geometry::tolerance::SNAP_M;
-
-/// A solid by its corners, as the `geo` crate has it.
-pub(super) fn polygon(corners: &[Point]) -> Polygon {
-    let ring: LineString = corners.iter().map(|p| Coord { x: p.x, y: p.y }).collect();
-    Polygon::new(ring, Vec::new())
-}
 
 /// Solids that overlap or touch made one, each outline counterclockwise.
 pub(super) fn union(solids: &[Vec<Point>]) -> MultiPolygon {
     use geo::orient::{Direction, Orient};
-    let polygons: Vec<Polygon> = solids.iter().map(|solid| polygon(solid)).collect();
+    let polygons: Vec<Polygon> = solids.iter().map(|solid| to_geo(solid)).collect();
     let apart = |i: usize| polygons[i + 1..].iter().all(|other| !polygons[i].intersects(other));
     let all = if (0..polygons.len()).all(apart) {
         // What need not be joined keeps its coordinates to the bit.
@@ -28,7 +23,7 @@ pub(super) fn union(solids: &[Vec<Point>]) -> MultiPolygon {
 
 /// What of a wall lies outside of solids, and not on an outline of them.
 pub(super) fn outside([a, b]: [Point; 2], solids: &MultiPolygon) -> Vec<[Point; 2]> {
-    let line = geo::Line::new(Coord { x: a.x, y: a.y }, Coord { x: b.x, y: b.y });
+    let line = geo::Line::new(a, b);
     if !solids.intersects(&line) {
         return vec![[a, b]];
     }
@@ -42,7 +37,7 @@ pub(super) fn outside([a, b]: [Point; 2], solids: &MultiPolygon) -> Vec<[Point; 
     let is_outside = |[p, q]: [Point; 2]| {
         let middle = p.midpoint(q);
         let is_on_rim = rim.iter().any(|&[c, d]| middle.distance(middle.nearest_on(c, d)) <= SNAP_M);
-        p.distance(q) > SNAP_M && !is_on_rim && !solids.contains(&Coord { x: middle.x, y: middle.y })
+        p.distance(q) > SNAP_M && !is_on_rim && !solids.contains(&Coord::from(middle))
     };
     stops.windows(2).map(|part| [part[0], part[1]]).filter(|&part| is_outside(part)).collect()
 }

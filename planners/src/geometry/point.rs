@@ -2,11 +2,19 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
+use geo::Coord;
+
 /// A point, or the way from one point to another: metres.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Default)]
 pub struct Point {
     pub x: f64,
     pub y: f64,
+}
+
+impl From<Point> for Coord {
+    fn from(p: Point) -> Self {
+        Self { x: p.x, y: p.y }
+    }
 }
 
 impl Point {

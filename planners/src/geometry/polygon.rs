@@ -1,9 +1,16 @@
 //! Polygons by their corners in order; the last side goes back to the first corner.
 
+use geo::Polygon;
+
 use super::{Point, Segment, orient};
 
 pub fn sides(corners: &[Point]) -> impl Iterator<Item = Segment> + Clone + '_ {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| Segment::new(a, b))
+}
+
+/// As the `geo` crate has it.
+pub fn to_geo(corners: &[Point]) -> Polygon {
+    Polygon::new(corners.iter().copied().collect(), Vec::new())
 }
 
 /// Whether a point lies inside of closed outlines, by the parity of the sides to its right; exact, and on a side either.

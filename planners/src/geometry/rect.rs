@@ -11,6 +11,12 @@ pub struct Rect {
     pub y1: f64,
 }
 
+impl From<Rect> for geo::Rect {
+    fn from(r: Rect) -> Self {
+        Self::new((r.x0, r.y0), (r.x1, r.y1))
+    }
+}
+
 impl Rect {
     /// From its edges, in the order of the file formats.
     pub const fn new(x0: f64, y0: f64, x1: f64, y1: f64) -> Self {

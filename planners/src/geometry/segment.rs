@@ -15,6 +15,12 @@ impl From<[Point; 2]> for Segment {
     }
 }
 
+impl From<Segment> for geo::Line {
+    fn from(segment: Segment) -> Self {
+        Self::new(segment.a, segment.b)
+    }
+}
+
 impl Segment {
     pub const fn new(a: Point, b: Point) -> Self {
         Self { a, b }

@@ -1,11 +1,10 @@
 //! The planner that asserts the rooms and doors of all layers.
 
-use super::{Kind, KnownLayers, Layers, Room, State, cut_layers_anew};
-use crate::facts::{Column, Facts, Table};
-use crate::names::room_name;
+use super::{Crossing, Kind, KnownLayers, Room, State, cut_layers_anew};
+use crate::facts::Facts;
 use crate::overlays::{MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
-use crate::rooms::GIVES;
+use crate::rooms::{DoorRow, GIVES, RoomRow, facts};
 use crate::world::World;
 
 const NAME: &str = "rooms by state";
@@ -42,14 +41,26 @@ impl Planner for RoomsByState {
         })?;
         let layers = cut_layers_anew(world, &states, &self.known)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
-        let rooms = rooms_table(&layers, &states);
+        let room = |room: &Room| RoomRow {
+            robot: states[room.state].robot.clone(),
+            state: Some(states[room.state].state.clone()),
+            facing: room.facing,
+            rect: room.rect,
+            height: room.height,
+        };
+        let door = |crossing: &Crossing| DoorRow {
+            rooms: [crossing.room1, crossing.room2],
+            rect: crossing.rect,
+            is_change: crossing.kind == Kind::Change,
+        };
+        let rooms: Vec<RoomRow> = layers.rooms.iter().map(room).collect();
+        let doors: Vec<DoorRow> = layers.crossings.iter().map(door).collect();
         let keyed = |pairs: &[(usize, usize)]| -> Vec<(usize, usize)> {
             pairs.iter().map(|&(room, named)| (room + 1, named)).collect()
         };
-        let mut facts = member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms));
-        facts.insert("ROOMS".to_owned(), rooms);
-        facts.insert("DOORS".to_owned(), doors_table(&layers));
-        Ok(facts)
+        let mut all = facts(&rooms, &doors);
+        all.extend(member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms)));
+        Ok(all)
     }
 }
 
@@ -80,53 +91,4 @@ fn moving_states(known: &Facts) -> Result<Vec<State>, String> {
     }
     states.sort_by_key(|state| order.iter().position(|robot| **robot == state.robot));
     Ok(states)
-}
-
-fn rooms_table(layers: &Layers, states: &[State]) -> Table {
-    let rooms = &layers.rooms;
-    let number = |of: fn(&Room) -> f64| rooms.iter().map(of).collect::<Column>();
-    Table::default()
-        .with("room", (1..=rooms.len()).map(|key| key as f64).collect::<Column>())
-        .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
-        .with("robot", rooms.iter().map(|room| states[room.state].robot.clone()).collect::<Column>())
-        .with("state", rooms.iter().map(|room| states[room.state].state.clone()).collect::<Column>())
-        .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>())
-        .with("x0", number(|room| room.rect.x0))
-        .with("y0", number(|room| room.rect.y0))
-        .with("x1", number(|room| room.rect.x1))
-        .with("y1", number(|room| room.rect.y1))
-        .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
-        .with("width", number(|room| room.rect.smaller_side()))
-}
-
-fn doors_table(layers: &Layers) -> Table {
-    let (rooms, doors) = (&layers.rooms, &layers.crossings);
-    let column = |of: &dyn Fn(usize) -> f64| (0..doors.len()).map(of).collect::<Column>();
-    let room1 = |door: usize| &rooms[doors[door].room1];
-    let room2 = |door: usize| &rooms[doors[door].room2];
-    let distance = |door: usize, room: &Room| room.rect.centre().distance(doors[door].rect.centre());
-    let kind = |kind| if kind == Kind::Door { "door" } else { "change" };
-    let width = |door: usize| {
-        let rect = doors[door].rect;
-        if doors[door].kind == Kind::Door { rect.dx().max(rect.dy()) } else { rect.smaller_side() }
-    };
-    Table::default()
-        .with("door", column(&|door| (door + 1) as f64))
-        .with("kind", doors.iter().map(|door| kind(door.kind).to_owned()).collect::<Column>())
-        .with("room1", column(&|door| (doors[door].room1 + 1) as f64))
-        .with("room2", column(&|door| (doors[door].room2 + 1) as f64))
-        .with("x", column(&|door| doors[door].rect.centre().x))
-        .with("y", column(&|door| doors[door].rect.centre().y))
-        .with("width", column(&width))
-        .with("x0", column(&|door| doors[door].rect.x0))
-        .with("y0", column(&|door| doors[door].rect.y0))
-        .with("x1", column(&|door| doors[door].rect.x1))
-        .with("y1", column(&|door| doors[door].rect.y1))
-        .with("height1", (0..doors.len()).map(|door| room1(door).height).collect::<Column>())
-        .with("width1", column(&|door| room1(door).rect.smaller_side()))
-        .with("distance1", column(&|door| distance(door, room1(door))))
-        .with("height2", (0..doors.len()).map(|door| room2(door).height).collect::<Column>())
-        .with("width2", column(&|door| room2(door).rect.smaller_side()))
-        .with("distance2", column(&|door| distance(door, room2(door))))
-        .with("one_way", doors.iter().map(|door| door.kind == Kind::Change).collect::<Column>())
 }

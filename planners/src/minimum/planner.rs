@@ -3,7 +3,6 @@
 use crate::facts::Facts;
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::{GIVES, known_low_bridges, room_facts};
-use crate::strips::solid;
 use crate::world::World;
 
 use super::fewest_rooms;
@@ -25,6 +24,6 @@ impl Planner for MinimumRooms {
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
         let low = known_low_bridges(NAME, known)?;
-        Ok(room_facts(&fewest_rooms(world.bounds, &solid(world), &low)))
+        Ok(room_facts(&fewest_rooms(world.bounds, &world.solid_rects(), &low)))
     }
 }

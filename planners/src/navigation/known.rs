@@ -2,7 +2,6 @@
 
 use super::Settings;
 use crate::floor_plan::{Disc, FloorPlan, Network};
-use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
 use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
 
@@ -82,6 +81,6 @@ fn is_moving(model: &LocalModel, segment: &ModelSegment, firm: u8) -> bool {
 
 fn is_in_sight(from: Point, to: Point, walls: &[Segment]) -> bool {
     let far = from.distance(to);
-    let towards = Point::new((to.x - from.x) / far.max(ROUNDING_M), (to.y - from.y) / far.max(ROUNDING_M));
+    let towards = Segment::new(from, to).direction();
     !walls.iter().any(|wall| wall.hit(from, towards).is_some_and(|(range, _)| range < far - 0.2))
 }

@@ -8,7 +8,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::suggest::nearest;
-use super::syntax_problem;
 use crate::world::Property;
 
 /// The largest number that a file may hold. In metres it is far beyond any floor; beyond it the centimetres of a
@@ -135,31 +134,34 @@ impl Fields<'_, '_> {
 
     /// Points `[[x, y], ...]` under a key that must be there.
     pub fn points(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<Located<[f64; 2]>>>> {
-        let value = self.require(key, problems)?;
-        let DeValue::Array(entries) = value.get_ref() else {
-            problems.push(self.wrong_type(key, "a list of [x, y]", value.get_ref(), value.span()));
-            return None;
-        };
-        let mut point = |entry: &Spanned<DeValue<'_>>| {
-            self.array(key, entry, problems).map(|value| Located { value, span: entry.span() })
-        };
-        let points: Vec<_> = entries.iter().filter_map(&mut point).collect();
-        (points.len() == entries.len()).then(|| Located { value: points, span: value.span() })
+        self.each(key, "a list of [x, y]", problems, |entry, problems| self.array(key, entry, problems))
     }
 
     /// Lists of finite numbers `[[a, b, ...], ...]` under a key that must be there, of any lengths.
     pub fn lists(&self, key: &str, problems: &mut Vec<Problem>) -> Option<Located<Vec<Located<Vec<f64>>>>> {
+        self.each(key, "a list of lists of numbers", problems, |entry, problems| {
+            self.list(key, entry, problems)
+        })
+    }
+
+    /// The entries of a list under a key that must be there, each of them read.
+    fn each<T>(
+        &self,
+        key: &str,
+        wanted: &str,
+        problems: &mut Vec<Problem>,
+        read: impl Fn(&Spanned<DeValue<'_>>, &mut Vec<Problem>) -> Option<T>,
+    ) -> Option<Located<Vec<Located<T>>>> {
         let value = self.require(key, problems)?;
         let DeValue::Array(entries) = value.get_ref() else {
-            problems.push(self.wrong_type(key, "a list of lists of numbers", value.get_ref(), value.span()));
+            problems.push(self.wrong_type(key, wanted, value.get_ref(), value.span()));
             return None;
         };
-        let mut list = |entry: &Spanned<DeValue<'_>>| {
-            let numbers = self.list(key, entry, problems)?;
-            Some(Located { value: numbers, span: entry.span() })
+        let mut read = |entry: &Spanned<DeValue<'_>>| {
+            read(entry, problems).map(|value| Located { value, span: entry.span() })
         };
-        let lists: Vec<_> = entries.iter().filter_map(&mut list).collect();
-        (lists.len() == entries.len()).then(|| Located { value: lists, span: value.span() })
+        let all: Vec<_> = entries.iter().filter_map(&mut read).collect();
+        (all.len() == entries.len()).then(|| Located { value: all, span: value.span() })
     }
 
     /// Finite numbers in a list.
@@ -288,4 +290,13 @@ impl Fields<'_, '_> {
 fn article(noun: &str) -> String {
     let an = noun.starts_with(['a', 'e', 'i', 'o', 'u']);
     format!("{} {noun}", if an { "an" } else { "a" })
+}
+
+fn syntax_problem(source: &Text, error: &toml::de::Error) -> Problem {
+    let span = error.span().unwrap_or(0..0);
+    let problem = source.problem(Code::Syntax, &span, error.message().replace('\n', ", "));
+    if error.message().starts_with("duplicate key") {
+        return problem.with_help("a list stands either as `key = [...]` or as [[key]] entries, not as both");
+    }
+    problem
 }

@@ -9,11 +9,8 @@ mod named_checks;
 mod names;
 mod outline;
 
-use toml::de::DeTable;
-
 use super::diagnostic::{MapErrors, Problem, Text};
-use super::fields::{Fields, Located};
-use super::syntax_problem;
+use super::fields::{Document, Fields, Located};
 use crate::world::{Area, Bridge, NamedDoor, Place, Shape, World};
 use named::Given;
 use names::Names;
@@ -41,12 +38,9 @@ impl Overlay {
     /// # Arguments
     /// `name` is how messages call the file, `text` its content.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, MapErrors> {
-        let source = Text::new(name, text);
-        let document = DeTable::parse(text).map_err(|error| syntax_problem(&source, &error))?;
-        let span = document.span();
-        let fields = Fields { what: "the site", table: document.get_ref(), span, text: &source };
+        let document = Document::parse(name, text)?;
         let mut problems = Vec::new();
-        let overlay = Self::from_fields(&fields, &mut problems);
+        let overlay = Self::from_fields(&document.fields("the site"), &mut problems);
         if problems.is_empty() { Ok(overlay) } else { Err(MapErrors { problems }) }
     }
 

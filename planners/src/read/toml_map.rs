@@ -1,12 +1,9 @@
 //! Vector maps: `width`, `depth`, `[[obstacle]]`, `[[bridge]]`, `[[place]]`, `[[area]]`, `[[door]]`, in metres from
 //! (0, 0).
 
-use toml::de::DeTable;
-
-use super::diagnostic::{MapErrors, Problem, Text};
-use super::fields::Fields;
+use super::diagnostic::{MapErrors, Problem};
+use super::fields::Document;
 use super::overlay::Overlay;
-use super::syntax_problem;
 use crate::geometry::Rect;
 use crate::world::World;
 
@@ -20,10 +17,8 @@ const KEYS: [&str; 7] = ["width", "depth", "obstacle", "bridge", "place", "area"
 /// # Returns
 /// The world, and notes (what was cut at the edge).
 pub fn read_toml_map(name: &str, text: &str) -> Result<(World, Vec<Problem>), MapErrors> {
-    let source = Text::new(name, text);
-    let document = DeTable::parse(text).map_err(|error| syntax_problem(&source, &error))?;
-    // A missing key is a fact about the whole file: point at its start, not at every line of it.
-    let fields = Fields { what: "a map", table: document.get_ref(), span: 0..0, text: &source };
+    let document = Document::parse(name, text)?;
+    let fields = document.fields("a map");
     let mut problems = Vec::new();
     fields.refuse_unknown(&KEYS, &mut problems);
     let width = fields.positive("width", &mut problems);

@@ -5,7 +5,6 @@ use crate::geometry::Rect;
 use crate::known::KnownClass;
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::prime_areas::maximal_rects;
-use crate::strips::solid;
 use crate::world::World;
 
 use super::{GIVES, LowBridge, Room, cut_low_bridges, greedy_rooms, known_low_bridges, room_facts};
@@ -69,7 +68,7 @@ impl Planner for PaperRooms {
             let all = rects.iter().zip(&is_open);
             all.filter(|&(_, &open)| open == on_list).map(|(&rect, _)| rect).collect()
         };
-        let rooms = paper_rooms(world.bounds, &solid(world), &low, &listed(true), &listed(false));
+        let rooms = paper_rooms(world.bounds, &world.solid_rects(), &low, &listed(true), &listed(false));
         Ok(room_facts(&rooms))
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::doors::{SharedEdge, shared_edges};
 use crate::facts::{Column, Facts, Table};
-use crate::geometry::{Point, Rect};
+use crate::geometry::Rect;
 use crate::known::{keys, with_edges};
 use crate::names::room_name;
 
 use super::Room;
 
-/// What `room_facts` gives.
+/// What [`facts`] gives.
 pub(crate) const GIVES: &[&str] = &[
     "ROOMS.room",
     "ROOMS.name: text",
@@ -41,56 +41,82 @@ pub(crate) const GIVES: &[&str] = &[
     "DOORS.one_way: truth",
 ];
 
-/// `ROOMS` of these rooms, numbered from 1, and `DOORS` between them (Abou-Ali et al., Table 4). Metres; a `height`
-/// that is unlimited is `None`; `x0` to `y1` of a door are the ends of the segment that its rooms share.
-pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
-    let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
-    Facts::from([
-        ("ROOMS".to_owned(), room_table(rooms, &rects)),
-        ("DOORS".to_owned(), door_table(rooms, &rects)),
-    ])
+/// A room as a row of `ROOMS`; `None` is unknown, a `height` that is `None` unlimited.
+#[derive(Clone, Debug)]
+pub(crate) struct RoomRow {
+    pub robot: Option<String>,
+    pub state: Option<String>,
+    pub facing: Option<f64>,
+    pub rect: Rect,
+    pub height: Option<f64>,
 }
 
-fn room_table(rooms: &[Room], rects: &[Rect]) -> Table {
-    let nobody = || vec![None::<String>; rooms.len()].into_iter().collect::<Column>();
+/// A door as a row of `DOORS`: its rooms by index, and the segment or the area in which it is passed.
+pub(crate) struct DoorRow {
+    pub rooms: [usize; 2],
+    pub rect: Rect,
+    /// Whether it is a change of shape, one way.
+    pub is_change: bool,
+}
+
+/// `ROOMS` and `DOORS` between them (Abou-Ali et al., Table 4), both numbered from 1. Metres.
+pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow]) -> Facts {
+    Facts::from([("ROOMS".to_owned(), room_table(rooms)), ("DOORS".to_owned(), door_table(rooms, doors))])
+}
+
+/// The facts of rooms that are the same for all robots and states, with a door wherever two of them touch.
+pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
+    let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
+    let edges = shared_edges(&rects).into_iter();
+    let door =
+        |edge: SharedEdge| DoorRow { rooms: [edge.first, edge.second], rect: edge.segment, is_change: false };
+    let row = |room: &Room| RoomRow {
+        robot: None,
+        state: None,
+        facing: None,
+        rect: room.rect,
+        height: room.height,
+    };
+    facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>())
+}
+
+fn room_table(rooms: &[RoomRow]) -> Table {
+    let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
     let table = Table::default()
         .with("room", keys(rooms.len()))
         .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
-        .with("robot", nobody())
-        .with("state", nobody())
-        .with("facing", Column::Number(vec![None; rooms.len()]));
-    with_edges(table, rects)
+        .with("robot", rooms.iter().map(|room| room.robot.clone()).collect::<Column>())
+        .with("state", rooms.iter().map(|room| room.state.clone()).collect::<Column>())
+        .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
+    with_edges(table, &rects)
         .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
         .with("width", rects.iter().map(Rect::smaller_side).collect::<Column>())
 }
 
-fn door_table(rooms: &[Room], rects: &[Rect]) -> Table {
-    let doors = shared_edges(rects);
-    let segments: Vec<_> = doors.iter().map(|door| door.segment).collect();
-    let middles: Vec<_> = segments.iter().map(Rect::centre).collect();
-    let of_middles = |coordinate: fn(&Point) -> f64| middles.iter().map(coordinate).collect::<Column>();
+fn door_table(rooms: &[RoomRow], doors: &[DoorRow]) -> Table {
+    let column = |of: &dyn Fn(&DoorRow) -> f64| doors.iter().map(of).collect::<Column>();
+    let kind = |door: &DoorRow| if door.is_change { "change" } else { "door" }.to_owned();
+    let width = |door: &DoorRow| {
+        if door.is_change { door.rect.smaller_side() } else { door.rect.dx().max(door.rect.dy()) }
+    };
     let table = Table::default()
         .with("door", keys(doors.len()))
-        .with("kind", doors.iter().map(|_| "door".to_owned()).collect::<Column>())
-        .with("room1", doors.iter().map(|door| (door.first + 1) as f64).collect::<Column>())
-        .with("room2", doors.iter().map(|door| (door.second + 1) as f64).collect::<Column>())
-        .with("x", of_middles(|middle| middle.x))
-        .with("y", of_middles(|middle| middle.y))
-        .with("width", doors.iter().map(SharedEdge::length).collect::<Column>());
-    let first: Vec<_> = doors.iter().map(|door| door.first).collect();
-    let second: Vec<_> = doors.iter().map(|door| door.second).collect();
-    let table = with_edges(table, &segments);
-    let table = with_side(table, ["height1", "width1", "distance1"], rooms, &first, &middles);
-    with_side(table, ["height2", "width2", "distance2"], rooms, &second, &middles)
-        .with("one_way", doors.iter().map(|_| false).collect::<Column>())
-}
-
-/// Adds height and width of the room on one side of each door, and the distance from the door's middle to its centre.
-fn with_side(table: Table, names: [&str; 3], rooms: &[Room], side: &[usize], middles: &[Point]) -> Table {
-    let side = || side.iter().map(|&room| rooms[room]);
-    let distances = side().zip(middles).map(|(room, middle)| middle.distance(room.rect.centre()));
-    table
-        .with(names[0], side().map(|room| room.height).collect::<Column>())
-        .with(names[1], side().map(|room| room.rect.smaller_side()).collect::<Column>())
-        .with(names[2], distances.collect::<Column>())
+        .with("kind", doors.iter().map(kind).collect::<Column>())
+        .with("room1", column(&|door| (door.rooms[0] + 1) as f64))
+        .with("room2", column(&|door| (door.rooms[1] + 1) as f64))
+        .with("x", column(&|door| door.rect.centre().x))
+        .with("y", column(&|door| door.rect.centre().y))
+        .with("width", column(&width));
+    let rects: Vec<_> = doors.iter().map(|door| door.rect).collect();
+    let mut table = with_edges(table, &rects);
+    for (side, names) in
+        [["height1", "width1", "distance1"], ["height2", "width2", "distance2"]].into_iter().enumerate()
+    {
+        let room = |door: &DoorRow| &rooms[door.rooms[side]];
+        table = table
+            .with(names[0], doors.iter().map(|door| room(door).height).collect::<Column>())
+            .with(names[1], column(&|door| room(door).rect.smaller_side()))
+            .with(names[2], column(&|door| room(door).rect.centre().distance(door.rect.centre())));
+    }
+    table.with("one_way", doors.iter().map(|door| door.is_change).collect::<Column>())
 }

@@ -29,7 +29,7 @@ impl RouteGraph {
     /// is changed where the easier of the two rooms ends and none like it follows; and where the change gets
     /// another price.
     pub(super) fn gates(&self, door: usize, from: usize) -> &[Gate] {
-        let RouteDoorSides { to, side } = self.sides(door, from);
+        let (to, side) = self.beyond(door, from);
         self.gates[door][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
@@ -194,13 +194,10 @@ impl RouteGraph {
         (alike, otherwise)
     }
 
-    fn sides(&self, door: usize, from: usize) -> RouteDoorSides {
+    /// The room behind a door, and which of the door's directions leads there.
+    fn beyond(&self, door: usize, from: usize) -> (usize, usize) {
         let door = &self.doors()[door];
-        if door.room1 == from {
-            RouteDoorSides { to: door.room2, side: 0 }
-        } else {
-            RouteDoorSides { to: door.room1, side: 1 }
-        }
+        if door.room1 == from { (door.room2, 0) } else { (door.room1, 1) }
     }
 
     /// The parts of a segment on a room's outline beyond which none like it follows.
@@ -226,11 +223,6 @@ impl RouteGraph {
         }
         without(side, &open)
     }
-}
-
-struct RouteDoorSides {
-    to: usize,
-    side: usize,
 }
 
 fn is_same(a: &Rect, b: &Rect) -> bool {

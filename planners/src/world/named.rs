@@ -51,6 +51,18 @@ impl Property {
             Self::Truth(_) => "truth",
         }
     }
+
+    pub fn into_number(self) -> Option<f64> {
+        if let Self::Number(number) = self { Some(number) } else { None }
+    }
+
+    pub fn into_text(self) -> Option<String> {
+        if let Self::Text(text) = self { Some(text) } else { None }
+    }
+
+    pub fn into_truth(self) -> Option<bool> {
+        if let Self::Truth(truth) = self { Some(truth) } else { None }
+    }
 }
 
 impl Hash for Property {

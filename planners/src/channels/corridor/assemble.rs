@@ -1,6 +1,6 @@
 //! From a route and what rules say at its junctions to lines and arcs (Lee, section 5.1), measured against the walls.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 use super::axis::Axis;
 use super::body::Robot;
@@ -13,6 +13,7 @@ use super::steer::{Steer, StepFacts};
 use super::sweep::Sweep;
 use super::tangents::{DrivenLines, Touched, driven_lines};
 use super::walls::Wall;
+use crate::pose::wrapped;
 
 impl Route<'_> {
     /// Drives the route.
@@ -110,7 +111,7 @@ fn first_heading(route: &Route<'_>, line: &Tangent, given: Option<f64>) -> f64 {
     match given {
         // whoever is at the goal already does not turn
         Some(given) if line.length <= 0.0 => given,
-        Some(given) => given + half_turn_at_most(along - given),
+        Some(given) => given + wrapped(along - given),
         None if line.length > 0.0 => along,
         None => match route.corridors.axis_of(route.channels[0]) {
             Axis::X => 0.0,
@@ -190,10 +191,4 @@ fn too_near<E>(turns: &[TurnMade], circles: &[Circle], one: usize, other: usize)
         first_radius: first.radius,
         second_radius: second.radius,
     }
-}
-
-/// An angle, less whole turns: more than -π, at most π.
-fn half_turn_at_most(angle: f64) -> f64 {
-    let turned = angle.rem_euclid(TAU);
-    if turned > PI { turned - TAU } else { turned }
 }

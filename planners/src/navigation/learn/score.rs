@@ -6,6 +6,7 @@ use super::Learned;
 use crate::floor_plan::clear::wall_distance;
 use crate::floor_plan::{Drawn, FloorPlan, Regions};
 use crate::geometry::Point;
+use crate::geometry::polygon::to_geo;
 use crate::read::MapErrors;
 
 /// Walls are compared at points so far apart, metres.
@@ -57,15 +58,7 @@ pub fn score(learned: &Learned, truth: &FloorPlan) -> Result<Score, MapErrors> {
 }
 
 fn area(regions: &Regions) -> MultiPolygon {
-    let outlines: Vec<geo::Polygon> = regions
-        .regions
-        .iter()
-        .map(|region| {
-            let ring: geo::LineString =
-                region.outline.iter().map(|p| geo::Coord { x: p.x, y: p.y }).collect();
-            geo::Polygon::new(ring, Vec::new())
-        })
-        .collect();
+    let outlines: Vec<_> = regions.regions.iter().map(|region| to_geo(&region.outline)).collect();
     geo::unary_union(&outlines)
 }
 

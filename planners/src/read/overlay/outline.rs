@@ -1,10 +1,10 @@
 //! Rectangles and polygons of items, checked in themselves.
 
-use geo::{Area, Coord, LineString, Polygon, Validation};
+use geo::{Area, Validation};
 
 use super::super::diagnostic::{Code, Problem};
 use super::super::fields::{Fields, Located};
-use crate::geometry::polygon::self_crossing;
+use crate::geometry::polygon::{self_crossing, to_geo};
 use crate::geometry::{Point, Rect, orient};
 use crate::world::Shape;
 
@@ -64,8 +64,7 @@ fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> 
         return None;
     }
     let points: Vec<Point> = corners.iter().map(|corner| corner.value).collect();
-    let ring = points.iter().map(|p| Coord { x: p.x, y: p.y }).collect();
-    let outline = Polygon::new(LineString::new(ring), Vec::new());
+    let outline = to_geo(&points);
     let invalid = outline.check_validation().err();
     let is_line = thing(item) == "area" && outline.unsigned_area() < LEAST_AREA;
     if invalid.is_none() && !is_line {

@@ -2,7 +2,8 @@
 
 use super::error::FemaleError;
 use crate::channels::assembly::{Cuboid, Edge};
-use crate::geometry::Rect;
+use crate::geometry::polygon::spans;
+use crate::geometry::{Point, Rect, Segment};
 use crate::prime_areas::maximal_rects;
 
 /// The free space within a frame, as maximal rectangles.
@@ -102,15 +103,10 @@ fn solid(edges: &[Edge]) -> Vec<Cuboid<2>> {
     heights.dedup();
     let mut solid = Vec::new();
     for row in heights.windows(2) {
-        let middle = f64::midpoint(row[0], row[1]);
-        let crossing = |edge: &Edge| {
-            let ([x0, z0], [x1, z1]) = (edge.from, edge.to);
-            let crosses = (z0 < middle) != (z1 < middle);
-            crosses.then(|| x0 + (x1 - x0) * ((middle - z0) / (z1 - z0)))
-        };
-        let mut ends: Vec<f64> = edges.iter().filter_map(crossing).collect();
-        ends.sort_unstable_by(f64::total_cmp);
-        solid.extend(ends.chunks_exact(2).map(|ends| Cuboid::new([ends[0], row[0]], [ends[1], row[1]])));
+        let point = |[x, z]: [f64; 2]| Point::new(x, z);
+        let sides = edges.iter().map(|edge| Segment::new(point(edge.from), point(edge.to)));
+        let inside = spans(sides, f64::midpoint(row[0], row[1]));
+        solid.extend(inside.into_iter().map(|[x0, x1]| Cuboid::new([x0, row[0]], [x1, row[1]])));
     }
     solid
 }
