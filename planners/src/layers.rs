@@ -23,7 +23,7 @@ mod record;
 mod slivers;
 mod transform;
 
-use cells::CellRect;
+use crate::strips::Block;
 use changes::changes;
 use footprint::{FACINGS, STEP_DEGREES};
 use labels::{Label, Labels};
@@ -141,7 +141,7 @@ fn room_records(world: &World, lattice: Lattice, stack: &[Placed]) -> Vec<Room> 
     let of_layer = |placed: &Placed| {
         let facing = placed.facing.map(|facing| facing as f64 * STEP_DEGREES);
         let state = placed.state;
-        let room = |&room: &CellRect| {
+        let room = |&room: &Block| {
             let rect = lattice.rect(room);
             Room { state, facing, rect, height: lowest(&rect) }
         };

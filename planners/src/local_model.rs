@@ -176,13 +176,18 @@ impl LocalModel {
             }
             return id;
         }
-        let across = pose.direction(contact.bearing + FRAC_PI_2);
-        let half = self.settings.contact_length_m / 2.0;
-        let end = |side: f64| at + across * side;
         let (sigma_m, sigma_angle) = (self.estimate.sigma_m(), FRAC_PI_2 / 3.0);
-        let id = self.add(Segment::new(end(-half), end(half)), sigma_m, sigma_angle, Source::CONTACT, None);
+        let id = self.add(self.surface_at(contact, radius_m), sigma_m, sigma_angle, Source::CONTACT, None);
         self.ask_about_last(true, &mut decide);
         id
+    }
+
+    /// A short surface across a touch.
+    pub fn surface_at(&self, contact: &Contact, radius_m: f64) -> Segment {
+        let pose = &self.estimate.pose;
+        let at = pose.at + pose.direction(contact.bearing) * radius_m;
+        let aside = pose.direction(contact.bearing + FRAC_PI_2) * (self.settings.contact_length_m / 2.0);
+        Segment::new(at - aside, at + aside)
     }
 
     /// Asks about the segment that was entered last; it goes again if the table says so.

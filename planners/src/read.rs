@@ -15,6 +15,7 @@ use std::path::Path;
 use crate::world::World;
 
 pub use diagnostic::{Code, MapErrors, Problem, Text};
+pub(crate) use fields::span_of;
 pub use fields::{Document, Fields, Located};
 pub use overlay::Overlay;
 pub use report::MapReport;

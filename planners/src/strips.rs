@@ -14,7 +14,8 @@ pub struct Strips {
     pub y: Vec<f64>,
 }
 
-/// A rectangle of whole strips, from strip `x0` up to but not including strip `x1`, and likewise in y.
+/// A rectangle of whole strips, or of cells of a lattice, from column `x0` up to but not including column `x1`, and
+/// likewise in y. Ordered by (x0, y0, x1, y1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Block {
     pub x0: u32,
@@ -78,6 +79,20 @@ impl Strips {
 }
 
 impl Block {
+    /// How many cells it has.
+    pub(crate) fn area(&self) -> u64 {
+        u64::from(self.x1 - self.x0) * u64::from(self.y1 - self.y0)
+    }
+
+    /// The up to four largest blocks of this one outside of a hole, which overlaps it, one on each side.
+    pub(crate) fn around(self, hole: Self) -> impl Iterator<Item = Self> {
+        let left = (hole.x0 > self.x0).then_some(Self { x1: hole.x0, ..self });
+        let right = (hole.x1 < self.x1).then_some(Self { x0: hole.x1, ..self });
+        let below = (hole.y0 > self.y0).then_some(Self { y1: hole.y0, ..self });
+        let above = (hole.y1 < self.y1).then_some(Self { y0: hole.y1, ..self });
+        [left, right, below, above].into_iter().flatten()
+    }
+
     /// Whether the two share a cell.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.x0 < other.x1 && other.x0 < self.x1 && self.y0 < other.y1 && other.y0 < self.y1

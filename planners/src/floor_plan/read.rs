@@ -2,17 +2,16 @@
 //! `places` with `name` and `at`. Other keys are left alone.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::Path;
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use serde_saphyr::{Location, Spanned};
+use serde_saphyr::Spanned;
 
 use super::check::Source;
 use super::plan::{Drawn, FloorPlan};
 use crate::geometry::Point;
-use crate::read::{Code, MapErrors, Problem, Text, nearest};
+use crate::read::{Code, MapErrors, Problem, Text, nearest, span_of};
 use crate::world::Place;
 
 const KEYS: [&str; 5] = ["name", "units", "walls", "solids", "places"];
@@ -105,10 +104,4 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
             "a wall is [[x0, y0], [x1, y1]], a place {\"name\": \"…\", \"at\": [x, y]}, in metres",
         ),
     }
-}
-
-fn span_of(location: Location) -> Range<usize> {
-    let span = location.span();
-    let start = span.byte_offset().unwrap_or(0) as usize;
-    start..start + span.byte_len().unwrap_or(0) as usize
 }

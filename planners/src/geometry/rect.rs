@@ -68,6 +68,12 @@ impl Rect {
         ((self.x0 - other.x1).max(other.x0 - self.x1), (self.y0 - other.y1).max(other.y0 - self.y1))
     }
 
+    /// Metres to another one; 0 where they touch or overlap.
+    pub fn gap(&self, other: &Self) -> f64 {
+        let (dx, dy) = self.axis_gaps(other);
+        dx.max(0.0).hypot(dy.max(0.0))
+    }
+
     /// Whether the two share an area, not just a boundary.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.x0 < other.x1 && other.x0 < self.x1 && self.y0 < other.y1 && other.y0 < self.y1

@@ -1,28 +1,6 @@
 //! Sets of lattice cells, a bit a cell, and blocks of cells.
 
-/// A block of cells: columns `x0..x1`, rows `y0..y1`. Ordered by (x0, y0, x1, y1).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct CellRect {
-    pub(super) x0: u32,
-    pub(super) y0: u32,
-    pub(super) x1: u32,
-    pub(super) y1: u32,
-}
-
-impl CellRect {
-    pub(super) fn area(&self) -> u64 {
-        u64::from(self.x1 - self.x0) * u64::from(self.y1 - self.y0)
-    }
-
-    /// The up to four largest blocks of this one outside of `hole`, which overlaps it.
-    pub(super) fn around(self, hole: Self) -> impl Iterator<Item = Self> {
-        let left = (hole.x0 > self.x0).then_some(Self { x1: hole.x0, ..self });
-        let right = (hole.x1 < self.x1).then_some(Self { x0: hole.x1, ..self });
-        let below = (hole.y0 > self.y0).then_some(Self { y1: hole.y0, ..self });
-        let above = (hole.y1 < self.y1).then_some(Self { y0: hole.y1, ..self });
-        [left, right, below, above].into_iter().flatten()
-    }
-}
+use crate::strips::Block;
 
 /// A set of the cells of a lattice.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,7 +34,7 @@ impl Cells {
         self.words[word] &= !(1 << (column % 64));
     }
 
-    pub(super) fn insert_block(&mut self, block: CellRect) {
+    pub(super) fn insert_block(&mut self, block: Block) {
         for row in block.y0..block.y1 {
             for (word, mask) in self.masks(row, block.x0, block.x1) {
                 self.words[word] |= mask;
@@ -64,7 +42,7 @@ impl Cells {
         }
     }
 
-    pub(super) fn remove_block(&mut self, block: CellRect) {
+    pub(super) fn remove_block(&mut self, block: Block) {
         for row in block.y0..block.y1 {
             for (word, mask) in self.masks(row, block.x0, block.x1) {
                 self.words[word] &= !mask;
@@ -73,7 +51,7 @@ impl Cells {
     }
 
     /// The first cell of the block, by row and then column, that is not in the set.
-    pub(super) fn first_missing(&self, block: CellRect) -> Option<(u32, u32)> {
+    pub(super) fn first_missing(&self, block: Block) -> Option<(u32, u32)> {
         (block.y0..block.y1).find_map(|row| {
             let missing = |(word, mask): (usize, u64)| {
                 let gap = !self.words[word] & mask;
@@ -85,9 +63,9 @@ impl Cells {
     }
 
     /// Whether the block with a column or row more, on any side, is still in the set (given that the block is).
-    pub(super) fn is_extensible(&self, block: CellRect) -> bool {
-        let CellRect { x0, y0, x1, y1 } = block;
-        let has = |x0, y0, x1, y1| self.first_missing(CellRect { x0, y0, x1, y1 }).is_none();
+    pub(super) fn is_extensible(&self, block: Block) -> bool {
+        let Block { x0, y0, x1, y1 } = block;
+        let has = |x0, y0, x1, y1| self.first_missing(Block { x0, y0, x1, y1 }).is_none();
         x0 > 0 && has(x0 - 1, y0, x0, y1)
             || x1 < self.columns && has(x1, y0, x1 + 1, y1)
             || y0 > 0 && has(x0, y0 - 1, x1, y0)
@@ -99,14 +77,14 @@ impl Cells {
         let mut grown = self.clone();
         for row in 0..self.rows {
             for column in 0..self.columns {
-                let beside = CellRect {
+                let beside = Block {
                     x0: column.saturating_sub(1),
                     y0: row.saturating_sub(1),
                     x1: (column + 2).min(self.columns),
                     y1: (row + 2).min(self.rows),
                 };
                 if other.contains(column, row) && self.meets(beside) {
-                    grown.insert_block(CellRect { x0: column, y0: row, x1: column + 1, y1: row + 1 });
+                    grown.insert_block(Block { x0: column, y0: row, x1: column + 1, y1: row + 1 });
                 }
             }
         }
@@ -114,7 +92,7 @@ impl Cells {
     }
 
     /// Whether a cell of the block is in the set.
-    fn meets(&self, block: CellRect) -> bool {
+    fn meets(&self, block: Block) -> bool {
         (block.y0..block.y1)
             .any(|row| self.masks(row, block.x0, block.x1).any(|(word, mask)| self.words[word] & mask != 0))
     }
@@ -145,7 +123,7 @@ mod tests {
 
     #[test]
     fn blocks_across_words_are_found_cell_by_cell() {
-        let block = CellRect { x0: 3, y0: 1, x1: 131, y1: 4 };
+        let block = Block { x0: 3, y0: 1, x1: 131, y1: 4 };
         let mut cells = Cells::none(200, 5);
         cells.insert_block(block);
         assert_eq!(cells.count() as u64, block.area());
@@ -154,7 +132,7 @@ mod tests {
         cells.remove(128, 2);
         assert_eq!(cells.first_missing(block), Some((128, 2)));
         assert!(cells.contains(127, 2) && !cells.contains(128, 2) && !cells.contains(131, 1));
-        assert!(cells.is_extensible(CellRect { x0: 3, y0: 1, x1: 130, y1: 2 }));
+        assert!(cells.is_extensible(Block { x0: 3, y0: 1, x1: 130, y1: 2 }));
         cells.remove_block(block);
         assert_eq!(cells.count(), 0);
     }

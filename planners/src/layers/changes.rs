@@ -2,13 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::cells::CellRect;
 use super::footprint::{FACINGS, largest_within};
 use super::labels::Labels;
 use super::lattice::Lattice;
 use super::layer::{Layer, Placed};
 use super::neighbours::boundary;
 use super::record::{Crossing, Kind, State};
+use crate::strips::Block;
 
 /// An overlap not thicker than so many cells is left out beside a thicker one.
 const THIN: u32 = 2;
@@ -79,11 +79,11 @@ fn changes_between(lattice: Lattice, labels: Option<&Labels>, from: &Placed, to:
     found
 }
 
-fn is_thin(overlap: &CellRect) -> bool {
+fn is_thin(overlap: &Block) -> bool {
     (overlap.x1 - overlap.x0).min(overlap.y1 - overlap.y0) <= THIN
 }
 
-type Overlap = ((u32, u32), CellRect);
+type Overlap = ((u32, u32), Block);
 
 /// Whether the same room overlaps a neighbour of the other room, right beside this overlap and thicker than it: there
 /// the robot may change as well, and go through the door between the neighbours, a few cells from here.
@@ -93,7 +93,7 @@ fn has_thicker_beside(
     labels: Option<&Labels>,
     ((a, b), here): Overlap,
 ) -> bool {
-    let label = |block: &CellRect| labels.map(|labels| labels.number(block.x0, block.y0));
+    let label = |block: &Block| labels.map(|labels| labels.number(block.x0, block.y0));
     let is_beside = |pair: (u32, u32)| {
         let found = overlaps.binary_search_by_key(&pair, |(pair, _)| *pair);
         found.is_ok_and(|at| {
@@ -106,7 +106,7 @@ fn has_thicker_beside(
 }
 
 /// Whether two disjoint blocks share a boundary of at least a cell's side.
-fn touch(a: &CellRect, b: &CellRect) -> bool {
+fn touch(a: &Block, b: &Block) -> bool {
     let shared = |(a0, a1): (u32, u32), (b0, b1): (u32, u32)| i64::from(a1.min(b1)) - i64::from(a0.max(b0));
     let (dx, dy) = (shared((a.x0, a.x1), (b.x0, b.x1)), shared((a.y0, a.y1), (b.y0, b.y1)));
     dx.min(dy) == 0 && dx.max(dy) > 0

@@ -3,23 +3,24 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashSet};
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::labels::Labels;
 use super::maximal::maximal_blocks;
+use crate::strips::Block;
 
 /// The rooms in the order in which they are cut: largest first, equal ones by (x0, y0, x1, y1). They are disjoint
 /// and cover the cells.
-pub(super) fn cut(cells: &Cells) -> Vec<CellRect> {
+pub(super) fn cut(cells: &Cells) -> Vec<Block> {
     Cutter::new(cells).rooms()
 }
 
 /// As [`cut`], but so that the cells of a room all have the same label.
-pub(super) fn cut_along(cells: &Cells, labels: Option<&Labels>) -> Vec<CellRect> {
+pub(super) fn cut_along(cells: &Cells, labels: Option<&Labels>) -> Vec<Block> {
     let Some(labels) = labels else { return cut(cells) };
     let (rest, parts) = labels.split(cells);
     let mut rooms = cut(&rest);
     for (within, part) in parts {
-        let moved = |room: CellRect| CellRect {
+        let moved = |room: Block| Block {
             x0: room.x0 + within.x0,
             y0: room.y0 + within.y0,
             x1: room.x1 + within.x0,
@@ -35,11 +36,11 @@ pub(super) fn cut_along(cells: &Cells, labels: Option<&Labels>) -> Vec<CellRect>
 /// the first candidate that is wholly free is the largest free block.
 struct Cutter {
     free: Cells,
-    rooms: Vec<CellRect>,
+    rooms: Vec<Block>,
     /// For each cell the room that took it, by its index.
     owner: Vec<u32>,
-    queue: BinaryHeap<(u64, Reverse<CellRect>)>,
-    queued: HashSet<CellRect>,
+    queue: BinaryHeap<(u64, Reverse<Block>)>,
+    queued: HashSet<Block>,
 }
 
 impl Cutter {
@@ -50,7 +51,7 @@ impl Cutter {
         Self { free, rooms: Vec::new(), owner, queue, queued: HashSet::new() }
     }
 
-    fn rooms(mut self) -> Vec<CellRect> {
+    fn rooms(mut self) -> Vec<Block> {
         while let Some((_, Reverse(block))) = self.queue.pop() {
             match self.free.first_missing(block) {
                 None => self.take(block),
@@ -60,7 +61,7 @@ impl Cutter {
         self.rooms
     }
 
-    fn take(&mut self, block: CellRect) {
+    fn take(&mut self, block: Block) {
         let columns = self.free.columns() as usize;
         for row in block.y0..block.y1 {
             let start = row as usize * columns;
@@ -71,7 +72,7 @@ impl Cutter {
     }
 
     /// Replaces a candidate by its parts beside the room that took one of its cells.
-    fn cut_down(&mut self, block: CellRect, (column, row): (u32, u32)) {
+    fn cut_down(&mut self, block: Block, (column, row): (u32, u32)) {
         let owner = self.owner[row as usize * self.free.columns() as usize + column as usize];
         let room = self.rooms[owner as usize];
         for part in block.around(room) {
@@ -94,19 +95,19 @@ mod tests {
         let mut cells = Cells::none(rows[0].len() as u32, rows.len() as u32);
         for (y, row) in (0..).zip(rows) {
             for (x, _) in (0..).zip(row).filter(|(_, free)| **free) {
-                cells.insert_block(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+                cells.insert_block(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 });
             }
         }
         cells
     }
 
-    fn all_free_blocks(cells: &Cells) -> Vec<CellRect> {
+    fn all_free_blocks(cells: &Cells) -> Vec<Block> {
         let mut blocks = Vec::new();
         for (x0, y0) in (0..cells.columns()).flat_map(|x| (0..cells.rows()).map(move |y| (x, y))) {
             for (x1, y1) in
                 (x0 + 1..=cells.columns()).flat_map(|x| (y0 + 1..=cells.rows()).map(move |y| (x, y)))
             {
-                let block = CellRect { x0, y0, x1, y1 };
+                let block = Block { x0, y0, x1, y1 };
                 if cells.first_missing(block).is_none() {
                     blocks.push(block);
                 }

@@ -4,10 +4,11 @@
 //! as a side-step does. It may turn only where all that it sweeps between two facings is free, which is a smaller
 //! set of points, within the free space of both facings: so it is safe at either end of a turn and all the way.
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::free_space::x_range_in_band;
 use crate::geometry::Point;
 use crate::geometry::tolerance::ROUNDING_M;
+use crate::strips::Block;
 
 /// In how many ways a body can face. Half a turn shows it the same.
 pub(super) const FACINGS: usize = 8;
@@ -21,7 +22,7 @@ pub(super) const STEP_DEGREES: f64 = 180.0 / FACINGS as f64;
 /// `clearance` is added on all four sides.
 pub(super) fn body(length: f64, width: f64, clearance: f64, facing: usize) -> Vec<Point> {
     let (radius, angles) = corners(length, width, clearance);
-    let turned = |angle: f64| polar(radius, angle + radians(facing));
+    let turned = |angle: f64| Point::towards(angle + radians(facing)) * radius;
     angles.map(turned).into()
 }
 
@@ -33,8 +34,8 @@ pub(super) fn sweep(length: f64, width: f64, clearance: f64, facing: usize) -> V
     // heading is the hull of its corners, so the hull of all arcs holds it.
     let arc = |angle: f64| {
         let from = angle + radians(facing);
-        let apex = polar(radius / half_step.cos(), from + half_step);
-        [polar(radius, from), apex, polar(radius, from + 2.0 * half_step)]
+        let apex = Point::towards(from + half_step) * (radius / half_step.cos());
+        [Point::towards(from) * radius, apex, Point::towards(from + 2.0 * half_step) * radius]
     };
     angles.into_iter().flat_map(arc).collect()
 }
@@ -49,11 +50,6 @@ fn corners(length: f64, width: f64, clearance: f64) -> (f64, [f64; 4]) {
 
 fn radians(facing: usize) -> f64 {
     (facing as f64 * STEP_DEGREES).to_radians()
-}
-
-fn polar(radius: f64, angle: f64) -> Point {
-    let (sin, cos) = angle.sin_cos();
-    Point::new(radius * cos, radius * sin)
 }
 
 /// The cells of `free` about every point of which the hull of `outline` lies in `free`.
@@ -124,19 +120,19 @@ fn insert_runs(cells: &mut Cells, row: u32, blocked: &[bool]) {
     for run in blocked.chunk_by(|a, b| a == b) {
         let end = column + run.len() as u32;
         if !run[0] {
-            cells.insert_block(CellRect { x0: column, y0: row, x1: end, y1: row + 1 });
+            cells.insert_block(Block { x0: column, y0: row, x1: end, y1: row + 1 });
         }
         column = end;
     }
 }
 
 /// The largest block of the set within `block`, the first of equal ones from below; `None` where there is no cell.
-pub(super) fn largest_within(cells: &Cells, block: CellRect) -> Option<CellRect> {
+pub(super) fn largest_within(cells: &Cells, block: Block) -> Option<Block> {
     if cells.first_missing(block).is_none() {
         return Some(block);
     }
     let mut heights = vec![0; (block.x1 - block.x0) as usize];
-    let mut largest: Option<CellRect> = None;
+    let mut largest: Option<Block> = None;
     for row in block.y0..block.y1 {
         for (column, height) in (block.x0..).zip(&mut heights) {
             *height = if cells.contains(column, row) { *height + 1 } else { 0 };
@@ -147,7 +143,7 @@ pub(super) fn largest_within(cells: &Cells, block: CellRect) -> Option<CellRect>
             let mut start = column;
             while let Some((from, tall)) = open.pop_if(|(_, tall)| *tall > height) {
                 start = from;
-                let found = CellRect { x0: from, y0: row + 1 - tall, x1: column, y1: row + 1 };
+                let found = Block { x0: from, y0: row + 1 - tall, x1: column, y1: row + 1 };
                 if largest.is_none_or(|known| known.area() < found.area()) {
                     largest = Some(found);
                 }
@@ -187,7 +183,7 @@ mod tests {
         for step in 0..=100 {
             let heading = (3.0 + f64::from(step) / 100.0) * STEP_DEGREES.to_radians();
             for angle in angles {
-                let p = polar(radius * (1.0 - 1e-9), angle + heading);
+                let p = Point::towards(angle + heading) * (radius * (1.0 - 1e-9));
                 assert!(geo::Intersects::intersects(&hull, &geo::Point::new(p.x, p.y)), "{p:?}");
             }
         }
@@ -196,12 +192,12 @@ mod tests {
     #[test]
     fn the_largest_block_lies_in_the_set() {
         let mut cells = Cells::none(20, 20);
-        cells.insert_block(CellRect { x0: 2, y0: 2, x1: 6, y1: 9 });
-        cells.insert_block(CellRect { x0: 8, y0: 2, x1: 17, y1: 6 });
-        let all = CellRect { x0: 0, y0: 0, x1: 20, y1: 20 };
-        assert_eq!(largest_within(&cells, all), Some(CellRect { x0: 8, y0: 2, x1: 17, y1: 6 }));
-        let part = CellRect { x0: 0, y0: 0, x1: 12, y1: 20 };
-        assert_eq!(largest_within(&cells, part), Some(CellRect { x0: 2, y0: 2, x1: 6, y1: 9 }));
-        assert_eq!(largest_within(&cells, CellRect { x0: 0, y0: 10, x1: 20, y1: 12 }), None);
+        cells.insert_block(Block { x0: 2, y0: 2, x1: 6, y1: 9 });
+        cells.insert_block(Block { x0: 8, y0: 2, x1: 17, y1: 6 });
+        let all = Block { x0: 0, y0: 0, x1: 20, y1: 20 };
+        assert_eq!(largest_within(&cells, all), Some(Block { x0: 8, y0: 2, x1: 17, y1: 6 }));
+        let part = Block { x0: 0, y0: 0, x1: 12, y1: 20 };
+        assert_eq!(largest_within(&cells, part), Some(Block { x0: 2, y0: 2, x1: 6, y1: 9 }));
+        assert_eq!(largest_within(&cells, Block { x0: 0, y0: 10, x1: 20, y1: 12 }), None);
     }
 }

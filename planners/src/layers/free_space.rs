@@ -2,12 +2,13 @@
 //! disc's radius from every wall. So a room of free cells is free throughout, and what is missed lies within a
 //! cell's diagonal of the limit.
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::gap;
 use super::lattice::Lattice;
 use super::transform::squared_gaps;
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Rect, Segment, polygon};
+use crate::strips::Block;
 use crate::world::{Occupancy, Shape, World};
 
 /// Everything solid in a world, ready to be asked for the free space of discs of several sizes.
@@ -60,7 +61,7 @@ impl<'a> Solid<'a> {
         let rows = ends((0..lattice.rows()).filter(inside_y));
         let mut free = Cells::none(lattice.columns(), lattice.rows());
         if let (Some((x0, x1)), Some((y0, y1))) = (columns, rows) {
-            free.insert_block(CellRect { x0, y0, x1, y1 });
+            free.insert_block(Block { x0, y0, x1, y1 });
         }
         free
     }
@@ -88,7 +89,7 @@ impl<'a> Solid<'a> {
             for column in self.lattice.columns_about(rect.x0 - keep, rect.x1 + keep) {
                 let cell = self.cell(column, row);
                 let near = if keep > ROUNDING_M {
-                    gap::to_rect(&cell, rect) < keep - ROUNDING_M
+                    cell.gap(rect) < keep - ROUNDING_M
                 } else {
                     let (dx, dy) = cell.axis_gaps(rect);
                     dx < -ROUNDING_M && dy < -ROUNDING_M
@@ -138,7 +139,7 @@ impl<'a> Solid<'a> {
     }
 
     fn cell(&self, column: u32, row: u32) -> Rect {
-        self.lattice.rect(CellRect { x0: column, y0: row, x1: column + 1, y1: row + 1 })
+        self.lattice.rect(Block { x0: column, y0: row, x1: column + 1, y1: row + 1 })
     }
 }
 
@@ -165,7 +166,7 @@ fn resampled(occupancy: &Occupancy, lattice: &Lattice) -> Cells {
         let columns = columns.filter(|&c| overlaps(lattice.x(c), lattice.x(c + 1), rect.x0, rect.x1));
         let rows = rows.filter(|&r| overlaps(lattice.y(r), lattice.y(r + 1), rect.y0, rect.y1));
         if let (Some((x0, x1)), Some((y0, y1))) = (ends(columns), ends(rows)) {
-            walls.insert_block(CellRect { x0, y0, x1, y1 });
+            walls.insert_block(Block { x0, y0, x1, y1 });
         }
     }
     walls

@@ -2,12 +2,6 @@
 
 use crate::geometry::{Point, Rect, Segment};
 
-/// Distance of two closed rectangles.
-pub(super) fn to_rect(cell: &Rect, rect: &Rect) -> f64 {
-    let (dx, dy) = cell.axis_gaps(rect);
-    dx.max(0.0).hypot(dy.max(0.0))
-}
-
 /// Distance of a closed rectangle from a closed segment.
 pub(super) fn to_segment(cell: &Rect, a: Point, b: Point) -> f64 {
     if meets(cell, a, b) {

@@ -7,10 +7,11 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::lattice::Lattice;
 use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, polygon};
+use crate::strips::Block;
 use crate::world::{Shape, World};
 
 /// The areas and doors that a cell lies in, by their index in the world.
@@ -19,7 +20,7 @@ pub(super) struct Label {
     pub(super) areas: Vec<usize>,
     pub(super) doors: Vec<usize>,
     /// The block that holds all its cells.
-    within: Option<CellRect>,
+    within: Option<Block>,
 }
 
 /// The label of each cell.
@@ -50,7 +51,7 @@ impl Labels {
     }
 
     /// The label of a block of cells that all have the same one.
-    pub(super) fn of(&self, block: CellRect) -> &Label {
+    pub(super) fn of(&self, block: Block) -> &Label {
         &self.kinds[self.number(block.x0, block.y0) as usize]
     }
 
@@ -61,7 +62,7 @@ impl Labels {
 
     /// The cells of a set by their label: those in nothing first, then one set for each label, over the block (of the
     /// lattice) that holds them.
-    pub(super) fn split(&self, cells: &Cells) -> (Cells, Vec<(CellRect, Cells)>) {
+    pub(super) fn split(&self, cells: &Cells) -> (Cells, Vec<(Block, Cells)>) {
         let mut rest = cells.clone();
         let mut parts = Vec::new();
         for (number, label) in self.kinds.iter().enumerate().skip(1) {
@@ -72,7 +73,7 @@ impl Labels {
                     if usize::from(self.number(column, row)) == number && cells.contains(column, row) {
                         rest.remove(column, row);
                         let (x0, y0) = (column - within.x0, row - within.y0);
-                        part.insert_block(CellRect { x0, y0, x1: x0 + 1, y1: y0 + 1 });
+                        part.insert_block(Block { x0, y0, x1: x0 + 1, y1: y0 + 1 });
                     }
                 }
             }
@@ -123,10 +124,10 @@ impl Labels {
         for (row, range) in (0..).zip(ranges) {
             for column in range.unwrap_or(0..0) {
                 let number = usize::from(self.number(column, row));
-                let cell = CellRect { x0: column, y0: row, x1: column + 1, y1: row + 1 };
+                let cell = Block { x0: column, y0: row, x1: column + 1, y1: row + 1 };
                 let within = &mut self.kinds[number].within;
                 let known = within.unwrap_or(cell);
-                *within = Some(CellRect {
+                *within = Some(Block {
                     x0: known.x0.min(column),
                     y0: known.y0.min(row),
                     x1: known.x1.max(column + 1),
@@ -261,7 +262,7 @@ mod tests {
 
     fn cells(labels: &Labels, is_in: impl Fn(&Label) -> bool) -> Vec<(u32, u32)> {
         let all = (0..40).flat_map(|row| (0..40).map(move |column| (column, row)));
-        all.filter(|&(x, y)| is_in(labels.of(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 }))).collect()
+        all.filter(|&(x, y)| is_in(labels.of(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 }))).collect()
     }
 
     #[test]
@@ -317,7 +318,7 @@ mod tests {
             let band = cells(&labels, |label| !label.doors.is_empty());
             prop_assert!(!band.is_empty());
             for &(x, y) in &band {
-                let rect = lattice().rect(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+                let rect = lattice().rect(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 });
                 let grown = Rect::new(rect.x0 - 1e-6, rect.y0 - 1e-6, rect.x1 + 1e-6, rect.y1 + 1e-6);
                 prop_assert!(grown.clip(from, to).is_some(), "{rect:?}");
             }
@@ -337,7 +338,7 @@ mod tests {
                 let share = f64::from(step) / 100.0;
                 let p = from.lerp(to, share);
                 let is_in = band.iter().any(|&(x, y)| {
-                    let r = lattice().rect(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+                    let r = lattice().rect(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 });
                     r.nearest_to(p).distance(p) < 1e-6
                 });
                 prop_assert!(is_in || p.x > 2.0 - 1e-6 || p.y > 2.0 - 1e-6, "{p:?}");

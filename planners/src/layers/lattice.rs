@@ -1,8 +1,8 @@
 //! The uniform lattice of cells in which all layers of a world are cut.
 
-use super::cells::CellRect;
 use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, Rect};
+use crate::strips::Block;
 
 /// The most cells that a lattice may have.
 pub const MAX_CELLS: f64 = 1e8;
@@ -73,7 +73,7 @@ impl Lattice {
     }
 
     /// A block of cells in metres. Blocks that share a lattice line share the coordinate bit for bit.
-    pub(super) fn rect(&self, r: CellRect) -> Rect {
+    pub(super) fn rect(&self, r: Block) -> Rect {
         Rect::new(self.x(r.x0), self.y(r.y0), self.x(r.x1), self.y(r.y1))
     }
 

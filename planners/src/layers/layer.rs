@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::free_space::Solid;
 use super::labels::Labels;
 use super::lattice::Lattice;
@@ -12,6 +12,7 @@ use super::neighbours::Owners;
 use super::record::State;
 use super::{cut, footprint, slivers};
 use crate::geometry::Rect;
+use crate::strips::Block;
 use crate::world::World;
 
 /// What of a state decides its layer.
@@ -34,7 +35,7 @@ impl Size {
 
 /// The rooms of a size.
 pub(super) struct Layer {
-    pub(super) rooms: Vec<CellRect>,
+    pub(super) rooms: Vec<Block>,
     pub(super) owners: Owners,
     /// The pairs of rooms (a < b) that have a common boundary; ordered.
     pub(super) beside: Vec<(u32, u32)>,

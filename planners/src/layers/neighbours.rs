@@ -1,6 +1,6 @@
 //! Which rooms lie beside each other in a layer, and which of two layers over each other.
 
-use super::cells::CellRect;
+use crate::strips::Block;
 
 /// No room.
 const NOBODY: u32 = u32::MAX;
@@ -13,7 +13,7 @@ pub(super) struct Owners {
 
 impl Owners {
     /// Draws the rooms of a layer, which are disjoint, by their index.
-    pub(super) fn new(columns: u32, rows: u32, rooms: &[CellRect]) -> Self {
+    pub(super) fn new(columns: u32, rows: u32, rooms: &[Block]) -> Self {
         let columns = columns as usize;
         let mut owners = vec![NOBODY; columns * rows as usize];
         for (index, room) in (0..).zip(rooms) {
@@ -52,6 +52,6 @@ fn distinct(pairs: impl Iterator<Item = (u32, u32)>) -> Vec<(u32, u32)> {
 }
 
 /// The common boundary of two blocks beside each other, as a block without cells.
-pub(super) fn boundary(a: CellRect, b: CellRect) -> CellRect {
-    CellRect { x0: a.x0.max(b.x0), y0: a.y0.max(b.y0), x1: a.x1.min(b.x1), y1: a.y1.min(b.y1) }
+pub(super) fn boundary(a: Block, b: Block) -> Block {
+    Block { x0: a.x0.max(b.x0), y0: a.y0.max(b.y0), x1: a.x1.min(b.x1), y1: a.y1.min(b.y1) }
 }

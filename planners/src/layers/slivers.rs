@@ -2,9 +2,10 @@
 //! of four rooms of a scanned map are such (462 of 611 in a layer of nav2's depot). They say where the limit is to
 //! within a cell, which is finer than a layer promises, so those are dropped that nobody misses.
 
-use super::cells::{CellRect, Cells};
+use super::cells::Cells;
 use super::labels::Labels;
 use super::neighbours::Owners;
+use crate::strips::Block;
 
 /// How far from a thicker room a dropped cell may lie, in steps from cell to neighbouring cell.
 const REACH: usize = 2;
@@ -17,8 +18,8 @@ const REACH: usize = 2;
 ///   door loses its last room, and rooms stay connected as before without any that a rule shuts.
 ///
 /// The smallest are tried first; the order stays.
-pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect], labels: Option<&Labels>) -> Vec<CellRect> {
-    let is_sliver = |room: &CellRect| (room.x1 - room.x0).min(room.y1 - room.y0) == 1;
+pub(super) fn drop_slivers(free: &Cells, rooms: &[Block], labels: Option<&Labels>) -> Vec<Block> {
+    let is_sliver = |room: &Block| (room.x1 - room.x0).min(room.y1 - room.y0) == 1;
     let mut near = Cells::none(free.columns(), free.rows());
     for room in rooms.iter().filter(|room| !is_sliver(room)) {
         near.insert_block(*room);
@@ -35,7 +36,7 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect], labels: Option<&Lab
     for (index, room) in rooms.iter().enumerate().rev() {
         if is_sliver(room) && near.first_missing(*room).is_none() {
             let beside: Vec<usize> = neighbours[index].iter().copied().filter(|&other| kept[other]).collect();
-            let around: Vec<CellRect> = beside.iter().map(|&other| rooms[other]).collect();
+            let around: Vec<Block> = beside.iter().map(|&other| rooms[other]).collect();
             kept[index] = labels.is_some_and(|labels| !is_among_its_own(room, &around, labels))
                 || is_crossed(room, &around)
                 || !are_connected(beside, &neighbours);
@@ -45,16 +46,16 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[CellRect], labels: Option<&Lab
 }
 
 /// Whether all rooms around a sliver have its label, and there is one if the sliver lies in something.
-fn is_among_its_own(sliver: &CellRect, around: &[CellRect], labels: &Labels) -> bool {
-    let number = |room: &CellRect| labels.number(room.x0, room.y0);
+fn is_among_its_own(sliver: &Block, around: &[Block], labels: &Labels) -> bool {
+    let number = |room: &Block| labels.number(room.x0, room.y0);
     let own = number(sliver);
     around.iter().all(|room| number(room) == own) && (own == 0 || !around.is_empty())
 }
 
 /// Whether a sliver longer than a cell has rooms on both of its long sides.
-fn is_crossed(sliver: &CellRect, around: &[CellRect]) -> bool {
+fn is_crossed(sliver: &Block, around: &[Block]) -> bool {
     let (wide, tall) = (sliver.x1 - sliver.x0 > 1, sliver.y1 - sliver.y0 > 1);
-    let some = |is_there: fn(&CellRect, &CellRect) -> bool| around.iter().any(|room| is_there(room, sliver));
+    let some = |is_there: fn(&Block, &Block) -> bool| around.iter().any(|room| is_there(room, sliver));
     wide && some(|room, sliver| room.y1 <= sliver.y0) && some(|room, sliver| room.y0 >= sliver.y1)
         || tall && some(|room, sliver| room.x1 <= sliver.x0) && some(|room, sliver| room.x0 >= sliver.x1)
 }
@@ -80,7 +81,7 @@ mod tests {
         let mut cells = Cells::none(radius, radius);
         for y in 0..radius {
             let x1 = f64::from(radius * radius - y * y).sqrt() as u32;
-            cells.insert_block(CellRect { x0: 0, y0: y, x1, y1: y + 1 });
+            cells.insert_block(Block { x0: 0, y0: y, x1, y1: y + 1 });
         }
         cells
     }
@@ -90,8 +91,8 @@ mod tests {
         let disc = quarter_disc(40);
         let rooms = cut(&disc);
         let kept = drop_slivers(&disc, &rooms, None);
-        let area = |rooms: &[CellRect]| rooms.iter().map(CellRect::area).sum::<u64>() as f64;
-        let thin = |rooms: &[CellRect]| {
+        let area = |rooms: &[Block]| rooms.iter().map(Block::area).sum::<u64>() as f64;
+        let thin = |rooms: &[Block]| {
             rooms.iter().filter(|room| room.x1 - room.x0 == 1 || room.y1 - room.y0 == 1).count()
         };
         assert!(thin(&kept) * 4 < thin(&rooms), "{} of {} slivers are left", thin(&kept), thin(&rooms));
@@ -101,9 +102,9 @@ mod tests {
     #[test]
     fn a_passage_one_cell_wide_stays() {
         let mut cells = Cells::none(20, 10);
-        let left = CellRect { x0: 0, y0: 0, x1: 9, y1: 10 };
-        let right = CellRect { x0: 11, y0: 0, x1: 20, y1: 10 };
-        let passage = CellRect { x0: 9, y0: 4, x1: 11, y1: 5 };
+        let left = Block { x0: 0, y0: 0, x1: 9, y1: 10 };
+        let right = Block { x0: 11, y0: 0, x1: 20, y1: 10 };
+        let passage = Block { x0: 9, y0: 4, x1: 11, y1: 5 };
         for block in [left, right, passage] {
             cells.insert_block(block);
         }

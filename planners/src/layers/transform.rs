@@ -80,8 +80,8 @@ fn lower_envelope(vertical: &[i32], squared: &mut [u32]) {
 mod tests {
     use proptest::prelude::*;
 
-    use super::super::cells::CellRect;
     use super::*;
+    use crate::strips::Block;
 
     proptest! {
         #[test]
@@ -91,7 +91,7 @@ mod tests {
             let mut set = Cells::none(columns, rows);
             let walls: Vec<_> = walls.into_iter().map(|(x, y)| (x % columns, y % rows)).collect();
             for &(x, y) in &walls {
-                set.insert_block(CellRect { x0: x, y0: y, x1: x + 1, y1: y + 1 });
+                set.insert_block(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 });
             }
             let gaps = squared_gaps(&set);
             let apart = |a: u32, b: u32| a.abs_diff(b).saturating_sub(1).pow(2);

@@ -44,6 +44,19 @@ pub struct Located<T> {
     pub span: Range<usize>,
 }
 
+impl<T: Clone> From<&serde_saphyr::Spanned<T>> for Located<T> {
+    fn from(value: &serde_saphyr::Spanned<T>) -> Self {
+        Self { value: value.value.clone(), span: span_of(value.referenced) }
+    }
+}
+
+/// Where a place of a YAML or JSON text lies, in bytes.
+pub(crate) fn span_of(location: serde_saphyr::Location) -> Range<usize> {
+    let span = location.span();
+    let start = span.byte_offset().unwrap_or(0) as usize;
+    start..start + span.byte_len().unwrap_or(0) as usize
+}
+
 /// One table of a document, and where to report what is wrong with it.
 pub struct Fields<'a, 'i> {
     /// How messages call it: `[[obstacle]]`.

@@ -63,7 +63,7 @@ impl Cutter {
             self.parts.retain(|part| {
                 let stays = !part.overlaps(hole);
                 if !stays {
-                    self.cut.extend(sides(*part, *hole).into_iter().flatten());
+                    self.cut.extend(part.around(*hole));
                 }
                 stays
             });
@@ -85,14 +85,4 @@ fn lines(lines: &mut Vec<u32>, of_holes: impl Iterator<Item = u32>, low: u32, hi
     lines.extend(of_holes);
     lines.sort_unstable();
     lines.dedup();
-}
-
-/// The up to four maximal rectangles, one a side, that a hole leaves of a block.
-fn sides(block: Block, hole: Block) -> [Option<Block>; 4] {
-    [
-        (hole.x0 > block.x0).then_some(Block { x1: hole.x0, ..block }),
-        (hole.x1 < block.x1).then_some(Block { x0: hole.x1, ..block }),
-        (hole.y0 > block.y0).then_some(Block { y1: hole.y0, ..block }),
-        (hole.y1 < block.y1).then_some(Block { y0: hole.y1, ..block }),
-    ]
 }

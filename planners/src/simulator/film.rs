@@ -1,9 +1,10 @@
 //! An animation that one can watch: an SVG that plays in any browser, without scripts.
 
+use std::borrow::Borrow;
 use std::fmt::Write as _;
 
 use super::Simulator;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Rect, Segment};
 use crate::pose::Pose;
 
 /// What there was to see at one moment.
@@ -84,8 +85,8 @@ impl Film {
 
     /// The film as an SVG that plays `speed` times as fast as time runs, again and again.
     pub fn svg(&self, speed: f64) -> String {
-        let (low, high) = self.extent();
-        let (width, height) = (high.x - low.x, high.y - low.y + CAPTION_M);
+        let extent = self.extent();
+        let (width, height) = (extent.dx(), extent.dy() + CAPTION_M);
         let mut out = String::new();
         let _ = write!(
             out,
@@ -94,8 +95,8 @@ impl Film {
              <g transform=\"matrix(1 0 0 -1 {:.2} {:.2})\" fill=\"none\" stroke-linecap=\"round\" stroke-width=\".05\">\n",
             width * SCALE,
             height * SCALE,
-            -low.x,
-            high.y,
+            -extent.x0,
+            extent.y1,
         );
         self.trail(&mut out, "#9ab", ".03", |frame| Some(frame.robot));
         self.trail(&mut out, "#c33\" stroke-dasharray=\".1 .1", ".03", |frame| frame.estimate);
@@ -119,19 +120,23 @@ impl Film {
         out
     }
 
-    fn extent(&self) -> (Point, Point) {
+    fn extent(&self) -> Rect {
         let walls = self.walls.iter().flat_map(|wall| [wall.a, wall.b]);
-        let points = walls.chain(self.frames.iter().map(|frame| frame.robot.at));
-        let (low, high) = points.fold(
-            (Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)),
-            |(low, high), p| {
-                (
-                    Point::new(low.x.min(p.x - MARGIN_M), low.y.min(p.y - MARGIN_M)),
-                    Point::new(high.x.max(p.x + MARGIN_M), high.y.max(p.y + MARGIN_M)),
-                )
-            },
-        );
-        if low.x.is_finite() { (low, high) } else { (Point::default(), Point::new(1.0, 1.0)) }
+        let extent = Rect::around(walls.chain(self.frames.iter().map(|frame| frame.robot.at)));
+        if extent.x0.is_finite() { extent.grown(MARGIN_M) } else { Rect::new(0.0, 0.0, 1.0, 1.0) }
+    }
+
+    /// What frames say of something, each from its frame until the next one that says something, or to the end.
+    fn changes<'f, T>(
+        &'f self,
+        of: impl Fn(&'f Frame) -> Option<T> + 'f,
+    ) -> impl Iterator<Item = (usize, Option<usize>, T)> + 'f {
+        let said = self.frames.iter().enumerate().filter_map(move |(from, frame)| Some((from, of(frame)?)));
+        let mut said = said.peekable();
+        std::iter::from_fn(move || {
+            let (from, what) = said.next()?;
+            Some((from, said.peek().map(|(until, _)| *until), what))
+        })
     }
 
     fn trail(&self, out: &mut String, colour: &str, width: &str, pose: impl Fn(&Frame) -> Option<Pose>) {
@@ -145,18 +150,11 @@ impl Film {
     }
 
     fn surfaces(&self, out: &mut String, clock: &Clock) {
-        let changes: Vec<(usize, &Vec<Segment>)> = self
-            .frames
-            .iter()
-            .enumerate()
-            .filter_map(|(i, frame)| Some((i, frame.surfaces.as_ref()?)))
-            .collect();
-        for (place, (from, surfaces)) in changes.iter().enumerate() {
-            let until = changes.get(place + 1).map(|(until, _)| *until);
+        for (from, until, surfaces) in self.changes(|frame| frame.surfaces.as_ref()) {
             out.push_str(
                 "<g stroke=\"#27a\" stroke-width=\".09\" stroke-opacity=\".6\" visibility=\"hidden\">",
             );
-            clock.show(out, *from, until);
+            clock.show(out, from, until);
             lines(out, "", surfaces);
             out.push_str("</g>\n");
         }
@@ -205,21 +203,14 @@ impl Film {
     }
 
     fn captions(&self, out: &mut String, clock: &Clock, height: f64) {
-        let changes: Vec<(usize, &String)> = self
-            .frames
-            .iter()
-            .enumerate()
-            .filter_map(|(i, frame)| Some((i, frame.caption.as_ref()?)))
-            .collect();
-        for (place, (from, caption)) in changes.iter().enumerate() {
-            let until = changes.get(place + 1).map(|(until, _)| *until);
-            let at = height - CAPTION_M / 2.0;
+        let at = height - CAPTION_M / 2.0;
+        for (from, until, caption) in self.changes(|frame| frame.caption.as_ref()) {
             let _ = write!(
                 out,
                 "<text x=\".3\" y=\"{at:.2}\" font-size=\".4\" font-family=\"sans-serif\" visibility=\"hidden\">"
             );
-            clock.show(out, *from, until);
-            let _ = write!(out, "{:.1} s: ", self.frames[*from].time_s);
+            clock.show(out, from, until);
+            let _ = write!(out, "{:.1} s: ", self.frames[from].time_s);
             for c in caption.chars().filter(|c| !c.is_control()) {
                 match c {
                     '<' => out.push_str("&lt;"),
@@ -262,45 +253,33 @@ impl Clock {
 
     /// Moves what it is in, frame by frame.
     fn slide(&self, out: &mut String, kind: &str, values: impl Iterator<Item = String>) {
-        let values: Vec<String> = values.collect();
-        if self.lasts_s <= 0.0 {
-            return;
-        }
-        let _ = write!(
-            out,
-            "<animateTransform attributeName=\"transform\" type=\"{kind}\" dur=\"{:.2}s\" repeatCount=\"indefinite\" \
-             keyTimes=\"{}\" values=\"{}\"/>",
-            self.lasts_s,
-            self.shares.join(";"),
-            values.join(";"),
-        );
+        let what = format!("animateTransform attributeName=\"transform\" type=\"{kind}\"");
+        self.animate(out, &what, &self.shares, &values.collect::<Vec<_>>());
     }
 
     /// Shows what it is in from one frame until another, or to the end.
     fn show(&self, out: &mut String, from: usize, until: Option<usize>) {
-        if self.lasts_s <= 0.0 {
-            return;
-        }
-        let (begin, end) = (&self.shares[from], until.map(|until| &self.shares[until]));
-        let mut times = vec!["0"];
-        let mut values = vec!["hidden"];
-        if from == 0 {
-            values[0] = "visible";
-        } else {
-            times.push(begin);
+        let (mut times, mut values) = (vec!["0"], vec![if from == 0 { "visible" } else { "hidden" }]);
+        if from > 0 {
+            times.push(&self.shares[from]);
             values.push("visible");
         }
-        if let Some(end) = end {
-            times.push(end);
+        if let Some(until) = until {
+            times.push(&self.shares[until]);
             values.push("hidden");
         }
-        let _ = write!(
-            out,
-            "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{:.2}s\" repeatCount=\"indefinite\" \
-             keyTimes=\"{}\" values=\"{}\"/>",
-            self.lasts_s,
-            times.join(";"),
-            values.join(";"),
-        );
+        self.animate(out, "animate attributeName=\"visibility\" calcMode=\"discrete\"", &times, &values);
+    }
+
+    fn animate(&self, out: &mut String, what: &str, times: &[impl Borrow<str>], values: &[impl Borrow<str>]) {
+        if self.lasts_s > 0.0 {
+            let _ = write!(
+                out,
+                "<{what} dur=\"{:.2}s\" repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
+                self.lasts_s,
+                times.join(";"),
+                values.join(";"),
+            );
+        }
     }
 }

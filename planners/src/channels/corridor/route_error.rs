@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::network::Corridors;
 use super::passage::{End, Passage};
-use crate::geometry::{Point, Rect};
+use crate::geometry::Point;
 
 /// Why [`Corridors::route`] gives no route; `E` is what its weights fail with.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -52,7 +52,7 @@ impl NoRoute {
         }
         let pairs = from_start.iter().flat_map(|one| from_goal.iter().map(move |other| (*one, *other)));
         let gaps =
-            pairs.map(|(one, other)| (gap(corridors.channel(one), corridors.channel(other)), (one, other)));
+            pairs.map(|(one, other)| (corridors.channel(one).gap(corridors.channel(other)), (one, other)));
         let (gap, nearest) = gaps
             .min_by(|a, b| a.0.total_cmp(&b.0))
             .expect("start and goal were each found in a channel before the search");
@@ -78,13 +78,6 @@ fn joined(corridors: &Corridors, point: Point) -> BTreeSet<usize> {
         }
     }
     joined
-}
-
-/// Metres between two rectangles.
-fn gap(one: &Rect, other: &Rect) -> f64 {
-    let dx = (other.x0 - one.x1).max(one.x0 - other.x1).max(0.0);
-    let dy = (other.y0 - one.y1).max(one.y0 - other.y1).max(0.0);
-    dx.hypot(dy)
 }
 
 impl fmt::Display for NoRoute {

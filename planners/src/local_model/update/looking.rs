@@ -22,13 +22,7 @@ impl LocalModel {
     pub(super) fn within_hearing(&self) -> impl Iterator<Item = usize> {
         let reach = self.settings.sonar_range_m + self.settings.match_offset_m;
         let at = self.estimate.pose.at;
-        let is_near = move |segment: &ModelSegment| {
-            let line = &segment.line;
-            line.a.x.min(line.b.x) - reach <= at.x
-                && at.x <= line.a.x.max(line.b.x) + reach
-                && line.a.y.min(line.b.y) - reach <= at.y
-                && at.y <= line.a.y.max(line.b.y) + reach
-        };
+        let is_near = move |segment: &ModelSegment| segment.line.bounds().grown(reach).contains(at);
         self.segments.iter().enumerate().filter(move |(_, segment)| is_near(segment)).map(|(place, _)| place)
     }
 

@@ -1,10 +1,8 @@
 //! What the robot senses, taken into the model.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::{Navigator, TRACK_M, TRACK_POINTS};
-use crate::body::{Body, Contact};
-use crate::geometry::{Point, Segment};
+use crate::body::Body;
+use crate::geometry::Segment;
 use crate::navigation::event::Happening;
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::moving;
@@ -26,7 +24,7 @@ impl Navigator<'_> {
             let is_ahead = self.course.is_some_and(|course| course.leads_to(contact));
             if is_held || is_ahead || self.state == State::Turn {
                 self.contact = self.contact.or(Some(contact));
-                self.felt.push((sensed.time_s, self.surface_at(contact)));
+                self.felt.push((sensed.time_s, self.model.surface_at(&contact, self.radius_m)));
             }
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
@@ -48,21 +46,6 @@ impl Navigator<'_> {
                 self.track.pop_front();
             }
         }
-    }
-
-    /// A short surface across a touch.
-    pub(super) fn surface_at(&self, contact: Contact) -> Segment {
-        let pose = self.pose();
-        let (towards, across) =
-            (pose.direction(contact.bearing), pose.direction(contact.bearing + FRAC_PI_2));
-        let half = self.model.settings().contact_length_m / 2.0;
-        let end = |side: f64| {
-            Point::new(
-                pose.at.x + self.radius_m * towards.x + side * across.x,
-                pose.at.y + self.radius_m * towards.y + side * across.y,
-            )
-        };
-        Segment::new(end(-half), end(half))
     }
 
     /// Takes the readings into the model.

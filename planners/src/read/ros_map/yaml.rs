@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use serde::Deserialize;
-use serde_saphyr::{Location, Spanned};
+use serde_saphyr::Spanned;
 
 use super::super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::super::fields::{LARGEST, Located};
+use super::super::fields::{LARGEST, Located, span_of};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
 use crate::world::Pose;
@@ -110,16 +110,16 @@ impl Default for Negate {
 pub(super) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
     let written: Written = serde_saphyr::from_str(text).map_err(|error| explain(source, &error))?;
     let mut problems = Vec::new();
-    let image = located(&written.image);
+    let image = Located::from(&written.image);
     if image.value.trim().is_empty() {
         problems.push(source.problem(Code::ImageMissing, &image.span, "`image` is empty"));
     }
-    let resolution = positive(source, "resolution", &located(&written.resolution), &mut problems);
-    let origin = origin(source, &located(&written.origin), &mut problems);
-    let occupied = located(&written.occupied_thresh);
-    let free = located(&written.free_thresh);
+    let resolution = positive(source, "resolution", &Located::from(&written.resolution), &mut problems);
+    let origin = origin(source, &Located::from(&written.origin), &mut problems);
+    let occupied = Located::from(&written.occupied_thresh);
+    let free = Located::from(&written.free_thresh);
     check_thresholds(source, &occupied, &free, &mut problems);
-    let mode = written.mode.as_ref().map(located);
+    let mode = written.mode.as_ref().map(Located::from);
     let mode = mode.map_or(Some(Mode::Trinary), |mode| parse_mode(source, &mode, &mut problems));
     match (resolution, origin, mode) {
         (Some(resolution), Some(origin), Some(mode)) if problems.is_empty() => Ok(MapFile {
@@ -156,16 +156,6 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
         }
         other => source.problem(Code::Syntax, &span, format!("not the YAML file of a ROS map: {other}")),
     }
-}
-
-fn span_of(location: Location) -> Range<usize> {
-    let span = location.span();
-    let start = span.byte_offset().unwrap_or(0) as usize;
-    start..start + span.byte_len().unwrap_or(0) as usize
-}
-
-fn located<T: Clone>(value: &Spanned<T>) -> Located<T> {
-    Located { value: value.value.clone(), span: span_of(value.referenced) }
 }
 
 fn positive(source: &Text, key: &str, number: &Located<f64>, problems: &mut Vec<Problem>) -> Option<f64> {
