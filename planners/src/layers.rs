@@ -28,7 +28,6 @@ use changes::changes;
 use footprint::{FACINGS, STEP_DEGREES};
 use labels::{Label, Labels};
 use layer::{Placed, Size};
-use neighbours::boundary;
 use rayon::prelude::*;
 
 use crate::geometry::Rect;
@@ -161,7 +160,7 @@ fn doors(lattice: Lattice, stack: &[Placed]) -> Vec<Crossing> {
         let Placed { layer, first, .. } = placed;
         let door = |(a, b): (u32, u32)| {
             let (a, b) = (a as usize, b as usize);
-            let rect = lattice.rect(boundary(layer.rooms[a], layer.rooms[b]));
+            let rect = lattice.rect(layer.rooms[a].clip(&layer.rooms[b]));
             Crossing { kind: Kind::Door, room1: first + a, room2: first + b, rect }
         };
         layer.beside.iter().copied().map(door).collect::<Vec<_>>()

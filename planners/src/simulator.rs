@@ -137,6 +137,10 @@ impl Simulator {
         &self.touches
     }
 
+    pub(crate) fn touches_by_robot(&self) -> usize {
+        self.touches.iter().filter(|touch| touch.by_robot).count()
+    }
+
     pub fn walls(&self) -> &[Segment] {
         self.walls.segments()
     }

@@ -103,7 +103,7 @@ impl Block {
         self.x0 <= other.x0 && other.x1 <= self.x1 && self.y0 <= other.y0 && other.y1 <= self.y1
     }
 
-    /// The part of `other` that lies inside, which may be empty.
+    /// What it shares with another one, which may be empty: of blocks beside each other their boundary.
     pub(crate) fn clip(&self, other: &Self) -> Self {
         Self {
             x0: other.x0.max(self.x0),

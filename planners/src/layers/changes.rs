@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::footprint::{FACINGS, largest_within};
+use super::footprint::FACINGS;
 use super::labels::Labels;
 use super::lattice::Lattice;
 use super::layer::{Layer, Placed};
-use super::neighbours::boundary;
+use super::maximal::largest_within;
 use super::record::{Crossing, Kind, State};
 use crate::strips::Block;
 
@@ -60,7 +60,7 @@ fn changes_between(lattice: Lattice, labels: Option<&Labels>, from: &Placed, to:
         first.layer.turning.as_ref()
     });
     let overlap = |(a, b): (u32, u32)| {
-        let common = boundary(from.layer.rooms[a as usize], to.layer.rooms[b as usize]);
+        let common = from.layer.rooms[a as usize].clip(&to.layer.rooms[b as usize]);
         let common = turning.map_or(Some(common), |turning| largest_within(turning, common))?;
         Some(((a, b), common))
     };
@@ -101,8 +101,8 @@ fn has_thicker_beside(
             !is_thin(other) && touch(other, &here) && label(other) == label(&here)
         })
     };
-    layers.1.neighbours[b as usize].iter().any(|&other| is_beside((a, other)))
-        || layers.0.neighbours[a as usize].iter().any(|&other| is_beside((other, b)))
+    layers.1.neighbours.of(b as usize).iter().any(|&other| is_beside((a, other)))
+        || layers.0.neighbours.of(a as usize).iter().any(|&other| is_beside((other, b)))
 }
 
 /// Whether two disjoint blocks share a boundary of at least a cell's side.

@@ -126,36 +126,6 @@ fn insert_runs(cells: &mut Cells, row: u32, blocked: &[bool]) {
     }
 }
 
-/// The largest block of the set within `block`, the first of equal ones from below; `None` where there is no cell.
-pub(super) fn largest_within(cells: &Cells, block: Block) -> Option<Block> {
-    if cells.first_missing(block).is_none() {
-        return Some(block);
-    }
-    let mut heights = vec![0; (block.x1 - block.x0) as usize];
-    let mut largest: Option<Block> = None;
-    for row in block.y0..block.y1 {
-        for (column, height) in (block.x0..).zip(&mut heights) {
-            *height = if cells.contains(column, row) { *height + 1 } else { 0 };
-        }
-        let mut open: Vec<(u32, u32)> = Vec::new();
-        for column in block.x0..=block.x1 {
-            let height = heights.get((column - block.x0) as usize).copied().unwrap_or(0);
-            let mut start = column;
-            while let Some((from, tall)) = open.pop_if(|(_, tall)| *tall > height) {
-                start = from;
-                let found = Block { x0: from, y0: row + 1 - tall, x1: column, y1: row + 1 };
-                if largest.is_none_or(|known| known.area() < found.area()) {
-                    largest = Some(found);
-                }
-            }
-            if height > 0 && open.last().is_none_or(|(_, tall)| *tall < height) {
-                open.push((start, height));
-            }
-        }
-    }
-    largest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -187,17 +157,5 @@ mod tests {
                 assert!(geo::Intersects::intersects(&hull, &geo::Point::new(p.x, p.y)), "{p:?}");
             }
         }
-    }
-
-    #[test]
-    fn the_largest_block_lies_in_the_set() {
-        let mut cells = Cells::none(20, 20);
-        cells.insert_block(Block { x0: 2, y0: 2, x1: 6, y1: 9 });
-        cells.insert_block(Block { x0: 8, y0: 2, x1: 17, y1: 6 });
-        let all = Block { x0: 0, y0: 0, x1: 20, y1: 20 };
-        assert_eq!(largest_within(&cells, all), Some(Block { x0: 8, y0: 2, x1: 17, y1: 6 }));
-        let part = Block { x0: 0, y0: 0, x1: 12, y1: 20 };
-        assert_eq!(largest_within(&cells, part), Some(Block { x0: 2, y0: 2, x1: 6, y1: 9 }));
-        assert_eq!(largest_within(&cells, Block { x0: 0, y0: 10, x1: 20, y1: 12 }), None);
     }
 }

@@ -8,10 +8,11 @@ use super::cells::Cells;
 use super::free_space::Solid;
 use super::labels::Labels;
 use super::lattice::Lattice;
-use super::neighbours::Owners;
+use super::neighbours::{Owners, by_room};
 use super::record::State;
 use super::{cut, footprint, slivers};
 use crate::geometry::Rect;
+use crate::search::Csr;
 use crate::strips::Block;
 use crate::world::World;
 
@@ -40,7 +41,7 @@ pub(super) struct Layer {
     /// The pairs of rooms (a < b) that have a common boundary; ordered.
     pub(super) beside: Vec<(u32, u32)>,
     /// The same, by room.
-    pub(super) neighbours: Vec<Vec<u32>>,
+    pub(super) neighbours: Csr<u32>,
     /// Where a body can turn to the next facing; `None` for a disc.
     pub(super) turning: Option<Cells>,
 }
@@ -72,11 +73,7 @@ impl Layer {
         let rooms = slivers::drop_slivers(&free, &cut::cut_along(&free, labels), labels);
         let owners = Owners::new(lattice.columns(), lattice.rows(), &rooms);
         let beside = owners.beside();
-        let mut neighbours = vec![Vec::new(); rooms.len()];
-        for &(a, b) in &beside {
-            neighbours[a as usize].push(b);
-            neighbours[b as usize].push(a);
-        }
+        let neighbours = by_room(rooms.len(), &beside);
         Self { rooms, owners, beside, neighbours, turning }
     }
 }

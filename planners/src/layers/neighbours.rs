@@ -1,5 +1,6 @@
 //! Which rooms lie beside each other in a layer, and which of two layers over each other.
 
+use crate::search::Csr;
 use crate::strips::Block;
 
 /// No room.
@@ -38,6 +39,11 @@ impl Owners {
     }
 }
 
+/// For each of so many rooms those beside it.
+pub(super) fn by_room(rooms: usize, beside: &[(u32, u32)]) -> Csr<u32> {
+    Csr::new(rooms, beside.iter().flat_map(|&(a, b)| [(a as usize, b), (b as usize, a)]))
+}
+
 fn distinct(pairs: impl Iterator<Item = (u32, u32)>) -> Vec<(u32, u32)> {
     let mut last = (NOBODY, NOBODY);
     let is_new = |pair: &(u32, u32)| {
@@ -49,9 +55,4 @@ fn distinct(pairs: impl Iterator<Item = (u32, u32)>) -> Vec<(u32, u32)> {
     pairs.sort_unstable();
     pairs.dedup();
     pairs
-}
-
-/// The common boundary of two blocks beside each other, as a block without cells.
-pub(super) fn boundary(a: Block, b: Block) -> Block {
-    Block { x0: a.x0.max(b.x0), y0: a.y0.max(b.y0), x1: a.x1.min(b.x1), y1: a.y1.min(b.y1) }
 }

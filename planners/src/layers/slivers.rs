@@ -4,7 +4,8 @@
 
 use super::cells::Cells;
 use super::labels::Labels;
-use super::neighbours::Owners;
+use super::neighbours::{Owners, by_room};
+use crate::search::Csr;
 use crate::strips::Block;
 
 /// How far from a thicker room a dropped cell may lie, in steps from cell to neighbouring cell.
@@ -27,16 +28,13 @@ pub(super) fn drop_slivers(free: &Cells, rooms: &[Block], labels: Option<&Labels
     for _ in 0..REACH {
         near = near.grown_within(free);
     }
-    let mut neighbours = vec![Vec::new(); rooms.len()];
-    for (a, b) in Owners::new(free.columns(), free.rows(), rooms).beside() {
-        neighbours[a as usize].push(b as usize);
-        neighbours[b as usize].push(a as usize);
-    }
+    let neighbours = by_room(rooms.len(), &Owners::new(free.columns(), free.rows(), rooms).beside());
     let mut kept = vec![true; rooms.len()];
     for (index, room) in rooms.iter().enumerate().rev() {
         if is_sliver(room) && near.first_missing(*room).is_none() {
-            let beside: Vec<usize> = neighbours[index].iter().copied().filter(|&other| kept[other]).collect();
-            let around: Vec<Block> = beside.iter().map(|&other| rooms[other]).collect();
+            let beside = neighbours.of(index).iter().copied().filter(|&other| kept[other as usize]);
+            let beside: Vec<u32> = beside.collect();
+            let around: Vec<Block> = beside.iter().map(|&other| rooms[other as usize]).collect();
             kept[index] = labels.is_some_and(|labels| !is_among_its_own(room, &around, labels))
                 || is_crossed(room, &around)
                 || !are_connected(beside, &neighbours);
@@ -61,12 +59,13 @@ fn is_crossed(sliver: &Block, around: &[Block]) -> bool {
 }
 
 /// Whether these rooms reach each other from one to the next, through no others.
-fn are_connected(mut apart: Vec<usize>, neighbours: &[Vec<usize>]) -> bool {
-    let mut reached: Vec<usize> = apart.pop().into_iter().collect();
+fn are_connected(mut apart: Vec<u32>, neighbours: &Csr<u32>) -> bool {
+    let mut reached: Vec<u32> = apart.pop().into_iter().collect();
     while let Some(from) = reached.pop() {
-        let (beside, others) = apart.into_iter().partition(|other| neighbours[from].contains(other));
+        let (beside, others) =
+            apart.into_iter().partition(|other| neighbours.of(from as usize).contains(other));
         apart = others;
-        reached.extend::<Vec<usize>>(beside);
+        reached.extend::<Vec<u32>>(beside);
     }
     apart.is_empty()
 }

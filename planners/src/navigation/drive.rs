@@ -67,8 +67,8 @@ pub fn drive(
         }
     }
     let Drive { body, navigator, driven, .. } = drive;
-    let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
-    Ok(Driven { estimate: navigator.estimate().pose, truth: body.pose(), touches, ..driven })
+    let (estimate, truth) = (navigator.estimate().pose, body.pose());
+    Ok(Driven { estimate, truth, touches: body.touches_by_robot(), ..driven })
 }
 
 struct Drive<'d, J, W> {

@@ -7,7 +7,7 @@ use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{self, Estimate};
 use crate::pose::{Pose, wrapped};
-use crate::simulator::{self, Film, Obstacle, SimulationError, Simulator};
+use crate::simulator::{self, Film, Frame, Obstacle, SimulationError, Simulator};
 
 /// A robot's start, its goal, and what nobody told it of.
 #[derive(Clone, Debug, PartialEq)]
@@ -160,12 +160,11 @@ impl Mission {
                 journal(Entry { event, truth });
             }
             if let Some(ending) = ending {
-                let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
                 return Ok(Outcome {
                     ending,
                     replans: navigator.replans(),
                     simulated_s: body.time_s(),
-                    touches,
+                    touches: body.touches_by_robot(),
                     miss_m: truth.at.distance(self.goal),
                     ..outcome
                 });
@@ -237,9 +236,11 @@ fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &
         Happening::Ended(Ending::OutOfPatience) => "given up".to_owned(),
         _ => return,
     };
-    let mut frame = body.frame();
-    frame.estimate = Some(event.pose);
-    frame.surfaces = Some(navigator.model().segments().iter().map(|segment| segment.line).collect());
-    frame.caption = Some(caption);
-    film.push(frame);
+    film.push(frame(body, navigator, event.pose, caption));
+}
+
+/// What there is to see of a simulation, with what the robot thinks.
+pub(super) fn frame(body: &Simulator, navigator: &Navigator, estimate: Pose, caption: String) -> Frame {
+    let surfaces = navigator.model().segments().iter().map(|segment| segment.line).collect();
+    Frame { estimate: Some(estimate), surfaces: Some(surfaces), caption: Some(caption), ..body.frame() }
 }

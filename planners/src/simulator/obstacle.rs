@@ -2,6 +2,7 @@
 
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment, polygon};
+use crate::pose::{Frame, Pose};
 
 /// A solid thing with straight sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,11 +29,8 @@ pub struct Course {
 impl Obstacle {
     /// A box with a middle, its extents along its own axes in metres, and turned by an angle in radians.
     pub fn boxed(middle: Point, dx_m: f64, dy_m: f64, angle: f64) -> Self {
-        let (sin, cos) = angle.sin_cos();
-        let corner = |(u, v): (f64, f64)| {
-            let (x, y) = (u * dx_m / 2.0, v * dy_m / 2.0);
-            Point::new(middle.x + cos * x - sin * y, middle.y + sin * x + cos * y)
-        };
+        let frame = Frame::from(&Pose { at: middle, heading: angle });
+        let corner = |(u, v): (f64, f64)| frame.place(Point::new(u * dx_m / 2.0, v * dy_m / 2.0));
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(corner).to_vec();
         Self { corners, course: None }
     }

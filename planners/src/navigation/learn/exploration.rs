@@ -3,7 +3,7 @@
 use super::{Explorer, Guide, Learned};
 use crate::floor_plan::{Disc, FloorPlan};
 use crate::geometry::{Point, Segment};
-use crate::navigation::mission::{overlap, state_caption};
+use crate::navigation::mission::{frame, overlap, state_caption};
 use crate::navigation::{Building, Ending, Entry, Happening, Outfit};
 use crate::pose::Pose;
 use crate::simulator::{Film, SimulationError, Simulator};
@@ -88,8 +88,8 @@ impl Exploration {
                 journal(Entry { event, truth });
             }
             if let Some(ending) = ending {
-                let touches = body.touches().iter().filter(|touch| touch.by_robot).count();
                 let (learned, simulated_s) = (explorer.learned(), body.time_s());
+                let touches = body.touches_by_robot();
                 return Ok(Explored { ending, learned, simulated_s, touches, ..explored });
             }
         }
@@ -106,10 +106,6 @@ fn film_event(film: &mut Film, body: &Simulator, explorer: &Explorer<'_>, what: 
         Happening::Contact { .. } => "contact".to_owned(),
         _ => return,
     };
-    let mut frame = body.frame();
-    frame.estimate = Some(explorer.navigator().estimate().pose);
-    let surfaces = explorer.navigator().model().segments();
-    frame.surfaces = Some(surfaces.iter().map(|segment| segment.line).collect());
-    frame.caption = Some(caption);
-    film.push(frame);
+    let navigator = explorer.navigator();
+    film.push(frame(body, navigator, navigator.estimate().pose, caption));
 }
