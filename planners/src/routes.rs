@@ -38,7 +38,7 @@ pub use compact::{CompactGraph, CompactTree, NONE};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};
 pub use parts::{Goal, RouteDoor, RouteRoom, Start, Walking};
-pub use visit::{Passage, Passages};
+pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
 
 impl RouteGraph {

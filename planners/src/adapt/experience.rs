@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::nearest::Nearest;
-use super::robot::{Configuration, length};
+use super::robot::{Configuration, distance, length};
 use super::workcell::Revision;
 use crate::pose::Pose;
+use crate::search::ByValue;
 
 /// Number of a vertex; never given twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -56,14 +56,12 @@ pub struct Edge {
 }
 
 /// The graph, and the numbers that go on from where they were.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Experience {
     vertices: BTreeMap<VertexId, Vertex>,
     edges: BTreeMap<(VertexId, VertexId), Edge>,
     next_vertex: u32,
     next_edge: u32,
-    index: Nearest,
-    is_index_stale: bool,
 }
 
 impl Edge {
@@ -72,14 +70,6 @@ impl Edge {
         self.via.clear();
         self.length = length;
         self.is_loose = true;
-    }
-}
-
-impl PartialEq for Experience {
-    /// The index says nothing of its own.
-    fn eq(&self, other: &Self) -> bool {
-        (&self.vertices, &self.edges, self.next_vertex, self.next_edge)
-            == (&other.vertices, &other.edges, other.next_vertex, other.next_edge)
     }
 }
 
@@ -115,7 +105,6 @@ impl Experience {
                 return Err(ExperienceError::Edge(id));
             }
         }
-        graph.is_index_stale = true;
         Ok(graph)
     }
 
@@ -153,24 +142,18 @@ impl Experience {
         Some(path)
     }
 
-    /// The vertices in order of their distance to a configuration (the paper's heuristic h1).
-    pub fn by_distance(&mut self, to: &[f64]) -> Vec<VertexId> {
-        if self.is_index_stale {
-            self.index = Nearest::default();
-            for vertex in self.vertices.values() {
-                self.index.insert(&vertex.at, vertex.id.0);
-            }
-            self.is_index_stale = false;
-        }
-        self.index.from(to).map(|(number, _)| VertexId(number)).collect()
+    /// The vertices in order of their distance to a configuration (the paper's heuristic h1); of equally far ones the lower number
+    /// first.
+    pub fn by_distance(&self, to: &[f64]) -> Vec<VertexId> {
+        let all = self.vertices.values().map(|vertex| (ByValue(distance(&vertex.at, to)), vertex.id));
+        let mut all: Vec<(ByValue, VertexId)> = all.collect();
+        all.sort_unstable();
+        all.into_iter().map(|(_, id)| id).collect()
     }
 
     pub(super) fn add_vertex(&mut self, at: Configuration, tag: Option<TagPoint>, made_task: u32) -> &Vertex {
         let id = VertexId(self.next_vertex);
         self.next_vertex += 1;
-        if !self.is_index_stale {
-            self.index.insert(&at, id.0);
-        }
         self.vertices.entry(id).or_insert(Vertex { id, at, tag, made_task })
     }
 
@@ -214,7 +197,6 @@ impl Experience {
 
     /// Takes a vertex out; its edges have to be out before.
     pub(super) fn remove_vertex(&mut self, id: VertexId) -> Option<Vertex> {
-        self.is_index_stale = true;
         self.vertices.remove(&id)
     }
 
@@ -224,7 +206,6 @@ impl Experience {
 
     /// Moves a vertex; nothing is known any more of its edges, which go straight from now on.
     pub(super) fn move_vertex(&mut self, id: VertexId, at: Configuration) {
-        self.is_index_stale = true;
         if let Some(vertex) = self.vertices.get_mut(&id) {
             vertex.at = at;
         }

@@ -1,4 +1,6 @@
 //! Largest matchings and independent sets of bipartite graphs (Hopcroft and Karp 1973; König 1931).
+//!
+//! petgraph finds such matchings, too, by `dinics`; but it looks at all vertices anew for each path that it grows.
 
 /// A bipartite graph: for each left vertex its neighbours on the right.
 pub(super) struct Graph {

@@ -23,14 +23,14 @@ use crate::search::Csr;
 
 /// A door that is open, passed one way.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage<'g> {
+pub struct OpenDoor<'g> {
     from: usize,
     to: usize,
     door: usize,
     hardness: &'g f64,
 }
 
-impl EdgeRef for Passage<'_> {
+impl EdgeRef for OpenDoor<'_> {
     type NodeId = usize;
     type EdgeId = usize;
     type Weight = f64;
@@ -54,7 +54,7 @@ impl EdgeRef for Passage<'_> {
 
 /// The passages out of some rooms, or into one.
 #[derive(Clone, Debug)]
-pub struct Passages<'g> {
+pub struct OpenDoors<'g> {
     graph: &'g RouteGraph,
     room: usize,
     direction: Direction,
@@ -63,7 +63,7 @@ pub struct Passages<'g> {
     rooms: Range<usize>,
 }
 
-impl<'g> Passages<'g> {
+impl<'g> OpenDoors<'g> {
     fn of(graph: &'g RouteGraph, room: usize, direction: Direction) -> Self {
         let exits = match direction {
             Direction::Outgoing => graph.exits(room),
@@ -73,10 +73,10 @@ impl<'g> Passages<'g> {
     }
 }
 
-impl<'g> Iterator for Passages<'g> {
-    type Item = Passage<'g>;
+impl<'g> Iterator for OpenDoors<'g> {
+    type Item = OpenDoor<'g>;
 
-    fn next(&mut self) -> Option<Passage<'g>> {
+    fn next(&mut self) -> Option<OpenDoor<'g>> {
         loop {
             for exit in self.exits.by_ref() {
                 let (door, other) = (exit.door as usize, exit.to as usize);
@@ -88,7 +88,7 @@ impl<'g> Iterator for Passages<'g> {
                     Direction::Outgoing => (self.room, other),
                     Direction::Incoming => (other, self.room),
                 };
-                return Some(Passage { from, to, door, hardness });
+                return Some(OpenDoor { from, to, door, hardness });
             }
             self.room = self.rooms.next()?;
             self.exits = self.graph.exits(self.room);
@@ -200,38 +200,38 @@ impl<'g> IntoNodeReferences for &'g RouteGraph {
 }
 
 impl<'g> IntoEdgeReferences for &'g RouteGraph {
-    type EdgeRef = Passage<'g>;
-    type EdgeReferences = Passages<'g>;
+    type EdgeRef = OpenDoor<'g>;
+    type EdgeReferences = OpenDoors<'g>;
 
-    fn edge_references(self) -> Passages<'g> {
+    fn edge_references(self) -> OpenDoors<'g> {
         let exits = [].iter().chain(&[]);
-        Passages { graph: self, room: 0, direction: Direction::Outgoing, exits, rooms: 0..self.rooms.len() }
+        OpenDoors { graph: self, room: 0, direction: Direction::Outgoing, exits, rooms: 0..self.rooms.len() }
     }
 }
 
 impl<'g> IntoEdges for &'g RouteGraph {
-    type Edges = Passages<'g>;
+    type Edges = OpenDoors<'g>;
 
-    fn edges(self, room: usize) -> Passages<'g> {
-        Passages::of(self, room, Direction::Outgoing)
+    fn edges(self, room: usize) -> OpenDoors<'g> {
+        OpenDoors::of(self, room, Direction::Outgoing)
     }
 }
 
 impl<'g> IntoEdgesDirected for &'g RouteGraph {
-    type EdgesDirected = Passages<'g>;
+    type EdgesDirected = OpenDoors<'g>;
 
-    fn edges_directed(self, room: usize, direction: Direction) -> Passages<'g> {
-        Passages::of(self, room, direction)
+    fn edges_directed(self, room: usize, direction: Direction) -> OpenDoors<'g> {
+        OpenDoors::of(self, room, direction)
     }
 }
 
-type Neighbours<'g> = Map<Passages<'g>, fn(Passage<'g>) -> usize>;
+type Neighbours<'g> = Map<OpenDoors<'g>, fn(OpenDoor<'g>) -> usize>;
 
 impl<'g> IntoNeighbors for &'g RouteGraph {
     type Neighbors = Neighbours<'g>;
 
     fn neighbors(self, room: usize) -> Neighbours<'g> {
-        self.edges(room).map(|passage| passage.to)
+        self.edges(room).map(|door| door.to)
     }
 }
 
@@ -239,9 +239,9 @@ impl<'g> IntoNeighborsDirected for &'g RouteGraph {
     type NeighborsDirected = Neighbours<'g>;
 
     fn neighbors_directed(self, room: usize, direction: Direction) -> Neighbours<'g> {
-        let neighbour: fn(Passage<'g>) -> usize = match direction {
-            Direction::Outgoing => |passage| passage.to,
-            Direction::Incoming => |passage| passage.from,
+        let neighbour: fn(OpenDoor<'g>) -> usize = match direction {
+            Direction::Outgoing => |door| door.to,
+            Direction::Incoming => |door| door.from,
         };
         self.edges_directed(room, direction).map(neighbour)
     }

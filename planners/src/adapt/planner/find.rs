@@ -10,7 +10,7 @@ use crate::random::Random;
 
 impl Adapt {
     /// The vertices in the order in which a goal tries them; `from` is the vertex where the robot is.
-    fn in_order(&mut self, goal: &[f64], from: Option<VertexId>) -> Vec<VertexId> {
+    fn in_order(&self, goal: &[f64], from: Option<VertexId>) -> Vec<VertexId> {
         let by_distance = self.experience.by_distance(goal);
         match (self.settings.heuristic, from) {
             (Heuristic::ShortestWay, Some(from)) => {
