@@ -112,7 +112,7 @@ fn missions(plan: &FloorPlan, learned: &Learned, start: Point) {
         let Some(mission) = draw(plan, &given.network, learned.radius_m, number) else { continue };
         let outcomes = [&given, &known].map(|building| {
             mission
-                .run_among(&given.walls, building, &outfit, &mut table::Table, |_| {}, None)
+                .run(&given.walls, building, &outfit, &mut table::Table, |_| {}, None)
                 .unwrap_or_else(|error| panic!("mission {number}: {error}"))
         });
         let has_arrived = outcomes.each_ref().map(|outcome| outcome.ending == Ending::Arrived);

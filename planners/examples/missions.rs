@@ -90,7 +90,8 @@ fn watch(path: &str, number: u64) {
             what => println!("{at} {what:?}"),
         }
     };
-    let outcome = mission.run(&building, &outfit, &mut table::Table, journal, Some(&mut film));
+    let outcome =
+        mission.run(&building.walls, &building, &outfit, &mut table::Table, journal, Some(&mut film));
     println!("{outcome:?}");
     let file = format!("mission-{number}.svg");
     if let Some(film) = film {
@@ -104,7 +105,7 @@ fn table_of(path: &str, numbers: Range<u64>) {
     let run = |number: u64| {
         let (mission, possible) = mission(&plan, &building, &outfit, number)?;
         let start = Instant::now();
-        let outcome = mission.run(&building, &outfit, &mut table::Table, |_| {}, None);
+        let outcome = mission.run(&building.walls, &building, &outfit, &mut table::Table, |_| {}, None);
         let outcome = outcome.unwrap_or_else(|error| panic!("mission {number}: {error}"));
         let has_movers = mission.obstacles.iter().any(|obstacle| obstacle.course.is_some());
         Some(Case { number, outcome, possible, has_movers, wall_s: start.elapsed().as_secs_f64() })

@@ -167,7 +167,7 @@ fn judged(
 ) -> Result<Row> {
     let before = Instant::now();
     let outcome = mission
-        .run_among(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
+        .run(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let radius = stage.truth.network.disc.radius;

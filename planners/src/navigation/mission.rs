@@ -99,23 +99,11 @@ pub struct Possible {
 pub const ROOM_M: f64 = 0.10;
 
 impl Mission {
-    /// Runs the mission in a building that is as the robot knows it, but for the obstacles.
+    /// Runs the mission among walls, which may be others than those of the building that the robot knows.
     ///
     /// # Arguments
     /// `journal` gets every event; `film` gets a frame for each scan and for each event worth a caption.
     pub fn run(
-        &self,
-        building: &Building,
-        outfit: &Outfit,
-        judge: &mut impl Judge,
-        journal: impl FnMut(Entry),
-        film: Option<&mut Option<Film>>,
-    ) -> Result<Outcome, SimulationError> {
-        self.run_among(&building.walls, building, outfit, judge, journal, film)
-    }
-
-    /// As [`Self::run`], among walls that may be others than those that the robot knows of.
-    pub fn run_among(
         &self,
         walls: &[Segment],
         building: &Building,

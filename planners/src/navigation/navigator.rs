@@ -254,15 +254,6 @@ impl<'b> Navigator<'b> {
         self.gather();
     }
 
-    /// Goes on until a mission is over. Only for a goal that was given.
-    pub fn run(&mut self, body: &mut impl Body, judge: &mut impl Judge) -> Ending {
-        loop {
-            if let Some(ending) = self.step(body, judge) {
-                return ending;
-            }
-        }
-    }
-
     /// Waits for the next reading, asks the judge, and does what it says.
     ///
     /// # Returns

@@ -24,7 +24,7 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
         for number in 0..MISSIONS {
             let mission = draw(&plan, &building.network, outfit.robot.radius_m, number).unwrap();
             let Some(possible) = mission.possible(&plan, outfit.robot.radius_m) else { continue };
-            let outcome = mission.run(&building, &outfit, &mut Table, |_| {}, None).unwrap();
+            let outcome = mission.run(&building.walls, &building, &outfit, &mut Table, |_| {}, None).unwrap();
             let told = format!("{name} {number}: {possible:?} {outcome:?}");
             assert!(outcome.overlap_m < 1e-6, "{told}");
             match outcome.ending {

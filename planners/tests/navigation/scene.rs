@@ -88,7 +88,8 @@ pub fn run(mission: &Mission) -> Run {
 pub fn run_with(mission: &Mission, outfit: &Outfit, judge: &mut impl Judge) -> Run {
     let building = building(&two_rooms());
     let mut journal = Vec::new();
-    let outcome = mission.run(&building, outfit, judge, |entry| journal.push(entry), None).unwrap();
+    let outcome =
+        mission.run(&building.walls, &building, outfit, judge, |entry| journal.push(entry), None).unwrap();
     Run { outcome, journal }
 }
 
