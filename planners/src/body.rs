@@ -22,21 +22,18 @@ pub enum Command {
     Turn { by: f64 },
     /// To go straight: ahead, or back where the distance is below 0. It ends early where the skirt touches something.
     Move {
-        /// How far, metres.
         distance_m: f64,
         /// How fast, metres a second. The body's own greatest speed is not exceeded.
         speed_m_s: f64,
     },
 }
 
-/// What a body sensed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sensed {
     /// Seconds since the body was switched on.
     pub time_s: f64,
     /// Where the wheels' count puts the robot, beginning from the pose 0, 0, 0 when it was switched on.
     pub odometry: Pose,
-    /// The newest reading of the sonar.
     pub reading: Reading,
     /// What the skirt feels; nothing is felt any more once the robot has moved off.
     pub contact: Option<Contact>,
@@ -44,7 +41,6 @@ pub struct Sensed {
     pub is_busy: bool,
 }
 
-/// One reading of the sonar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// Where the beam went: radians from the heading, counter-clockwise.

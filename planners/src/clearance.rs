@@ -51,7 +51,6 @@ impl Solid {
 }
 
 impl Solids {
-    /// Everything solid of a world.
     pub fn new(world: &World) -> Self {
         let drawn = world.obstacles.iter().map(|obstacle| Solid::new(&obstacle.shape, None));
         let pictured = world.occupancy.iter().flat_map(|cells| cells.rectangles());

@@ -2,12 +2,10 @@
 
 use crate::geometry::Rect;
 
-/// The boundary that two rectangles share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharedEdge {
     /// Index of one rectangle, the lower one.
     pub first: usize,
-    /// Index of the other one.
     pub second: usize,
     /// The shared segment, in metres: a rectangle without extent along one axis.
     pub segment: Rect,

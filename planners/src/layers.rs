@@ -41,7 +41,6 @@ pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
 
-/// All layers of a world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layers {
     /// The cells in which they were cut.

@@ -10,9 +10,7 @@ use crate::world::{Property, World};
 pub use coverage::RoomsInOverlays;
 pub(crate) use members::{GIVES as MEMBERS_GIVE, member_facts};
 
-/// The class of the named areas.
 pub const AREAS: &str = "AREAS";
-/// The class of the named doors.
 pub const NAMED_DOORS: &str = "NAMED_DOORS";
 
 /// Properties that every object of these classes has, known or not, so that rules may speak of them.

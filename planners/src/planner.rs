@@ -15,14 +15,12 @@ pub struct Signature {
 }
 
 impl Signature {
-    /// A signature from names as `CLASS.property`.
     pub fn new(needs: &[&str], gives: &[&str]) -> Self {
         let owned = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
         Self { needs: owned(needs), gives: owned(gives) }
     }
 }
 
-/// Why a planner gave no facts.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PlannerError {

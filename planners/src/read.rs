@@ -34,7 +34,6 @@ pub enum Unknown {
 /// How a site wants its map to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct MapSettings {
-    /// What unknown cells count as.
     pub unknown: Unknown,
     /// Blobs of wall cells with a smaller area are dropped, square metres; 0 drops none.
     pub speck_area: f64,

@@ -12,7 +12,6 @@ pub struct RectIndex {
 }
 
 impl RectIndex {
-    /// Numbers rectangles from 0.
     pub fn new(rects: impl IntoIterator<Item = Rect>) -> Self {
         let item = |(number, r): (u32, Rect)| {
             GeomWithData::new(Rectangle::from_corners([r.x0, r.y0], [r.x1, r.y1]), number)

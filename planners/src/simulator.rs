@@ -310,7 +310,6 @@ impl Simulator {
         Reading { bearing, range_m, odometry: self.odometry }
     }
 
-    /// What the skirt feels now.
     fn contact(&self) -> Option<Contact> {
         let (at, radius) = (self.pose.at, self.settings.radius_m);
         let walls = self.walls.around(at, radius + SNAP_M);

@@ -49,12 +49,10 @@ impl Strips {
         (Self { x, y }, columns.into_iter().zip(rows).map(block).collect())
     }
 
-    /// Number of vertical strips.
     pub fn columns(&self) -> u32 {
         self.x.len().saturating_sub(1) as u32
     }
 
-    /// Number of horizontal strips.
     pub fn rows(&self) -> u32 {
         self.y.len().saturating_sub(1) as u32
     }

@@ -161,12 +161,10 @@ pub struct Bridge {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Its name, unique in the map.
     pub name: String,
     pub at: Point,
 }
 
-/// A pose in the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Pose {
     /// Metres.

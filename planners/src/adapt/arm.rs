@@ -59,7 +59,6 @@ impl Arm {
         Ok(Self { base, lengths, radius, limits })
     }
 
-    /// Where the first joint is, metres.
     pub fn base(&self) -> Point {
         self.base
     }

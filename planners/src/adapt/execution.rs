@@ -5,7 +5,6 @@ use super::robot::{Configuration, Link, Robot, links_between};
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, polygon};
 
-/// Where a path is in collision.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Collision {
     /// The motion, counted from 0: the one from this configuration of the path to the next.

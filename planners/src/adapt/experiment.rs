@@ -46,7 +46,6 @@ pub struct Experiment<'e> {
     pub judge: &'e (dyn Fn() -> Box<dyn Judge> + Sync),
     /// The seconds that went by since some time, since this crate has no clock.
     pub clock: &'e (dyn Fn() -> f64 + Sync),
-    /// Told after each run.
     pub progress: &'e (dyn Fn() + Sync),
 }
 
@@ -73,7 +72,6 @@ pub struct Row {
     pub seconds: f64,
     /// Calls of Solve up to its end, mean.
     pub solves: f64,
-    /// Runs in which it found no path.
     pub failures: u32,
 }
 
@@ -87,7 +85,6 @@ pub struct Curve {
     pub solves: Vec<Vec<u64>>,
 }
 
-/// One task of one run.
 struct Sample {
     evaluations: u64,
     solves: u64,
@@ -211,7 +208,6 @@ fn curve(runs: &[Vec<Sample>]) -> Curve {
     }
 }
 
-/// A judge whose strategy is given.
 struct Fixed {
     strategy: Strategy,
     judge: Box<dyn Judge>,

@@ -32,7 +32,6 @@ pub struct ChangeFacts {
     pub tasks: u32,
     /// Vertices of the experience graph, without those that were dropped because of the change.
     pub vertices: u32,
-    /// Vertices that moved along with an object.
     pub vertices_moved: u32,
     /// Vertices that could not go along, and were dropped.
     pub vertices_dropped: u32,

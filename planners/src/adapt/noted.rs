@@ -26,7 +26,6 @@ pub enum Noted {
     EdgeVerified(Edge),
     /// Nothing is known any more of a connection, since an end of it moved: it is now as told.
     EdgeLoosened(Edge),
-    /// A connection was taken out.
     EdgeRemoved {
         id: EdgeId,
         ends: (VertexId, VertexId),

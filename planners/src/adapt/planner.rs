@@ -138,7 +138,6 @@ impl Adapt {
         path
     }
 
-    /// The configuration of a vertex.
     fn at(&self, id: VertexId) -> Configuration {
         self.experience.vertex(id).map_or_else(Vec::new, |vertex| vertex.at.clone())
     }

@@ -46,7 +46,6 @@ pub(super) fn lengths(experience: &Experience, from: VertexId) -> BTreeMap<Verte
     ways.nodes.iter().filter_map(|(id, node)| Some((*id, *lengths.get(node)?))).collect()
 }
 
-/// The vertices that hang together with one.
 pub(super) fn component(experience: &Experience, of: VertexId) -> BTreeSet<VertexId> {
     lengths(experience, of).into_keys().collect()
 }

@@ -185,7 +185,6 @@ impl Placed {
     }
 }
 
-/// Refuses objects that are no cell.
 pub(super) fn check<'o>(objects: impl IntoIterator<Item = &'o Object>) -> Result<(), WorkcellError> {
     let mut names = BTreeSet::new();
     for object in objects {

@@ -37,7 +37,6 @@ pub(super) struct Corner {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     pub direction: Point,
-    /// The node that is seen.
     pub node: Option<u32>,
     /// The corner that a cut along it resolves as well as this one.
     pub resolves: Option<u32>,
@@ -149,7 +148,6 @@ impl Face {
             })
     }
 
-    /// Finds the sights of all corners.
     pub fn look_around(&mut self) {
         let mut corner_at = vec![None; self.points.len()];
         for (number, corner) in (0_u32..).zip(&self.corners) {

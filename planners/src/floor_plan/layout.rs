@@ -11,13 +11,22 @@ use crate::geometry::tolerance::ROUNDING_M;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
     /// On from the wall (or earlier cut) where the free space of a corner begins, counterclockwise.
-    First { corner: u32 },
+    First {
+        corner: u32,
+    },
     /// On from the wall where it ends.
-    Last { corner: u32 },
-    /// Along a sight.
-    Towards { corner: u32, sight: u32 },
+    Last {
+        corner: u32,
+    },
+    Towards {
+        corner: u32,
+        sight: u32,
+    },
     /// Along a sight to both sides, also where nothing has to be resolved.
-    Through { corner: u32, sight: u32 },
+    Through {
+        corner: u32,
+        sight: u32,
+    },
 }
 
 impl Cut {

@@ -17,7 +17,6 @@ type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// Triangles merged in the best of some orders.
 pub(super) struct Merged {
-    /// How many regions are left.
     pub regions: usize,
     /// The diagonals that stay, by the face's nodes.
     pub diagonals: Vec<[u32; 2]>,

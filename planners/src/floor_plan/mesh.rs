@@ -30,7 +30,6 @@ pub(super) struct Opening {
     pub doorway: usize,
     /// The ends, so that the doorway's first region lies to the left.
     pub ends: [Point; 2],
-    /// The triangles in the doorway's regions.
     pub triangles: [u32; 2],
 }
 

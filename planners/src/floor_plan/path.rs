@@ -25,7 +25,6 @@ pub enum Rule {
     Tight,
 }
 
-/// A path for a disc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     /// The centre of the disc goes straight from each to the next.

@@ -72,12 +72,10 @@ impl Planar {
         twice.sum::<f64>() / 2.0
     }
 
-    /// The node where a half-edge begins.
     pub fn tail(&self, half: u32) -> u32 {
         self.edges[half as usize / 2].ends[half as usize % 2]
     }
 
-    /// The node where a half-edge ends.
     pub fn head(&self, half: u32) -> u32 {
         self.tail(half ^ 1)
     }
@@ -101,7 +99,6 @@ impl Planar {
         std::iter::successors(Some(first), step)
     }
 
-    /// Whether a point lies inside an outline.
     pub fn is_inside(&self, cycle: u32, p: Point) -> bool {
         let sides = self.along(cycle).map(|half| Segment::new(self.from(half), self.to(half)));
         polygon::encloses(sides, p)

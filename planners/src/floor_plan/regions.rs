@@ -37,7 +37,6 @@ pub struct Doorway {
 }
 
 impl Doorway {
-    /// Its length, metres.
     pub fn width(&self) -> f64 {
         self.from.distance(self.to)
     }
@@ -90,7 +89,6 @@ impl Regions {
     }
 }
 
-/// The free faces that are not convex.
 fn non_convex_faces(plan: &Planar, free_half: &[bool]) -> Vec<Face> {
     let mut of_face: Vec<Vec<u32>> = vec![Vec::new(); plan.cycles.len()];
     for (cycle, face) in (0..).zip(plan.faces()) {

@@ -4,7 +4,6 @@
 use super::{Point, Rect, Segment, cross};
 use crate::search::Csr;
 
-/// The most cells a grid has.
 const MOST_CELLS: f64 = 1_000_000.0;
 
 /// Segments on one line have a grid so wide, metres.

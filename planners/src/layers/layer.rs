@@ -78,7 +78,6 @@ impl Layer {
     }
 }
 
-/// A layer among all of them.
 pub(super) struct Placed {
     pub(super) state: usize,
     pub(super) facing: Option<usize>,

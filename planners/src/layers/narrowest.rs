@@ -7,7 +7,6 @@ use crate::search::bottleneck::best_way;
 use crate::search::grid::beside;
 use crate::world::World;
 
-/// The narrowest point of the widest way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Narrowest {
     /// Width of the widest disc that passes, metres, clearance not taken off.

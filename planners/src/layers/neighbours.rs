@@ -3,7 +3,6 @@
 use crate::search::Csr;
 use crate::strips::Block;
 
-/// No room.
 const NOBODY: u32 = u32::MAX;
 
 /// The room of each cell of one layer.

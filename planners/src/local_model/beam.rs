@@ -32,12 +32,10 @@ impl Beam {
         }
     }
 
-    /// The point so far along the beam.
     pub fn at(&self, range_m: f64) -> Point {
         self.from + self.towards * range_m
     }
 
-    /// Where the echo came from.
     pub fn echo(&self) -> Option<Point> {
         self.range_m.map(|range| self.at(range))
     }

@@ -14,7 +14,6 @@ use crate::pose::{Pose, wrapped};
 pub(super) struct Correction {
     information: Matrix3<f64>,
     weighted: Vector3<f64>,
-    /// How many observations there are.
     pub count: usize,
 }
 

@@ -7,7 +7,6 @@ use super::beam::Beam;
 /// No echo is exact, however the beam runs: standard deviation, metres.
 const LEAST_M: f64 = 1e-3;
 
-/// A line through echoes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     /// The weighted middle of the echoes, on the line.

@@ -17,13 +17,11 @@ pub struct Object {
     pub at: Point,
     /// How far its echoes lie apart, metres.
     pub size_m: f64,
-    /// When it was last seen, seconds.
     pub seen_s: f64,
     /// Where it goes: metres a second along x and y.
     pub velocity: Point,
     /// Whether it was seen to go from one place to another.
     pub is_moving: bool,
-    /// Scans since it was last seen.
     pub unseen: u32,
 }
 
@@ -119,7 +117,6 @@ impl Objects {
         id
     }
 
-    /// Whether an object is known to move.
     pub fn is_moving(&self, id: ObjectId) -> bool {
         self.list.iter().any(|object| object.id == id && object.is_moving)
     }
@@ -140,7 +137,6 @@ impl Object {
     }
 }
 
-/// Whether a beam went towards a place.
 fn is_looked_at(place: Point, beams: &[Beam], settings: &Settings) -> bool {
     beams
         .iter()

@@ -45,7 +45,6 @@ fn part(segments: &mut [ModelSegment], one: usize, end: usize) {
     }
 }
 
-/// Forgets joints with segments that are gone.
 pub(super) fn forget(segments: &mut [ModelSegment], gone: &[SegmentId]) {
     if gone.is_empty() {
         return;

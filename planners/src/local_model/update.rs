@@ -22,7 +22,6 @@ pub struct Update {
     pub correction: Pose,
     /// By how many observations: segments give two each, predicted readings one.
     pub observations: usize,
-    /// Segments that the scan showed.
     pub seen: usize,
     /// How many of them lie on the model.
     pub matched: usize,

@@ -12,7 +12,6 @@ pub(super) struct Detours {
 }
 
 impl Detours {
-    /// The length of the shorter one.
     pub fn shortest_m(&self) -> Option<f64> {
         self.left.iter().chain(&self.right).map(|points| path_length(points)).min_by(f64::total_cmp)
     }

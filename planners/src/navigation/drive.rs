@@ -24,7 +24,6 @@ pub enum Order {
     Go(Point),
 }
 
-/// How a drive went.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Driven {
     /// The places that were named, where the robot thought that they are.

@@ -42,7 +42,6 @@ pub enum Happening {
         /// Whether it was found through free space as it is known, the network having none.
         is_off_network: bool,
     },
-    /// A detour was taken.
     Detour {
         /// From where the robot is back to its path.
         points: Vec<Point>,
@@ -50,7 +49,6 @@ pub enum Happening {
         /// Metres of the other one; `None` where it is not free.
         other_m: Option<f64>,
     },
-    /// A way was reported closed.
     WayClosed {
         at: Point,
         /// The doorway in which that is, by index.
@@ -65,7 +63,6 @@ pub enum Happening {
     Ended(Ending),
 }
 
-/// How a mission ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ending {
     Arrived,

@@ -30,7 +30,6 @@ pub enum State {
     Move,
     /// It stands until a whole scan is taken.
     Wait,
-    /// Something is in the way.
     Blocked,
 }
 
@@ -49,7 +48,6 @@ pub enum Action {
     Close,
     /// To forget what was seen of obstacles, and to begin anew from here.
     Retry,
-    /// To report that there is no way.
     NoWay,
 }
 
@@ -99,7 +97,6 @@ pub struct StateFacts {
     pub settings: Settings,
 }
 
-/// What is done next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateDecision {
     /// The next state; it may be the same.

@@ -67,7 +67,6 @@ fn obstacles<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<It
     unknown.filter(move |segment| !is_moving(model, segment, firm))
 }
 
-/// Surfaces of things that move.
 pub(super) fn moving<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<Item = Segment> + 'm {
     let firm = settings.firm_confidence;
     let moving = model.segments().iter().filter(move |segment| is_moving(model, segment, firm));

@@ -59,7 +59,6 @@ pub struct Entry {
     pub truth: Pose,
 }
 
-/// What came of a mission.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     pub ending: Ending,
@@ -67,7 +66,6 @@ pub struct Outcome {
     pub path_m: f64,
     /// Times that a way was closed and another one looked for.
     pub replans: u32,
-    /// Detours that were taken.
     pub detours: u32,
     /// Seconds by the body's clock.
     pub simulated_s: f64,

@@ -13,7 +13,6 @@ use crate::geometry::{Point, Rect, path_length};
 const RINGS_M: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5];
 const A_RING: usize = 12;
 
-/// A path to the goal.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Route {
     pub points: Vec<Point>,

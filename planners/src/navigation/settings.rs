@@ -15,7 +15,6 @@ pub struct Settings {
     pub look_ahead_m: f64,
     /// The robot goes no farther without a look around, metres.
     pub stride_m: f64,
-    /// How fast it goes, metres a second.
     pub speed_m_s: f64,
     /// Readings of the sonar that make a whole scan.
     pub scan_readings: usize,

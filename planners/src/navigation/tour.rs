@@ -16,7 +16,6 @@ pub struct Tour {
     pub start: Pose,
     /// Where it goes, one after the other, and from the last to the first again.
     pub stops: Vec<Point>,
-    /// How far it goes, metres.
     pub far_m: f64,
     /// Of the errors of wheels and sonar.
     pub seed: u64,

@@ -177,7 +177,6 @@ impl Fields<'_, '_> {
         (all.len() == entries.len()).then(|| Located { value: all, span: value.span() })
     }
 
-    /// Finite numbers in a list.
     pub fn list(
         &self,
         key: &str,

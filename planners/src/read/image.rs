@@ -80,7 +80,6 @@ pub(crate) fn read_image(source: &Text, file: &MapFile, folder: &Path) -> Result
 
 /// Why an image is no map.
 enum Refused {
-    /// Its bytes make no image.
     Image(ImageError),
     /// It is an image, but not one of a map.
     Map(Problem),

@@ -58,7 +58,6 @@ impl Overlay {
         }
     }
 
-    /// Whether there is nothing to lay.
     pub fn is_empty(&self) -> bool {
         let drawn = self.obstacles.is_empty() && self.bridges.is_empty();
         drawn && self.places.is_empty() && self.areas.is_empty() && self.doors.is_empty()

@@ -11,7 +11,6 @@ pub(super) struct Taken {
     entries: Vec<Entry>,
 }
 
-/// A block in one of its buckets.
 struct Entry {
     block: Block,
     /// The entry before this one in the same bucket.

@@ -20,7 +20,6 @@ pub(super) struct Gap {
 /// In which directions a point looks into a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum View {
-    /// All.
     All,
     /// To one side of the line on which it was reached from `from`.
     Side {
@@ -86,7 +85,6 @@ impl View {
         }
     }
 
-    /// Whether a point is seen from `root`.
     pub fn sees(&self, root: Point, p: Point) -> bool {
         let slack = EPSILON * root.distance(p).max(EPSILON);
         match self {

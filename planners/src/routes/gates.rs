@@ -16,7 +16,6 @@ const THIN_M: f64 = 0.3;
 /// By what a way may go on.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Further {
-    /// By doors.
     Doors,
     /// By doors, and by another change of shape into a state that has room beyond.
     AllWays,
@@ -230,7 +229,6 @@ fn is_same(a: &Rect, b: &Rect) -> bool {
     pairs.iter().all(|(a, b)| (a - b).abs() <= EPSILON)
 }
 
-/// The sides of a change's area.
 pub(super) fn sides(area: &Rect) -> [Segment; 4] {
     let [a, b, c, d] = [
         Point::new(area.x0, area.y0),

@@ -10,7 +10,6 @@ use super::parts::{Passing, RouteDoor, RouteRoom, Walking};
 use crate::geometry::Rect;
 use crate::search::Csr;
 
-/// Rooms joined by doors.
 #[derive(Clone, Debug)]
 pub struct RouteGraph {
     pub(super) rooms: Vec<RouteRoom>,
@@ -204,7 +203,6 @@ impl RouteGraph {
         }
     }
 
-    /// Whether a route may enter the room.
     pub(super) fn is_entered(&self, room: usize) -> bool {
         self.rooms()[room].walking != Walking::Unknown
     }
@@ -231,7 +229,6 @@ pub(super) struct Gate {
     pub is_deep: bool,
 }
 
-/// A closed boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closed {
     /// Key of the door that is closed.

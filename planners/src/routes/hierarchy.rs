@@ -40,7 +40,6 @@ impl Hierarchy {
         Self { topology, metric }
     }
 
-    /// Weighs doors anew, by index.
     pub fn reweigh(&mut self, doors: impl Iterator<Item = (u32, [f64; 2])>) {
         let is_other = |(door, passing): &(u32, [f64; 2])| {
             self.metric.passing[*door as usize].map(f64::to_bits) != passing.map(f64::to_bits)

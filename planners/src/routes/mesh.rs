@@ -16,7 +16,6 @@ pub(super) const NONE: u32 = u32::MAX;
 /// Two points closer than this are one, metres.
 pub(super) const EPSILON: f64 = ROUNDING_M;
 
-/// A way out of a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exit {
     /// The door, by index.
@@ -68,7 +67,6 @@ impl Mesh {
         Self { portals, changes, changes_into, layer, ends, at_end, points }
     }
 
-    /// How many ends of doors there are.
     pub fn ends_count(&self) -> usize {
         self.points.len()
     }

@@ -11,7 +11,6 @@ use crate::geometry::Point;
 pub struct Arrival {
     /// The room before and the door passed, both by index; `None` where the search began.
     pub from: Option<(usize, usize)>,
-    /// Total hardness on arrival.
     pub cost: f64,
     pub hops: u32,
 }

@@ -51,7 +51,6 @@ pub(super) struct Node {
     pub view: View,
 }
 
-/// Where a goal was reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     pub node: u32,
@@ -70,14 +69,10 @@ pub(super) struct Outcome {
     pub rooms: Vec<Option<Found>>,
 }
 
-/// What a search has to find.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wanted {
-    /// The cheapest goal.
     One,
-    /// Every goal.
     Goals,
-    /// Every goal, and every room.
     Rooms,
 }
 

@@ -25,7 +25,6 @@ impl Leg {
     }
 }
 
-/// The ways from one start.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Ways {
     /// To each goal, in their order; `None` where it is not reached.
@@ -39,7 +38,6 @@ pub struct Ways {
 pub struct Way {
     /// At least one.
     pub legs: Vec<Leg>,
-    /// Total hardness.
     pub cost: f64,
 }
 

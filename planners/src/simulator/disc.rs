@@ -9,7 +9,6 @@ pub(super) const HAIR_M: f64 = ROUNDING_M;
 /// A way along what is touched leads towards it by no larger a cosine: what rounding leaves of 0.
 const ACROSS: f64 = 1e-12;
 
-/// What a disc touched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Touch {
     /// Share of the way until then.

@@ -21,7 +21,6 @@ pub enum SimulationError {
         /// How far from its middle.
         gap_m: f64,
         what: String,
-        /// Half the width of the robot.
         radius_m: f64,
     },
 }

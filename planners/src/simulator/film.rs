@@ -50,7 +50,6 @@ impl Simulator {
 }
 
 impl Film {
-    /// A film of a simulation, without frames.
     pub fn new(simulator: &Simulator) -> Self {
         Self {
             walls: simulator.walls.segments().to_vec(),
@@ -78,7 +77,6 @@ impl Film {
         }
     }
 
-    /// The frames so far.
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }

@@ -18,7 +18,6 @@ pub struct Obstacle {
 pub struct Course {
     /// Steps from where it begins, in metres: to the first of these points (as seen from the beginning), then the next.
     pub through: Vec<Point>,
-    /// How fast, metres a second.
     pub speed_m_s: f64,
     /// When it starts, seconds.
     pub starts_s: f64,
@@ -35,7 +34,6 @@ impl Obstacle {
         Self { corners, course: None }
     }
 
-    /// The same on a course.
     #[must_use]
     pub fn on(self, course: Course) -> Self {
         Self { course: Some(course), ..self }

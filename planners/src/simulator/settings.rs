@@ -1,9 +1,7 @@
 //! How good the simulated wheels and the simulated sonar are.
 
-/// Figures of a simulated robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Half the width of the robot, metres.
     pub radius_m: f64,
     pub greatest_speed_m_s: f64,
     /// How fast it turns, radians a second.

@@ -87,7 +87,6 @@ impl LowestTree {
         }
     }
 
-    /// Least rank on `column`.
     pub(super) fn at(&self, column: u32) -> u32 {
         let column = column as usize;
         self.columns[column].min(self.upwards(self.bucket(column)))

@@ -9,14 +9,12 @@ use crate::adapt::workcell::{Placed, WorkcellError, check};
 use crate::geometry::tolerance::ROUNDING;
 use crate::pose::wrapped;
 
-/// What a change of the cell did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Changed {
     pub facts: ChangeFacts,
     pub strategy: Strategy,
     /// Evaluations that the repair took at once.
     pub evaluations: u64,
-    /// Calls of Solve that it took.
     pub solves: u64,
 }
 

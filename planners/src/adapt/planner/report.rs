@@ -2,7 +2,6 @@
 
 use crate::adapt::robot::Configuration;
 
-/// How a task ended.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Outcome {

@@ -10,7 +10,6 @@ pub enum Heuristic {
     ShortestWay,
 }
 
-/// Parameters of the algorithm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     /// From which all numbers of chance come.

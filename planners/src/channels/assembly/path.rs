@@ -23,9 +23,7 @@ pub struct PartPath<const D: usize> {
 pub struct Leg<const D: usize> {
     /// The junction in which it ends (when the part is taken out); 0 for what comes after junction 1.
     pub junction: usize,
-    /// The rule by which it was chosen.
     pub rule: Option<f64>,
-    /// What the part moves by.
     pub displacement: [f64; D],
     /// The least distance from a wall, in metres.
     pub min_clearance: f64,
@@ -147,7 +145,6 @@ impl<const D: usize> Assembly<D> {
     }
 }
 
-/// A way in the making.
 struct Way<'a, const D: usize> {
     assembly: &'a Assembly<D>,
     part: Cuboid<D>,

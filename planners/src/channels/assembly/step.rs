@@ -11,7 +11,6 @@ pub struct StepFacts<const D: usize> {
     pub junction: Cuboid<D>,
     /// Junction I - 1, for which the part makes next; `None` at junction 1, from which it goes out.
     pub next: Option<Cuboid<D>>,
-    /// The part where it is now.
     pub part: Cuboid<D>,
     /// The axis of channel I + 1, along which the part enters the junction.
     pub entering: usize,

@@ -30,7 +30,6 @@ impl Axis {
         }
     }
 
-    /// A point's coordinate on it.
     pub(super) fn of(self, point: Point) -> f64 {
         match self {
             Self::X => point.x,

@@ -3,7 +3,6 @@
 use super::steer::{Steer, StepFacts, Turn};
 use crate::geometry::Point;
 
-/// A drive from start to goal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Lines and arcs in turn, from a line to a line.
@@ -64,7 +63,6 @@ pub struct TurnMade {
 }
 
 impl Primitive {
-    /// Metres that the robot's middle travels.
     pub fn length(&self) -> f64 {
         match *self {
             Self::Line { a, b, .. } => a.distance(b),

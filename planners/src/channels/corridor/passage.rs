@@ -2,11 +2,9 @@
 
 use std::fmt;
 
-/// Where a passage starts or ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum End {
     Start,
-    /// A junction, by number.
     Junction(usize),
     Goal,
 }

@@ -56,7 +56,6 @@ pub enum Extreme {
     Max,
 }
 
-/// The sense of a turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
     Left,
@@ -107,7 +106,6 @@ impl Offset {
 }
 
 impl Steer {
-    /// The corner of a junction.
     pub(super) fn corner_of(&self, rect: &Rect) -> Point {
         let pick = |extreme, min, max| if extreme == Extreme::Min { min } else { max };
         Point::new(pick(self.corner.0, rect.x0, rect.x1), pick(self.corner.1, rect.y0, rect.y1))

@@ -13,7 +13,6 @@ const TOUCH_TURNING: f64 = SNAP_M;
 /// Radians by which a heading may change unseen.
 const STRAIGHT: f64 = 1e-12;
 
-/// A robot among walls.
 pub(super) struct Sweep<'a> {
     body: Body,
     walls: &'a [Wall],
@@ -86,7 +85,6 @@ struct Orbit<'a> {
     circle: &'a Circle,
     /// Direction of travel at the start, of length 1.
     along: Point,
-    /// How far it turns.
     angle: Angle,
 }
 

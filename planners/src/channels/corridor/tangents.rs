@@ -6,13 +6,11 @@ use crate::geometry::tolerance::ROUNDING;
 /// Radians below which a way passes a circle by. Less is what rounding leaves of a turn by nothing.
 const NOISE: f64 = ROUNDING;
 
-/// A circle that the way touches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touched {
     /// Which of the circles it is; the first one is the start.
     pub index: usize,
     pub circle: Circle,
-    /// How far it is driven round it.
     pub angle: f64,
 }
 

@@ -19,7 +19,6 @@ pub struct Exploration {
     pub seed: u64,
 }
 
-/// What came of an exploration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explored {
     /// [`Ending::Arrived`] where no opening was left that was worth a look.

@@ -40,7 +40,6 @@ struct Target {
     from: Point,
 }
 
-/// A robot that learns a building.
 #[derive(Clone, Debug)]
 pub struct Explorer<'b> {
     navigator: Navigator<'b>,

@@ -10,17 +10,14 @@ pub(super) const GRAIN_M: f64 = 0.05;
 /// A cell by column and row; that of 0, 0 has its lower left corner in the origin.
 pub(super) type Cell = (i32, i32);
 
-/// The cell that holds a point.
 pub(super) fn cell_of(p: Point) -> Cell {
     ((p.x / GRAIN_M).floor() as i32, (p.y / GRAIN_M).floor() as i32)
 }
 
-/// The middle of a cell.
 pub(super) fn middle_of((column, row): Cell) -> Point {
     Point::new((f64::from(column) + 0.5) * GRAIN_M, (f64::from(row) + 0.5) * GRAIN_M)
 }
 
-/// A window of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Window {
     low: Cell,
@@ -61,7 +58,6 @@ impl Window {
         is_inside.then(|| y as usize * self.columns as usize + x as usize)
     }
 
-    /// The cell at a place.
     pub fn cell(&self, index: usize) -> Cell {
         let columns = self.columns.max(1) as usize;
         (self.low.0 + (index % columns) as i32, self.low.1 + (index / columns) as i32)
@@ -72,7 +68,6 @@ impl Window {
     }
 }
 
-/// Some cells of a window.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
     pub window: Window,
@@ -80,7 +75,6 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// None of a window.
     pub fn none(window: Window) -> Self {
         Self { window, bits: FixedBitSet::with_capacity(window.len()) }
     }

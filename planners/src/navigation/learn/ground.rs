@@ -25,7 +25,6 @@ const LOOKED_AT: usize = 12;
 pub(super) struct Rim {
     /// The cell nearest to the middle of all.
     pub middle: Point,
-    /// Some of its cells.
     points: Vec<Point>,
     /// From one end to the other, metres.
     pub width_m: f64,

@@ -21,7 +21,6 @@ pub struct Learned {
     pub walls: Vec<Segment>,
     /// What was never seen, where no wall lies before it: corners in order. It is not free.
     pub unseen: Vec<Vec<Point>>,
-    /// Places that the user named.
     pub places: Vec<Place>,
 }
 

@@ -2,7 +2,6 @@
 
 use crate::navigation::Judge;
 
-/// What is known of an opening.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OpeningFacts {
     /// Metres from one end to the other.
@@ -20,7 +19,6 @@ pub struct OpeningFacts {
     pub time_s: f64,
     /// Metres that the wheels have counted since then.
     pub driven_m: f64,
-    /// Half the width of the robot, metres.
     pub radius_m: f64,
 }
 

@@ -50,7 +50,6 @@ fn parts(walls: &[Segment], index: usize) -> Vec<Piece> {
     knots.windows(2).filter_map(|ends| piece(ends[0], ends[1])).collect()
 }
 
-/// Cuts until nothing changes.
 fn settle(pieces: &mut BTreeSet<Piece>) {
     for _ in 0..ROUNDS {
         let cut = cut(pieces);

@@ -27,7 +27,6 @@ pub struct Score {
     pub walls_off_m: [f64; 3],
     /// From true walls to the nearest learned one, or to what was left out, metres; likewise.
     pub walls_missed_m: [f64; 3],
-    /// Convex regions that were learned.
     pub regions: usize,
 }
 

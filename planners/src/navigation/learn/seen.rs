@@ -40,7 +40,6 @@ pub(in crate::navigation) struct Seen {
 }
 
 impl Seen {
-    /// The cells that were seen free.
     pub(super) fn free(&self) -> &Cells {
         &self.free
     }

@@ -3,7 +3,6 @@
 use super::super::diagnostic::{Code, Problem};
 use super::super::fields::{Fields, Located};
 
-/// The names that one text gives.
 #[derive(Default)]
 pub(super) struct Names {
     taken: Vec<(&'static str, Located<String>)>,

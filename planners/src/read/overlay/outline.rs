@@ -24,7 +24,6 @@ pub(super) fn shape(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Optio
     }
 }
 
-/// The `rect` of an item.
 pub(super) fn rect(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Located<Rect>> {
     let Located { value: [x0, y0, x1, y1], span } = item.numbers::<4>("rect", problems)?;
     if x0 < x1 && y0 < y1 {

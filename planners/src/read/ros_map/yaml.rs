@@ -106,7 +106,6 @@ impl Default for Negate {
     }
 }
 
-/// Reads and checks the file's text.
 pub(super) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
     let written: Written = serde_saphyr::from_str(text).map_err(|error| explain(source, &error))?;
     let mut problems = Vec::new();

@@ -28,7 +28,6 @@ pub(super) struct Slices<'a> {
     pub up: &'a mut [f64],
     pub down: &'a mut [f64],
     pub over: &'a mut [[u32; 2]],
-    /// The number of the first arc.
     pub first: usize,
 }
 

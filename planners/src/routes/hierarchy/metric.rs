@@ -74,7 +74,6 @@ impl Metric {
         ]
     }
 
-    /// Gives an arc another weight.
     pub fn set(&mut self, arc: u32, [up, down]: [Over; 2]) {
         (self.up[arc as usize], self.down[arc as usize]) = (up.weight, down.weight);
         self.over[arc as usize] = [up.over, down.over];

@@ -24,13 +24,11 @@ struct Part {
     neighbours: Csr<u32>,
 }
 
-/// Where a sweep halts.
 struct Halt {
     /// Rooms of the front, more where the sides are out of balance.
     price: f64,
     /// Rooms in the order of the sweep.
     swept: Vec<u32>,
-    /// So many of them have been passed.
     passed: usize,
     /// Whether the front is taken from the rooms passed.
     is_behind: bool,
@@ -132,7 +130,6 @@ impl Part {
         rooms
     }
 
-    /// Where a sweep halts best.
     fn halt(&self, swept: Vec<u32>) -> Halt {
         let count = swept.len();
         let mut turn = vec![0_usize; count];

@@ -35,7 +35,6 @@ thread_local! {
 /// An arc that may weigh something else.
 struct Touched {
     arc: u32,
-    /// What it weighed before.
     before: [Over; 2],
     /// Whether all ways have to be compared again, up and down.
     is_lost: [bool; 2],

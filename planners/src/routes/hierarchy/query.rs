@@ -26,7 +26,6 @@ pub(in crate::routes) struct Passed {
     pub door: u32,
     /// The room behind it, by index.
     pub room: u32,
-    /// What passing it weighs.
     pub weight: f64,
 }
 

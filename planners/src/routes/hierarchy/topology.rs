@@ -14,7 +14,6 @@ const NONE: u32 = u32::MAX;
 /// by its level. All rooms that hang below one have ranks next to each other.
 #[derive(Debug)]
 pub(super) struct Topology {
-    /// For each room its rank.
     pub rank: Vec<u32>,
     /// The room of each rank, by index.
     pub room: Vec<u32>,
@@ -99,7 +98,6 @@ impl Topology {
         all
     }
 
-    /// Lays each door under its arc.
     fn lay_doors(&mut self, doors: &[RouteDoor]) {
         self.first_door = vec![NONE; self.tails.len()];
         let mut by_key: Vec<u32> = (0..doors.len() as u32).collect();

@@ -12,11 +12,7 @@ pub enum FemaleError {
     #[error("the part is {found}; expected finite numbers, each minimum below its maximum")]
     PartIsNoBox { found: Cuboid<2> },
     #[error("the part {part} and the female part overlap: {wall} is solid")]
-    PartInWall {
-        part: Cuboid<2>,
-        /// What of the female part it meets.
-        wall: Cuboid<2>,
-    },
+    PartInWall { part: Cuboid<2>, wall: Cuboid<2> },
     #[error("the part {part} sticks out of the box {female} around the female part, to a side or below")]
     PartOutside { part: Cuboid<2>, female: Cuboid<2> },
     #[error("the part {part} is above the female part, which ends at z = {top}: it is disassembled")]
