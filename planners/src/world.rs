@@ -12,6 +12,7 @@ pub use named::{Area, NamedDoor, Property};
 pub use occupancy::Occupancy;
 
 use crate::geometry::{Point, Rect, polygon};
+use crate::pose::Pose;
 
 /// Everything a geometric planner may look at. Metres, in the map's frame; the edge of `bounds` is a wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,14 +164,4 @@ pub struct Bridge {
 pub struct Place {
     pub name: String,
     pub at: Point,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct Pose {
-    /// Metres.
-    pub x: f64,
-    /// Metres.
-    pub y: f64,
-    /// Radians, counterclockwise.
-    pub yaw: f64,
 }

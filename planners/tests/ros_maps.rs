@@ -89,12 +89,17 @@ fn the_report_says_what_each_step_gave_and_cost() {
 #[test]
 fn the_frame_turns_about_the_corner_of_the_image() {
     let (world, _) = Folder::new(YAML, PGM).read(&MapSettings::default()).unwrap();
-    assert!(is_about(world.frame.x, 0.0) && is_about(world.frame.y, 0.0) && is_about(world.frame.yaw, 0.0));
+    assert!(
+        is_about(world.frame.at.x, 0.0)
+            && is_about(world.frame.at.y, 0.0)
+            && is_about(world.frame.heading, 0.0)
+    );
     let turned = with("origin", "[-1.0, 2.0, 1.5707963267948966]");
     let (world, _) = Folder::new(&turned, PGM).read(&MapSettings::default()).unwrap();
-    let (sin, cos) = world.frame.yaw.sin_cos();
-    let ros =
-        |p: Point| Point::new(world.frame.x + cos * p.x - sin * p.y, world.frame.y + sin * p.x + cos * p.y);
+    let (sin, cos) = world.frame.heading.sin_cos();
+    let ros = |p: Point| {
+        Point::new(world.frame.at.x + cos * p.x - sin * p.y, world.frame.at.y + sin * p.x + cos * p.y)
+    };
     let corner = ros(Point::new(-1.0, 2.0));
     assert!(corner.distance(Point::new(-1.0, 2.0)) < 1e-9, "the corner stays");
     let right = ros(Point::new(1.0, 2.0));

@@ -153,8 +153,12 @@ impl Kept {
         tx.replace_rooms(&graph.rooms)?;
         tx.replace_doors(&graph.doors)?;
         tx.replace_places(&graph.places)?;
-        let frame =
-            Frame { frame: "map".to_owned(), x: world.frame.x, y: world.frame.y, yaw: world.frame.yaw };
+        let frame = Frame {
+            frame: "map".to_owned(),
+            x: world.frame.at.x,
+            y: world.frame.at.y,
+            yaw: world.frame.heading,
+        };
         tx.replace_frames(&[frame])?;
         tx.replace_rules(
             &rule_rows(&state.inputs.rules),

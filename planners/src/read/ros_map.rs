@@ -10,7 +10,8 @@ use super::image::read_image;
 use super::occupancy::{self, Cell};
 use super::{MapReport, MapSettings};
 use crate::geometry::Point;
-use crate::world::{Occupancy, Pose, World};
+use crate::pose::Pose;
+use crate::world::{Occupancy, World};
 
 pub(crate) use yaml::{MapFile, Pixel};
 
@@ -37,7 +38,7 @@ pub fn read_ros_map(
     let cells: Vec<Cell> = image.bottom_up().map(|pixel| file.classify(pixel)).collect();
     let mut report = occupancy::count(&cells, file.resolution, settings.unknown);
     let mut walls = Occupancy {
-        origin: Point::new(file.origin.x, file.origin.y),
+        origin: file.origin.at,
         resolution: file.resolution,
         columns: image.columns,
         rows: image.rows,
@@ -52,7 +53,5 @@ pub fn read_ros_map(
 
 /// The pose that turns site coordinates into ROS's map frame: a turn about the image's lower left corner.
 fn frame(origin: Pose) -> Pose {
-    let (sin, cos) = origin.yaw.sin_cos();
-    let turned = Point::new(cos * origin.x - sin * origin.y, sin * origin.x + cos * origin.y);
-    Pose { x: origin.x - turned.x, y: origin.y - turned.y, yaw: origin.yaw }
+    Pose { at: origin.at - origin.at.rotated(Point::towards(origin.heading)), ..origin }
 }

@@ -9,7 +9,7 @@ use super::super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::super::fields::{LARGEST, Located, span_of};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
-use crate::world::Pose;
+use crate::pose::Pose;
 
 /// How the brightness of a pixel is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,7 +175,7 @@ fn positive(source: &Text, key: &str, number: &Located<f64>, problems: &mut Vec<
 
 fn origin(source: &Text, origin: &Located<Vec<f64>>, problems: &mut Vec<Problem>) -> Option<Pose> {
     let problem = match origin.value[..] {
-        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.abs() <= LARGEST) => return Some(Pose { x, y, yaw }),
+        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.abs() <= LARGEST) => return Some(Pose::new(x, y, yaw)),
         [_, _, _] => source.problem(
             Code::NotFinite,
             &origin.span,
