@@ -70,11 +70,11 @@ proptest! {
         }
         prop_assert_eq!(graph.edge_count(), own.edge_count());
         let key = |passage: usize| graph.doors()[passage].door;
-        for room in 0..12 {
+        for (room, &node) in nodes.iter().enumerate() {
             for direction in [Direction::Outgoing, Direction::Incoming] {
                 let ours = graph.edges_directed(room, direction);
                 let mut ours: Vec<_> = ours.map(|at| (at.source(), at.target(), key(at.id()))).collect();
-                let theirs = own.edges_directed(nodes[room], direction);
+                let theirs = own.edges_directed(node, direction);
                 let mut theirs: Vec<_> =
                     theirs.map(|at| (at.source().index(), at.target().index(), *at.weight())).collect();
                 ours.sort_unstable();
@@ -86,7 +86,9 @@ proptest! {
         let weight = |door: &u32| doors[*door as usize - 1].hardness.unwrap();
         prop_assert_eq!(passed, own.edge_weights().map(weight).sum::<f64>());
         let sorted = |mut parts: Vec<Vec<usize>>| {
-            parts.iter_mut().for_each(|part| part.sort_unstable());
+            for part in &mut parts {
+                part.sort_unstable();
+            }
             parts.sort_unstable();
             parts
         };
