@@ -65,13 +65,17 @@ impl Values {
         self.add(value.into());
     }
 
+    pub(crate) fn blob(&mut self, value: &[u8]) {
+        self.add(value);
+    }
+
     pub(crate) fn cell(&mut self, value: &Cell) {
         match value {
             Cell::Null => self.add(None::<i64>),
             Cell::Integer(value) => self.integer(*value),
             Cell::Real(value) => self.real(*value),
             Cell::Text(value) => self.text(value.as_str()),
-            Cell::Blob(value) => self.add(value.as_slice()),
+            Cell::Blob(value) => self.blob(value),
         }
     }
 }

@@ -1,30 +1,30 @@
 //! The table `doors`: where one goes from room to room, or changes shape.
 
 use serde::{Deserialize, Serialize};
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, SqliteConnection};
+use sqlx::SqliteConnection;
 
-use crate::bulk::{self, Record, Values};
+use crate::block;
 use crate::cell::Cell;
-use crate::dynamic;
 use crate::error::Result;
 use crate::reason::Derived;
+use crate::schema::{Column, Field, Row, Value, column, names, select};
 use crate::stale::in_bulk;
 use crate::transaction::Tx;
 use crate::weight::Weight;
 
 /// What happens at a door.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DoorKind {
     /// The robot goes through.
+    #[default]
     Door,
     /// The robot changes its shape.
     Change,
 }
 
 /// One side of a door.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Side {
     /// The room there.
     pub room: i64,
@@ -37,7 +37,7 @@ pub struct Side {
 }
 
 /// A door, from side 1 to side 2 and back unless it is one-way. Two rooms may have several.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Door {
     /// Its number, from 1.
     pub door: i64,
@@ -63,9 +63,67 @@ pub struct Door {
     pub one_way: bool,
 }
 
-impl Door {
-    /// What rules say about it.
-    pub fn weight(&self) -> Weight {
+impl Field for DoorKind {
+    fn value(&self) -> Value<'_> {
+        Value::Text(match self {
+            Self::Door => "door",
+            Self::Change => "change",
+        })
+    }
+
+    fn put(&mut self, value: Value<'_>) -> bool {
+        *self = match value {
+            Value::Text("door") => Self::Door,
+            Value::Text("change") => Self::Change,
+            _ => return false,
+        };
+        true
+    }
+}
+
+impl Row for Door {
+    const TABLE: &'static str = "doors";
+    const COLUMNS: &'static [Column<Self>] = &[
+        column!(Key Integer "door" door),
+        column!(Cut Text "kind" kind),
+        column!(Cut Integer "room1" side1.room),
+        column!(Cut Integer "room2" side2.room),
+        column!(Cut Real "x" at[0]),
+        column!(Cut Real "y" at[1]),
+        column!(Cut Real "width" width),
+        column!(Cut Real "x0" segment[0]),
+        column!(Cut Real "y0" segment[1]),
+        column!(Cut Real "x1" segment[2]),
+        column!(Cut Real "y1" segment[3]),
+        column!(Cut Real "height1" side1.height),
+        column!(Cut Real "width1" side1.width),
+        column!(Cut Real "distance1" side1.distance),
+        column!(Cut Real "height2" side2.height),
+        column!(Cut Real "width2" side2.width),
+        column!(Cut Real "distance2" side2.distance),
+        column!(Cut Truth "one_way" one_way),
+        column!(Weight Real "hardness" hardness.value),
+        column!(Weight Integer "hardness_rule" hardness.rule),
+        column!(Weight Integer "hardness_witness" hardness.witness),
+        column!(Weight Text "action" action.value),
+        column!(Weight Integer "action_rule" action.rule),
+        column!(Weight Integer "action_witness" action.witness),
+        column!(Weight Truth "passable" passable.value),
+        column!(Weight Integer "passable_rule" passable.rule),
+        column!(Weight Integer "passable_witness" passable.witness),
+    ];
+    const NAMES: &'static [&'static str] = &names::<Self, { Door::COLUMNS.len() }>(Self::COLUMNS, 0);
+    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 10>(Self::COLUMNS, Self::COLUMNS.len() - 10);
+
+    fn key(&self) -> i64 {
+        self.door
+    }
+
+    fn numbered(door: i64) -> Self {
+        Self { door, ..Self::default() }
+    }
+
+    fn weight(&self) -> Weight {
         Weight {
             hardness: self.hardness.clone(),
             action: self.action.clone(),
@@ -73,130 +131,37 @@ impl Door {
         }
     }
 
-    /// Has rules say something else about it.
-    pub fn weigh(&mut self, weight: Weight) {
+    fn weigh(&mut self, weight: Weight) {
         (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
     }
 }
 
-impl Record for &Door {
-    const TABLE: &'static str = "doors";
-    const COLUMNS: &'static [&'static str] = &[
-        "door",
-        "kind",
-        "room1",
-        "room2",
-        "x",
-        "y",
-        "width",
-        "height1",
-        "width1",
-        "distance1",
-        "height2",
-        "width2",
-        "distance2",
-        "hardness",
-        "action",
-        "passable",
-        "one_way",
-        "x0",
-        "y0",
-        "x1",
-        "y1",
-        "hardness_rule",
-        "hardness_witness",
-        "action_rule",
-        "action_witness",
-        "passable_rule",
-        "passable_witness",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.door);
-        values.text(match self.kind {
-            DoorKind::Door => "door",
-            DoorKind::Change => "change",
-        });
-        values.integer(self.side1.room);
-        values.integer(self.side2.room);
-        self.at.iter().for_each(|metres| values.real(*metres));
-        values.real(self.width);
-        for side in [&self.side1, &self.side2] {
-            values.real(side.height);
-            values.real(side.width);
-            values.real(side.distance);
-        }
-        values.real(self.hardness.value);
-        values.text(self.action.value.as_deref());
-        values.truth(self.passable.value);
-        values.truth(self.one_way);
-        self.segment.iter().for_each(|metres| values.real(*metres));
-        self.hardness.bind_reason(values);
-        self.action.bind_reason(values);
-        self.passable.bind_reason(values);
-    }
-}
-
-fn side(row: &SqliteRow, room: usize, height: usize) -> sqlx::Result<Side> {
-    Ok(Side {
-        room: row.try_get(room)?,
-        height: row.try_get(height)?,
-        width: row.try_get(height + 1)?,
-        distance: row.try_get(height + 2)?,
-    })
-}
-
-fn door(row: &SqliteRow) -> Result<Door> {
-    let kind = match row.try_get::<&str, _>(1)? {
-        "change" => DoorKind::Change,
-        _ => DoorKind::Door,
-    };
-    Ok(Door {
-        door: row.try_get(0)?,
-        kind,
-        side1: side(row, 2, 7)?,
-        side2: side(row, 3, 10)?,
-        at: [row.try_get(4)?, row.try_get(5)?],
-        width: row.try_get(6)?,
-        segment: [row.try_get(17)?, row.try_get(18)?, row.try_get(19)?, row.try_get(20)?],
-        hardness: Derived::of(row, 13, 21)?,
-        action: Derived::of(row, 14, 23)?,
-        passable: Derived::of(row, 15, 25)?,
-        one_way: row.try_get(16)?,
-    })
-}
-
 /// All doors, by number.
 pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Door>> {
-    let sql = format!("SELECT {} FROM doors ORDER BY door", <&Door>::COLUMNS.join(","));
-    dynamic::fetch(connection, sql, &[]).await?.iter().map(door).collect()
+    block::read(connection).await
 }
 
 /// The door of this number.
 pub async fn one(connection: &mut SqliteConnection, number: i64) -> Result<Option<Door>> {
-    let sql = format!("SELECT {} FROM doors WHERE door = ?", <&Door>::COLUMNS.join(","));
-    dynamic::fetch(connection, sql, &[number.into()]).await?.first().map(door).transpose()
+    Ok(select(connection, "WHERE door = ?", &[number.into()]).await?.pop())
 }
 
 /// Doors whose segment may come within a distance of a point, by number.
 pub async fn near(connection: &mut SqliteConnection, [x, y]: [f64; 2], distance: f64) -> Result<Vec<Door>> {
-    let sql = format!(
-        "SELECT {} FROM doors WHERE min(x0, x1) <= ? AND max(x0, x1) >= ? AND min(y0, y1) <= ? AND max(y0, y1) >= ?
-         ORDER BY door",
-        <&Door>::COLUMNS.join(",")
-    );
     let around = [x + distance, x - distance, y + distance, y - distance].map(Cell::from);
-    dynamic::fetch(connection, sql, &around).await?.iter().map(door).collect()
+    let is_near = "WHERE min(x0, x1) <= ? AND max(x0, x1) >= ? AND min(y0, y1) <= ? AND max(y0, y1) >= ?
+                   ORDER BY door";
+    select(connection, is_near, &around).await
 }
 
 /// Replaces all doors by these; their rooms must be there.
 pub async fn replace(connection: &mut SqliteConnection, doors: &[Door]) -> Result<()> {
     in_bulk(connection, "doors", async |connection| {
         sqlx::query("DELETE FROM doors").execute(&mut *connection).await?;
-        bulk::insert(connection, doors).await
+        Ok(())
     })
     .await?;
-    Ok(())
+    block::replace(connection, doors).await
 }
 
 impl Tx<'_> {

@@ -6,6 +6,7 @@
 
 pub mod area;
 pub mod backup;
+mod block;
 mod bulk;
 pub mod cell;
 pub mod conclusion;
@@ -34,6 +35,7 @@ pub mod robot;
 pub mod room;
 pub mod route;
 pub mod saved;
+pub mod schema;
 pub mod site;
 pub mod stale;
 mod store;

@@ -39,6 +39,7 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/50-in-force.sql"),
     ],
     &[include_str!("../sql/v3/10-traversals.sql"), include_str!("../sql/v3/20-saved-queries.sql")],
+    &[include_str!("../sql/v4/10-blocks.sql")],
 ];
 
 /// The newest schema version.

@@ -13,6 +13,7 @@ pub(crate) const OWN: &[&str] = &[
     "action_sequence",
     "active_tunings",
     "attachments",
+    "blocks",
     "cells_in_force",
     "changes",
     "changes_in_force",

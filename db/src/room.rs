@@ -1,19 +1,18 @@
 //! The table `rooms`.
 
 use serde::Serialize;
-use sqlx::sqlite::SqliteRow;
-use sqlx::{Row, SqliteConnection};
+use sqlx::SqliteConnection;
 
-use crate::bulk::{self, Record, Values};
-use crate::dynamic;
+use crate::block;
 use crate::error::Result;
 use crate::reason::Derived;
+use crate::schema::{Column, Kind, Part, Row, Value, column, names, select};
 use crate::stale::in_bulk;
 use crate::transaction::Tx;
 use crate::weight::Weight;
 
 /// A room: a rectangle of free space, in one layer.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Room {
     /// Its number, from 1.
     pub room: i64,
@@ -37,9 +36,54 @@ pub struct Room {
     pub passable: Derived<bool>,
 }
 
-impl Room {
-    /// What rules say about it.
-    pub fn weight(&self) -> Weight {
+impl Row for Room {
+    const TABLE: &'static str = "rooms";
+    const COLUMNS: &'static [Column<Self>] = &[
+        column!(Key Integer "room" room),
+        column!(Cut Text "name" name),
+        Column {
+            name: "robot",
+            kind: Kind::Text,
+            part: Part::Cut,
+            get: |room| room.layer.as_ref().map_or(Value::Null, |(robot, _)| Value::Text(robot)),
+            put: |room, value| of_layer(room, value, |layer| &mut layer.0),
+        },
+        Column {
+            name: "state",
+            kind: Kind::Text,
+            part: Part::Cut,
+            get: |room| room.layer.as_ref().map_or(Value::Null, |(_, state)| Value::Text(state)),
+            put: |room, value| of_layer(room, value, |layer| &mut layer.1),
+        },
+        column!(Cut Real "facing" facing),
+        column!(Cut Real "x0" rect[0]),
+        column!(Cut Real "y0" rect[1]),
+        column!(Cut Real "x1" rect[2]),
+        column!(Cut Real "y1" rect[3]),
+        column!(Cut Real "height" height),
+        column!(Cut Real "width" width),
+        column!(Weight Real "hardness" hardness.value),
+        column!(Weight Integer "hardness_rule" hardness.rule),
+        column!(Weight Integer "hardness_witness" hardness.witness),
+        column!(Weight Text "action" action.value),
+        column!(Weight Integer "action_rule" action.rule),
+        column!(Weight Integer "action_witness" action.witness),
+        column!(Weight Truth "passable" passable.value),
+        column!(Weight Integer "passable_rule" passable.rule),
+        column!(Weight Integer "passable_witness" passable.witness),
+    ];
+    const NAMES: &'static [&'static str] = &names::<Self, { Room::COLUMNS.len() }>(Self::COLUMNS, 0);
+    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 10>(Self::COLUMNS, Self::COLUMNS.len() - 10);
+
+    fn key(&self) -> i64 {
+        self.room
+    }
+
+    fn numbered(room: i64) -> Self {
+        Self { room, ..Self::default() }
+    }
+
+    fn weight(&self) -> Weight {
         Weight {
             hardness: self.hardness.clone(),
             action: self.action.clone(),
@@ -47,81 +91,28 @@ impl Room {
         }
     }
 
-    /// Has rules say something else about it.
-    pub fn weigh(&mut self, weight: Weight) {
+    fn weigh(&mut self, weight: Weight) {
         (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
     }
 }
 
-impl Record for &Room {
-    const TABLE: &'static str = "rooms";
-    const COLUMNS: &'static [&'static str] = &[
-        "room",
-        "name",
-        "robot",
-        "state",
-        "x0",
-        "y0",
-        "x1",
-        "y1",
-        "height",
-        "width",
-        "hardness",
-        "action",
-        "hardness_rule",
-        "hardness_witness",
-        "action_rule",
-        "action_witness",
-        "passable",
-        "passable_rule",
-        "passable_witness",
-        "facing",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.room);
-        values.text(&*self.name);
-        values.text(self.layer.as_ref().map(|(robot, _)| &**robot));
-        values.text(self.layer.as_ref().map(|(_, state)| &**state));
-        self.rect.iter().for_each(|edge| values.real(*edge));
-        values.real(self.height);
-        values.real(self.width);
-        values.real(self.hardness.value);
-        values.text(self.action.value.as_deref());
-        self.hardness.bind_reason(values);
-        self.action.bind_reason(values);
-        values.truth(self.passable.value);
-        self.passable.bind_reason(values);
-        values.real(self.facing);
+fn of_layer(room: &mut Room, value: Value<'_>, part: fn(&mut (String, String)) -> &mut String) -> bool {
+    match value {
+        Value::Null => room.layer = None,
+        Value::Text(text) => text.clone_into(part(room.layer.get_or_insert_default())),
+        _ => return false,
     }
-}
-
-fn room(row: &SqliteRow) -> Result<Room> {
-    let layer: (Option<String>, Option<String>) = (row.try_get(2)?, row.try_get(3)?);
-    Ok(Room {
-        room: row.try_get(0)?,
-        name: row.try_get(1)?,
-        layer: layer.0.zip(layer.1),
-        facing: row.try_get(19)?,
-        rect: [row.try_get(4)?, row.try_get(5)?, row.try_get(6)?, row.try_get(7)?],
-        height: row.try_get(8)?,
-        width: row.try_get(9)?,
-        hardness: Derived::of(row, 10, 12)?,
-        action: Derived::of(row, 11, 14)?,
-        passable: Derived::of(row, 16, 17)?,
-    })
+    true
 }
 
 /// All rooms, by number.
 pub async fn read(connection: &mut SqliteConnection) -> Result<Vec<Room>> {
-    let sql = format!("SELECT {} FROM rooms ORDER BY room", <&Room>::COLUMNS.join(","));
-    dynamic::fetch(connection, sql, &[]).await?.iter().map(room).collect()
+    block::read(connection).await
 }
 
 /// The room of this name.
 pub async fn named(connection: &mut SqliteConnection, name: &str) -> Result<Option<Room>> {
-    let sql = format!("SELECT {} FROM rooms WHERE name = ?", <&Room>::COLUMNS.join(","));
-    dynamic::fetch(connection, sql, &[name.into()]).await?.first().map(room).transpose()
+    Ok(select(connection, "WHERE name = ?", &[name.into()]).await?.pop())
 }
 
 /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
@@ -129,10 +120,10 @@ pub async fn replace(connection: &mut SqliteConnection, rooms: &[Room]) -> Resul
     in_bulk(connection, "rooms", async |connection| {
         sqlx::query("DELETE FROM doors").execute(&mut *connection).await?;
         sqlx::query("DELETE FROM rooms").execute(&mut *connection).await?;
-        bulk::insert(connection, rooms).await
+        Ok(())
     })
     .await?;
-    Ok(())
+    block::replace(connection, rooms).await
 }
 
 impl Tx<'_> {

@@ -1,5 +1,7 @@
 //! Trees of least-cost routes: the tables `starts`, `ends` and `tree_rows`.
 
+use std::cmp::Ordering;
+
 use serde::Serialize;
 use sqlx::SqliteConnection;
 
@@ -191,6 +193,39 @@ pub struct TreeChange {
 }
 
 impl TreeChange {
+    /// How rows differ from what they were, both in the order of their nodes.
+    pub fn between(before: &[TreeRow], now: &[TreeRow]) -> Self {
+        let mut change = Self::default();
+        let (mut old, mut new) = (before.iter().peekable(), now.iter().peekable());
+        loop {
+            let order = match (old.peek(), new.peek()) {
+                (Some(old), Some(new)) => old.node.cmp(&new.node),
+                (Some(_), None) => Ordering::Less,
+                (None, Some(_)) => Ordering::Greater,
+                (None, None) => return change,
+            };
+            let old = if order.is_le() { old.next() } else { None };
+            let new = if order.is_ge() { new.next() } else { None };
+            change.note(old, new);
+        }
+    }
+
+    /// Notes how the row of one node differs.
+    pub fn note(&mut self, before: Option<&TreeRow>, now: Option<&TreeRow>) {
+        match (before, now) {
+            (Some(old), None) => self.gone.push(old.node),
+            (None, Some(row)) => self.new.push(*row),
+            (Some(old), Some(new)) if old != new => {
+                if *old == (TreeRow { reach: old.reach, ..*new }) {
+                    self.further.push((new.node, new.reach));
+                } else {
+                    self.changed.push(*new);
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// How many rows changed.
     pub fn len(&self) -> usize {
         self.gone.len() + self.new.len() + self.further.len() + self.changed.len()
@@ -204,9 +239,11 @@ impl TreeChange {
 
 /// Writes the rows of a tree that changed.
 pub async fn change(connection: &mut SqliteConnection, tree: i64, rows: &TreeChange) -> Result<()> {
-    for node in &rows.gone {
-        let query = sqlx::query("DELETE FROM tree_rows WHERE tree = ? AND node = ?").bind(tree).bind(node);
-        query.execute(&mut *connection).await?;
+    if !rows.gone.is_empty() {
+        let gone = rows.gone.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+        let sql = "DELETE FROM tree_rows WHERE tree = ?
+                   AND node IN (SELECT value FROM json_each('[' || ? || ']'))";
+        sqlx::query(sql).bind(tree).bind(gone).execute(&mut *connection).await?;
     }
     bulk::insert(connection, rows.new.iter().map(|&row| Rooted { tree, row })).await?;
     let further = rows.further.iter().map(|&(node, reach)| Further { tree, node, reach });

@@ -1,11 +1,9 @@
 //! What rules say of a room or a door: the columns that both tables share.
 
-use sqlx::SqliteConnection;
-
-use crate::bulk::{self, Record, Values};
+use crate::block;
 use crate::error::Result;
 use crate::reason::Derived;
-use crate::stale::in_bulk;
+use crate::schema::Row;
 use crate::transaction::Tx;
 
 /// What rules say of a room or a door, and why.
@@ -31,91 +29,25 @@ impl Weight {
     pub fn witnesses(&self) -> [Option<i64>; 3] {
         [self.hardness.witness, self.action.witness, self.passable.witness]
     }
-
-    /// The columns that it has in either table, behind the number of the room or door.
-    fn bind(&self, values: &mut Values) {
-        values.real(self.hardness.value);
-        self.hardness.bind_reason(values);
-        values.text(self.action.value.as_deref());
-        self.action.bind_reason(values);
-        values.truth(self.passable.value);
-        self.passable.bind_reason(values);
-    }
-}
-
-struct OfRoom<'w>(i64, &'w Weight);
-
-struct OfDoor<'w>(i64, &'w Weight);
-
-impl Record for OfRoom<'_> {
-    const TABLE: &'static str = "rooms";
-    const COLUMNS: &'static [&'static str] = &[
-        "room",
-        "hardness",
-        "hardness_rule",
-        "hardness_witness",
-        "action",
-        "action_rule",
-        "action_witness",
-        "passable",
-        "passable_rule",
-        "passable_witness",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.0);
-        self.1.bind(values);
-    }
-}
-
-impl Record for OfDoor<'_> {
-    const TABLE: &'static str = "doors";
-    const COLUMNS: &'static [&'static str] = &[
-        "door",
-        "hardness",
-        "hardness_rule",
-        "hardness_witness",
-        "action",
-        "action_rule",
-        "action_witness",
-        "passable",
-        "passable_rule",
-        "passable_witness",
-    ];
-
-    fn bind(&self, values: &mut Values) {
-        values.integer(self.0);
-        self.1.bind(values);
-    }
-}
-
-async fn put<R: Record>(
-    connection: &mut SqliteConnection,
-    weights: impl IntoIterator<Item = R>,
-) -> Result<u64> {
-    let mut weights = weights.into_iter().peekable();
-    if weights.peek().is_none() {
-        return Ok(0);
-    }
-    in_bulk(connection, R::TABLE, async |connection| bulk::update::<1, _>(connection, weights).await).await
 }
 
 impl Tx<'_> {
-    /// Gives these rooms, by number, other weights; how many.
-    pub fn put_room_weights<'w>(
+    /// Gives these rooms or doors, by number, other weights; how many.
+    pub fn put_weights<'w, R: Row>(
         &mut self,
         weights: impl IntoIterator<Item = (i64, &'w Weight)>,
     ) -> Result<u64> {
-        let weights = weights.into_iter().map(|(room, weight)| OfRoom(room, weight));
-        self.run(async |connection| put(connection, weights).await)
+        let row = |(key, weight): (i64, &Weight)| {
+            let mut row = R::numbered(key);
+            row.weigh(weight.clone());
+            row
+        };
+        let rows = weights.into_iter().map(row).collect();
+        self.run(async |connection| block::reweigh::<R>(connection, rows).await)
     }
 
-    /// Gives these doors, by number, other weights; how many.
-    pub fn put_door_weights<'w>(
-        &mut self,
-        weights: impl IntoIterator<Item = (i64, &'w Weight)>,
-    ) -> Result<u64> {
-        let weights = weights.into_iter().map(|(door, weight)| OfDoor(door, weight));
-        self.run(async |connection| put(connection, weights).await)
+    /// Writes the blocks of the rooms or doors that there are, where they have none.
+    pub fn restore_blocks<R: Row>(&mut self, rows: &[R]) -> Result<()> {
+        self.run(async |connection| block::restore(connection, rows).await)
     }
 }

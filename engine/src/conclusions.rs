@@ -182,7 +182,7 @@ impl fmt::Display for Justification {
 }
 
 /// What one concluded value rests on, as numbers: cheap for many rows.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Grounds {
     /// The rule's number in its rule base, from 0.
     pub rule: usize,

@@ -158,6 +158,15 @@ impl KnowledgeBase {
         value(column.cell(row), &self.symbols.borrow())
     }
 
+    /// As [`value_at`](Self::value_at), of several rows.
+    pub fn values_at(&self, class: &str, rows: &[u32], property: &str) -> Vec<Option<Value>> {
+        let Some(column) = self.column(&PropertyName::new(class, property)) else {
+            return vec![None; rows.len()];
+        };
+        let symbols = self.symbols.borrow();
+        rows.iter().map(|row| value(column.cell(*row as usize), &symbols)).collect()
+    }
+
     /// A property of all objects as numbers; `None` if it does not hold numbers.
     pub fn numbers(&self, class: &str, property: &str) -> Option<Vec<Option<f64>>> {
         match self.column(&PropertyName::new(class, property))? {

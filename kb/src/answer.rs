@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
 
-pub(crate) use search::Basis;
+pub(crate) use search::{Basis, Ground};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
@@ -73,8 +73,7 @@ impl State {
             knowledge: &self.site,
             graph: self.graph(),
             rules: &self.inputs.rule_names,
-            world: &self.inputs.world,
-            gauge: &self.gauge,
+            ground: Ground::Known(&self.inputs.world, &self.gauge),
         }
     }
 }

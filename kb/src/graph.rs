@@ -11,6 +11,7 @@ use std::sync::Arc;
 use adit_db::door::{Door, DoorKind};
 use adit_db::place::Place;
 use adit_db::room::Room;
+use adit_db::schema::Row;
 use adit_db::weight::Weight;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;

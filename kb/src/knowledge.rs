@@ -2,7 +2,7 @@
 //! time everything that follows is derived by the same path, in one transaction.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use adit_db::history::Author;
@@ -14,9 +14,10 @@ use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::layers::RoomsByState;
 use adit_planners::minimum::MinimumRooms;
 use adit_planners::overlays::{Overlays, RoomsInOverlays};
-use adit_planners::planner::Planner;
+use adit_planners::planner::{Planner, PlannerError, Signature};
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
+use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
@@ -38,6 +39,32 @@ use crate::words::progress::Progress;
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
+
+/// [`Overlays`] of a site, whose map is read for it when somebody asks what it gives.
+struct OverlaysOf {
+    site: Site,
+    read: OnceLock<Overlays>,
+}
+
+impl OverlaysOf {
+    fn overlays(&self) -> &Overlays {
+        self.read.get_or_init(|| Overlays::new(self.site.further_properties()))
+    }
+}
+
+impl Planner for OverlaysOf {
+    fn name(&self) -> &'static str {
+        "overlays"
+    }
+
+    fn signature(&self) -> Signature {
+        self.overlays().signature()
+    }
+
+    fn facts(&self, world: &World, known: &Facts) -> std::result::Result<Facts, PlannerError> {
+        self.overlays().facts(world, known)
+    }
+}
 
 /// What the tests of a rule base gave.
 pub struct Tested {
@@ -66,7 +93,7 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let mut knowledge =
             Self { site, planners: Vec::new(), database, rules: None, reseed: false, at: None };
-        knowledge.register(Box::new(Overlays::new(knowledge.site.further_properties())));
+        knowledge.register(Box::new(OverlaysOf { site: knowledge.site.clone(), read: OnceLock::new() }));
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {

@@ -61,8 +61,17 @@ impl TestSite {
 
     /// A copy of one of the example sites in `kb/sites`.
     pub fn example(name: &str) -> Self {
+        Self::copy_of(&repository().join("kb/sites").join(name))
+    }
+
+    /// A copy of the site as it is now, database and all.
+    pub fn copied(&self) -> Self {
+        Self::copy_of(self.path())
+    }
+
+    fn copy_of(folder: &Path) -> Self {
         let site = Self::empty();
-        for entry in fs::read_dir(repository().join("kb/sites").join(name)).expect("an example site") {
+        for entry in fs::read_dir(folder).expect("a site") {
             let entry = entry.expect("a file");
             fs::copy(entry.path(), site.path().join(entry.file_name())).expect("copied");
         }

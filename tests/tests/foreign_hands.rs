@@ -24,6 +24,60 @@ fn deleted_rooms_and_doors_come_back_with_the_next_build() {
     }
 }
 
+const ROWS: &str = "SELECT * FROM rooms; SELECT * FROM doors";
+const BLOCKS: &str = "SELECT class, part, at, first, hex(bytes) FROM blocks ORDER BY class, part, at";
+/// Between two points no route is kept: rooms and doors are read.
+const ASK: [&str; 2] = ["2,2.05", "15,4.05"];
+const TUNE: [&str; 4] = ["robots", "SQUAT", "hardness", "4.5"];
+
+/// Rooms and doors are read from blocks beside the rows: never from those of rows that somebody else has changed.
+#[test]
+fn a_row_that_another_program_changed_is_seen_by_route_and_tune() {
+    let site = TestSite::example("clinic").built();
+    let (rows, blocks) = (site.sqlite3(ROWS), site.sqlite3(BLOCKS));
+    assert!(blocks.iter().any(|block| block.starts_with("doors|cut|0|1|")), "{blocks:?}");
+    let answer = site.adit("route", &ASK).expecting(0).stdout;
+    let tuned = site.copied();
+    tuned.adit("tune", &TUNE).expect_status(0);
+    let (tuned_rows, tuned_blocks) = (tuned.sqlite3(ROWS), tuned.sqlite3(BLOCKS));
+    assert!(tuned_rows != rows && tuned_blocks != blocks);
+    for edit in [
+        "UPDATE doors SET hardness = 0.001, passable = 0",
+        "UPDATE rooms SET hardness = 99 WHERE room = 2",
+        "DELETE FROM doors WHERE door = 3",
+        "REPLACE INTO rooms SELECT * FROM rooms WHERE room = 1",
+    ] {
+        let other = site.copied();
+        other.outside_edit(edit);
+        assert_eq!(other.adit("route", &ASK).expecting(0).stdout, answer, "{edit}");
+        assert_eq!((other.sqlite3(ROWS), other.sqlite3(BLOCKS)), (rows.clone(), blocks.clone()), "{edit}");
+        other.outside_edit(edit);
+        other.adit("tune", &TUNE).expect_status(0);
+        assert_eq!(other.sqlite3(ROWS), tuned_rows, "{edit}");
+        assert_eq!(other.sqlite3(BLOCKS), tuned_blocks, "{edit}");
+    }
+}
+
+/// A block that is damaged, or none, is no other answer: the rows are read.
+#[test]
+fn damaged_blocks_change_no_answer() {
+    let site = TestSite::example("clinic").built();
+    let answer = site.adit("route", &ASK).expecting(0).stdout;
+    let tuned = site.copied();
+    tuned.adit("tune", &TUNE).expect_status(0);
+    for edit in [
+        "UPDATE blocks SET bytes = CAST(substr(bytes, 1, 40) || x'2a2a' || substr(bytes, 43) AS BLOB)",
+        "DELETE FROM blocks WHERE part = 'weights'",
+        "DELETE FROM blocks",
+    ] {
+        let other = site.copied();
+        other.outside_edit(edit);
+        assert_eq!(other.adit("route", &ASK).expecting(0).stdout, answer, "{edit}");
+        other.adit("tune", &TUNE).expect_status(0);
+        assert_eq!(other.sqlite3(ROWS), tuned.sqlite3(ROWS), "{edit}");
+    }
+}
+
 /// Untouched rooms are still kept: an edit of a hardness does not cut the map anew.
 #[test]
 fn untouched_rooms_are_kept() {

@@ -7,6 +7,7 @@
     reason = "tests: helpers unwrap too, exact numbers are meant, and closures say what is read"
 )]
 
+mod blocks;
 mod clients;
 mod conclusions;
 mod editing;

@@ -1,6 +1,7 @@
 //! Routes beyond the paper's example: several doors between two rooms, layers, places with nodes of their own.
 
-use adit_db::door::DoorKind;
+use adit_db::door::{Door, DoorKind};
+use adit_db::schema::Row;
 use adit_db::tree::{End, EndKind, Start, TreeRow};
 use adit_db::weight::Weight;
 use adit_db::{Derived, Error, Store};
@@ -155,7 +156,7 @@ fn a_new_weight_is_written_to_its_door_and_to_no_other() {
         .transaction(|tx| {
             let before = tx.doors()?;
             let weight = Weight { hardness: Derived::by(paper::WEIGH, None, 40.0), ..before[6].weight() };
-            assert_eq!(tx.put_door_weights([(before[6].door, &weight)])?, 1);
+            assert_eq!(tx.put_weights::<Door>([(before[6].door, &weight)])?, 1);
             let mut expected = before;
             expected[6].weigh(weight);
             assert_eq!(tx.doors()?, expected);

@@ -1,5 +1,7 @@
 //! Why a property has its value.
 
+use std::collections::HashMap;
+
 use super::KnowledgeBase;
 use super::derived::Derived;
 use super::merge::Source;
@@ -68,23 +70,35 @@ impl KnowledgeBase {
         Some(Justifications { rules, of_row: (0..merged.len()).map(writer).collect() })
     }
 
-    /// For a property that rules conclude: for each of these rows the number of its rule in the rule base, and the
-    /// rows that the variables after the first stand for; `None` where the value was told or is unknown.
-    pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> Vec<Option<Grounds>> {
+    /// For a property that rules conclude: the different grounds of its values, and for each of these rows the place
+    /// of its own among them; `None` where the value was told or is unknown.
+    pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> (Vec<Grounds>, Vec<Option<usize>>) {
         let name = PropertyName::new(class, property);
         let Some(derived) = self.known_derived(&name) else {
-            return vec![None; rows.len()];
+            return (Vec::new(), vec![None; rows.len()]);
         };
-        let grounds = |&row: &u32| match self.source(&name, derived, row) {
+        // only looked up in: no order of it can reach an answer
+        let mut places: HashMap<Grounds, usize> = HashMap::new();
+        let mut different = Vec::new();
+        let mut here = Grounds { rule: 0, witnesses: Vec::new() };
+        let place = |&row: &u32| match self.source(&name, derived, row) {
             Source::Rule { rule, firing } if !derived.stages[0].is_unknown(row as usize) => {
                 let memory = self.network.nodes.get(rule)?.memory.as_ref()?;
-                let clauses = 1..memory.witnesses.len();
                 let bound = |clause| Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW);
-                Some(Grounds { rule, witnesses: clauses.map(bound).collect() })
+                here.rule = rule;
+                here.witnesses.clear();
+                here.witnesses.extend((1..memory.witnesses.len()).map(bound));
+                if let Some(place) = places.get(&here) {
+                    return Some(*place);
+                }
+                different.push(here.clone());
+                places.insert(here.clone(), different.len() - 1);
+                Some(different.len() - 1)
             }
             _ => None,
         };
-        rows.iter().map(grounds).collect()
+        let places = rows.iter().map(place).collect();
+        (different, places)
     }
 
     /// For a property that rules revise: each such rule with the rows that it revises.

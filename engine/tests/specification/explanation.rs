@@ -46,9 +46,12 @@ fn a_whole_column_of_justifications_is_numbers() {
     let why = base.justifications("THINGS", "state").unwrap();
     assert_eq!(why.rules[0].0, "who fits");
     assert_eq!(why.of_row, [Some(0), None, Some(0)]);
-    let grounds = base.grounds("THINGS", "state", &[0, 1, 2]);
-    let witnesses: Vec<_> = grounds.into_iter().map(|grounds| grounds.map(|by| by.witnesses)).collect();
-    assert_eq!(witnesses, [Some(vec![Some(3)]), None, Some(vec![Some(0)])]);
+    let (grounds, places) = base.grounds("THINGS", "state", &[0, 1, 2, 0]);
+    let witnesses: Vec<_> = grounds.into_iter().map(|by| by.witnesses).collect();
+    assert_eq!(
+        (witnesses, places),
+        (vec![vec![Some(3)], vec![Some(0)]], vec![Some(0), None, Some(1), Some(0)])
+    );
 }
 
 #[test]

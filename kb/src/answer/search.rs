@@ -1,14 +1,17 @@
 //! Routes as they are found in memory, with what is said of them.
 
+use std::cell::OnceCell;
+
 use adit_planners::routes::{Goal, Way};
 use adit_planners::world::World;
 
 use super::{Answer, Status, json, steps};
 use crate::answer::reason;
 use crate::error::{Error, Result};
-use crate::graph::gauge::Gauge;
+use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::site::Site;
 use crate::words::suggest::did_you_mean;
 
 /// What routes are found with.
@@ -19,10 +22,31 @@ pub(crate) struct Basis<'a> {
     pub graph: &'a SiteGraph,
     /// The rules' names.
     pub rules: &'a Rules,
-    /// The map.
-    pub world: &'a World,
-    /// What measures clearances.
-    pub gauge: &'a Gauge,
+    pub ground: Ground<'a>,
+}
+
+/// The map, with what measures clearances in it.
+pub(crate) enum Ground<'a> {
+    Known(&'a World, &'a Gauge),
+    /// For a single question: read where it needs the map, for robots of these sizes.
+    Later(&'a Site, Sizes, OnceCell<(World, Gauge)>),
+}
+
+impl Ground<'_> {
+    fn get(&self) -> Result<(&World, &Gauge)> {
+        match self {
+            Self::Known(world, gauge) => Ok((world, gauge)),
+            Self::Later(site, sizes, read) => {
+                if read.get().is_none() {
+                    let (world, _, _) = site.world()?;
+                    let gauge = Gauge::new(&world, sizes.clone());
+                    read.get_or_init(|| (world, gauge));
+                }
+                let (world, gauge) = read.get().expect("it was read just now");
+                Ok((world, gauge))
+            }
+        }
+    }
 }
 
 /// A way that was found.
@@ -40,7 +64,8 @@ impl Basis<'_> {
         let Self { graph, rules, .. } = self;
         let Some(ends) = self.ends(names, &mut answer)? else { return Ok(answer) };
         if let Some(found) = self.find(&ends, &answer.robot) {
-            self.tell(names, &found, &mut answer);
+            answer.goal.clone_from(&names[found.goal]);
+            self.along(&found.way, found.is_to_point, &mut answer)?;
         } else {
             answer.status = Status::NoRoute;
             let start = graph.start(&ends[0], Some(&answer.robot));
@@ -90,31 +115,30 @@ impl Basis<'_> {
         Some(Found { goal, way, is_to_point: goals[goal].at.is_some() })
     }
 
-    fn tell(&self, names: &[String], found: &Found, answer: &mut Answer) {
-        answer.goal.clone_from(&names[found.goal]);
-        self.along(&found.way, found.is_to_point, answer);
-    }
-
     /// A way as an answer; where it does not lead to a point, nothing is walked in the last room.
-    pub fn along(&self, way: &Way, is_to_point: bool, answer: &mut Answer) {
+    pub fn along(&self, way: &Way, is_to_point: bool, answer: &mut Answer) -> Result<()> {
         let Self { graph, rules, .. } = self;
         answer.steps = steps::steps(graph, rules, way, is_to_point);
-        answer.waypoints = steps::waypoints(graph, way, self.gauge);
+        let is_measured = !graph.graph().is_on_doors();
+        let gauge = if is_measured { Some(self.ground.get()?.1) } else { None };
+        answer.waypoints = steps::waypoints(graph, way, gauge);
         answer.cost = Some(way.cost);
-        answer.distance = (!graph.graph().is_on_doors()).then(|| way.length());
+        answer.distance = is_measured.then(|| way.length());
         answer.status = Status::of(way);
+        Ok(())
     }
 
     /// A point that is asked for must lie on the floor.
     fn check_point(&self, end: &End) -> Result<()> {
         let End::Point(point) = end else { return Ok(()) };
         let named = format!("{},{}", point.x, point.y);
-        if !self.world.bounds.contains(*point) {
-            let b = self.world.bounds;
+        let (world, gauge) = self.ground.get()?;
+        if !world.bounds.contains(*point) {
+            let b = world.bounds;
             let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
             return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
         }
-        if self.gauge.is_solid(self.world, *point) {
+        if gauge.is_solid(world, *point) {
             return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
         }
         Ok(())

@@ -65,11 +65,12 @@ fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
     }
 }
 
-/// Where a way bends, changes shape, starts and ends.
-pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: &Gauge) -> Vec<Waypoint> {
-    let is_measured = !graph.graph().is_on_doors();
+/// Where a way bends, changes shape, starts and ends. Ways over doors are not measured, and need no gauge.
+pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> Vec<Waypoint> {
+    let is_measured = gauge.is_some();
     let bends = if is_measured { bends(graph, way) } else { vec![true; way.legs.len()] };
-    let (clearances, headings) = (gauge.clearances(graph, way, &bends), headings(way, &bends));
+    let clearances = gauge.map(|gauge| gauge.clearances(graph, way, &bends));
+    let headings = headings(way, &bends);
     let mut points: Vec<Waypoint> = Vec::new();
     let mut distance = 0.0;
     for (index, leg) in way.legs.iter().enumerate() {
@@ -96,7 +97,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: &Gauge) -> Vec<Wayp
                 x: leg.to.x,
                 y: leg.to.y,
                 heading: headings[index],
-                clearance: clearances[index],
+                clearance: clearances.as_ref().and_then(|clearances| clearances[index]),
                 distance: is_measured.then_some(distance),
                 cost: leg.cost,
                 ..here

@@ -1,7 +1,7 @@
 //! A site's state with what the database keeps of it. Opened from what was built, built from nothing, edited: each is a
 //! step of the state, and its change written.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use adit_db::Tx;
 use adit_db::history::Author;
@@ -9,7 +9,7 @@ use adit_db::stale::Mark;
 
 use super::report::{Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
-use super::trees::{self, Plan};
+use super::trees::{self, KeptSoFar, Plan};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
 use crate::graph::layout;
@@ -39,8 +39,8 @@ pub struct Memory {
     kept: Kept,
     pub routes: KeptRoutes,
     basis: Basis,
-    /// Names the cut of the floor.
-    pub layout: Arc<str>,
+    /// Names the cut of the floor; found when first asked for.
+    layout: OnceLock<Arc<str>>,
     /// Whether the kept routes are older than rooms and doors.
     pub routes_due: bool,
 }
@@ -153,12 +153,20 @@ impl Memory {
         stages.insert(0, inputs.stage.clone());
         let before = Before { rooms: &graph.rooms, doors: &graph.doors, starts: &starts };
         let routes = routes.unwrap_or_default();
-        Ok((done, Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages))))
+        let report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
+        // nobody waits until all of it is given back
+        rayon::spawn(|| drop((memory, graph)));
+        Ok((done, report))
     }
 
     fn of(state: State, kept: Kept, plan: Plan, basis: Basis) -> Self {
-        let layout = layout(state.graph());
-        Self { state, kept, routes: KeptRoutes::later(plan), basis, layout, routes_due: false }
+        let (routes, layout) = (KeptRoutes::later(plan), OnceLock::new());
+        Self { state, kept, routes, basis, layout, routes_due: false }
+    }
+
+    /// Names the cut of the floor.
+    pub fn layout(&self) -> Arc<str> {
+        Arc::clone(self.layout.get_or_init(|| layout(self.state.graph())))
     }
 
     /// Whether the database is as it was left: nobody else has edited or built it since.
@@ -203,7 +211,11 @@ impl Memory {
             KeptRoutes::write(tx, &renewed)?;
             RoutesNow::Renewed(renewed)
         } else {
-            let (plan, routes) = trees::keep(tx, (state, &step), (before, true), progress)?;
+            let so_far = match self.routes_due {
+                true => KeptSoFar::Stored,
+                false => KeptSoFar::Of(state.graph(), self.routes.plan()),
+            };
+            let (plan, routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
             RoutesNow::All(plan, routes)
         };
         let generation = generation::renew(tx, step.weighed.is_empty(), &self.basis.with(&step.told))?;
@@ -246,7 +258,7 @@ impl Memory {
             }
         };
         if anew {
-            self.layout = layout(self.state.graph());
+            self.layout = OnceLock::new();
         }
         Accepted { done, weighed, tree_rows, routes, anew, stages: clock.stages }
     }
@@ -276,7 +288,8 @@ fn write_all(
     clock.lap("database");
     progress.stage("routes");
     let weighed = before.weighed(state.graph_after(step));
-    let (plan, routes) = trees::keep(tx, (state, step), (before, weighed.is_some()), progress)?;
+    let so_far = if weighed.is_some() { KeptSoFar::Stored } else { KeptSoFar::OfAnotherCut };
+    let (plan, routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
     clock.lap("routes");
     let is_same = weighed.is_some_and(|weighed| weighed.is_empty()) && routes.changed == Some(0);
     let generation = generation::renew(tx, is_same, &basis.with(&step.told))?;

@@ -1,5 +1,6 @@
 //! What a command does with a site: it is opened, one thing is done, and all of it is kept or nothing.
 
+use std::cell::OnceCell;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -9,10 +10,10 @@ use adit_db::{Store, Tx};
 
 use super::memory::Memory;
 use super::report::Report;
-use crate::answer::{Answer, Basis, Status, pick_robot};
+use crate::answer::{Answer, Basis, Ground, Status, pick_robot};
 use crate::edit::{Done, Edit};
 use crate::error::{Error, Result};
-use crate::graph::gauge::{Gauge, sizes_of};
+use crate::graph::gauge::sizes_of;
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::site::robots::RobotFile;
@@ -179,11 +180,13 @@ impl KnowledgeBase {
         }
         let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
-        let states = states::in_force(tx)?;
-        let (world, _, _) = self.site().world()?;
-        let gauge = Gauge::new(&world, sizes_of(&states));
-        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, world: &world, gauge: &gauge };
-        basis.search(goals, answer)
+        let sizes = sizes_of(&states::in_force(tx)?);
+        let ground = Ground::Later(self.site(), sizes, OnceCell::new());
+        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, ground };
+        let answer = basis.search(goals, answer);
+        // nobody waits until all of it is given back
+        rayon::spawn(|| drop(graph));
+        answer
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
 use adit_engine::{Conclusions, Dominated};
@@ -80,14 +81,14 @@ impl Routes {
         Self { starts, changed: none, rerouted: none, ..Self::default() }
     }
 
-    /// Counts what differs between a tree of before and of now; whether its rows must be written.
-    pub fn differs(
+    /// Counts what differs between a tree of before and of now.
+    pub fn count(
         &mut self,
         before: Before<'_>,
         (start, old): (&Start, &[TreeRow]),
         new: &[TreeRow],
         graph: &SiteGraph,
-    ) -> bool {
+    ) {
         let now = |row: &TreeRow| {
             row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0)
         };
@@ -119,7 +120,6 @@ impl Routes {
         }
         self.changed = self.changed.map(|count| count + changed);
         self.rerouted = self.rerouted.map(|count| count + rerouted);
-        old != new
     }
 }
 

@@ -149,11 +149,10 @@ fn differences(
     let mut change = TreeChange::default();
     for (index, room) in places.iter().enumerate().rev() {
         let Some(room) = *room else { continue };
-        let node = place_node(index);
         let row = |tree: &CompactTree| {
             let goal = graph.point(&End::Place(index));
             tree.costs[room].is_finite().then(|| TreeRow {
-                node,
+                node: place_node(index),
                 prev: Some(graph.rooms[room].room),
                 from_room: None,
                 door: None,
@@ -167,7 +166,7 @@ fn differences(
                 bend: true,
             })
         };
-        note(&mut change, node, row(before), row(now));
+        change.note(row(before).as_ref(), row(now).as_ref());
     }
     for room in 0..graph.rooms.len() {
         let last = before.before[room];
@@ -178,7 +177,7 @@ fn differences(
             && (last == NONE || before.doors[last as usize] == now.doors[last as usize]);
         if !is_same {
             let row = |tree: &CompactTree| room_row(graph, tree, room, start);
-            note(&mut change, graph.rooms[room].room, row(before), row(now));
+            change.note(row(before).as_ref(), row(now).as_ref());
         } else if last != NONE {
             let (old, new) = (before.costs[last as usize], now.costs[last as usize]);
             if old.to_bits() != new.to_bits() {
@@ -187,21 +186,6 @@ fn differences(
         }
     }
     change
-}
-
-fn note(change: &mut TreeChange, node: i64, before: Option<TreeRow>, now: Option<TreeRow>) {
-    match (before, now) {
-        (Some(_), None) => change.gone.push(node),
-        (None, Some(row)) => change.new.push(row),
-        (Some(old), Some(new)) if old != new => {
-            if old == (TreeRow { reach: old.reach, ..new }) {
-                change.further.push((node, new.reach));
-            } else {
-                change.changed.push(new);
-            }
-        }
-        _ => {}
-    }
 }
 
 /// Where a room is entered.

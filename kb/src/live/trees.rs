@@ -4,7 +4,7 @@ mod measured;
 mod on_doors;
 
 use adit_db::Tx;
-use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeRow};
+use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeChange, TreeRow};
 use adit_planners::routes::Start;
 use rayon::prelude::*;
 
@@ -160,23 +160,30 @@ pub fn rows(graph: &SiteGraph, roots: &[(String, Start)], gauge: &Gauge) -> Vec<
     roots.par_iter().map(|root| measured::rows(graph, root, gauge)).collect()
 }
 
-/// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only trees that differ are
+/// How the routes that are kept so far are known.
+#[derive(Clone, Copy)]
+pub enum KeptSoFar<'a> {
+    /// Rooms and doors are cut anew: they are those of another floor.
+    OfAnotherCut,
+    /// As the database has them.
+    Stored,
+    /// As they follow from this graph and plan; over doors they are found in less time than read.
+    Of(&'a SiteGraph, &'a Plan),
+}
+
+/// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only rows that differ are
 /// written.
-///
-/// # Arguments
-/// `is_same_cut`: whether rooms and doors are those of before, so that trees can be compared.
 pub fn keep(
     tx: &mut Tx<'_>,
     (state, step): (&State, &Step),
-    (before, is_same_cut): (Before<'_>, bool),
+    (before, so_far): (Before<'_>, KeptSoFar<'_>),
     progress: &dyn Progress,
 ) -> Result<(Plan, Routes)> {
     let site = &state.site;
     let graph: &SiteGraph = state.graph_after(step);
     let gauge = state.gauge_after(step);
     let plan = plan(graph, &site.robots(tx)?, site.site().starts.as_ref())?;
-    let ends = ends(graph)?;
-    let comparable = is_same_cut && before.same_starts(&plan.starts);
+    let comparable = !matches!(so_far, KeptSoFar::OfAnotherCut) && before.same_starts(&plan.starts);
     let mut routes = Routes::new(plan.starts.len(), comparable);
     let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
     let mut new = PlaceCosts::new();
@@ -184,17 +191,31 @@ pub fn keep(
         tx.clear_trees()?;
         tx.replace_starts(&plan.starts)?;
     }
-    tx.replace_ends(&ends)?;
+    if !matches!(so_far, KeptSoFar::Of(old, _) if comparable && keeps_rooms(old) == keeps_rooms(graph)) {
+        tx.replace_ends(&ends(graph)?)?;
+    }
     for (batch, roots) in plan.roots.chunks(64).enumerate() {
         progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));
-        let made = rows(graph, roots, gauge);
-        let numbered = (batch as i64 * 64 + 1..).zip(made);
+        let trees = batch as i64 * 64 + 1..;
+        let numbered = trees.clone().zip(rows(graph, roots, gauge));
         if comparable {
-            for (tree, rows) in numbered {
-                let Some(start) = plan.start(tree) else { continue };
-                if routes.differs(before, (start, &tx.tree_rows(tree)?), &rows, graph) {
-                    routes.rows += tx.put_tree(tree, rows)?;
+            let old = match so_far {
+                KeptSoFar::Of(old, plan) if old.graph().is_on_doors() => {
+                    rows(old, &plan.roots[batch * 64..][..roots.len()], gauge)
                 }
+                _ => {
+                    let stored = trees.take(roots.len()).map(|tree| tx.tree_rows(tree));
+                    stored.collect::<std::result::Result<_, _>>()?
+                }
+            };
+            for ((tree, rows), old) in numbered.zip(old) {
+                let Some(start) = plan.start(tree) else { continue };
+                routes.count(before, (start, &old), &rows, graph);
+                let change = TreeChange::between(&old, &rows);
+                if !change.is_empty() {
+                    tx.change_tree(tree, &change)?;
+                }
+                routes.rows += change.len() as u64;
             }
         } else {
             let numbered: Vec<_> = numbered.collect();

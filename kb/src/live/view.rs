@@ -34,7 +34,7 @@ impl View {
             graph: Arc::clone(memory.state.graph()),
             gauge: Arc::clone(&memory.state.gauge),
             robots: memory.state.robots().into(),
-            layout: Arc::clone(&memory.layout),
+            layout: memory.layout(),
             generation: memory.state.generation,
             routes_due: memory.routes_due,
         }
@@ -64,8 +64,7 @@ impl View {
             knowledge: &self.site,
             graph: &self.graph,
             rules: &self.inputs.rule_names,
-            world: &self.inputs.world,
-            gauge: &self.gauge,
+            ground: answer::Ground::Known(&self.inputs.world, &self.gauge),
         }
     }
 

@@ -33,8 +33,8 @@ pub(crate) fn facts(
     }
     for property in concluded {
         let Some(value) = knowledge.value_at(class, 0, property) else { continue };
-        let grounds = knowledge.grounds(class, property, &[0]).pop().flatten();
-        let rule = grounds.and_then(|grounds| rules.rules().get(grounds.rule));
+        let (grounds, _) = knowledge.grounds(class, property, &[0]);
+        let rule = grounds.first().and_then(|grounds| rules.rules().get(grounds.rule));
         let rule = rule.map(|rule| (rule.name().to_owned(), rule.version().to_owned()));
         facts.push(Fact { property, value, rule });
     }

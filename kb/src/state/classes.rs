@@ -45,15 +45,20 @@ pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()
 
 fn first_if_unique(table: &Table) -> Vec<&str> {
     let Some((name, column)) = table.columns.first() else { return Vec::new() };
-    let mut keys: Vec<String> = match column {
-        Column::Number(values) => values.iter().flatten().map(ToString::to_string).collect(),
-        Column::Text(values) => values.iter().flatten().cloned().collect(),
-        Column::Truth(_) => return Vec::new(),
+    let is_key = match column {
+        Column::Number(values) => are_different(values, |number| (number + 0.0).to_bits()),
+        Column::Text(values) => are_different(values, |text| text),
+        Column::Truth(_) => false,
     };
-    let all = keys.len() == column.len();
+    if is_key { vec![name] } else { Vec::new() }
+}
+
+/// Whether all values are known, and no two are the same.
+fn are_different<'v, T, K: Ord>(values: &'v [Option<T>], key: impl Fn(&'v T) -> K) -> bool {
+    let mut keys: Vec<K> = values.iter().flatten().map(key).collect();
     keys.sort_unstable();
     keys.dedup();
-    if all && keys.len() == column.len() { vec![name] } else { Vec::new() }
+    keys.len() == values.len()
 }
 
 /// The keys of a table's rows as people write them: the values of these columns, joined by `/`.

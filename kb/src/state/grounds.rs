@@ -44,29 +44,28 @@ impl<'a> Reasons<'a> {
     /// The reasons for a property of the objects in these rows.
     pub fn of_rows(&mut self, class: &str, property: &str, rows: &[u32]) -> Vec<Reason> {
         let revisions = self.revisions(class, property);
-        let mut seen: BTreeMap<Grounds, Option<i64>> = BTreeMap::new();
-        let found = self.knowledge.grounds(class, property, rows);
+        let (different, places) = self.knowledge.grounds(class, property, rows);
+        let mut seen: Vec<Option<Option<i64>>> = vec![None; different.len()];
         let mut reasons = Vec::with_capacity(rows.len());
-        for (row, grounds) in rows.iter().zip(found) {
-            let Some(grounds) = grounds else {
+        for (row, place) in rows.iter().zip(places) {
+            let Some(place) = place else {
                 // A value that was told, and that rules revised: it rests on the last of them.
                 reasons.push(revisions.get(row).map_or((None, None), |by| self.revision(by)));
                 continue;
             };
-            let rule = Some(grounds.rule as i64 + 1);
+            let grounds = &different[place];
             let revised_by = revisions.get(row);
-            let witness = match seen.get(&grounds) {
-                Some(witness) if revised_by.is_none() => *witness,
+            let witness = match seen[place] {
+                Some(witness) if revised_by.is_none() => witness,
                 _ => {
-                    let facts = self.facts(&grounds, revised_by);
-                    let witness = facts.map(|facts| self.number(facts));
+                    let witness = self.facts(grounds, revised_by).map(|facts| self.number(facts));
                     if revised_by.is_none() {
-                        seen.insert(grounds, witness);
+                        seen[place] = Some(witness);
                     }
                     witness
                 }
             };
-            reasons.push((rule, witness));
+            reasons.push((Some(grounds.rule as i64 + 1), witness));
         }
         reasons
     }

@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use adit_db::Tx;
 use adit_db::area::Area;
 use adit_db::conclusion::{Derivation, Rule, Witness};
+use adit_db::door::Door;
 use adit_db::place::Frame;
+use adit_db::room::Room;
+use adit_db::schema::Row;
 use adit_db::weight::Weight;
 use adit_engine::RuleBase;
 use adit_planners::facts::{Facts, Table};
@@ -60,22 +63,22 @@ impl Recall for LastBuild<'_, '_> {
             return Ok(None);
         }
         let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
-        let [area_rooms, door_rooms] =
-            [tables::kept(self.tx, "area_rooms")?, tables::kept(self.tx, "door_rooms")?];
-        let rooms = rows::rooms_table(self.before.rooms);
-        let made = [rooms, rows::doors_table(self.before.doors), area_rooms, door_rooms];
+        let members = [tables::kept(self.tx, "area_rooms")?, tables::kept(self.tx, "door_rooms")?];
         // another program may have edited or deleted rows since: then they are made anew
-        if stored.as_deref() != Some(&signature(fingerprint, &made)) {
+        let is_edited = self.tx.stale_marks()?.iter().any(|mark| ["rooms", "doors"].contains(&&*mark.table));
+        if is_edited || stored.as_deref() != Some(&signature(fingerprint, &members)) {
             return Ok(None);
         }
-        let made = MADE.into_iter().zip(made).filter(|(class, _)| gives(class));
+        let cut = [rows::table(self.before.rooms), rows::table(self.before.doors)];
+        let made = MADE.into_iter().zip(cut.into_iter().chain(members)).filter(|(class, _)| gives(class));
         Ok(Some(made.map(|(class, table)| (class.to_owned(), table)).collect()))
     }
 }
 
-/// What a planner worked from, and what came of it.
-fn signature(fingerprint: u64, made: &[Table]) -> String {
-    format!("{fingerprint:016x}{:016x}", content(made))
+/// What a planner worked from, and which rooms lie in which named areas and doors. An edit of rooms and doors themselves
+/// leaves a mark.
+fn signature(fingerprint: u64, members: &[Table]) -> String {
+    format!("{fingerprint:016x}{:016x}", content(members))
 }
 
 fn fingerprint_key(planner: &str) -> String {
@@ -165,15 +168,9 @@ impl Kept {
             &witnesses(facts, |at| kept.uses.contains_key(&at)),
         )?;
         tx.replace_derivations(&kept.derivations)?;
-        let members = |class: &str| planned.get(class).cloned().unwrap_or_default();
-        let made = [
-            rows::rooms_table(&graph.rooms),
-            rows::doors_table(&graph.doors),
-            members("AREA_ROOMS"),
-            members("DOOR_ROOMS"),
-        ];
+        let members = ["AREA_ROOMS", "DOOR_ROOMS"].map(|of| planned.get(of).cloned().unwrap_or_default());
         for (planner, fingerprint) in &step.planned.fingerprints {
-            tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &made)))?;
+            tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &members)))?;
         }
         keep_planned_classes(tx, planned)?;
         Ok(kept)
@@ -278,9 +275,11 @@ impl Written {
         }
         tx.put_open_areas(self.areas.iter().map(|(_, area)| area))?;
         let rooms = step.weighed.rooms.iter();
-        tx.put_room_weights(rooms.map(|(row, weight)| (graph.rooms[*row].room, weight)))?;
+        tx.put_weights::<Room>(rooms.map(|(row, weight)| (graph.rooms[*row].room, weight)))?;
         let doors = step.weighed.doors.iter();
-        tx.put_door_weights(doors.map(|(row, weight)| (graph.doors[*row].door, weight)))?;
+        tx.put_weights::<Door>(doors.map(|(row, weight)| (graph.doors[*row].door, weight)))?;
+        tx.restore_blocks(&graph.rooms)?;
+        tx.restore_blocks(&graph.doors)?;
         let gone: Vec<&Derivation> = self.gone.iter().collect();
         tx.change_derivations(&gone, &self.new.iter().collect::<Vec<_>>())?;
         Ok(())

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 
+use adit_db::schema::{Part, Row, Value as Lent};
 use adit_engine::Value;
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
@@ -11,7 +12,6 @@ use siphasher::sip::SipHasher13;
 
 use crate::error::{Error, Result};
 use crate::graph::SiteGraph;
-use crate::state::rows;
 
 /// Facts of planners, by class, and the fingerprint of what each planner worked from.
 #[derive(Clone, Default)]
@@ -25,19 +25,23 @@ pub struct Planned {
 impl Planned {
     /// What a planner said of a property of the object in a row.
     pub fn value(&self, graph: &SiteGraph, (class, row, property): (&str, usize, &str)) -> Option<Value> {
-        let made;
-        let table = match class {
-            "ROOMS" => {
-                made = rows::rooms_table(graph.rooms.get(row..=row)?);
-                return value_of(made.column(property)?, 0);
-            }
-            "DOORS" => {
-                made = rows::doors_table(graph.doors.get(row..=row)?);
-                return value_of(made.column(property)?, 0);
-            }
-            _ => self.facts.get(class)?,
-        };
-        value_of(table.column(property)?, row)
+        match class {
+            "ROOMS" => value_in(graph.rooms.get(row)?, property),
+            "DOORS" => value_in(graph.doors.get(row)?, property),
+            _ => value_of(self.facts.get(class)?.column(property)?, row),
+        }
+    }
+}
+
+/// A value of a row as it is told.
+fn value_in<R: Row>(row: &R, property: &str) -> Option<Value> {
+    let column = R::columns_of(Part::Cut).find(|column| column.name == property)?;
+    match (column.get)(row) {
+        Lent::Null => None,
+        Lent::Integer(integer) => Some(Value::Number(integer as f64)),
+        Lent::Real(real) => Some(Value::Number(real)),
+        Lent::Text(text) => Some(Value::from(text)),
+        Lent::Truth(truth) => Some(Value::Truth(truth)),
     }
 }
 

@@ -2,10 +2,9 @@
 
 use adit_db::Derived;
 use adit_db::area::Area;
-use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
-use adit_db::room::Room;
-use adit_planners::facts::{Column, Table};
+use adit_db::schema::{Column, Kind, Part, Row, Value};
+use adit_planners::facts::{self, Table};
 use adit_planners::world::World;
 
 use crate::error::{Error, Result};
@@ -50,118 +49,58 @@ fn key(value: Option<f64>) -> i64 {
     value.unwrap_or(0.0) as i64
 }
 
-/// Rooms as rows, without what rules say.
-pub fn rooms(table: &Table) -> Result<Vec<Room>> {
-    let columns = Columns { class: "ROOMS", table };
-    let (keys, names) = (columns.numbers("room")?, columns.texts("name")?);
-    let (robots, states) = (columns.texts("robot")?, columns.texts("state")?);
-    let rects = columns.quads(["x0", "y0", "x1", "y1"])?;
-    let (heights, widths) = (columns.numbers("height")?, columns.numbers("width")?);
-    let facings = columns.numbers("facing")?;
-    let row = |index: usize| Room {
-        room: key(keys[index]),
-        name: names[index].clone().unwrap_or_default(),
-        layer: robots[index].clone().zip(states[index].clone()),
-        facing: facings[index],
-        rect: rects[index],
-        height: heights[index],
-        width: widths[index].unwrap_or_default(),
-        hardness: Derived::default(),
-        action: Derived::default(),
-        passable: Derived::default(),
+/// Rooms or doors as planners assert them.
+pub fn table<R: Row>(rows: &[R]) -> Table {
+    let number = |value| match value {
+        Value::Integer(integer) => Some(integer as f64),
+        Value::Real(real) => Some(real),
+        _ => None,
     };
-    Ok((0..table.len()).map(row).collect())
+    let text = |value: Value<'_>| if let Value::Text(text) = value { Some(text.to_owned()) } else { None };
+    let truth = |value| if let Value::Truth(truth) = value { Some(truth) } else { None };
+    let columns = R::columns_of(Part::Cut).map(|column| {
+        let values = rows.iter().map(column.get);
+        let values = match column.kind {
+            Kind::Integer | Kind::Real => facts::Column::Number(values.map(number).collect()),
+            Kind::Text => facts::Column::Text(values.map(text).collect()),
+            Kind::Truth => facts::Column::Truth(values.map(truth).collect()),
+        };
+        (column.name.to_owned(), values)
+    });
+    Table { columns: columns.collect() }
 }
 
-/// Rooms as planners assert them.
-pub fn rooms_table(rooms: &[Room]) -> Table {
-    let layer = |pick: fn(&(String, String)) -> &String| -> Column {
-        rooms.iter().map(|room| room.layer.as_ref().map(|layer| pick(layer).clone())).collect()
-    };
-    let mut table = Table::default()
-        .with("room", rooms.iter().map(|room| room.room as f64).collect::<Column>())
-        .with("name", rooms.iter().map(|room| room.name.clone()).collect::<Column>())
-        .with("robot", layer(|layer| &layer.0))
-        .with("state", layer(|layer| &layer.1))
-        .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
-    for (side, name) in ["x0", "y0", "x1", "y1"].iter().enumerate() {
-        table = table.with(name, rooms.iter().map(|room| room.rect[side]).collect::<Column>());
+/// Rooms or doors as rows, without what rules say.
+pub fn of_table<R: Row>(class: &'static str, table: &Table) -> Result<Vec<R>> {
+    let columns = Columns { class, table };
+    let mut rows = vec![R::default(); table.len()];
+    for column in R::columns_of(Part::Cut) {
+        let is_whole = column.kind == Kind::Integer;
+        let number = |number| if is_whole { Value::Integer(number as i64) } else { Value::Real(number) };
+        let property = column.name;
+        match column.kind {
+            Kind::Integer | Kind::Real => put(&mut rows, column, columns.numbers(property)?, |v| number(*v)),
+            Kind::Text => put(&mut rows, column, columns.texts(property)?, |v| Value::Text(v)),
+            Kind::Truth => put(&mut rows, column, columns.truths(property)?, |v| Value::Truth(*v)),
+        }
+        .map_err(|row| {
+            columns.missing(&format!("object {row} has no `{property}`, or one that cannot be"))
+        })?;
     }
-    table
-        .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
-        .with("width", rooms.iter().map(|room| room.width).collect::<Column>())
+    Ok(rows)
 }
 
-/// Doors as rows, without what rules say.
-pub fn doors(table: &Table) -> Result<Vec<Door>> {
-    let columns = Columns { class: "DOORS", table };
-    let (keys, kinds) = (columns.numbers("door")?, columns.texts("kind")?);
-    let (xs, ys, widths) = (columns.numbers("x")?, columns.numbers("y")?, columns.numbers("width")?);
-    let segments = columns.quads(["x0", "y0", "x1", "y1"])?;
-    let one_way = columns.truths("one_way")?;
-    let sides = [
-        sides(&columns, ["room1", "height1", "width1", "distance1"])?,
-        sides(&columns, ["room2", "height2", "width2", "distance2"])?,
-    ];
-    let row = |index: usize| Door {
-        door: key(keys[index]),
-        kind: if kinds[index].as_deref() == Some("change") { DoorKind::Change } else { DoorKind::Door },
-        side1: sides[0][index],
-        side2: sides[1][index],
-        at: [xs[index].unwrap_or_default(), ys[index].unwrap_or_default()],
-        width: widths[index].unwrap_or_default(),
-        segment: segments[index],
-        hardness: Derived::default(),
-        action: Derived::default(),
-        passable: Derived::default(),
-        one_way: one_way[index].unwrap_or(false),
-    };
-    Ok((0..table.len()).map(row).collect())
-}
-
-fn sides(columns: &Columns<'_>, properties: [&str; 4]) -> Result<Vec<Side>> {
-    let [rooms, heights, widths, distances] = [
-        columns.numbers(properties[0])?,
-        columns.numbers(properties[1])?,
-        columns.numbers(properties[2])?,
-        columns.numbers(properties[3])?,
-    ];
-    let side = |index: usize| Side {
-        room: key(rooms[index]),
-        height: heights[index],
-        width: widths[index],
-        distance: distances[index],
-    };
-    Ok((0..columns.table.len()).map(side).collect())
-}
-
-/// Doors as planners assert them.
-pub fn doors_table(doors: &[Door]) -> Table {
-    let number = |pick: &dyn Fn(&Door) -> f64| -> Column { doors.iter().map(pick).collect() };
-    let maybe = |pick: &dyn Fn(&Door) -> Option<f64>| -> Column { doors.iter().map(pick).collect() };
-    let kind = |door: &Door| match door.kind {
-        DoorKind::Door => "door".to_owned(),
-        DoorKind::Change => "change".to_owned(),
-    };
-    Table::default()
-        .with("door", number(&|door| door.door as f64))
-        .with("kind", doors.iter().map(kind).collect::<Column>())
-        .with("room1", number(&|door| door.side1.room as f64))
-        .with("room2", number(&|door| door.side2.room as f64))
-        .with("x", number(&|door| door.at[0]))
-        .with("y", number(&|door| door.at[1]))
-        .with("width", number(&|door| door.width))
-        .with("x0", number(&|door| door.segment[0]))
-        .with("y0", number(&|door| door.segment[1]))
-        .with("x1", number(&|door| door.segment[2]))
-        .with("y1", number(&|door| door.segment[3]))
-        .with("height1", maybe(&|door| door.side1.height))
-        .with("width1", maybe(&|door| door.side1.width))
-        .with("distance1", maybe(&|door| door.side1.distance))
-        .with("height2", maybe(&|door| door.side2.height))
-        .with("width2", maybe(&|door| door.side2.width))
-        .with("distance2", maybe(&|door| door.side2.distance))
-        .with("one_way", doors.iter().map(|door| door.one_way).collect::<Column>())
+/// Puts values into a column of rows; an error is the number of the row, from 1, that cannot take its value.
+fn put<'v, R, T>(
+    rows: &mut [R],
+    column: &Column<R>,
+    values: &'v [Option<T>],
+    lent: impl Fn(&'v T) -> Value<'v>,
+) -> std::result::Result<(), usize> {
+    let mut pairs = rows.iter_mut().zip(values);
+    let refused =
+        pairs.position(|(row, value)| !(column.put)(row, value.as_ref().map_or(Value::Null, &lent)));
+    refused.map_or(Ok(()), |row| Err(row + 1))
 }
 
 /// Prime areas as rows, without what rules say.

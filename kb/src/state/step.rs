@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use adit_db::schema::Row;
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
@@ -82,11 +83,8 @@ impl State {
         let before = self.twin.shown();
         let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
         if given.is_any {
-            let bare = |class: &str| given.made.get(class).cloned();
-            let mut rooms =
-                bare("ROOMS").map_or_else(|| Ok(before.rooms.clone()), |table| rows::rooms(&table))?;
-            let mut doors =
-                bare("DOORS").map_or_else(|| Ok(before.doors.clone()), |table| rows::doors(&table))?;
+            let mut rooms = given.rows("ROOMS", &before.rooms)?;
+            let mut doors = given.rows("DOORS", &before.doors)?;
             weights::check(knowledge, (&rooms, &doors), None)?;
             let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
             look.rooms().into_iter().for_each(|(row, weight)| rooms[row].weigh(weight));
@@ -301,6 +299,11 @@ struct Given {
 }
 
 impl Given {
+    /// Rooms or doors, as they were where no planner gave any.
+    fn rows<R: Row>(&self, class: &'static str, before: &[R]) -> Result<Vec<R>> {
+        self.made.get(class).map_or_else(|| Ok(before.to_vec()), |table| rows::of_table(class, table))
+    }
+
     fn take(&mut self, class: String, table: Table) {
         let is_of_graph = ["ROOMS", "DOORS"].contains(&class.as_str());
         let facts = if is_of_graph { &mut self.made } else { &mut self.planned.facts };

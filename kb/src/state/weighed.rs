@@ -3,6 +3,7 @@
 use adit_db::Derived;
 use adit_db::door::Door;
 use adit_db::room::Room;
+use adit_db::schema::{Part, Row};
 use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 
@@ -25,34 +26,27 @@ impl Weighed {
 
     /// In what rooms and doors differ, row by row.
     pub fn between(before: (&[Room], &[Door]), after: (&[Room], &[Door])) -> Self {
-        fn differing<T>(before: &[T], after: &[T], weight: impl Fn(&T) -> Weight) -> Vec<(usize, Weight)> {
-            let pairs = before.iter().zip(after).enumerate();
-            let pairs = pairs.map(|(row, (old, new))| (row, weight(old), weight(new)));
-            pairs.filter(|(_, old, new)| old != new).map(|(row, _, new)| (row, new)).collect()
+        fn differing<R: Row>(before: &[R], after: &[R]) -> Vec<(usize, Weight)> {
+            let rows = (0..before.len().min(after.len()))
+                .filter(|&row| !is_alike(&before[row], &after[row], Part::Weight));
+            rows.map(|row| (row, after[row].weight())).collect()
         }
-        Self {
-            rooms: differing(before.0, after.0, Room::weight),
-            doors: differing(before.1, after.1, Door::weight),
-        }
+        Self { rooms: differing(before.0, after.0), doors: differing(before.1, after.1) }
     }
+}
+
+/// Whether two rows hold the same in a part of their columns.
+fn is_alike<R: Row>(one: &R, other: &R, part: Part) -> bool {
+    R::columns_of(part).all(|column| (column.get)(one) == (column.get)(other))
 }
 
 /// Whether rooms and doors are cut as they were: what rules say of them may differ.
 pub fn is_same_cut(before: (&[Room], &[Door]), after: (&[Room], &[Door])) -> bool {
-    let is_same_room = |(old, new): (&Room, &Room)| {
-        (old.room, &old.name, &old.layer) == (new.room, &new.name, &new.layer)
-            && old.rect.map(f64::to_bits) == new.rect.map(f64::to_bits)
-            && (old.facing, old.height, old.width) == (new.facing, new.height, new.width)
-    };
-    let is_same_door = |(old, new): (&Door, &Door)| {
-        (old.door, old.kind, old.side1, old.side2) == (new.door, new.kind, new.side1, new.side2)
-            && old.segment.map(f64::to_bits) == new.segment.map(f64::to_bits)
-            && (old.at, old.width, old.one_way) == (new.at, new.width, new.one_way)
-    };
-    before.0.len() == after.0.len()
-        && before.1.len() == after.1.len()
-        && before.0.iter().zip(after.0).all(is_same_room)
-        && before.1.iter().zip(after.1).all(is_same_door)
+    fn is_same<R: Row>(before: &[R], after: &[R]) -> bool {
+        before.len() == after.len()
+            && before.iter().zip(after).all(|(old, new)| is_alike(old, new, Part::Cut))
+    }
+    is_same(before.0, after.0) && is_same(before.1, after.1)
 }
 
 /// Whether rules say which rooms are entered. A rule base without a rule about it lets all of them be.
@@ -145,11 +139,13 @@ impl Look<'_, '_> {
             Some(reasons) => reasons.of_rows(class, property, rows),
             None => vec![(None, None); rows.len()],
         };
-        let derived = |(row, (rule, witness)): (&u32, Reason)| {
-            let value = self.knowledge.value_at(class, *row as usize, property).as_ref().and_then(value);
-            Derived { value, rule, witness }
+        let values = self.knowledge.values_at(class, rows, property);
+        let derived = |(given, (rule, witness)): (Option<Value>, Reason)| Derived {
+            value: given.as_ref().and_then(value),
+            rule,
+            witness,
         };
-        rows.iter().zip(reasons).map(derived).collect()
+        values.into_iter().zip(reasons).map(derived).collect()
     }
 
     /// The rows of a property whose value or reason may differ, ascending.

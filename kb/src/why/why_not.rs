@@ -110,11 +110,12 @@ impl State {
         let (conclusions, _) = self.conclusions(&named)?;
         let costs = (best.as_ref().map(|best| best.cost), way.as_ref().map(|way| way.cost));
         let reason = contrast::reason(&subject, self.graph().door(key), (start, goal), costs);
-        let route = way.as_ref().map(|way| {
+        let answer = |way: &Way| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
-            self.basis().along(way, is_to_point, &mut answer);
-            answer
-        });
+            self.basis().along(way, is_to_point, &mut answer)?;
+            Ok(answer)
+        };
+        let route = way.as_ref().map(answer).transpose()?;
         let mut answer = WhyNot {
             generation: self.generation,
             robot,

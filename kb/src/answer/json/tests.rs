@@ -151,7 +151,7 @@ fn how_long_answers_take() {
                     bytes += write(&answer, (&graph, graph.texts().unwrap(), &rules), &way).unwrap().len();
                 } else if what != "way" {
                     answer.steps = steps::steps(&graph, &rules, &way, false);
-                    answer.waypoints = steps::waypoints(&graph, &way, &gauge);
+                    answer.waypoints = steps::waypoints(&graph, &way, None);
                     if what == "with serde" {
                         bytes += serde_json::to_vec(&answer).unwrap().len();
                     }
