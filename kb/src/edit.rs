@@ -45,7 +45,6 @@ pub enum Edit {
     Undo(Option<i64>),
 }
 
-/// What was edited.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Done {
     /// Number in the history.

@@ -172,7 +172,6 @@ impl KnowledgeBase {
         &self.planners
     }
 
-    /// The site.
     pub fn site(&self) -> &Site {
         &self.site
     }

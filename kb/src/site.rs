@@ -67,11 +67,8 @@ pub enum Starts {
 /// What `site.toml` says.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// Its folder.
     pub folder: PathBuf,
-    /// Its name.
     pub name: String,
-    /// The map's file.
     pub map: PathBuf,
     /// The file that seeds the robot table.
     pub robots: PathBuf,

@@ -7,7 +7,6 @@ use super::judge::{strategy_word, told};
 use super::session::Done;
 use crate::words::number::number;
 
-/// A task as JSON.
 pub fn task_json(done: &Done) -> Value {
     let mut answer = json!({
         "status": if done.reason.is_none() { "ok" } else { "no_path" },

@@ -16,7 +16,6 @@ use crate::words::suggest::did_you_mean;
 pub struct Cell {
     /// Under which its experience is kept.
     pub name: String,
-    /// Its robot.
     pub robot: RobotKind,
     /// The robot in words and numbers; experience of a robot of which another text is said is none of this one.
     pub robot_text: String,
@@ -44,22 +43,17 @@ pub enum RobotKind {
 /// Where the robot may be sent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// Its name.
     pub name: String,
-    /// Where it is.
     pub target: Target,
 }
 
 /// Where a goal is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
-    /// At a configuration.
     Configuration(Configuration),
     /// Where the tool is at a pose in the frame of an object, so that the goal goes along with it.
     Tool {
-        /// The object.
         object: String,
-        /// In its frame.
         pose: Pose,
     },
 }
@@ -67,11 +61,8 @@ pub enum Target {
 /// What changes after a task: objects and goals that are new.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// After how many tasks.
     pub after_task: usize,
-    /// New objects.
     pub objects: Vec<Object>,
-    /// New goals.
     pub goals: Vec<Goal>,
 }
 
@@ -168,7 +159,6 @@ impl Cell {
         }
     }
 
-    /// The object of this name.
     pub fn object(&self, name: &str) -> Option<&Object> {
         self.objects.iter().find(|object| object.name == name)
     }

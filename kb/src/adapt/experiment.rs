@@ -18,7 +18,6 @@ use crate::error::{Error, Result};
 /// A row of the table: a task of a method, over all runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// The scenario.
     pub scenario: String,
     /// `a0` to `a3`, or `solve`.
     pub strategy: &'static str,
@@ -36,7 +35,6 @@ pub struct Row {
     pub seconds: f64,
 }
 
-/// The word for a method.
 pub fn method_word(method: Method) -> &'static str {
     match method {
         Method::Solve => "solve",
@@ -44,7 +42,6 @@ pub fn method_word(method: Method) -> &'static str {
     }
 }
 
-/// The method of a word.
 pub fn method_of(word: &str) -> Option<Method> {
     if word == "solve" { Some(Method::Solve) } else { strategy_of(word).map(Method::Adapt) }
 }
@@ -52,7 +49,6 @@ pub fn method_of(word: &str) -> Option<Method> {
 /// What one scenario gave.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Its name.
     pub scenario: String,
     /// After how many tasks it changed; `None` where it did not.
     pub change_after: Option<usize>,

@@ -24,17 +24,13 @@ struct Asked {
 pub struct Decision {
     /// `strategy`, `landmark` or `trust`.
     pub question: &'static str,
-    /// What was answered.
     pub answer: String,
     /// The rule or table that spoke.
     pub rule: String,
     /// The row of a table, from 1.
     pub row: Option<usize>,
-    /// Its file.
     pub file: String,
-    /// Its line there.
     pub line: usize,
-    /// How often.
     pub times: u64,
 }
 
@@ -54,7 +50,6 @@ impl Explained {
         }
     }
 
-    /// For programs.
     pub fn decisions(&self) -> Vec<Decision> {
         let decision = |(asked, times): (&Asked, &u64)| Decision {
             question: asked.question,
@@ -68,7 +63,6 @@ impl Explained {
         self.0.iter().map(decision).collect()
     }
 
-    /// For people.
     pub fn lines(&self) -> Vec<String> {
         let line = |decision: Decision| {
             let row = decision.row.map_or_else(String::new, |row| format!(", row {row}"));

@@ -63,7 +63,6 @@ pub fn strategy_word(strategy: Strategy) -> &'static str {
     STRATEGIES.iter().find(|(_, known)| *known == strategy).map_or("a3", |(word, _)| word)
 }
 
-/// The strategy of a word.
 pub fn strategy_of(word: &str) -> Option<Strategy> {
     STRATEGIES.iter().find(|(known, _)| *known == word).map(|(_, strategy)| *strategy)
 }
@@ -75,7 +74,6 @@ pub(crate) const OF_LANDMARKS: [&str; 2] = ["weight", "serves"];
 /// What is asked of an edge.
 pub(crate) const OF_EDGES: [&str; 1] = ["trust"];
 
-/// Rules as a judge.
 #[derive(Debug)]
 pub struct RuleJudge {
     changes: Consultation,

@@ -204,7 +204,6 @@ impl Written {
     }
 }
 
-/// A whole number.
 fn count(draft: &mut Draft<'_>, key: &str, found: &Spanned<f64>, least: usize) -> Option<usize> {
     const MOST: f64 = 1e6;
     let value = found.value;

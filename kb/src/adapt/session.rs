@@ -53,7 +53,6 @@ pub struct Session {
 /// A task that was done, or tried.
 #[derive(Clone, Debug)]
 pub struct Done {
-    /// Where it led.
     pub goal: Goal,
     /// The goal's configuration; `None` where there is none.
     pub at: Option<Configuration>,
@@ -116,7 +115,6 @@ impl Session {
         &self.cell
     }
 
-    /// The planner.
     pub const fn adapt(&self) -> &Adapt {
         &self.adapt
     }

@@ -11,7 +11,6 @@ use super::draft::Draft;
 use super::scenario::located;
 use crate::error::{Error, Result};
 
-/// Reads a path of configurations of a robot.
 pub fn read(path: &Path, robot: &RobotKind) -> Result<Vec<Configuration>> {
     let text = std::fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
     let source = Text::new(&path.display().to_string(), &text);

@@ -10,7 +10,6 @@ use super::{MARGIN, page, text};
 /// What is drawn of a cell, in metres; what is drawn of its configuration space, in radians or metres.
 #[derive(Clone, Debug, Default)]
 pub struct CellPicture {
-    /// What stands above.
     pub title: String,
     /// Objects by name.
     pub objects: Vec<(String, Vec<Point>)>,
@@ -33,17 +32,12 @@ pub struct CellPicture {
 /// A configuration space of two dimensions.
 #[derive(Clone, Debug)]
 pub struct SpacePicture {
-    /// Its limits.
     pub limits: Rect,
     /// Boxes in which the robot touches something.
     pub taken: Vec<Rect>,
-    /// Names of goals.
     pub goals: Vec<(String, Point)>,
-    /// Paths.
     pub paths: Vec<Vec<Point>>,
-    /// Subgoals.
     pub subgoals: Vec<Point>,
-    /// Edges.
     pub edges: Vec<Vec<Point>>,
 }
 

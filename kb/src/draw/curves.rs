@@ -18,7 +18,6 @@ pub struct CurvePanel {
     pub across: String,
     /// What is counted upwards.
     pub scale: Scale,
-    /// The curves.
     pub curves: Vec<Curve>,
     /// Where something happened: a dashed line down, and what it was.
     pub event: Option<(f64, String)>,
@@ -38,7 +37,6 @@ pub enum Scale {
 /// A curve with its name. The legend has a name once.
 #[derive(Clone, Debug)]
 pub struct Curve {
-    /// Its name.
     pub name: String,
     /// Which of the pens draws it; 0 is a full line, for what matters most.
     pub pen: usize,

@@ -20,7 +20,6 @@ impl Block {
         Self { x: x - w / 2.0, y: y - h / 2.0, w, h }
     }
 
-    /// Its centre.
     pub fn centre(&self) -> At {
         (self.x + self.w / 2.0, self.y + self.h / 2.0)
     }
@@ -54,7 +53,6 @@ pub(super) struct Frame {
     bounds: Rect,
     /// Picture units a metre.
     pub scale: f64,
-    /// The map's box.
     pub map: Block,
 }
 
@@ -67,12 +65,10 @@ impl Frame {
         Self { bounds, scale, map: Block { x: left, y: top, w: dx * scale, h: dy * scale } }
     }
 
-    /// Where x lies.
     pub fn x(&self, x: f64) -> f64 {
         self.map.x + (x - self.bounds.x0) * self.scale
     }
 
-    /// Where y lies.
     pub fn y(&self, y: f64) -> f64 {
         self.map.y + self.map.h - (y - self.bounds.y0) * self.scale
     }

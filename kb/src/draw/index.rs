@@ -18,7 +18,6 @@ pub(super) struct Index {
 }
 
 impl Index {
-    /// Adds a box.
     pub fn add(&mut self, block: Block) {
         let (columns, rows) = (span(block.x, block.w), span(block.y, block.h));
         if (columns.1 - columns.0 + 1).saturating_mul(rows.1 - rows.0 + 1) > MOST_BUCKETS {

@@ -8,9 +8,7 @@ use super::text;
 /// How a label looks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    /// Font size.
     pub size: f64,
-    /// Fill colour.
     pub colour: &'static str,
     /// Whether it is to be seen before others.
     pub strong: bool,

@@ -62,7 +62,6 @@ impl Layer {
     "there is no layer `{name}`; layers are map, rooms, doors, route, legend, strips, primes, graph, weighted"
 )]
 pub struct UnknownLayer {
-    /// The name.
     pub name: String,
 }
 

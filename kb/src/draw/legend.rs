@@ -12,7 +12,6 @@ const WITH_PLACES: usize = 12;
 /// Runs that are listed at all.
 const LISTED: usize = 36;
 
-/// Writes the panel.
 pub(super) fn legend(panel: &mut Panel, sheet: &Sheet) {
     if let Some(found) = sheet.scene.route.as_ref().filter(|_| sheet.layers.has(Layer::Route)) {
         steps(panel, sheet, found);

@@ -8,7 +8,6 @@ pub(super) const INK: &str = "#2b303b";
 pub(super) const GREY: &str = "#68707d";
 /// What nobody passes.
 pub(super) const CLOSED: &str = "#8a9099";
-/// Bridges.
 pub(super) const BRIDGE: &str = "#b5651d";
 /// The start and the goal.
 pub(super) const ROUTE: &str = "#17365d";
@@ -69,7 +68,6 @@ impl Palette {
         &self.closed
     }
 
-    /// Colour of an action.
     pub fn colour(&self, action: Option<&str>) -> &'static str {
         self.position(action).map_or(CLOSED, |i| ACTIONS[i % ACTIONS.len()].0)
     }
@@ -89,7 +87,6 @@ impl Palette {
 pub(super) struct Scale {
     /// Upper limits of the classes, ascending; the last is the greatest value.
     pub limits: Vec<f64>,
-    /// The least value.
     pub least: f64,
 }
 
@@ -119,7 +116,6 @@ impl Scale {
         above.unwrap_or(self.limits.len().saturating_sub(1))
     }
 
-    /// Colour of a class.
     pub fn colour(class: usize) -> &'static str {
         HARDNESS[class.min(HARDNESS.len() - 1)]
     }

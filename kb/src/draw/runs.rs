@@ -7,13 +7,11 @@ use super::scene::{Route, StepKind};
 /// Consecutive steps of one action.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Run {
-    /// The action.
     pub action: Option<String>,
     /// The state, where one is known.
     pub state: Option<String>,
     /// Whether it begins with a change of shape.
     pub changed: bool,
-    /// Its length.
     pub metres: f64,
     /// What it adds to the cost, the change of shape included.
     pub hardness: f64,

@@ -62,9 +62,7 @@ impl Scene {
 /// A row of `rooms`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Room {
-    /// Its name.
     pub name: String,
-    /// Its outline.
     pub rect: Rect,
     /// The state whose layer it belongs to; `None` in the paper's modes.
     pub state: Option<String>,
@@ -88,9 +86,7 @@ pub enum DoorKind {
 /// A row of `doors`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Door {
-    /// Its number.
     pub number: i64,
-    /// What it is.
     pub kind: DoorKind,
     /// Index of its first room in [`Scene::rooms`].
     pub room1: usize,
@@ -115,7 +111,6 @@ pub struct Door {
 pub struct PrimeArea {
     /// What is written on it: `A`, or its strings.
     pub label: String,
-    /// Its outline.
     pub rect: Rect,
     /// Whether it is on list 2 (open); `None` before the rules have run.
     pub open: Option<bool>,
@@ -124,22 +119,17 @@ pub struct PrimeArea {
 /// A route: rows of `action_sequence`, with its ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// Where it starts.
     pub start: Place,
-    /// Where it leads.
     pub goal: Place,
     /// Its steps in order.
     pub steps: Vec<Step>,
-    /// Its whole cost.
     pub cost: f64,
 }
 
 /// What a step of a route passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StepKind {
-    /// Through a room.
     Room,
-    /// Through a door.
     Door,
     /// From one shape into another, on the spot.
     Change,
@@ -148,7 +138,6 @@ pub enum StepKind {
 /// A row of `action_sequence`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What it passes.
     pub kind: StepKind,
     /// The room's name or the door's number.
     pub place: String,
@@ -158,7 +147,6 @@ pub struct Step {
     pub action: Option<String>,
     /// What it adds to the cost.
     pub hardness: f64,
-    /// Where it ends.
     pub to: Point,
     /// Heading there, degrees counterclockwise from x; `None` where any will do.
     pub heading: Option<f64>,

@@ -43,7 +43,6 @@ pub(super) struct Element<'a> {
 }
 
 impl Element<'_> {
-    /// A text attribute.
     pub fn attr(self, name: &str, value: &str) -> Self {
         self.svg.out.push(' ');
         self.svg.out.push_str(name);
@@ -53,12 +52,10 @@ impl Element<'_> {
         self
     }
 
-    /// A number attribute.
     pub fn num(self, name: &str, value: f64) -> Self {
         self.attr(name, &number(value))
     }
 
-    /// Several number attributes.
     pub fn nums<const N: usize>(self, values: [(&str, f64); N]) -> Self {
         values.into_iter().fold(self, |element, (name, value)| element.num(name, value))
     }

@@ -23,7 +23,6 @@ pub struct Tell {
     pub class: String,
     /// The object: its name, `x,y`, `door 7` or `room d`.
     pub object: String,
-    /// The property.
     pub property: String,
     /// The value: a number, a text, `true` or `false`.
     pub value: String,

@@ -15,7 +15,6 @@ const APART: f64 = 1e-7;
 pub struct Observation {
     /// Metres by state.
     pub metres: BTreeMap<String, f64>,
-    /// What was measured.
     pub measured: f64,
 }
 
@@ -47,7 +46,6 @@ pub struct Value {
     column: Option<usize>,
 }
 
-/// What fits best.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// By state.

@@ -30,7 +30,6 @@ const LARGEST_TURN: f64 = 3600.0;
 pub struct Script {
     /// Where the robot stands.
     pub start: Pose,
-    /// One a line.
     pub orders: Vec<Order>,
     /// The line of each order, from 1.
     pub lines: Vec<usize>,

@@ -17,7 +17,6 @@ use crate::words::suggest::did_you_mean;
 /// A floor plan, the network of places for a robot, and what the robot goes by.
 #[derive(Debug)]
 pub struct Floor {
-    /// The plan.
     pub plan: FloorPlan,
     /// Regions, adits and ways.
     pub network: Network,
@@ -33,7 +32,6 @@ impl Floor {
         self.plan.places().iter().map(|place| place.name.as_str()).collect()
     }
 
-    /// The judge for it.
     pub fn judge(&self, rules: &Arc<RuleBase>) -> Result<RuleJudge> {
         RuleJudge::with(rules, &self.told).map_err(|error| Error::said("plan/rules", error.to_string(), None))
     }
@@ -103,7 +101,6 @@ impl Walked {
         self.tight.is_ok()
     }
 
-    /// As JSON.
     pub fn json(&self) -> Value {
         match &self.tight {
             Err(reason) => json!({"status": "no_path", "reason": reason.to_string()}),
@@ -120,7 +117,6 @@ impl Walked {
         }
     }
 
-    /// For people.
     pub fn lines(&self) -> Vec<String> {
         match &self.tight {
             Err(reason) => vec![format!("no path: {reason}")],

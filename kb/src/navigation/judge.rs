@@ -85,7 +85,6 @@ pub(crate) const OF_SEGMENTS: [&str; 6] =
 /// What is asked of them.
 pub(crate) const OF_WAYS: [&str; 2] = ["weight", "passable"];
 
-/// Rules as a judge.
 #[derive(Debug)]
 pub struct RuleJudge {
     situations: Consultation,
@@ -176,7 +175,6 @@ pub fn state_word(state: State) -> &'static str {
     STATES.iter().find(|(_, known)| *known == state).map_or("hold", |(word, _)| word)
 }
 
-/// The word for an action.
 pub fn action_word(action: Action) -> &'static str {
     ACTIONS.iter().find(|(_, known)| *known == action).map_or("none", |(word, _)| word)
 }

@@ -55,7 +55,6 @@ pub struct Row {
     pub walls_missed: [f64; 3],
     /// Surfaces of the global model.
     pub walls: usize,
-    /// Convex regions.
     pub regions: usize,
 }
 

@@ -22,9 +22,7 @@ pub struct Row {
     pub mission: usize,
     /// From which it is drawn, and its errors.
     pub seed: u64,
-    /// Where it begins.
     pub start: [f64; 2],
-    /// Where it leads.
     pub goal: [f64; 2],
     /// How many obstacles are not known to the robot.
     pub obstacles: usize,
@@ -42,7 +40,6 @@ pub struct Row {
     pub optimum: Option<f64>,
     /// Times that a way was closed and another looked for.
     pub replans: u32,
-    /// Detours.
     pub detours: u32,
     /// Touches of the skirt while the robot moved.
     pub touches: usize,
@@ -69,7 +66,6 @@ impl Row {
 /// Deeper than that is a collision, metres.
 const TOUCH_M: f64 = 1e-6;
 
-/// The missions of a seed.
 pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
     let of = |number: usize| {
         // Far apart, so that seeds that lie together give different missions.

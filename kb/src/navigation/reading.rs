@@ -84,7 +84,6 @@ pub fn read(
     Ok(problems.is_empty().then_some(Floor { plan, network, settings, told }))
 }
 
-/// Where walls stand.
 enum Source {
     /// A floor plan as JSON.
     Plan(String),

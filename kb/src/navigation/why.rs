@@ -31,13 +31,10 @@ pub struct Answer {
     pub time: f64,
     /// Where the robot thought it was, metres.
     pub at: [f64; 2],
-    /// The state before.
     pub state: String,
-    /// The state after.
     pub next: String,
     /// What was done on the way.
     pub action: String,
-    /// The rule base.
     pub rules: String,
     /// What the rules say now, where they have been changed since: next state and action.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -161,7 +158,6 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
 }
 
 impl Answer {
-    /// For people.
     pub fn lines(&self) -> Vec<String> {
         let action = if self.action == "none" { String::new() } else { format!(", {}", self.action) };
         let mut lines = vec![format!(

@@ -13,7 +13,6 @@ use crate::words::number::number;
 /// A path or why there is none, and what rules said on the way.
 #[derive(Clone, Debug)]
 pub struct Answer<P> {
-    /// The path.
     pub path: Result<P, NoPath>,
     /// What rules said, junction by junction, as far as they were asked.
     pub said: Vec<Said>,
@@ -76,7 +75,6 @@ impl<const D: usize> Answer<PartPath<D>> {
         answer
     }
 
-    /// For people.
     pub fn lines(&self, world: &Assembly<D>, explained: bool) -> Vec<String> {
         let mut lines = Vec::new();
         match &self.path {

@@ -15,15 +15,12 @@ use super::world::{Task, flag};
 /// A part in channels, and what is asked of its path.
 #[derive(Clone, Debug)]
 pub struct Assembly<const D: usize> {
-    /// Channels and part.
     pub geometry: geometry::Assembly<D>,
-    /// The gap that is asked for.
     pub gap: Asked<D>,
     /// Where it is another one: the number of the junction.
     pub gaps: BTreeMap<usize, Asked<D>>,
     /// Whether the part must not be scratched.
     pub fragile: bool,
-    /// Whether time presses.
     pub hurry: bool,
     /// Whether the part around the channels is the one that moves.
     pub female_moves: bool,

@@ -18,30 +18,22 @@ use super::world::flag;
 /// A robot in corridors, and what is asked of its path.
 #[derive(Clone, Debug)]
 pub struct Corridor {
-    /// The corridors.
     pub corridors: Corridors,
-    /// The robot.
     pub robot: Robot,
-    /// Where it starts.
     pub start: Point,
     /// Where it looks at first, in radians; `None`: along its first line.
     pub heading: Option<f64>,
-    /// Where it goes.
     pub goal: Point,
-    /// The gap that is asked for.
     pub gap: Asked<1>,
     /// Where it is another one: the number of the junction.
     pub gaps: BTreeMap<usize, Asked<1>>,
     /// Whether the load must not be scratched.
     pub fragile: bool,
-    /// Whether time presses.
     pub hurry: bool,
 }
 
-/// A robot's path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Driven {
-    /// Lines and arcs.
     pub drive: Drive,
     /// The channels that it takes, by number.
     pub channels: Vec<usize>,

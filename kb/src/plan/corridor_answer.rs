@@ -14,7 +14,6 @@ use crate::words::number::number;
 /// A robot's path or why there is none, and what rules said on the way.
 #[derive(Clone, Debug)]
 pub struct DriveAnswer {
-    /// The path.
     pub path: Result<Driven, NoPath>,
     /// What rules said, junction by junction, as far as they were asked.
     pub said: Vec<Said>,
@@ -63,7 +62,6 @@ impl DriveAnswer {
         answer
     }
 
-    /// For people.
     pub fn lines(&self, explained: bool) -> Vec<String> {
         let mut lines = Vec::new();
         match &self.path {

@@ -8,9 +8,7 @@ use super::said::Said;
 /// A property of a step, told to the rules or concluded by one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fact {
-    /// The property.
     pub property: &'static str,
-    /// Its value.
     pub value: Value,
     /// The rule that concluded it, with its version; `None` where the planner told it.
     pub rule: Option<(String, String)>,

@@ -25,11 +25,8 @@ pub struct Spoke {
     /// Its row, from 1, of a table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub row: Option<usize>,
-    /// Its file.
     pub file: String,
-    /// Its line there.
     pub line: usize,
-    /// Whether it spoke.
     pub spoke: bool,
     /// Why it did not.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -62,7 +59,6 @@ impl fmt::Display for NoPath {
 }
 
 impl NoPath {
-    /// For people.
     pub(super) fn add_to(&self, lines: &mut Vec<String>) {
         lines.push(format!("no path: {}", self.reason));
         lines.extend(self.considered.iter().map(|rule| format!("  {}", rule.text())));

@@ -29,12 +29,10 @@ pub struct Wishes<'a, const D: usize> {
     pub gap: &'a Asked<D>,
     /// Whether the part must not be scratched.
     pub fragile: bool,
-    /// Whether time presses.
     pub hurry: bool,
 }
 
 impl Steps {
-    /// Makes ready.
     pub fn new(rules: Arc<RuleBase>) -> Result<Self, ClassError> {
         Ok(Self(Consultation::new(rules, "STEPS", STEPS, &OUTPUTS)?))
     }

@@ -28,16 +28,13 @@ pub struct Turns {
 /// What a world says of each turn, besides its geometry.
 #[derive(Clone, Copy, Debug)]
 pub struct Wishes<'a> {
-    /// The gap that is asked for.
     pub gap: &'a Asked<1>,
     /// Whether the load must not be scratched.
     pub fragile: bool,
-    /// Whether time presses.
     pub hurry: bool,
 }
 
 impl Turns {
-    /// Makes ready.
     pub fn new(rules: Arc<RuleBase>) -> Result<Self, ClassError> {
         Ok(Self {
             junctions: Consultation::new(Arc::clone(&rules), "TURNS", TURNS, &OUTPUTS)?,

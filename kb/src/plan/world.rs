@@ -93,7 +93,6 @@ impl World {
         Ok(Self { name: cell.name.clone(), folder, rules, task: Task::Cell(Box::new(cell)) })
     }
 
-    /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
         let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
         let name = path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());

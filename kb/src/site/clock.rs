@@ -19,7 +19,6 @@ impl Clock {
         Self { now: at.unwrap_or_else(Timestamp::now), zone: zone.clone() }
     }
 
-    /// The moment.
     pub fn now(&self) -> Timestamp {
         self.now
     }

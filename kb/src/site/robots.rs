@@ -28,7 +28,6 @@ pub struct RobotFile {
 }
 
 impl RobotFile {
-    /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
         let text = fs::read_to_string(path).map_err(|error| Error::io("read", path, &error))?;
         Self::parse(&path.display().to_string(), &text)

@@ -14,9 +14,7 @@ pub const TESTS: &str = "tests";
 
 /// A rule base with the tests that lie beside it.
 pub struct Rules {
-    /// The rules, compiled.
     pub base: RuleBase,
-    /// The tests, read.
     pub tests: RuleTests,
 }
 
@@ -86,9 +84,7 @@ fn compile(rules: &[SourceFile], tests: &[SourceFile]) -> Result<Rules> {
 
 /// The files of a rule base and of its tests.
 pub struct Sources {
-    /// Rules.
     pub rules: Vec<SourceFile>,
-    /// Tests.
     pub tests: Vec<SourceFile>,
 }
 

@@ -14,7 +14,6 @@ use crate::site::whole::Whole;
 #[include = "*.toml"]
 pub struct Rules;
 
-/// The example sites.
 #[derive(RustEmbed)]
 #[folder = "$CARGO_MANIFEST_DIR/sites"]
 #[include = "*.toml"]

@@ -9,7 +9,6 @@ use crate::words::suggest::did_you_mean;
 pub struct Subject {
     /// The class, in small letters: for most the name of a table.
     pub class: String,
-    /// The object's key.
     pub key: String,
     /// The property, where one is named.
     pub property: Option<String>,

@@ -32,7 +32,6 @@ pub(super) struct AssemblyPicture {
     pub top: Option<f64>,
 }
 
-/// A robot's drive.
 #[derive(Clone, Debug)]
 pub(super) struct DrivePicture {
     pub channels: Vec<Rect>,
@@ -140,7 +139,6 @@ fn grown(rect: Rect, by: f64) -> Rect {
     Rect::new(rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by)
 }
 
-/// The middle of a part.
 pub(super) fn middles(parts: &[Rect]) -> Vec<Point> {
     parts.iter().map(Rect::centre).collect()
 }

@@ -16,13 +16,10 @@ const ROWS: usize = 200;
 pub struct Lever {
     /// The class of the table.
     pub class: String,
-    /// Its row there.
     pub row: usize,
     /// The key by which edits name the row.
     pub key: String,
-    /// The column.
     pub column: String,
-    /// What it is.
     pub value: f64,
     /// The other values of the column, ascending.
     pub others: Vec<f64>,

@@ -14,7 +14,6 @@ pub struct Line {
 }
 
 impl Line {
-    /// Through two values.
     pub fn new(from: (f64, Weights), to: (f64, Weights)) -> Self {
         Self { from, to }
     }

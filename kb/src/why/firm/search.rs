@@ -25,7 +25,6 @@ struct End {
     beyond: Takeover,
 }
 
-/// What takes over.
 enum Takeover {
     /// Another way, with the value of the cell at which it does.
     Way(Path, f64),

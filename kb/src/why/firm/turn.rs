@@ -18,7 +18,6 @@ const STEPS: usize = 60;
 
 /// Ways among which one is asked for: those through a room, or through a door.
 pub trait Through {
-    /// The best of them.
     fn best(&self, weights: &Weights) -> Option<Path>;
 
     /// Whether a way is one of them.

@@ -10,7 +10,6 @@ use crate::words::number::number;
 /// So many doors are named.
 const NAMED: usize = 3;
 
-/// What takes over.
 pub enum Takeover<'t> {
     /// Another way, and a value of the cell at which it is the better one.
     Way(&'t Path, f64),
