@@ -4,6 +4,7 @@ use adit_planners::geometry::{Point, Rect};
 
 use super::frame::Frame;
 use super::palette::{GREY, INK, ROUTE};
+use super::sheet::outline;
 use super::svg::{self, Svg};
 use super::{MARGIN, page, text};
 
@@ -63,20 +64,14 @@ pub fn render_cell(picture: &CellPicture) -> String {
     // A narrow cell leaves room for what is written below it.
     let right = right.max(2.0 * MARGIN + text::width(LEGEND, 12.0));
     page(&picture.title, (right, below + 2.0 * MARGIN), |svg| {
-        write(
-            svg,
-            (MARGIN, MARGIN + 14.0),
-            18.0,
-            INK,
-            &text::fit(&picture.title, 18.0, right - 2.0 * MARGIN),
-        );
-        write(svg, (frame.map.x, top - 8.0), 13.0, GREY, "workspace, metres");
+        svg.words((MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(&picture.title, 18.0, right - 2.0 * MARGIN));
+        svg.words((frame.map.x, top - 8.0), 13.0, GREY, "workspace, metres");
         svg.group("workspace", |svg| workspace(svg, picture, &frame));
         if let Some((space, frame)) = beside {
-            write(svg, (frame.map.x, top - 8.0), 13.0, GREY, "configuration space");
+            svg.words((frame.map.x, top - 8.0), 13.0, GREY, "configuration space");
             svg.group("configurations", |svg| configurations(svg, space, &frame));
         }
-        write(svg, (MARGIN, below + MARGIN), 12.0, GREY, LEGEND);
+        svg.words((MARGIN, below + MARGIN), 12.0, GREY, LEGEND);
     })
 }
 
@@ -85,21 +80,19 @@ fn bounds(picture: &CellPicture) -> Rect {
     let corners = picture.objects.iter().flat_map(|(_, corners)| corners);
     let lines = picture.robots.iter().chain(&picture.paths).chain(&picture.edges).flatten();
     let points = corners.chain(lines).chain(&picture.subgoals);
-    let empty = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let all = points
-        .fold(empty, |all, p| Rect::new(all.x0.min(p.x), all.y0.min(p.y), all.x1.max(p.x), all.y1.max(p.y)));
+    let all = Rect::around(points.copied());
     if all.x0 > all.x1 {
         return Rect::new(-1.0, -1.0, 1.0, 1.0);
     }
     let room = 0.05 * all.dx().max(all.dy()).max(0.1) + picture.radius_m;
-    Rect::new(all.x0 - room, all.y0 - room, all.x1 + room, all.y1 + room)
+    all.grown(room)
 }
 
 fn workspace(svg: &mut Svg, picture: &CellPicture, frame: &Frame) {
     border(svg, frame);
     for (_, corners) in &picture.objects {
-        let mut path = commands(corners, frame);
-        path.push('z');
+        let mut path = String::new();
+        svg::round(&mut path, corners.iter().map(|at| frame.at(*at)));
         svg.element("path")
             .attr("d", &path)
             .attr("fill", SOLID)
@@ -137,12 +130,7 @@ fn configurations(svg: &mut Svg, space: &SpacePicture, frame: &Frame) {
     border(svg, frame);
     let mut path = String::new();
     for taken in &space.taken {
-        let (x, y) = frame.at(Point::new(taken.x0, taken.y1));
-        svg::command(&mut path, 'M', &[x, y]);
-        svg::command(&mut path, 'h', &[taken.dx() * frame.scale]);
-        svg::command(&mut path, 'v', &[taken.dy() * frame.scale]);
-        svg::command(&mut path, 'h', &[-taken.dx() * frame.scale]);
-        path.push('z');
+        outline(&mut path, &frame.block(taken));
     }
     svg.element("path").attr("d", &path).attr("fill", SOLID).end();
     experience(svg, &space.edges, &space.subgoals, frame);
@@ -168,23 +156,19 @@ fn ways(svg: &mut Svg, paths: &[Vec<Point>], frame: &Frame) {
 fn goals(svg: &mut Svg, goals: &[(String, Point)], frame: &Frame) {
     for (name, at) in goals {
         let (x, y) = frame.at(*at);
-        svg.element("circle")
-            .nums([("cx", x), ("cy", y), ("r", 5.0), ("stroke-width", 1.8)])
-            .attr("fill", "#ffffff")
-            .attr("stroke", ROUTE)
-            .end();
+        svg.disc((x, y), 5.0, "#ffffff", (ROUTE, 1.8));
         // A name that would leave the frame stands on the other side.
         let wide = text::width(name, 13.0);
         let is_within = x + 8.0 + wide <= frame.map.x + frame.map.w;
         let left = if is_within { x + 8.0 } else { x - 8.0 - wide };
-        write(svg, (left, y - 6.0), 13.0, ROUTE, name);
+        svg.words((left, y - 6.0), 13.0, ROUTE, name);
     }
 }
 
 fn border(svg: &mut Svg, frame: &Frame) {
-    let map = frame.map;
     svg.element("rect")
-        .nums([("x", map.x), ("y", map.y), ("width", map.w), ("height", map.h), ("stroke-width", 1.0)])
+        .block(&frame.map)
+        .num("stroke-width", 1.0)
         .attr("fill", "#fbfcfd")
         .attr("stroke", GREY)
         .end();
@@ -192,10 +176,7 @@ fn border(svg: &mut Svg, frame: &Frame) {
 
 fn commands(points: &[Point], frame: &Frame) -> String {
     let mut path = String::new();
-    for (index, point) in points.iter().enumerate() {
-        let (x, y) = frame.at(*point);
-        svg::command(&mut path, if index == 0 { 'M' } else { 'L' }, &[x, y]);
-    }
+    svg::through(&mut path, points.iter().map(|at| frame.at(*at)));
     path
 }
 
@@ -217,9 +198,5 @@ fn dot(svg: &mut Svg, at: Point, frame: &Frame, radius: f64, colour: &str) {
 fn label(svg: &mut Svg, at: Point, frame: &Frame, words: &str, colour: &str) {
     let (x, y) = frame.at(at);
     let size = 12.0;
-    write(svg, (x - text::width(words, size) / 2.0, y + 4.0), size, colour, words);
-}
-
-fn write(svg: &mut Svg, (x, y): (f64, f64), size: f64, colour: &str, words: &str) {
-    svg.element("text").nums([("x", x), ("y", y), ("font-size", size)]).attr("fill", colour).text(words);
+    svg.words((x - text::width(words, size) / 2.0, y + 4.0), size, colour, words);
 }

@@ -49,7 +49,7 @@ pub fn render_channels(title: &str, panels: &[ChannelPanel]) -> String {
     }
     page(title, (right, top), |page| {
         ground::definitions(page);
-        write(page, (MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
+        page.words((MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
         page.append(&svg);
     })
 }
@@ -64,15 +64,9 @@ fn draw(svg: &mut Svg, panel: &ChannelPanel, frame: &Frame, place: usize) {
             Picture::Drive(drive) => drive::draw(svg, drive, frame),
         });
         let below = frame.map.y + frame.map.h;
-        write(svg, (frame.map.x, below + 20.0), 14.0, INK, &panel.heading(place));
+        svg.words((frame.map.x, below + 20.0), 14.0, INK, &panel.heading(place));
         for (line, figures) in panel.figures.iter().enumerate() {
-            write(svg, (frame.map.x, below + 38.0 + 17.0 * line as f64), 13.0, GREY, figures);
+            svg.words((frame.map.x, below + 38.0 + 17.0 * line as f64), 13.0, GREY, figures);
         }
     });
-}
-
-fn write(svg: &mut Svg, (x, y): (f64, f64), size: f64, colour: &str, words: &str) {
-    if !words.is_empty() {
-        svg.element("text").nums([("x", x), ("y", y), ("font-size", size)]).attr("fill", colour).text(words);
-    }
 }

@@ -88,10 +88,9 @@ pub(super) fn triangle(svg: &mut Svg, (x, y): At, (dx, dy): At, size: f64, fill:
     }
     let (ux, uy) = (dx / length * size, dy / length * size);
     let mut path = String::new();
-    svg::command(&mut path, 'M', &[x + ux, y + uy]);
-    svg::command(&mut path, 'L', &[x - 0.7 * ux - 0.75 * uy, y - 0.7 * uy + 0.75 * ux]);
-    svg::command(&mut path, 'L', &[x - 0.7 * ux + 0.75 * uy, y - 0.7 * uy - 0.75 * ux]);
-    path.push('z');
+    let (back_x, back_y) = (x - 0.7 * ux, y - 0.7 * uy);
+    let sides = [(-0.75 * uy, 0.75 * ux), (0.75 * uy, -0.75 * ux)].map(|(dx, dy)| (back_x + dx, back_y + dy));
+    svg::round(&mut path, [(x + ux, y + uy), sides[0], sides[1]]);
     svg.element("path")
         .attr("d", &path)
         .attr("fill", fill)

@@ -54,9 +54,9 @@ pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Opti
     let (right, below) = (frame.map.x + frame.map.w + MARGIN, frame.map.y + frame.map.h);
     let right = right.max(text::width(LEGEND, 13.0) + 2.0 * MARGIN);
     page(title, (right, below + BELOW), |page| {
-        write(page, (MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
+        page.words((MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
         page.append(&svg);
-        write(page, (MARGIN, below + 22.0), 13.0, GREY, LEGEND);
+        page.words((MARGIN, below + 22.0), 13.0, GREY, LEGEND);
     })
 }
 
@@ -68,13 +68,7 @@ const LEGEND: &str = "numbers: regions; dashes: doorways; rings: adits, joined t
 /// Of the free space: what is solid may reach far beyond it.
 fn bounds(network: &Network) -> Rect {
     let ends = network.regions.regions.iter().flat_map(|region| &region.outline);
-    let empty = Rect { x0: f64::INFINITY, y0: f64::INFINITY, x1: f64::NEG_INFINITY, y1: f64::NEG_INFINITY };
-    ends.fold(empty, |r, p| Rect {
-        x0: r.x0.min(p.x),
-        y0: r.y0.min(p.y),
-        x1: r.x1.max(p.x),
-        y1: r.y1.max(p.y),
-    })
+    Rect::around(ends.copied())
 }
 
 /// Cut off where nothing is free any more.
@@ -82,9 +76,8 @@ fn solids(svg: &mut Svg, frame: &Frame, plan: &FloorPlan) {
     if plan.solids().is_empty() {
         return;
     }
-    let Block { x, y, w, h } = frame.map;
     svg.element("clipPath").attr("id", "within").children(|svg| {
-        svg.element("rect").nums([("x", x), ("y", y), ("width", w), ("height", h)]).end();
+        svg.element("rect").block(&frame.map).end();
     });
     svg.element("g").attr("clip-path", "url(#within)").children(|svg| {
         for solid in plan.solids() {
@@ -112,10 +105,7 @@ fn regions(svg: &mut Svg, frame: &Frame, network: &Network) {
 
 fn area(svg: &mut Svg, frame: &Frame, corners: &[Point], fill: &str, (stroke, width): (&str, f64)) {
     let mut path = String::new();
-    for (place, corner) in corners.iter().enumerate() {
-        let (x, y) = frame.at(*corner);
-        svg::command(&mut path, if place == 0 { 'M' } else { 'L' }, &[x, y]);
-    }
+    svg::through(&mut path, corners.iter().map(|corner| frame.at(*corner)));
     path.push('Z');
     let element = svg.element("path").attr("d", &path).attr("fill", fill);
     if stroke.is_empty() {
@@ -187,10 +177,4 @@ fn dot(svg: &mut Svg, (x, y): At, radius: f64, stroke: &str, fill: &str) {
         .attr("stroke", stroke)
         .attr("fill", fill)
         .end();
-}
-
-fn write(svg: &mut Svg, (x, y): At, size: f64, colour: &str, words: &str) {
-    if !words.is_empty() {
-        svg.element("text").nums([("x", x), ("y", y), ("font-size", size)]).attr("fill", colour).text(words);
-    }
 }

@@ -52,11 +52,7 @@ fn nodes(svg: &mut Svg, sheet: &mut Sheet) {
         let block = sheet.frame.block(&room.rect);
         let (x, y) = block.centre();
         let radius = (block.w.min(block.h) * 0.42).min(16.0 * sheet.unit).max(2.0);
-        svg.element("circle")
-            .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", (radius / 8.0).min(1.6))])
-            .attr("fill", "#ffffff")
-            .attr("stroke", INK)
-            .end();
+        svg.disc((x, y), radius, "#ffffff", (INK, (radius / 8.0).min(1.6)));
         let disc = Block::about(x, y, 1.7 * radius, 1.7 * radius);
         let size = rooms::size_for(&room.name, &disc).min(15.0 * sheet.unit);
         if size >= 5.5 {

@@ -1,12 +1,12 @@
 //! The map itself: ground, obstacles, bridges with their heights, places, the scale bar.
 
-use adit_planners::world::{Bridge, Shape};
+use adit_planners::world::Bridge;
 
 use super::labels::Face;
 use super::layers::Layer;
 use super::palette::{BRIDGE, GREY, INK};
-use super::sheet::{Sheet, line, outline};
-use super::svg::{self, Svg};
+use super::sheet::{Sheet, line, shape_of};
+use super::svg::Svg;
 use super::text;
 
 /// Patterns that the map refers to.
@@ -23,19 +23,14 @@ pub(super) fn definitions(svg: &mut Svg) {
 
 /// The ground; rooms lie on it.
 pub(super) fn floor(svg: &mut Svg, sheet: &Sheet) {
-    let map = sheet.frame.map;
-    svg.element("rect")
-        .nums([("x", map.x), ("y", map.y), ("width", map.w), ("height", map.h)])
-        .attr("fill", "#ffffff")
-        .end();
+    svg.element("rect").block(&sheet.frame.map).attr("fill", "#ffffff").end();
 }
 
 /// Bridges, obstacles and the edge. All obstacles are one path, however many they are.
 pub(super) fn solids(svg: &mut Svg, sheet: &Sheet) {
     for bridge in &sheet.scene.bridges {
-        let block = sheet.frame.block(&bridge.rect);
         svg.element("rect")
-            .nums([("x", block.x), ("y", block.y), ("width", block.w), ("height", block.h)])
+            .block(&sheet.frame.block(&bridge.rect))
             .attr("fill", "url(#bridge)")
             .attr("fill-opacity", "0.55")
             .attr("stroke", BRIDGE)
@@ -45,16 +40,7 @@ pub(super) fn solids(svg: &mut Svg, sheet: &Sheet) {
     }
     let mut path = String::new();
     for shape in &sheet.scene.obstacles {
-        match shape {
-            Shape::Rect(rect) => outline(&mut path, &sheet.frame.block(rect)),
-            Shape::Polygon(corners) => {
-                for (i, corner) in corners.iter().enumerate() {
-                    let (x, y) = sheet.frame.at(*corner);
-                    svg::command(&mut path, if i == 0 { 'M' } else { 'L' }, &[x, y]);
-                }
-                path.push('z');
-            }
-        }
+        shape_of(&mut path, &sheet.frame, shape);
     }
     // In the figures that show a graph, the map only says where one is.
     let faint = sheet.layers.has(Layer::Graph) || sheet.layers.has(Layer::Weighted);
@@ -68,9 +54,9 @@ pub(super) fn solids(svg: &mut Svg, sheet: &Sheet) {
             .num("stroke-width", 0.3)
             .end();
     }
-    let map = sheet.frame.map;
     svg.element("rect")
-        .nums([("x", map.x), ("y", map.y), ("width", map.w), ("height", map.h), ("stroke-width", 2.0)])
+        .block(&sheet.frame.map)
+        .num("stroke-width", 2.0)
         .attr("fill", "none")
         .attr("stroke", INK)
         .end();
@@ -107,11 +93,7 @@ pub(super) fn places(svg: &mut Svg, sheet: &mut Sheet) {
     for place in sheet.scene.places.iter().filter(|place| !ends.contains(&place.name.as_str())) {
         let (x, y) = sheet.frame.at(place.at);
         let radius = 2.6 * sheet.unit;
-        svg.element("circle")
-            .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", 1.0)])
-            .attr("fill", INK)
-            .attr("stroke", "#ffffff")
-            .end();
+        svg.disc((x, y), radius, INK, ("#ffffff", 1.0));
         let (w, _) = super::labels::extent(&place.name, face.size);
         let around = super::route::around((x, y), w / 2.0 + radius + 2.0, face.size * 0.6 + radius + 1.0);
         sheet.labels.place(&place.name, face, &sheet.frame.map, around);
@@ -129,10 +111,8 @@ pub(super) fn scale_bar(svg: &mut Svg, sheet: &Sheet) {
     for x in [left, f64::midpoint(left, right), right] {
         line(svg, (x, y - tick), (x, y), INK, 1.6, "");
     }
-    svg.element("text")
-        .nums([("x", right + 8.0), ("y", y + 1.0), ("font-size", 12.0 * sheet.unit)])
-        .attr("fill", GREY)
-        .text(&format!("{} m", text::figure(metres)));
+    let metres = format!("{} m", text::figure(metres));
+    svg.words((right + 8.0, y + 1.0), 12.0 * sheet.unit, GREY, &metres);
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not greater.

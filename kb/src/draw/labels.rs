@@ -82,11 +82,7 @@ impl Labels {
         let baseline = y + face.size * 0.35;
         if face.chip {
             let chip = Block::about(x, y, text::width(content, face.size) + 2.0, face.size * 1.1);
-            self.svg
-                .element("rect")
-                .nums([("x", chip.x), ("y", chip.y), ("width", chip.w), ("height", chip.h), ("rx", 3.0)])
-                .attr("fill", "#ffffff")
-                .end();
+            self.svg.element("rect").block(&chip).num("rx", 3.0).attr("fill", "#ffffff").end();
         }
         let mut halo = |fill: &str, stroke: &str, width: f64| {
             self.svg

@@ -1,5 +1,6 @@
 //! The side panel: the route's runs, the actions, the scale of hardness, the marks.
 
+use super::frame::Block;
 use super::layers::Layer;
 use super::palette::{BRIDGE, CLOSED, GREY, INK, ROUTE, Scale};
 use super::panel::Panel;
@@ -132,7 +133,7 @@ fn marks(panel: &mut Panel, sheet: &Sheet) {
     if sheet.layers.has(Layer::Map) && !sheet.scene.bridges.is_empty() {
         panel.line(indent, "passage of limited height", "", |svg, (x, y)| {
             svg.element("rect")
-                .nums([("x", x), ("y", y - 6.0), ("width", 2.0 * reach), ("height", 12.0)])
+                .block(&Block { x, y: y - 6.0, w: 2.0 * reach, h: 12.0 })
                 .attr("fill", "url(#bridge)")
                 .attr("fill-opacity", "0.55")
                 .attr("stroke", BRIDGE)

@@ -1,11 +1,10 @@
 //! What people call by a name: areas as tinted outlines, doors as thick lines from post to post.
 
 use adit_planners::geometry::Point;
-use adit_planners::world::Shape;
 
 use super::labels::Face;
-use super::sheet::{Sheet, line, outline};
-use super::svg::{self, Svg};
+use super::sheet::{Sheet, line, shape_of};
+use super::svg::Svg;
 
 const AREA: &str = "#0b7285";
 const DOOR: &str = "#a61e4d";
@@ -14,16 +13,7 @@ const DOOR: &str = "#a61e4d";
 pub(super) fn areas(svg: &mut Svg, sheet: &Sheet) {
     for area in &sheet.scene.areas {
         let mut path = String::new();
-        match &area.shape {
-            Shape::Rect(rect) => outline(&mut path, &sheet.frame.block(rect)),
-            Shape::Polygon(corners) => {
-                for (i, corner) in corners.iter().enumerate() {
-                    let (x, y) = sheet.frame.at(*corner);
-                    svg::command(&mut path, if i == 0 { 'M' } else { 'L' }, &[x, y]);
-                }
-                path.push('z');
-            }
-        }
+        shape_of(&mut path, &sheet.frame, &area.shape);
         svg.element("path")
             .attr("d", &path)
             .attr("fill", AREA)

@@ -18,15 +18,14 @@ pub(super) fn outlines(svg: &mut Svg, sheet: &Sheet) {
         let colour = COLOURS[i % COLOURS.len()];
         let mut path = String::new();
         outline(&mut path, &inset(sheet, i, area));
-        let element = svg
-            .element("path")
+        svg.element("path")
             .attr("d", &path)
             .attr("fill", colour)
             .attr("fill-opacity", if sheet.scene.prime_areas.len() > 40 { "0" } else { "0.06" })
             .attr("stroke", colour)
-            .num("stroke-width", if sheet.scene.prime_areas.len() > 40 { 0.8 } else { 2.0 });
-        let hard = area.open == Some(false);
-        if hard { element.attr("stroke-dasharray", "8 4") } else { element }.end();
+            .num("stroke-width", if sheet.scene.prime_areas.len() > 40 { 0.8 } else { 2.0 })
+            .dash(if area.open == Some(false) { "8 4" } else { "" })
+            .end();
     }
 }
 

@@ -39,11 +39,7 @@ pub(super) fn marks(svg: &mut Svg, sheet: &mut Sheet, route: &Route) {
     let unit = sheet.unit;
     let (start, goal) = (sheet.frame.at(route.start.at), sheet.frame.at(route.goal.at));
     for ((x, y), fill) in [(start, "#ffffff"), (goal, ROUTE)] {
-        svg.element("circle")
-            .nums([("cx", x), ("cy", y), ("r", 7.0 * unit), ("stroke-width", 2.6 * unit)])
-            .attr("fill", fill)
-            .attr("stroke", ROUTE)
-            .end();
+        svg.disc((x, y), 7.0 * unit, fill, (ROUTE, 2.6 * unit));
         sheet.labels.take(Block::about(x, y, 15.0 * unit, 15.0 * unit));
     }
     keep_free(sheet);
@@ -77,11 +73,7 @@ pub(super) fn around((x, y): At, dx: f64, dy: f64) -> [At; 8] {
 
 /// A numbered disc, the number of a run.
 pub(super) fn badge(svg: &mut Svg, (x, y): At, radius: f64, colour: &str, number: &str) {
-    svg.element("circle")
-        .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", radius * 0.3)])
-        .attr("fill", "#ffffff")
-        .attr("stroke", colour)
-        .end();
+    svg.disc((x, y), radius, "#ffffff", (colour, radius * 0.3));
     let size = radius * if number.len() < 3 { 1.3 } else { 0.9 };
     svg.element("text")
         .nums([("x", x), ("y", y + size * 0.35), ("font-size", size), ("stroke-width", size * 0.05)])
@@ -94,11 +86,7 @@ pub(super) fn badge(svg: &mut Svg, (x, y): At, radius: f64, colour: &str, number
 /// The mark of a change of shape.
 pub(super) fn diamond(svg: &mut Svg, (x, y): At, reach: f64, fill: &str) {
     let mut path = String::new();
-    svg::command(&mut path, 'M', &[x, y - reach]);
-    for (dx, dy) in [(reach, 0.0), (0.0, reach), (-reach, 0.0)] {
-        svg::command(&mut path, 'L', &[x + dx, y + dy]);
-    }
-    path.push('z');
+    svg::round(&mut path, [(x, y - reach), (x + reach, y), (x, y + reach), (x - reach, y)]);
     svg.element("path")
         .attr("d", &path)
         .attr("fill", fill)
@@ -108,15 +96,10 @@ pub(super) fn diamond(svg: &mut Svg, (x, y): At, reach: f64, fill: &str) {
 }
 
 fn path<'p>(sheet: &Sheet, points: impl IntoIterator<Item = &'p Point>) -> String {
+    let mut points: Vec<At> = points.into_iter().map(|point| sheet.frame.at(*point)).collect();
+    points.dedup();
     let mut path = String::new();
-    let mut last = None;
-    for point in points {
-        let at = sheet.frame.at(*point);
-        if last != Some(at) {
-            svg::command(&mut path, if last.is_none() { 'M' } else { 'L' }, &[at.0, at.1]);
-            last = Some(at);
-        }
-    }
+    svg::through(&mut path, points);
     path
 }
 
@@ -124,16 +107,15 @@ fn stroke(svg: &mut Svg, path: &str, colour: &str, width: f64, dash: &str) {
     if path.is_empty() {
         return;
     }
-    let element = svg
-        .element("path")
+    svg.element("path")
         .attr("d", path)
         .attr("fill", "none")
         .attr("stroke", colour)
         .attr("stroke-linejoin", "round")
         .attr("stroke-linecap", if dash.is_empty() { "round" } else { "butt" })
-        .num("stroke-width", width);
-    let element = if dash.is_empty() { element } else { element.attr("stroke-dasharray", dash) };
-    element.end();
+        .num("stroke-width", width)
+        .dash(dash)
+        .end();
 }
 
 /// Pieces of the way in the picture: start, end and length.

@@ -1,6 +1,7 @@
 //! One picture in the making: what all its parts share.
 
 use adit_planners::geometry::Rect;
+use adit_planners::world::Shape;
 
 use super::frame::{At, Block, Frame};
 use super::labels::Labels;
@@ -81,14 +82,21 @@ pub(super) fn outline(path: &mut String, block: &Block) {
     path.push('z');
 }
 
+/// Path commands of a shape of the map.
+pub(super) fn shape_of(path: &mut String, frame: &Frame, shape: &Shape) {
+    match shape {
+        Shape::Rect(rect) => outline(path, &frame.block(rect)),
+        Shape::Polygon(corners) => svg::round(path, corners.iter().map(|corner| frame.at(*corner))),
+    }
+}
+
 /// A line between two points of the picture.
 pub(super) fn line(svg: &mut Svg, from: At, to: At, stroke: &str, width: f64, dash: &str) {
-    let element = svg
-        .element("line")
+    svg.element("line")
         .nums([("x1", from.0), ("y1", from.1), ("x2", to.0), ("y2", to.1), ("stroke-width", width)])
-        .attr("stroke", stroke);
-    let element = if dash.is_empty() { element } else { element.attr("stroke-dasharray", dash) };
-    element.end();
+        .attr("stroke", stroke)
+        .dash(dash)
+        .end();
 }
 
 /// A small cross: nobody passes.

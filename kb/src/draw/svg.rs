@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::frame::{At, Block};
+
 /// An SVG text in the making.
 #[derive(Debug, Default)]
 pub(super) struct Svg {
@@ -23,6 +25,23 @@ impl Svg {
         if !inner.out.is_empty() {
             self.element("g").attr("id", id).children(|svg| svg.append(&inner));
         }
+    }
+
+    /// Words that begin at a point; nothing where there are none.
+    pub fn words(&mut self, (x, y): At, size: f64, colour: &str, words: &str) {
+        if !words.is_empty() {
+            let element = self.element("text").nums([("x", x), ("y", y), ("font-size", size)]);
+            element.attr("fill", colour).text(words);
+        }
+    }
+
+    /// A disc with a border.
+    pub fn disc(&mut self, (x, y): At, radius: f64, fill: &str, (stroke, width): (&str, f64)) {
+        self.element("circle")
+            .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", width)])
+            .attr("fill", fill)
+            .attr("stroke", stroke)
+            .end();
     }
 
     /// Adds what was written apart.
@@ -58,6 +77,16 @@ impl Element<'_> {
 
     pub fn nums<const N: usize>(self, values: [(&str, f64); N]) -> Self {
         values.into_iter().fold(self, |element, (name, value)| element.num(name, value))
+    }
+
+    /// Place and size of a box.
+    pub fn block(self, block: &Block) -> Self {
+        self.nums([("x", block.x), ("y", block.y), ("width", block.w), ("height", block.h)])
+    }
+
+    /// Dashes of a line; a full line without any.
+    pub fn dash(self, dash: &str) -> Self {
+        if dash.is_empty() { self } else { self.attr("stroke-dasharray", dash) }
     }
 
     /// Ends it without content.
@@ -102,6 +131,19 @@ pub(super) fn command(path: &mut String, letter: char, values: &[f64]) {
         // Writing to a String cannot fail.
         let _ = write!(path, "{}", number(*value));
     }
+}
+
+/// Appends the commands of a line through points.
+pub(super) fn through(path: &mut String, points: impl IntoIterator<Item = At>) {
+    for (place, (x, y)) in points.into_iter().enumerate() {
+        command(path, if place == 0 { 'M' } else { 'L' }, &[x, y]);
+    }
+}
+
+/// Appends the commands of an outline.
+pub(super) fn round(path: &mut String, points: impl IntoIterator<Item = At>) {
+    through(path, points);
+    path.push('z');
 }
 
 fn escape(out: &mut String, text: &str) {

@@ -2,7 +2,7 @@
 
 use adit_planners::geometry::Rect;
 
-use super::panel::{AssemblyPicture, middles};
+use super::panel::AssemblyPicture;
 use super::{ground, marks};
 use crate::draw::frame::{At, Frame};
 use crate::draw::palette::ROUTE;
@@ -17,7 +17,7 @@ pub(super) fn draw(svg: &mut Svg, picture: &AssemblyPicture, frame: &Frame) {
         let dash = if place == last && last > 0 { "7 3" } else { "" };
         part(svg, frame, rect, if place == 0 { "0.28" } else { "0.07" }, dash);
     }
-    let middles: Vec<At> = middles(&picture.parts).into_iter().map(|middle| frame.at(middle)).collect();
+    let middles: Vec<At> = picture.parts.iter().map(|part| frame.at(part.centre())).collect();
     for leg in middles.windows(2) {
         line(svg, leg[0], leg[1], ROUTE, 2.2, "");
     }
@@ -31,19 +31,12 @@ pub(super) fn draw(svg: &mut Svg, picture: &AssemblyPicture, frame: &Frame) {
 }
 
 fn part(svg: &mut Svg, frame: &Frame, rect: &Rect, opacity: &str, dash: &str) {
-    let block = frame.block(rect);
-    let element = svg
-        .element("rect")
-        .nums([
-            ("x", block.x),
-            ("y", block.y),
-            ("width", block.w),
-            ("height", block.h),
-            ("stroke-width", 1.3),
-        ])
+    svg.element("rect")
+        .block(&frame.block(rect))
+        .num("stroke-width", 1.3)
         .attr("fill", ROUTE)
         .attr("fill-opacity", opacity)
-        .attr("stroke", ROUTE);
-    let element = if dash.is_empty() { element } else { element.attr("stroke-dasharray", dash) };
-    element.end();
+        .attr("stroke", ROUTE)
+        .dash(dash)
+        .end();
 }

@@ -65,10 +65,7 @@ fn body(svg: &mut Svg, frame: &Frame, robot: Robot, pose: &Pose) {
     let (ahead, aside) = (robot.length / 2.0, robot.width / 2.0);
     let corners = [at(ahead, aside), at(ahead, -aside), at(-ahead, -aside), at(-ahead, aside)];
     let mut path = String::new();
-    for (letter, (x, y)) in ['M', 'L', 'L', 'L'].into_iter().zip(corners) {
-        svg::command(&mut path, letter, &[x, y]);
-    }
-    path.push('z');
+    svg::round(&mut path, corners);
     svg.element("path")
         .attr("d", &path)
         .attr("fill", ROUTE)
@@ -78,9 +75,7 @@ fn body(svg: &mut Svg, frame: &Frame, robot: Robot, pose: &Pose) {
         .end();
     let nose = [at(0.6 * ahead, 0.5 * aside), at(0.95 * ahead, 0.0), at(0.6 * ahead, -0.5 * aside)];
     let mut path = String::new();
-    for (letter, (x, y)) in ['M', 'L', 'L'].into_iter().zip(nose) {
-        svg::command(&mut path, letter, &[x, y]);
-    }
+    svg::through(&mut path, nose);
     svg.element("path").attr("d", &path).attr("fill", ROUTE).attr("fill-opacity", "0.75").end();
 }
 

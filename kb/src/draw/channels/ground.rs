@@ -87,24 +87,15 @@ fn name_place(block: &Block, frame: &Frame, marks: &[Point]) -> At {
 }
 
 fn outlined(svg: &mut Svg, block: &Block, stroke: &str, width: f64, dash: &str) {
-    let element = svg
-        .element("rect")
-        .nums([
-            ("x", block.x),
-            ("y", block.y),
-            ("width", block.w),
-            ("height", block.h),
-            ("stroke-width", width),
-        ])
+    svg.element("rect")
+        .block(block)
+        .num("stroke-width", width)
         .attr("fill", "none")
-        .attr("stroke", stroke);
-    let element = if dash.is_empty() { element } else { element.attr("stroke-dasharray", dash) };
-    element.end();
+        .attr("stroke", stroke)
+        .dash(dash)
+        .end();
 }
 
 fn filled(svg: &mut Svg, block: &Block, fill: &str) {
-    svg.element("rect")
-        .nums([("x", block.x), ("y", block.y), ("width", block.w), ("height", block.h)])
-        .attr("fill", fill)
-        .end();
+    svg.element("rect").block(block).attr("fill", fill).end();
 }

@@ -2,7 +2,7 @@
 
 use adit_planners::channels::assembly::{Assembly, Cuboid, PartPath};
 use adit_planners::channels::corridor::{Corridors, Drive, Robot, Wall};
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::Rect;
 
 use crate::draw::text;
 
@@ -62,9 +62,9 @@ impl ChannelPanel {
         let channels: Vec<Rect> = assembly.channels().iter().map(seen).collect();
         let hull = channels.iter().copied().reduce(joined).unwrap_or_else(|| at(&part.min));
         let ring = 0.06 * hull.dx().max(hull.dy());
-        let walls = grown(hull, ring);
+        let walls = hull.grown(ring);
         let top = (up == D - 1).then(|| assembly.top());
-        let mut bounds = parts.iter().map(|part| grown(*part, ring / 2.0)).fold(walls, joined);
+        let mut bounds = parts.iter().map(|part| part.grown(ring / 2.0)).fold(walls, joined);
         if let Some(top) = top.filter(|top| bounds.y1 < top + ring) {
             bounds.y1 = top + ring;
         }
@@ -88,7 +88,7 @@ impl ChannelPanel {
         Self {
             name: name.to_owned(),
             figures: vec![length(drive.length), format!("clearance {:.3} m", drive.min_clearance)],
-            bounds: grown(hull, 0.05 * hull.dx().max(hull.dy())),
+            bounds: hull.grown(0.05 * hull.dx().max(hull.dy())),
             picture: Picture::Drive(DrivePicture {
                 channels: corridors.channels().to_vec(),
                 junctions: corridors.junctions().iter().map(|junction| junction.rect).collect(),
@@ -133,12 +133,4 @@ fn clearance<const D: usize>(path: &PartPath<D>) -> String {
 
 fn joined(a: Rect, b: Rect) -> Rect {
     Rect::new(a.x0.min(b.x0), a.y0.min(b.y0), a.x1.max(b.x1), a.y1.max(b.y1))
-}
-
-fn grown(rect: Rect, by: f64) -> Rect {
-    Rect::new(rect.x0 - by, rect.y0 - by, rect.x1 + by, rect.y1 + by)
-}
-
-pub(super) fn middles(parts: &[Rect]) -> Vec<Point> {
-    parts.iter().map(Rect::centre).collect()
 }
