@@ -31,9 +31,8 @@ use crate::error::{Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
-pub(crate) use cells::Lever;
 pub(crate) use path::{Path, Routes};
-pub(crate) use probe::{Prober, Weights};
+pub(crate) use probe::{Lever, Prober, Weights};
 pub(crate) use turn::{Through, Turn, scale};
 pub(crate) use words::{actions, instead};
 

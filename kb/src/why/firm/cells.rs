@@ -4,26 +4,11 @@ use std::collections::BTreeSet;
 
 use adit_planners::facts::Column;
 
-use super::Prober;
-use super::probe::Probe;
+use super::probe::{Lever, Probe, Prober};
 use crate::error::Result;
 
 /// So many rows of a table are looked at.
 const ROWS: usize = 200;
-
-/// A number of a table that people tune.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lever {
-    /// The class of the table.
-    pub class: String,
-    pub row: usize,
-    /// The key by which edits name the row.
-    pub key: String,
-    pub column: String,
-    pub value: f64,
-    /// The other values of the column, ascending.
-    pub others: Vec<f64>,
-}
 
 impl Prober {
     /// The cells of the columns that weigh: where a cell of a column changes by a hair, something weighs a little

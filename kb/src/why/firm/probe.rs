@@ -1,14 +1,33 @@
 //! What rooms and doors weigh when one cell has another value.
+//!
+//! A probe is the middle of `State::step`: it tells one cell to a fork's knowledge, concludes what depends on it, and looks
+//! at the rooms and doors of which rules say something else, by the same [`Look`] and the same [`needs_changed`]. The rest
+//! of a step would be work for nothing here: it compares all tables that are told, attaches facts anew, words the grounds,
+//! writes a second graph, and has planners cut rooms anew where a probe only says that they would. A cell is tried some
+//! hundred times for one answer, so the probe leaves that out; what it shares with the step stands once.
 
 use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
 use adit_planners::routes::Walking;
 
-use super::Lever;
 use crate::error::{Error, Result};
 use crate::graph::{SiteGraph, walking};
 use crate::state::classes;
 use crate::state::{Look, State, Which, needs_changed};
+
+/// A number of a table that people tune.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lever {
+    /// The class of the table.
+    pub class: String,
+    pub row: usize,
+    /// The key by which edits name the row.
+    pub key: String,
+    pub column: String,
+    pub value: f64,
+    /// The other values of the column, ascending.
+    pub others: Vec<f64>,
+}
 
 /// What rooms and doors weigh, by index.
 #[derive(Clone, Debug, PartialEq)]

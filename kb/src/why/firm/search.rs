@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::corridor::SameWay;
 use super::linear::Line;
 use super::probe::Probe;
+use super::words::Takeover;
 use super::{Beyond, FirmCell, Lever, Path, Prober, Routes, Weights, words};
 use crate::error::Result;
 
@@ -25,15 +26,6 @@ struct End {
     beyond: Takeover,
 }
 
-enum Takeover {
-    /// Another way, with the value of the cell at which it does.
-    Way(Path, f64),
-    CutAnew,
-    Refused,
-    /// There is no way at all.
-    NoWay,
-}
-
 /// How far a cell may change; `None` where nothing that it can be weighs anything.
 pub(super) fn firm_cell(
     prober: &mut Prober,
@@ -47,14 +39,11 @@ pub(super) fn firm_cell(
     let low = side.end(least)?;
     let high = side.end(LARGEST.max(lever.value * 2.0))?;
     let (weighs, exact) = (side.weighs, side.exact);
-    let below = low
-        .as_ref()
-        .map(|end| words::beyond(prober, same, lever, end.at, &end.beyond_at(-1.0)))
-        .transpose()?;
-    let above = high
-        .as_ref()
-        .map(|end| words::beyond(prober, same, lever, end.at, &end.beyond_at(1.0)))
-        .transpose()?;
+    let mut beyond = |end: &Option<End>, way: f64| {
+        let said = end.as_ref().map(|end| words::beyond(prober, same, lever, (end.at, way), &end.beyond));
+        said.transpose()
+    };
+    let (below, above) = (beyond(&low, -1.0)?, beyond(&high, 1.0)?);
     prober.restore(lever)?;
     if !weighs {
         return Ok(None);
@@ -72,21 +61,6 @@ pub(super) fn firm_cell(
         below,
         above,
     }))
-}
-
-impl End {
-    fn beyond_at(&self, way: f64) -> words::Takeover<'_> {
-        match &self.beyond {
-            Takeover::Way(path, at) => {
-                // a little beyond, so that what it does there is what it does
-                let hair = at.abs().max(1e-6) * 1e-9 * way;
-                words::Takeover::Way(path, at + hair)
-            }
-            Takeover::CutAnew => words::Takeover::CutAnew,
-            Takeover::Refused => words::Takeover::Refused,
-            Takeover::NoWay => words::Takeover::NoWay,
-        }
-    }
 }
 
 /// The way that costs less than the present one; none where there is no way at all.

@@ -10,24 +10,23 @@ use crate::words::number::number;
 /// So many doors are named.
 const NAMED: usize = 3;
 
-pub enum Takeover<'t> {
-    /// Another way, and a value of the cell at which it is the better one.
-    Way(&'t Path, f64),
-    /// Rooms are cut anew.
+pub enum Takeover {
+    /// Another way, and the value of the cell at which it comes to be the better one.
+    Way(Path, f64),
+    /// Rooms and doors are cut anew.
     CutAnew,
     /// Rules give no hardness that counts.
     Refused,
-    /// There is no way.
     NoWay,
 }
 
-/// What is beyond an end.
+/// What is beyond an end; `way` is 1 above the present value, and -1 below.
 pub(super) fn beyond(
     prober: &mut Prober,
     same: &SameWay,
     lever: &Lever,
-    end: f64,
-    takeover: &Takeover<'_>,
+    (end, way): (f64, f64),
+    takeover: &Takeover,
 ) -> Result<Beyond> {
     let cost = match prober.at(lever, end)? {
         Probe::Weighs(weights) => same.cost(&weights),
@@ -36,7 +35,8 @@ pub(super) fn beyond(
     let (way, at) = match takeover {
         Takeover::Way(path, value) => {
             let present = actions(prober, &same.path);
-            prober.at(lever, *value)?;
+            // a little beyond, so that what it does there is what it does
+            prober.at(lever, value + value.abs().max(1e-6) * 1e-9 * way)?;
             let other = actions(prober, path);
             instead(prober.fork.graph(), (&same.path, &present), (path, &other))
         }
