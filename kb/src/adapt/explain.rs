@@ -5,22 +5,12 @@ use std::collections::BTreeMap;
 use adit_engine::Considered;
 use serde::Serialize;
 
-/// What rules decided, in the order of the questions.
+/// What rules decided, in the order of the questions, and how often.
 #[derive(Clone, Debug, Default)]
-pub struct Explained(BTreeMap<Asked, u64>);
+pub struct Explained(BTreeMap<Decision, u64>);
 
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Asked {
-    question: &'static str,
-    answer: String,
-    rule: String,
-    row: Option<usize>,
-    file: String,
-    line: usize,
-}
-
-/// One decision, for programs.
-#[derive(Clone, Debug, Serialize)]
+/// A decision, for programs.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Decision {
     /// `strategy`, `landmark` or `trust`.
     pub question: &'static str,
@@ -31,6 +21,13 @@ pub struct Decision {
     pub row: Option<usize>,
     pub file: String,
     pub line: usize,
+}
+
+/// A decision, and how often it was made.
+#[derive(Clone, Debug, Serialize)]
+pub struct Counted<'e> {
+    #[serde(flatten)]
+    pub decision: &'e Decision,
     pub times: u64,
 }
 
@@ -38,7 +35,7 @@ impl Explained {
     /// Counts the rules that spoke.
     pub(super) fn add(&mut self, question: &'static str, answer: &str, considered: &[Considered]) {
         for rule in considered.iter().filter(|rule| rule.miss.is_none()) {
-            let asked = Asked {
+            let decision = Decision {
                 question,
                 answer: answer.to_owned(),
                 rule: rule.rule.clone(),
@@ -46,33 +43,20 @@ impl Explained {
                 file: rule.file.clone(),
                 line: rule.line,
             };
-            *self.0.entry(asked).or_default() += 1;
+            *self.0.entry(decision).or_default() += 1;
         }
     }
 
-    pub fn decisions(&self) -> Vec<Decision> {
-        let decision = |(asked, times): (&Asked, &u64)| Decision {
-            question: asked.question,
-            answer: asked.answer.clone(),
-            rule: asked.rule.clone(),
-            row: asked.row,
-            file: asked.file.clone(),
-            line: asked.line,
-            times: *times,
-        };
-        self.0.iter().map(decision).collect()
+    pub fn decisions(&self) -> Vec<Counted<'_>> {
+        self.0.iter().map(|(decision, times)| Counted { decision, times: *times }).collect()
     }
 
     pub fn lines(&self) -> Vec<String> {
-        let line = |decision: Decision| {
-            let row = decision.row.map_or_else(String::new, |row| format!(", row {row}"));
-            let times =
-                if decision.times == 1 { String::new() } else { format!(" ({} times)", decision.times) };
-            format!(
-                "  {}: {}{times}, by {}{row} (line {} of {})",
-                decision.question, decision.answer, decision.rule, decision.line, decision.file
-            )
+        let line = |(Decision { question, answer, rule, row, file, line }, times): (&Decision, &u64)| {
+            let row = row.map_or_else(String::new, |row| format!(", row {row}"));
+            let times = if *times == 1 { String::new() } else { format!(" ({times} times)") };
+            format!("  {question}: {answer}{times}, by {rule}{row} (line {line} of {file})")
         };
-        self.decisions().into_iter().map(line).collect()
+        self.0.iter().map(line).collect()
     }
 }

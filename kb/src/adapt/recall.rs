@@ -11,6 +11,7 @@ use adit_planners::geometry::{Point, Segment};
 use adit_planners::pose::Pose;
 
 use super::cell::Cell;
+use super::figures::Figures;
 use crate::error::{Error, Result};
 
 /// The planner as it was after the last task that was kept.
@@ -50,11 +51,10 @@ pub(super) fn planner(
         }
     }
     let experience = experience(kept)?;
-    let figures = super::figures::read(&kept.cell.figures);
-    let (tasks_before_change, stands_since, tally) =
-        figures.ok_or_else(|| damaged(kept, "its `figures` are none"))?;
+    let Figures { tasks_before_change, stands_since_revision, tally } =
+        serde_json::from_str(&kept.cell.figures).map_err(|_| damaged(kept, "its `figures` are none"))?;
     let vertex = match kept.cell.stands {
-        Some(number) => Some((VertexId(small(kept, number)?), stands_since.unwrap_or(revision))),
+        Some(number) => Some((VertexId(small(kept, number)?), stands_since_revision.unwrap_or(revision))),
         None => None,
     };
     let (mut refused, mut tightened) = (BTreeSet::new(), BTreeSet::new());

@@ -7,14 +7,14 @@ use std::time::{Duration, Instant};
 use adit_db::Store;
 use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Changed, Configuration, Outcome, Report, Settings, Strategy, TOUCHING_M, Workcell, distance,
+    Adapt, Changed, Configuration, Outcome, Plugins, Report, RrtConnect, Settings, Strategy, TOUCHING_M,
+    Taught, Workcell, distance,
 };
 use adit_planners::random::Random;
 
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
-use super::plugins::with_taught;
 use super::{keep, recall};
 use crate::error::{Error, Result};
 use crate::site::whole::Whole;
@@ -87,7 +87,10 @@ impl Session {
             None => None,
             Some(store) => experience(store, described, beginning.from)?,
         };
-        let plugins = with_taught(beginning.taught);
+        let mut plugins = Plugins::standard();
+        if !beginning.taught.is_empty() {
+            plugins.solve = Arc::new(Taught::new(beginning.taught, RrtConnect::default()));
+        }
         let settings = Settings { seed: beginning.seed, ..Settings::default() };
         let (adapt, seed, copied_from) = if let Some(kept) = &kept {
             let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
