@@ -305,6 +305,17 @@ fn starts(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Starts
     found
 }
 
+/// A number from 0 on.
+pub(crate) fn not_negative(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {
+    let number = fields.number(key, problems)?;
+    if number.value >= 0.0 {
+        return Some(number.value);
+    }
+    let message = format!("`{key}` is {} and must not be negative", number.value);
+    problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
+    None
+}
+
 fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings {
     let mut settings = MapSettings::default();
     if let Some(index) = choice(fields, "unknown", &["wall", "free"], problems) {
@@ -314,15 +325,8 @@ fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings
         settings.grid = fields.positive("grid", problems).map(|grid| grid.value);
     }
     for (key, value) in [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)] {
-        if fields.get(key).is_some()
-            && let Some(number) = fields.number(key, problems)
-        {
-            if number.value < 0.0 {
-                let message = format!("`{key}` is {} and must not be negative", number.value);
-                problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
-            } else {
-                *value = number.value;
-            }
+        if fields.get(key).is_some() {
+            *value = not_negative(fields, key, problems).unwrap_or(*value);
         }
     }
     settings

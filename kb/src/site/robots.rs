@@ -12,6 +12,7 @@ use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Located, Problem};
 
 use crate::error::{Error, Result};
+use crate::site::not_negative;
 
 /// The robot's name where a file names none.
 pub const ONLY_ROBOT: &str = "robot";
@@ -205,14 +206,4 @@ fn name(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Optio
         return None;
     }
     Some(text)
-}
-
-fn not_negative(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {
-    let number = entry.number(key, problems)?;
-    if number.value >= 0.0 {
-        return Some(number.value);
-    }
-    let message = format!("`{key}` is {} and must not be negative", number.value);
-    problems.push(entry.text.problem(Code::NotPositive, &number.span, message));
-    None
 }

@@ -4,7 +4,8 @@ use adit_db::load::Load;
 use adit_db::robot::State;
 use adit_planners::read::{Code, Fields, Problem};
 
-use super::{name, not_negative, robot};
+use super::{name, robot};
+use crate::site::not_negative;
 
 /// The loads of the file. One is carried from the start where the file says so.
 pub(super) fn loads(fields: &Fields<'_, '_>, states: &[State], problems: &mut Vec<Problem>) -> Vec<Load> {
