@@ -13,7 +13,6 @@ mod explain;
 mod figures;
 mod judge;
 mod keep;
-mod plugins;
 mod recall;
 pub(crate) mod scenario;
 mod session;
@@ -26,6 +25,6 @@ pub use drawn::drawn;
 pub use experiment::{
     Outcome as ExperimentOutcome, Row, method_of, method_word, run as experiment, write_csv,
 };
-pub use judge::{CELL_CHANGES, EDGES, LANDMARKS, strategy_of};
-pub(crate) use judge::{OF_CELL_CHANGES, OF_EDGES, OF_LANDMARKS};
+pub(crate) use judge::classes;
+pub use judge::strategy_of;
 pub use session::{Beginning, Done, Session};

@@ -3,7 +3,6 @@
 
 pub mod drive;
 pub mod floor;
-pub mod guide;
 pub mod journal;
 pub mod judge;
 pub mod keep;

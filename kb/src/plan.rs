@@ -7,10 +7,10 @@
 
 mod answer;
 pub mod assembly;
+pub mod consult;
 pub mod corridor;
 mod corridor_answer;
 mod gap;
-mod keep;
 mod refusal;
 pub mod rules;
 mod said;
@@ -18,11 +18,9 @@ mod steps;
 mod turns;
 mod world;
 
-pub use answer::Answer;
-pub use corridor_answer::DriveAnswer;
-pub use gap::Asked;
+pub use gap::{Asked, Wanted, Wishes};
 pub use refusal::{NoPath, Spoke};
-pub use said::Said;
+pub use said::{Answer, Said};
 pub use steps::Steps;
-pub use turns::{Turns, Wishes as TurnWishes};
+pub use turns::Turns;
 pub use world::{Task, World};

@@ -3,51 +3,63 @@
 
 use std::sync::Arc;
 
-use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
+use adit_engine::{ClassError, Considered, Consultation, RuleBase};
 use adit_planners::adapt::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 
 use super::explain::Explained;
-use crate::plan::rules::{consult, place};
+use crate::plan::consult::Of::{self, Number, Perhaps, Text, Truth};
+use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
 
 /// What rules are told of a change of a cell.
-pub const CELL_CHANGES: &[(&str, Type)] = &[
-    ("objects", Type::Number),
-    ("appeared", Type::Number),
-    ("gone", Type::Number),
-    ("moved", Type::Number),
-    ("reshaped", Type::Number),
-    ("moved_by", Type::Number),
-    ("turned_by", Type::Number),
-    ("tasks", Type::Number),
-    ("subgoals", Type::Number),
-    ("subgoals_moved", Type::Number),
-    ("subgoals_dropped", Type::Number),
-    ("unsure_subgoals", Type::Number),
-    ("edges", Type::Number),
-    ("broken_edges", Type::Number),
-    ("solve_over_reach", Type::Number),
+const CELL_CHANGES: [Property<ChangeFacts>; 15] = [
+    ("objects", Number(|of| of.objects.into())),
+    ("appeared", Number(|of| of.appeared.into())),
+    ("gone", Number(|of| of.gone.into())),
+    ("moved", Number(|of| of.moved.into())),
+    ("reshaped", Number(|of| of.reshaped.into())),
+    ("moved_by", Number(|of| of.moved_m)),
+    ("turned_by", Number(|of| of.turned)),
+    ("tasks", Number(|of| of.tasks.into())),
+    ("subgoals", Number(|of| of.vertices.into())),
+    ("subgoals_moved", Number(|of| of.vertices_moved.into())),
+    ("subgoals_dropped", Number(|of| of.vertices_dropped.into())),
+    ("unsure_subgoals", Number(|of| of.unsure_vertices)),
+    ("edges", Number(|of| of.edges.into())),
+    ("broken_edges", Number(|of| of.broken_edges)),
+    ("solve_over_reach", Number(|of| of.solve_over_reach)),
 ];
 
 /// What rules are told of an object to which a subgoal may be attached.
-pub const LANDMARKS: &[(&str, Type)] = &[
-    ("object", Type::Text),
-    ("distance", Type::Number),
-    ("clearance", Type::Number),
-    ("is_movable", Type::Truth),
-    ("times_moved", Type::Number),
-    ("subgoals", Type::Number),
-    ("is_goal", Type::Truth),
-];
+const fn landmarks<'o>() -> [Property<LandmarkFacts<'o>>; 7] {
+    [
+        ("object", Text(|of| Some(of.object))),
+        ("distance", Number(|of| of.distance_m)),
+        ("clearance", Perhaps(|of| Some(of.clearance_m).filter(|metres| metres.is_finite()))),
+        ("is_movable", Truth(|of| of.is_movable)),
+        ("times_moved", Number(|of| of.times_moved.into())),
+        ("subgoals", Number(|of| of.subgoals.into())),
+        ("is_goal", Truth(|of| of.is_goal)),
+    ]
+}
 
 /// What rules are told of an edge that was not verified since an object changed.
-pub const EDGES: &[(&str, Type)] = &[
-    ("age", Type::Number),
-    ("age_changes", Type::Number),
-    ("times_verified", Type::Number),
-    ("unverified_objects", Type::Number),
-    ("broken_edges", Type::Number),
-    ("length", Type::Number),
+const EDGES: [Property<EdgeFacts>; 6] = [
+    ("age", Number(|of| of.age_tasks.into())),
+    ("age_changes", Number(|of| of.age_changes.into())),
+    ("times_verified", Number(|of| of.times_verified.into())),
+    ("unverified_objects", Number(|of| of.unverified_objects.into())),
+    ("broken_edges", Number(|of| of.broken_edges)),
+    ("length", Number(|of| of.length)),
 ];
+
+/// The classes of objects that rules are asked about.
+pub(crate) fn classes() -> [Class; 3] {
+    [
+        Class::new("CELL_CHANGES", CELL_CHANGES, &["strategy"]),
+        Class::new("LANDMARKS", landmarks(), &["weight", "serves"]),
+        Class::new("EDGES", EDGES, &["trust"]),
+    ]
+}
 
 const STRATEGIES: [(&str, Strategy); 4] = [
     ("a0", Strategy::Forget),
@@ -60,19 +72,12 @@ const TRUSTS: [(&str, Trust); 3] =
 
 /// The word for a strategy, as rules, tables and the command line have it.
 pub fn strategy_word(strategy: Strategy) -> &'static str {
-    STRATEGIES.iter().find(|(_, known)| *known == strategy).map_or("a3", |(word, _)| word)
+    word_for(&STRATEGIES, &strategy).unwrap_or("a3")
 }
 
 pub fn strategy_of(word: &str) -> Option<Strategy> {
     STRATEGIES.iter().find(|(known, _)| *known == word).map(|(_, strategy)| *strategy)
 }
-
-/// What is asked of a change.
-pub(crate) const OF_CELL_CHANGES: [&str; 1] = ["strategy"];
-/// What is asked of a landmark.
-pub(crate) const OF_LANDMARKS: [&str; 2] = ["weight", "serves"];
-/// What is asked of an edge.
-pub(crate) const OF_EDGES: [&str; 1] = ["trust"];
 
 #[derive(Debug)]
 pub struct RuleJudge {
@@ -90,11 +95,11 @@ pub struct RuleJudge {
 impl RuleJudge {
     /// Makes ready; a `fixed` strategy is taken whatever rules say. Which rules decided is kept if it `explains`.
     pub fn new(rules: &Arc<RuleBase>, fixed: Option<Strategy>, explains: bool) -> Result<Self, ClassError> {
-        let rules = || Arc::clone(rules);
+        let [changes, landmarks, edges] = classes();
         Ok(Self {
-            changes: Consultation::new(rules(), "CELL_CHANGES", CELL_CHANGES, &OF_CELL_CHANGES)?,
-            landmarks: Consultation::new(rules(), "LANDMARKS", LANDMARKS, &OF_LANDMARKS)?,
-            edges: Consultation::new(rules(), "EDGES", EDGES, &OF_EDGES)?,
+            changes: changes.consultation(rules)?,
+            landmarks: landmarks.consultation(rules)?,
+            edges: edges.consultation(rules)?,
             fixed,
             considered: Vec::new(),
             explained: explains.then(Explained::default),
@@ -132,9 +137,9 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return Strategy::OnDemand;
         }
-        consult(&mut self.changes, &change(facts), &mut self.trouble);
+        consult(&mut self.changes, &object(CELL_CHANGES, facts), &mut self.trouble);
         self.considered = self.changes.considered("strategy");
-        match meant(&self.changes, &STRATEGIES) {
+        match meant(&self.changes, 0, &STRATEGIES) {
             Ok(strategy) => {
                 if let Some(explained) = &mut self.explained {
                     explained.add("strategy", strategy_word(strategy), &self.considered);
@@ -152,7 +157,7 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return None;
         }
-        consult(&mut self.landmarks, &landmark(facts), &mut self.trouble);
+        consult(&mut self.landmarks, &object(landmarks(), facts), &mut self.trouble);
         if let Some(explained) = &mut self.explained {
             let answer = self
                 .landmarks
@@ -176,11 +181,11 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return Trust::Verify;
         }
-        consult(&mut self.edges, &edge(facts), &mut self.trouble);
-        match meant(&self.edges, &TRUSTS) {
+        consult(&mut self.edges, &object(EDGES, facts), &mut self.trouble);
+        match meant(&self.edges, 0, &TRUSTS) {
             Ok(trust) => {
                 if let Some(explained) = &mut self.explained {
-                    let word = TRUSTS.iter().find(|(_, known)| *known == trust).map_or("", |(word, _)| word);
+                    let word = word_for(&TRUSTS, &trust).unwrap_or_default();
                     explained.add("trust", word, &self.edges.considered("trust"));
                 }
                 trust
@@ -193,71 +198,8 @@ impl Judge for RuleJudge {
     }
 }
 
-/// What the word in the first output means; otherwise what is there.
-fn meant<T: Copy>(consultation: &Consultation, words: &[(&str, T)]) -> Result<T, Option<String>> {
-    let found = words.iter().find(|(word, _)| consultation.is(0, word));
-    found.map(|(_, meant)| *meant).ok_or_else(|| consultation.value(0).map(|value| value.to_string()))
-}
-
-fn change(facts: &ChangeFacts) -> [Datum<'static>; CELL_CHANGES.len()] {
-    let mut object = [Datum::Unknown; CELL_CHANGES.len()];
-    for (at, number) in [
-        (const { place(CELL_CHANGES, "objects") }, f64::from(facts.objects)),
-        (const { place(CELL_CHANGES, "appeared") }, f64::from(facts.appeared)),
-        (const { place(CELL_CHANGES, "gone") }, f64::from(facts.gone)),
-        (const { place(CELL_CHANGES, "moved") }, f64::from(facts.moved)),
-        (const { place(CELL_CHANGES, "reshaped") }, f64::from(facts.reshaped)),
-        (const { place(CELL_CHANGES, "moved_by") }, facts.moved_m),
-        (const { place(CELL_CHANGES, "turned_by") }, facts.turned),
-        (const { place(CELL_CHANGES, "tasks") }, f64::from(facts.tasks)),
-        (const { place(CELL_CHANGES, "subgoals") }, f64::from(facts.vertices)),
-        (const { place(CELL_CHANGES, "subgoals_moved") }, f64::from(facts.vertices_moved)),
-        (const { place(CELL_CHANGES, "subgoals_dropped") }, f64::from(facts.vertices_dropped)),
-        (const { place(CELL_CHANGES, "unsure_subgoals") }, facts.unsure_vertices),
-        (const { place(CELL_CHANGES, "edges") }, f64::from(facts.edges)),
-        (const { place(CELL_CHANGES, "broken_edges") }, facts.broken_edges),
-        (const { place(CELL_CHANGES, "solve_over_reach") }, facts.solve_over_reach),
-    ] {
-        object[at] = Datum::Number(number);
-    }
-    object
-}
-
 /// What rules were told of a change, as JSON.
 pub fn told(facts: &ChangeFacts) -> serde_json::Value {
-    let values = change(facts);
-    let number = |value: &Datum<'_>| if let Datum::Number(number) = value { Some(*number) } else { None };
-    CELL_CHANGES
-        .iter()
-        .zip(&values)
-        .map(|((name, _), value)| ((*name).to_owned(), serde_json::json!(number(value))))
-        .collect()
-}
-
-fn landmark<'f>(facts: &LandmarkFacts<'f>) -> [Datum<'f>; LANDMARKS.len()] {
-    let mut object = [Datum::Unknown; LANDMARKS.len()];
-    object[const { place(LANDMARKS, "object") }] = Datum::Text(facts.object);
-    object[const { place(LANDMARKS, "distance") }] = Datum::Number(facts.distance_m);
-    let clearance = Some(facts.clearance_m).filter(|metres| metres.is_finite());
-    object[const { place(LANDMARKS, "clearance") }] = clearance.into();
-    object[const { place(LANDMARKS, "is_movable") }] = Datum::Truth(facts.is_movable);
-    object[const { place(LANDMARKS, "times_moved") }] = Datum::Number(f64::from(facts.times_moved));
-    object[const { place(LANDMARKS, "subgoals") }] = Datum::Number(f64::from(facts.subgoals));
-    object[const { place(LANDMARKS, "is_goal") }] = Datum::Truth(facts.is_goal);
-    object
-}
-
-fn edge(facts: &EdgeFacts) -> [Datum<'static>; EDGES.len()] {
-    let mut object = [Datum::Unknown; EDGES.len()];
-    for (at, number) in [
-        (const { place(EDGES, "age") }, f64::from(facts.age_tasks)),
-        (const { place(EDGES, "age_changes") }, f64::from(facts.age_changes)),
-        (const { place(EDGES, "times_verified") }, f64::from(facts.times_verified)),
-        (const { place(EDGES, "unverified_objects") }, f64::from(facts.unverified_objects)),
-        (const { place(EDGES, "broken_edges") }, facts.broken_edges),
-        (const { place(EDGES, "length") }, facts.length),
-    ] {
-        object[at] = Datum::Number(number);
-    }
-    object
+    let number = |of: Of<ChangeFacts>| if let Number(of) = of { Some(of(facts)) } else { None };
+    CELL_CHANGES.into_iter().map(|(name, of)| (name.to_owned(), serde_json::json!(number(of)))).collect()
 }

@@ -35,13 +35,12 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
     for text in &remarks {
         remark(text);
     }
-    let steps =
-        || Steps::new(rules.clone()).map_err(|error| Error::said("plan/rules", error.to_string(), None));
+    let steps = || Steps::new(&rules).map_err(|error| Error::said("plan/rules", error.to_string(), None));
     match &world.task {
         Task::Assembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
         Task::SolidAssembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
         Task::Corridor(corridor) => {
-            let turns = Turns::new(rules.clone());
+            let turns = Turns::new(&rules);
             let mut turns = turns.map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
             drive(args, &world, name, &between(args, corridor)?, &mut turns)
         }
@@ -141,7 +140,7 @@ fn drive(
         let answer = corridor.explained(turns);
         well &= answer.path.is_ok();
         if let Ok(driven) = &answer.path {
-            let gap = corridor.gap.to_string();
+            let gap = corridor.wanted.gap.to_string();
             panels.push(ChannelPanel::drive(&gap, &corridor.corridors, corridor.robot, &driven.drive));
         }
         record = Some(answer.record(&world.name, rules, &corridor));
@@ -170,7 +169,7 @@ fn assemble<const D: usize>(
         let answer = assembly.explained(steps);
         well &= answer.path.is_ok();
         if let Ok(path) = &answer.path {
-            let gap = assembly.gap.to_string();
+            let gap = assembly.wanted.gap.to_string();
             // In three dimensions from the front and from above.
             let views: &[(&str, [usize; 2])] = if D == 2 {
                 &[("", [0, 1])]

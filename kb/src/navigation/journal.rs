@@ -1,61 +1,17 @@
 //! The journal of a mission: what happened, and by which rule.
 
 use adit_db::mission::{Decided, Entry, Mission as Record};
-use adit_engine::{Considered, Datum};
-use adit_planners::local_model::{SegmentFacts, Transition};
-use adit_planners::navigation::{self, Action, Happening, Judge, StateDecision, StateFacts, WayFacts};
+use adit_engine::Datum;
+use adit_planners::navigation::{self, Happening, StateFacts};
 use adit_planners::pose::Pose;
 use serde_json::{Value, json};
 
-use super::judge::{RuleJudge, action_word, state_word, told_of};
+use super::judge::{Noting, action_word, state_word, told_of};
 use super::missions::Row;
-
-/// A judge that notes which rule decided, where the state changed or something was done.
-#[derive(Debug)]
-pub struct Noting {
-    judge: RuleJudge,
-    decided: Vec<Option<Considered>>,
-}
-
-impl Noting {
-    /// Notes what this judge decides by.
-    pub const fn new(judge: RuleJudge) -> Self {
-        Self { judge, decided: Vec::new() }
-    }
-
-    /// What the rules did not say.
-    pub fn trouble(&self) -> Option<&str> {
-        self.judge.trouble()
-    }
-}
-
-impl Judge for Noting {
-    fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
-        let decision = self.judge.next_state(facts);
-        if is_told(facts, decision) {
-            let rows = self.judge.considered();
-            self.decided.push(rows.into_iter().find(|row| row.miss.is_none()));
-        }
-        decision
-    }
-
-    fn segment(&mut self, facts: &SegmentFacts) -> Transition {
-        self.judge.segment(facts)
-    }
-
-    fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
-        self.judge.weigh(facts)
-    }
-}
-
-/// Whether the navigator tells of a decision.
-fn is_told(facts: &StateFacts, decision: StateDecision) -> bool {
-    facts.state != decision.state || decision.action != Action::None
-}
 
 /// The mission as it is kept.
 pub fn record(world: &str, rules: &str, row: &Row, entries: &[navigation::Entry], noted: Noting) -> Record {
-    let mut decided = noted.decided.into_iter();
+    let mut decided = noted.into_decided();
     let entry = |entry: &navigation::Entry| {
         let (event, change, detail) = told(&entry.event.what);
         let rule = change.as_ref().and_then(|_| decided.next().flatten());

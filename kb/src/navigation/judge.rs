@@ -1,95 +1,101 @@
-//! The navigator's judge: rules say what the robot does next, what becomes of a segment, and what a way weighs.
+//! The navigator's judge: rules say what the robot does next, what becomes of a segment, what a way weighs, and which
+//! opening it explores next.
 
 use std::sync::Arc;
 
 use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
+use adit_planners::navigation::learn::{Guide, OpeningFacts};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
-use super::told::Told;
-use crate::plan::rules::{consult, place};
+use super::told::{self, Told};
+use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
+use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
 
 /// What rules are told of a situation.
-pub const SITUATIONS: &[(&str, Type)] = &[
-    ("mode", Type::Text),
-    ("state", Type::Text),
-    ("has_goal", Type::Truth),
-    ("distance", Type::Number),
-    ("is_falling", Type::Truth),
-    ("heading_error", Type::Number),
-    ("off_line", Type::Number),
-    ("free", Type::Number),
-    ("echo", Type::Number),
-    ("is_obstacle_moving", Type::Truth),
-    ("is_contact", Type::Truth),
-    ("back_offs", Type::Number),
-    ("is_busy", Type::Truth),
-    ("is_scan_complete", Type::Truth),
-    ("scans", Type::Number),
-    ("left", Type::Number),
-    ("right", Type::Number),
-    ("detours_here", Type::Number),
-    ("waits", Type::Number),
-    ("has_way", Type::Truth),
-    ("retries", Type::Number),
-    ("time", Type::Number),
-    ("goal_tolerance", Type::Number),
-    ("turning_resolution", Type::Number),
-    ("highway_half_width", Type::Number),
-    ("look_ahead", Type::Number),
-    ("most_waits", Type::Number),
-    ("most_detours", Type::Number),
-    ("most_retries", Type::Number),
-    ("most_back_offs", Type::Number),
-    ("no_way_after", Type::Number),
+const SITUATIONS: [Property<StateFacts>; 31] = [
+    ("mode", Text(|of| word_for(&MODES, &of.mode))),
+    ("state", Text(|of| word_for(&STATES, &of.state))),
+    ("has_goal", Truth(|of| of.has_goal)),
+    ("distance", Number(|of| of.distance_m)),
+    ("is_falling", Truth(|of| of.is_falling)),
+    ("heading_error", Number(|of| of.heading_error)),
+    ("off_line", Number(|of| of.off_line_m)),
+    ("free", Number(|of| of.free_m)),
+    ("echo", Number(|of| of.echo_m)),
+    ("is_obstacle_moving", Truth(|of| of.is_obstacle_moving)),
+    ("is_contact", Truth(|of| of.is_contact)),
+    ("back_offs", Number(|of| of.back_offs.into())),
+    ("is_busy", Truth(|of| of.is_busy)),
+    ("is_scan_complete", Truth(|of| of.is_scan_complete)),
+    ("scans", Number(|of| of.scans.into())),
+    ("left", Perhaps(|of| of.left_m)),
+    ("right", Perhaps(|of| of.right_m)),
+    ("detours_here", Number(|of| of.detours_here.into())),
+    ("waits", Number(|of| of.waits.into())),
+    ("has_way", Truth(|of| of.has_way)),
+    ("retries", Number(|of| of.retries.into())),
+    ("time", Number(|of| of.time_s)),
+    ("goal_tolerance", Number(|of| of.settings.goal_tolerance_m)),
+    ("turning_resolution", Number(|of| of.settings.turning_resolution)),
+    ("highway_half_width", Number(|of| of.settings.highway_half_width_m)),
+    ("look_ahead", Number(|of| of.settings.look_ahead_m)),
+    ("most_waits", Number(|of| of.settings.most_waits.into())),
+    ("most_detours", Number(|of| of.settings.most_detours.into())),
+    ("most_retries", Number(|of| of.settings.most_retries.into())),
+    ("most_back_offs", Number(|of| of.settings.most_back_offs.into())),
+    ("no_way_after", Number(|of| of.settings.no_way_after_s)),
 ];
 
 /// What rules are told of a segment of the local model.
-pub const SEGMENTS: &[(&str, Type)] = &[
-    ("source", Type::Text),
-    ("confidence", Type::Number),
-    ("is_matched", Type::Truth),
-    ("is_visible", Type::Truth),
-    ("is_seen_free", Type::Truth),
-    ("is_moving", Type::Truth),
-    ("beams_on", Type::Number),
-    ("beams_through", Type::Number),
-    ("free", Type::Number),
-    ("age", Type::Number),
-    ("unseen", Type::Number),
-    ("distance", Type::Number),
-    ("length", Type::Number),
-    ("sigma", Type::Number),
-    ("is_learning", Type::Truth),
+const SEGMENTS: [Property<SegmentFacts>; 15] = [
+    ("source", Text(|of| word_for(&SOURCES, &of.source))),
+    ("confidence", Number(|of| of.confidence.into())),
+    ("is_matched", Truth(|of| of.is_matched)),
+    ("is_visible", Truth(|of| of.is_visible)),
+    ("is_seen_free", Truth(|of| of.is_seen_free)),
+    ("is_moving", Truth(|of| of.is_moving)),
+    ("beams_on", Number(|of| of.beams_on.into())),
+    ("beams_through", Number(|of| of.beams_through.into())),
+    ("free", Number(|of| of.free_m)),
+    ("age", Number(|of| of.age.into())),
+    ("unseen", Number(|of| of.unseen.into())),
+    ("distance", Number(|of| of.distance_m)),
+    ("length", Number(|of| of.length_m)),
+    ("sigma", Number(|of| of.sigma_m)),
+    ("is_learning", Truth(|of| of.is_learning)),
 ];
 
-/// What rules are told of a way between adits.
-pub const WAYS: &[(&str, Type)] = &[
-    ("length", Type::Number),
-    ("clearance", Type::Number),
-    ("doorway", Type::Number),
-    ("region", Type::Number),
-    ("is_cut", Type::Truth),
-    ("times_blocked", Type::Number),
-    ("squeaks", Type::Truth),
+/// What rules are told of an opening, through which a robot that learns a building may go on.
+const OPENINGS: [Property<OpeningFacts>; 8] = [
+    ("width", Number(|of| of.width_m)),
+    ("distance", Number(|of| of.distance_m)),
+    ("off_asked", Perhaps(|of| of.off_asked)),
+    ("is_in_sight", Truth(|of| of.is_in_sight)),
+    ("times_tried", Number(|of| of.times_tried.into())),
+    ("time", Number(|of| of.time_s)),
+    ("driven", Number(|of| of.driven_m)),
+    ("radius", Number(|of| of.radius_m)),
 ];
 
-/// So many of them follow from the floor plan and from what was seen; the others a world tells.
-pub const MEASURED: usize = 6;
-
-/// What is asked of them.
-pub(crate) const OF_SITUATIONS: [&str; 2] = ["next", "action"];
-/// What is asked of them.
-pub(crate) const OF_SEGMENTS: [&str; 6] =
-    ["becomes", "source", "is_kept", "counts_for_pose", "is_anchored", "is_cut"];
-/// What is asked of them.
-pub(crate) const OF_WAYS: [&str; 2] = ["weight", "passable"];
+/// The classes of objects that rules are asked about.
+pub(crate) fn classes() -> [Class; 4] {
+    const OF_SEGMENTS: &[&str] =
+        &["becomes", "source", "is_kept", "counts_for_pose", "is_anchored", "is_cut"];
+    [
+        Class::new("SITUATIONS", SITUATIONS, &["next", "action"]),
+        Class::new("SEGMENTS", SEGMENTS, OF_SEGMENTS),
+        Class { name: "WAYS", told: told::ways(), asked: &["weight", "passable"] },
+        Class::new("OPENINGS", OPENINGS, &["explore", "worth"]),
+    ]
+}
 
 #[derive(Debug)]
 pub struct RuleJudge {
     situations: Consultation,
     segments: Consultation,
     ways: Consultation,
+    openings: Consultation,
     /// The properties of ways, in the order in which they are told.
     of_ways: Vec<String>,
     told: Told,
@@ -104,13 +110,14 @@ impl RuleJudge {
 
     /// Makes ready for a world that tells this of its doorways and regions.
     pub fn with(rules: &Arc<RuleBase>, told: &Told) -> Result<Self, ClassError> {
-        let rules = || Arc::clone(rules);
-        let ways: Vec<(&str, Type)> = WAYS.iter().copied().chain(told.further()).collect();
+        let [situations, segments, ways, openings] = classes();
+        let of_ways: Vec<(&str, Type)> = ways.told.iter().copied().chain(told.further()).collect();
         Ok(Self {
-            situations: Consultation::new(rules(), "SITUATIONS", SITUATIONS, &OF_SITUATIONS)?,
-            segments: Consultation::new(rules(), "SEGMENTS", SEGMENTS, &OF_SEGMENTS)?,
-            ways: Consultation::new(rules(), "WAYS", &ways, &OF_WAYS)?,
-            of_ways: ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
+            situations: situations.consultation(rules)?,
+            segments: segments.consultation(rules)?,
+            ways: Consultation::new(Arc::clone(rules), ways.name, &of_ways, ways.asked)?,
+            openings: openings.consultation(rules)?,
+            of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
             told: told.clone(),
             trouble: None,
         })
@@ -137,7 +144,7 @@ impl RuleJudge {
     /// # Returns
     /// The next state and the action as words, and which rules were looked at.
     pub fn consider<'f>(&mut self, told: impl Fn(&str) -> Datum<'f>) -> ([String; 2], Vec<Considered>) {
-        let object = SITUATIONS.iter().map(|(name, _)| told(name)).collect::<Vec<_>>();
+        let object = SITUATIONS.map(|(name, _)| told(name));
         consult(&mut self.situations, &object, &mut self.trouble);
         let said =
             [0, 1].map(|output| self.situations.text(output).map_or(String::new(), |text| text.to_string()));
@@ -167,31 +174,24 @@ const ACTIONS: [(&str, Action); 7] = [
     ("retry", Action::Retry),
     ("no way", Action::NoWay),
 ];
+const MODES: [(&str, Mode); 3] =
+    [("automatic", Mode::Automatic), ("manual", Mode::Manual), ("learn", Mode::Learn)];
 const SOURCES: [(&str, Source); 3] =
     [("sonar", Source::SONAR), ("contact", Source::CONTACT), ("recalled", Source::RECALLED)];
 
 /// The word for a state, as rules and the journal have it.
 pub fn state_word(state: State) -> &'static str {
-    STATES.iter().find(|(_, known)| *known == state).map_or("hold", |(word, _)| word)
+    word_for(&STATES, &state).unwrap_or("hold")
 }
 
 pub fn action_word(action: Action) -> &'static str {
-    ACTIONS.iter().find(|(_, known)| *known == action).map_or("none", |(word, _)| word)
-}
-
-fn meant<T: Copy>(
-    consultation: &Consultation,
-    output: usize,
-    words: &[(&str, T)],
-) -> Result<T, Option<String>> {
-    let found = words.iter().find(|(word, _)| consultation.is(output, word));
-    found.map(|(_, meant)| *meant).ok_or_else(|| consultation.value(output).map(|value| value.to_string()))
+    word_for(&ACTIONS, &action).unwrap_or("none")
 }
 
 impl Judge for RuleJudge {
     fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
         if self.trouble.is_none() {
-            consult(&mut self.situations, &situation(facts), &mut self.trouble);
+            consult(&mut self.situations, &object(SITUATIONS, facts), &mut self.trouble);
         }
         if self.trouble.is_some() {
             return StateDecision { state: State::Hold, action: Action::NoWay };
@@ -221,7 +221,7 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return unchanged;
         }
-        consult(&mut self.segments, &segment(facts), &mut self.trouble);
+        consult(&mut self.segments, &object(SEGMENTS, facts), &mut self.trouble);
         let of = |output| self.segments.truth(output);
         let (Some(becomes), Some(is_kept)) = (self.segments.number(0), of(2)) else {
             self.missing("what becomes of a segment", None);
@@ -241,15 +241,10 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return None;
         }
-        let mut object = vec![Datum::Unknown; self.of_ways.len()];
-        object[const { place(WAYS, "length") }] = Datum::Number(facts.way.length);
-        object[const { place(WAYS, "clearance") }] = Datum::Number(facts.way.clearance);
-        object[const { place(WAYS, "doorway") }] = facts.way.doorway.map(|number| number as f64).into();
-        object[const { place(WAYS, "region") }] = facts.way.region.map(|number| number as f64).into();
-        object[const { place(WAYS, "is_cut") }] = Datum::Truth(facts.is_cut);
-        object[const { place(WAYS, "times_blocked") }] = Datum::Number(f64::from(facts.times_blocked));
-        self.told.of(facts.way, &mut object, |name| self.of_ways.iter().position(|known| known == name));
-        consult(&mut self.ways, &object, &mut self.trouble);
+        let mut way = object(told::measured(), facts).to_vec();
+        way.resize(self.of_ways.len(), Datum::Unknown);
+        self.told.of(facts.way, &mut way, |name| self.of_ways.iter().position(|known| known == name));
+        consult(&mut self.ways, &way, &mut self.trouble);
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Some(weight),
@@ -261,86 +256,68 @@ impl Judge for RuleJudge {
     }
 }
 
+impl Guide for RuleJudge {
+    fn opening(&mut self, facts: &OpeningFacts) -> Option<f64> {
+        if self.trouble.is_some() {
+            return None;
+        }
+        consult(&mut self.openings, &object(OPENINGS, facts), &mut self.trouble);
+        match (self.openings.truth(0), self.openings.number(1)) {
+            (Some(false), _) => None,
+            (Some(true), Some(worth)) if !worth.is_nan() => Some(worth),
+            _ => {
+                self.missing("whether an opening is explored, or what it is worth", None);
+                None
+            }
+        }
+    }
+}
+
+/// A judge that notes which rule decided, where the state changed or something was done.
+#[derive(Debug)]
+pub struct Noting {
+    judge: RuleJudge,
+    decided: Vec<Option<Considered>>,
+}
+
+impl Noting {
+    /// Notes what this judge decides by.
+    pub const fn new(judge: RuleJudge) -> Self {
+        Self { judge, decided: Vec::new() }
+    }
+
+    /// What the rules did not say.
+    pub fn trouble(&self) -> Option<&str> {
+        self.judge.trouble()
+    }
+
+    /// For each decision that was told the rule that spoke.
+    pub(super) fn into_decided(self) -> impl Iterator<Item = Option<Considered>> {
+        self.decided.into_iter()
+    }
+}
+
+impl Judge for Noting {
+    fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
+        let decision = self.judge.next_state(facts);
+        // the decisions that the navigator tells of
+        if facts.state != decision.state || decision.action != Action::None {
+            let rows = self.judge.considered();
+            self.decided.push(rows.into_iter().find(|row| row.miss.is_none()));
+        }
+        decision
+    }
+
+    fn segment(&mut self, facts: &SegmentFacts) -> Transition {
+        self.judge.segment(facts)
+    }
+
+    fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {
+        self.judge.weigh(facts)
+    }
+}
+
 /// What the rules are told of a situation: each property with its value.
-pub fn told_of(facts: &StateFacts) -> impl Iterator<Item = (&'static str, Datum<'static>)> {
-    SITUATIONS.iter().map(|(name, _)| *name).zip(situation(facts))
-}
-
-fn situation(facts: &StateFacts) -> [Datum<'static>; SITUATIONS.len()] {
-    let mut object = [Datum::Unknown; SITUATIONS.len()];
-    let settings = &facts.settings;
-    let mode = match facts.mode {
-        Mode::Automatic => "automatic",
-        Mode::Manual => "manual",
-        Mode::Learn => "learn",
-    };
-    object[const { place(SITUATIONS, "mode") }] = Datum::Text(mode);
-    object[const { place(SITUATIONS, "state") }] = Datum::Text(state_word(facts.state));
-    for (at, truth) in [
-        (const { place(SITUATIONS, "has_goal") }, facts.has_goal),
-        (const { place(SITUATIONS, "is_falling") }, facts.is_falling),
-        (const { place(SITUATIONS, "is_obstacle_moving") }, facts.is_obstacle_moving),
-        (const { place(SITUATIONS, "is_contact") }, facts.is_contact),
-        (const { place(SITUATIONS, "is_busy") }, facts.is_busy),
-        (const { place(SITUATIONS, "is_scan_complete") }, facts.is_scan_complete),
-        (const { place(SITUATIONS, "has_way") }, facts.has_way),
-    ] {
-        object[at] = Datum::Truth(truth);
-    }
-    for (at, number) in [
-        (const { place(SITUATIONS, "distance") }, facts.distance_m),
-        (const { place(SITUATIONS, "heading_error") }, facts.heading_error),
-        (const { place(SITUATIONS, "off_line") }, facts.off_line_m),
-        (const { place(SITUATIONS, "free") }, facts.free_m),
-        (const { place(SITUATIONS, "echo") }, facts.echo_m),
-        (const { place(SITUATIONS, "detours_here") }, f64::from(facts.detours_here)),
-        (const { place(SITUATIONS, "waits") }, f64::from(facts.waits)),
-        (const { place(SITUATIONS, "retries") }, f64::from(facts.retries)),
-        (const { place(SITUATIONS, "back_offs") }, f64::from(facts.back_offs)),
-        (const { place(SITUATIONS, "scans") }, f64::from(facts.scans)),
-        (const { place(SITUATIONS, "time") }, facts.time_s),
-        (const { place(SITUATIONS, "most_back_offs") }, f64::from(settings.most_back_offs)),
-        (const { place(SITUATIONS, "no_way_after") }, settings.no_way_after_s),
-        (const { place(SITUATIONS, "goal_tolerance") }, settings.goal_tolerance_m),
-        (const { place(SITUATIONS, "turning_resolution") }, settings.turning_resolution),
-        (const { place(SITUATIONS, "highway_half_width") }, settings.highway_half_width_m),
-        (const { place(SITUATIONS, "look_ahead") }, settings.look_ahead_m),
-        (const { place(SITUATIONS, "most_waits") }, f64::from(settings.most_waits)),
-        (const { place(SITUATIONS, "most_detours") }, f64::from(settings.most_detours)),
-        (const { place(SITUATIONS, "most_retries") }, f64::from(settings.most_retries)),
-    ] {
-        object[at] = Datum::Number(number);
-    }
-    object[const { place(SITUATIONS, "left") }] = facts.left_m.into();
-    object[const { place(SITUATIONS, "right") }] = facts.right_m.into();
-    object
-}
-
-fn segment(facts: &SegmentFacts) -> [Datum<'static>; SEGMENTS.len()] {
-    let mut object = [Datum::Unknown; SEGMENTS.len()];
-    let source = SOURCES.iter().find(|(_, source)| *source == facts.source);
-    object[const { place(SEGMENTS, "source") }] = source.map(|(word, _)| *word).into();
-    for (at, truth) in [
-        (const { place(SEGMENTS, "is_matched") }, facts.is_matched),
-        (const { place(SEGMENTS, "is_visible") }, facts.is_visible),
-        (const { place(SEGMENTS, "is_seen_free") }, facts.is_seen_free),
-        (const { place(SEGMENTS, "is_moving") }, facts.is_moving),
-        (const { place(SEGMENTS, "is_learning") }, facts.is_learning),
-    ] {
-        object[at] = Datum::Truth(truth);
-    }
-    for (at, number) in [
-        (const { place(SEGMENTS, "confidence") }, f64::from(facts.confidence)),
-        (const { place(SEGMENTS, "beams_on") }, f64::from(facts.beams_on)),
-        (const { place(SEGMENTS, "beams_through") }, f64::from(facts.beams_through)),
-        (const { place(SEGMENTS, "free") }, facts.free_m),
-        (const { place(SEGMENTS, "age") }, f64::from(facts.age)),
-        (const { place(SEGMENTS, "unseen") }, f64::from(facts.unseen)),
-        (const { place(SEGMENTS, "distance") }, facts.distance_m),
-        (const { place(SEGMENTS, "length") }, facts.length_m),
-        (const { place(SEGMENTS, "sigma") }, facts.sigma_m),
-    ] {
-        object[at] = Datum::Number(number);
-    }
-    object
+pub fn told_of(facts: &StateFacts) -> impl Iterator<Item = (&'static str, Datum<'_>)> {
+    SITUATIONS.map(|(name, _)| name).into_iter().zip(object(SITUATIONS, facts))
 }

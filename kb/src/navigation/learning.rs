@@ -13,7 +13,6 @@ use adit_planners::world::Place;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::guide::RuleGuide;
 use super::missions::refuse;
 use super::told::Told;
 use crate::error::{Error, Result};
@@ -78,7 +77,7 @@ pub fn explore(
 ) -> Result<(Row, Record)> {
     let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
     outfit.robot.radius_m = floor.network.disc.radius;
-    let mut guide = RuleGuide::new(floor, rules)?;
+    let mut guide = floor.judge(rules)?;
     let explored = exploration
         .run(&floor.plan, &outfit, &mut guide, |_| {}, film)
         .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;

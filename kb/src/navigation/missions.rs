@@ -11,8 +11,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::journal::Noting;
-use super::judge::RuleJudge;
+use super::judge::{Noting, RuleJudge};
 use crate::error::{Error, Result};
 
 /// How a mission went.

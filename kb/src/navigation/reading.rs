@@ -13,7 +13,7 @@ use toml::de::DeValue;
 use super::floor::Floor;
 use super::told::{self, Told};
 use crate::error::{Error, Result};
-use crate::site::Site;
+use crate::site::{Site, not_negative};
 use crate::words::suggest::did_you_mean;
 
 const KEYS: [&str; 8] = ["file", "map", "unknown", "speck_area", "open", "closed", "robot", "navigation"];
@@ -263,16 +263,6 @@ fn robot(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Robot> 
     let height = robot.get("height").and_then(|_| robot.positive("height", problems));
     let (Located { value: radius, span }, margin) = (radius?, margin?);
     Some(Robot { disc: Disc { radius, margin }, height: height.map(|height| height.value), span })
-}
-
-fn not_negative(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {
-    let number = fields.number(key, problems)?;
-    if number.value >= 0.0 {
-        return Some(number.value);
-    }
-    let message = format!("`{key}` is {} and must not be negative", number.value);
-    problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
-    None
 }
 
 fn times(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<u32> {

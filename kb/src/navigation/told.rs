@@ -5,11 +5,30 @@ use std::collections::BTreeMap;
 use adit_engine::{Datum, Type};
 use adit_planners::floor_plan::{Network, Way};
 use adit_planners::geometry::Point;
+use adit_planners::navigation::WayFacts;
 use adit_planners::read::{Code, Fields, Located, Problem};
 use adit_planners::world::Property;
 use toml::de::DeValue;
 
-use super::judge::WAYS;
+use crate::plan::consult::Of::{Number, Perhaps, Truth};
+use crate::plan::consult::{self, typed};
+
+/// What rules are told of a way between adits, as it follows from the floor plan and from what was seen.
+pub(super) const fn measured<'w>() -> [consult::Property<WayFacts<'w>>; 6] {
+    [
+        ("length", Number(|of| of.way.length)),
+        ("clearance", Number(|of| of.way.clearance)),
+        ("doorway", Perhaps(|of| of.way.doorway.map(|number| number as f64))),
+        ("region", Perhaps(|of| of.way.region.map(|number| number as f64))),
+        ("is_cut", Truth(|of| of.is_cut)),
+        ("times_blocked", Number(|of| of.times_blocked.into())),
+    ]
+}
+
+/// What rules may know of every way: what is measured, and what shipped rules read of what worlds tell.
+pub(super) fn ways() -> Vec<(&'static str, Type)> {
+    [typed(measured()), vec![("squeaks", Type::Truth)]].concat()
+}
 
 /// The tables that say it.
 pub const KEYS: [&str; 2] = ["doorway", "region"];
@@ -20,7 +39,7 @@ const BESIDE_M: f64 = 0.5;
 /// What is said of doorways and regions, as properties of the ways through them.
 #[derive(Clone, Debug, Default)]
 pub struct Told {
-    /// The properties that are told, with the type of their values: those of [`WAYS`] as well as others.
+    /// The properties that are told, with the type of their values: those of [`ways`] as well as others.
     properties: Vec<(String, Type)>,
     doorways: BTreeMap<usize, Vec<(usize, Property)>>,
     regions: BTreeMap<usize, Vec<(usize, Property)>>,
@@ -118,7 +137,8 @@ impl Told {
 
     /// The properties that are told and that no way has otherwise.
     pub fn further(&self) -> impl Iterator<Item = (&str, Type)> {
-        let is_further = |name: &str| WAYS.iter().all(|(known, _)| *known != name);
+        let ways = ways();
+        let is_further = move |name: &str| ways.iter().all(|(known, _)| *known != name);
         self.properties
             .iter()
             .map(|(name, kind)| (name.as_str(), *kind))
@@ -147,12 +167,12 @@ impl Told {
             Type::Text => "a text",
             Type::Truth => "true or false",
         };
-        let own = WAYS.iter().position(|(known, _)| *known == name);
-        if own.is_some_and(|own| own < super::judge::MEASURED) {
+        if measured().iter().any(|(known, _)| *known == name) {
             return Err(format!("`{name}` of a way follows from the floor plan, and is not said"));
         }
         let known = self.properties.iter().position(|(known, _)| known == name);
-        let before = known.map(|known| self.properties[known].1).or(own.map(|own| WAYS[own].1));
+        let of_all = || ways().into_iter().find(|(known, _)| *known == name);
+        let before = known.map(|known| self.properties[known].1).or_else(|| of_all().map(|(_, kind)| kind));
         if let Some(before) = before.filter(|before| *before != kind) {
             return Err(format!("`{name}` is {} here, and {} elsewhere", word(kind), word(before)));
         }

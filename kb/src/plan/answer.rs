@@ -5,107 +5,26 @@ use adit_planners::channels::assembly::{Cuboid, PartPath};
 use serde_json::{Value, json};
 
 use super::assembly::Assembly;
-use super::refusal::NoPath;
-use super::said::Said;
+use super::said::Answer;
 use super::steps::{AXES, named};
 use crate::words::number::number;
 
-/// A path or why there is none, and what rules said on the way.
-#[derive(Clone, Debug)]
-pub struct Answer<P> {
-    pub path: Result<P, NoPath>,
-    /// What rules said, junction by junction, as far as they were asked.
-    pub said: Vec<Said>,
-}
-
 /// A rule's number as rules give it: 1, not 1.0.
-pub(super) fn rule(rule: Option<f64>) -> Value {
+fn rule(rule: Option<f64>) -> Value {
     match rule {
         Some(whole) if whole.fract() == 0.0 && whole.abs() < 1e15 => json!(whole as i64),
         other => json!(other),
     }
 }
 
-pub(super) fn refused(no_path: &NoPath) -> Value {
-    json!({
-        "status": "no_path",
-        "junction": no_path.junction,
-        "reason": no_path.reason,
-        "considered": no_path.considered,
-    })
-}
-
 impl<const D: usize> Answer<PartPath<D>> {
     /// As JSON: waypoints are the part's corner with the smallest coordinates.
     pub fn json(&self, world: &Assembly<D>, explained: bool) -> Value {
-        let path = match &self.path {
-            Ok(path) => path,
-            Err(no_path) => return refused(no_path),
-        };
-        let legs: Vec<Value> = path
-            .legs
-            .iter()
-            .map(|leg| {
-                let number = if leg.junction == 0 { json!("exit") } else { rule(leg.rule) };
-                let mut object = json!({"junction": leg.junction, "rule": number});
-                for (axis, by) in leg.displacement.iter().enumerate() {
-                    object[format!("md{}", AXES[named::<D>(axis)])] = json!(by);
-                }
-                object["min_clearance"] = json!(leg.min_clearance);
-                object
-            })
-            .collect();
-        let points = |points: &[[f64; D]]| -> Vec<Vec<f64>> { points.iter().map(|at| at.to_vec()).collect() };
-        let mut answer = json!({
-            "status": "ok",
-            "waypoints": points(&path.waypoints),
-            "length": path.length,
-            "legs": legs,
-            "min_clearance": path.min_clearance,
-            "clearances": path.clearances,
-            "states": (0..path.waypoints.len()).map(|at| world.state(path, at)).collect::<Vec<_>>(),
-            "assembly": points(&path.reversed().waypoints),
-        });
-        if let Some(female) = world.female_waypoints(path) {
-            answer["female"] = json!(points(&female));
-        }
-        if explained {
-            answer["said"] = json!(self.said);
-        }
-        answer
+        self.as_json(explained, |path| json_of(path, world))
     }
 
     pub fn lines(&self, world: &Assembly<D>, explained: bool) -> Vec<String> {
-        let mut lines = Vec::new();
-        match &self.path {
-            Ok(path) => {
-                let from = path.waypoints.first().map(|at| point(at)).unwrap_or_default();
-                lines.push(format!("the part leaves {from}"));
-                for (leg, at) in path.legs.iter().zip(path.waypoints.iter().skip(1)) {
-                    let whereto = match (leg.junction, leg.rule) {
-                        (0, _) => "out".to_owned(),
-                        (junction, Some(rule)) => format!("junction {junction}, rule {}", number(rule)),
-                        (junction, None) => format!("junction {junction}"),
-                    };
-                    let clearance = number(leg.min_clearance);
-                    lines.push(format!("  to {} ({whereto}; clearance {clearance})", point(at)));
-                }
-                lines.push(format!(
-                    "length {}, least clearance {}; reversed it is the way in",
-                    number(path.length),
-                    number(path.min_clearance)
-                ));
-                if let Some(female) = world.female_waypoints(path) {
-                    let points: Vec<String> = female.iter().map(|at| point(at)).collect();
-                    lines.push(format!("the other part moves: its origin is at {}", points.join(", ")));
-                }
-            }
-            Err(no_path) => no_path.add_to(&mut lines),
-        }
-        if explained {
-            lines.extend(self.said.iter().flat_map(Said::lines));
-        }
-        lines
+        self.as_lines(explained, |path| lines_of(path, world))
     }
 
     /// As it is kept.
@@ -131,19 +50,66 @@ impl<const D: usize> Answer<PartPath<D>> {
                 .collect(),
             ..Plan::default()
         };
-        match &self.path {
-            Ok(path) => {
-                record.length = Some(path.length);
-                record.min_clearance = Some(path.min_clearance);
-                record.steps = steps(world, path);
-            }
-            Err(no_path) => record.reason = Some(no_path.reason.clone()),
-        }
-        for said in &self.said {
-            super::keep::rows(said, &mut record);
-        }
+        self.add_to(&mut record, |path| (path.length, path.min_clearance, steps(world, path)));
         record
     }
+}
+
+fn json_of<const D: usize>(path: &PartPath<D>, world: &Assembly<D>) -> Value {
+    let legs: Vec<Value> = path
+        .legs
+        .iter()
+        .map(|leg| {
+            let number = if leg.junction == 0 { json!("exit") } else { rule(leg.rule) };
+            let mut object = json!({"junction": leg.junction, "rule": number});
+            for (axis, by) in leg.displacement.iter().enumerate() {
+                object[format!("md{}", AXES[named::<D>(axis)])] = json!(by);
+            }
+            object["min_clearance"] = json!(leg.min_clearance);
+            object
+        })
+        .collect();
+    let points = |points: &[[f64; D]]| -> Vec<Vec<f64>> { points.iter().map(|at| at.to_vec()).collect() };
+    let mut answer = json!({
+        "status": "ok",
+        "waypoints": points(&path.waypoints),
+        "length": path.length,
+        "legs": legs,
+        "min_clearance": path.min_clearance,
+        "clearances": path.clearances,
+        "states": (0..path.waypoints.len()).map(|at| world.state(path, at)).collect::<Vec<_>>(),
+        "assembly": points(&path.reversed().waypoints),
+    });
+    if let Some(female) = world.female_waypoints(path) {
+        answer["female"] = json!(points(&female));
+    }
+    answer
+}
+
+fn lines_of<const D: usize>(path: &PartPath<D>, world: &Assembly<D>) -> Vec<String> {
+    let mut lines = Vec::new();
+    let from = path.waypoints.first().map(|at| point(at)).unwrap_or_default();
+    lines.push(format!("the part leaves {from}"));
+    for (leg, at) in path.legs.iter().zip(path.waypoints.iter().skip(1)) {
+        let whereto = match (leg.junction, leg.rule) {
+            (0, _) => "out".to_owned(),
+            (junction, Some(rule)) => format!("junction {junction}, rule {}", number(rule)),
+            (junction, None) => format!("junction {junction}"),
+        };
+        let clearance = number(leg.min_clearance);
+        lines.push(format!("  to {} ({whereto}; clearance {clearance})", point(at)));
+    }
+    lines.push(format!(
+        "length {}, least clearance {}; reversed it is the way in",
+        number(path.length),
+        number(path.min_clearance)
+    ));
+    if let Some(female) = world.female_waypoints(path) {
+        let points: Vec<String> = female.iter().map(|at| point(at)).collect();
+        lines.push(format!("the other part moves: its origin is at {}", points.join(", ")));
+    }
+
+    lines
 }
 
 fn steps<const D: usize>(world: &Assembly<D>, path: &PartPath<D>) -> Vec<PathStep> {

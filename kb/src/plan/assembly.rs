@@ -1,27 +1,18 @@
 //! A part that is taken out of another through channels (Lee, sections 2 to 4).
 
-use std::collections::BTreeMap;
-
-use adit_planners::channels::assembly::{self as geometry, Cuboid, PartPath, PathError};
+use adit_planners::channels::assembly::{self as geometry, Cuboid, Decision, PartPath, PathError};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
-use super::answer::Answer;
-use super::gap::Asked;
+use super::gap::{Asked, Wanted, refuse_beyond};
 use super::refusal::NoPath;
-use super::said::Said;
-use super::steps::{Steps, Wishes};
-use super::world::{Task, flag};
+use super::said::{Answer, Said};
+use super::steps::Steps;
 
 /// A part in channels, and what is asked of its path.
 #[derive(Clone, Debug)]
 pub struct Assembly<const D: usize> {
     pub geometry: geometry::Assembly<D>,
-    pub gap: Asked<D>,
-    /// Where it is another one: the number of the junction.
-    pub gaps: BTreeMap<usize, Asked<D>>,
-    /// Whether the part must not be scratched.
-    pub fragile: bool,
-    pub hurry: bool,
+    pub wanted: Wanted<D>,
     /// Whether the part around the channels is the one that moves.
     pub female_moves: bool,
     /// The displacement of the part from the assembled to the final state, relative to the other.
@@ -33,33 +24,32 @@ pub struct Assembly<const D: usize> {
 impl<const D: usize> Assembly<D> {
     /// The part's way out, by what the rules say at each junction.
     pub fn plan(&self, steps: &mut Steps) -> Result<PartPath<D>, NoPath> {
-        let decide = |facts: &geometry::StepFacts<D>| steps.decide(facts, self.wishes(facts.number));
-        self.geometry.disassemble(self.displacement, decide).map_err(|error| no_path(&error))
+        self.path(|facts| steps.decide(facts, self.wanted.at(facts.number)))
     }
 
     /// As [`plan`](Self::plan), and what rules said at each junction.
     pub fn explained(&self, steps: &mut Steps) -> Answer<PartPath<D>> {
         let mut said = Vec::new();
-        let decide = |facts: &geometry::StepFacts<D>| {
-            let decision = steps.decide(facts, self.wishes(facts.number));
+        let path = self.path(|facts| {
+            let decision = steps.decide(facts, self.wanted.at(facts.number));
             let (considered, facts_said) = (steps.considered(), steps.facts());
             said.push(Said { junction: facts.number, considered, facts: facts_said });
             decision
-        };
-        let path = self.geometry.disassemble(self.displacement, decide).map_err(|error| no_path(&error));
+        });
         Answer { path, said }
     }
 
-    /// What is asked for at a junction.
-    pub fn wishes(&self, junction: usize) -> Wishes<'_, D> {
-        let gap = self.gaps.get(&junction).unwrap_or(&self.gap);
-        Wishes { gap, fragile: self.fragile, hurry: self.hurry }
+    fn path(
+        &self,
+        decide: impl FnMut(&geometry::StepFacts<D>) -> Result<Decision<D>, NoPath>,
+    ) -> Result<PartPath<D>, NoPath> {
+        self.geometry.disassemble(self.displacement, decide).map_err(|error| no_path(&error))
     }
 
     /// The same with another gap everywhere.
     #[must_use]
     pub fn with_gap(&self, gap: Asked<D>) -> Self {
-        Self { gap, gaps: BTreeMap::new(), ..self.clone() }
+        Self { wanted: self.wanted.with_gap(gap), ..self.clone() }
     }
 
     /// What the part is in at a waypoint: assembled where it starts (definition 3.1), disassembled where it is above
@@ -91,30 +81,24 @@ fn no_path<const D: usize>(error: &PathError<D, NoPath>) -> NoPath {
         PathError::BadGap { junction, .. } | PathError::Collides { junction, .. } => Some(*junction),
         _ => None,
     };
-    NoPath { junction, reason: error.to_string(), considered: vec![] }
+    NoPath { junction, ..NoPath::because(error.to_string()) }
 }
 
-const KEYS: [&str; 10] =
-    ["channels", "female", "male", "gap", "junction", "fragile", "hurry", "moves", "displacement", "base"];
+const KEYS: [&str; 6] = ["channels", "female", "male", "moves", "displacement", "base"];
 
-/// Reads `[assembly]`; in three dimensions where the channels are boxes of six numbers.
-pub(super) fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Task> {
-    fields.refuse_unknown(&KEYS, problems);
-    let solid = fields.get("channels").and_then(|_| {
-        let lists = fields.lists("channels", &mut Vec::new())?;
-        lists.value.first().map(|first| first.value.len() == 6)
-    });
-    if solid == Some(true) {
-        read_in::<3>(fields, problems).map(Task::SolidAssembly)
-    } else {
-        read_in::<2>(fields, problems).map(Task::Assembly)
-    }
+/// Whether `[assembly]` is in three dimensions: its channels are boxes of six numbers.
+pub(super) fn is_solid(fields: &Fields<'_, '_>) -> bool {
+    let lists = fields.get("channels").and_then(|_| fields.lists("channels", &mut Vec::new()));
+    lists.and_then(|lists| Some(lists.value.first()?.value.len() == 6)).unwrap_or_default()
 }
 
-fn read_in<const D: usize>(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Assembly<D>> {
-    let gap = Asked::read(fields, problems);
-    let gaps = gaps_of_junctions(fields, problems);
-    let (fragile, hurry) = (flag(fields, "fragile", problems), flag(fields, "hurry", problems));
+/// Reads `[assembly]`.
+pub(super) fn read<const D: usize>(
+    fields: &Fields<'_, '_>,
+    problems: &mut Vec<Problem>,
+) -> Option<Assembly<D>> {
+    fields.refuse_unknown(&[&KEYS[..], &Wanted::<D>::KEYS].concat(), problems);
+    let wanted = Wanted::read(fields, problems);
     let female_moves = match fields.get("moves").and_then(|_| fields.string("moves", problems)) {
         None => false,
         Some(moves) if moves.value == "male" => false,
@@ -140,47 +124,9 @@ fn read_in<const D: usize>(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>)
             return None;
         }
     };
-    for (number, (_, at)) in &gaps {
-        if *number == 0 || *number > geometry.junctions().len() {
-            let message = format!("there is no junction {number}; there are {}", geometry.junctions().len());
-            problems.push(fields.text.problem(Code::Outside, at, message));
-        }
-    }
-    Some(Assembly {
-        geometry,
-        gap,
-        gaps: gaps.into_iter().map(|(number, (gap, _))| (number, gap)).collect(),
-        fragile,
-        hurry,
-        female_moves,
-        displacement: displacement.map(|found| found.value),
-        base: base.map(|found| found.value),
-    })
-}
-
-type GapAt<const N: usize> = (Asked<N>, std::ops::Range<usize>);
-
-/// `[[....junction]]`: a gap of its own for one junction.
-pub(super) fn gaps_of_junctions<const N: usize>(
-    fields: &Fields<'_, '_>,
-    problems: &mut Vec<Problem>,
-) -> BTreeMap<usize, GapAt<N>> {
-    let mut gaps = BTreeMap::new();
-    for entry in fields.tables("junction", "[[junction]]", problems) {
-        entry.refuse_unknown(&["number", "gap"], problems);
-        let Some(number) = entry.number("number", problems) else { continue };
-        if number.value.fract() != 0.0 || number.value < 1.0 {
-            let message = format!("`number` is {}; junctions are numbered 1, 2, ...", number.value);
-            problems.push(entry.text.problem(Code::WrongType, &number.span, message));
-            continue;
-        }
-        let gap = Asked::read(&entry, problems);
-        if gaps.insert(number.value as usize, (gap, number.span.clone())).is_some() {
-            let message = format!("junction {} stands here twice", number.value);
-            problems.push(entry.text.problem(Code::DuplicateName, &number.span, message));
-        }
-    }
-    gaps
+    refuse_beyond(geometry.junctions().len(), fields, problems);
+    let (displacement, base) = (displacement.map(|found| found.value), base.map(|found| found.value));
+    Some(Assembly { geometry, wanted, female_moves, displacement, base })
 }
 
 /// The bounding box of the moving part's corners. In two dimensions they must be an outline that does not cross itself.

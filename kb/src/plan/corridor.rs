@@ -1,19 +1,15 @@
 //! A rectangular robot that drives through corridors (Lee, section 5).
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use adit_planners::channels::corridor::{Corridors, Drive, DriveError, Robot, RouteError, StepFacts};
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
-use super::assembly::gaps_of_junctions;
-use super::corridor_answer::DriveAnswer;
-use super::gap::Asked;
+use super::gap::{Asked, Wanted, refuse_beyond};
 use super::refusal::NoPath;
-use super::said::Said;
-use super::turns::{Turns, Wishes};
-use super::world::flag;
+use super::said::{Answer, Said};
+use super::turns::Turns;
 
 /// A robot in corridors, and what is asked of its path.
 #[derive(Clone, Debug)]
@@ -24,12 +20,7 @@ pub struct Corridor {
     /// Where it looks at first, in radians; `None`: along its first line.
     pub heading: Option<f64>,
     pub goal: Point,
-    pub gap: Asked<1>,
-    /// Where it is another one: the number of the junction.
-    pub gaps: BTreeMap<usize, Asked<1>>,
-    /// Whether the load must not be scratched.
-    pub fragile: bool,
-    pub hurry: bool,
+    pub wanted: Wanted<1>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -50,25 +41,23 @@ impl Corridor {
     }
 
     /// As [`plan`](Self::plan), and what rules said at each junction.
-    pub fn explained(&self, turns: &mut Turns) -> DriveAnswer {
+    pub fn explained(&self, turns: &mut Turns) -> Answer<Driven> {
         let mut said = Vec::new();
         let path = self.driven(turns, |turns, junction| {
             let (considered, facts) = (turns.considered(), turns.facts());
             said.push(Said { junction, considered, facts });
         });
-        DriveAnswer { path, said }
+        Answer { path, said }
     }
 
     fn driven(&self, turns: &mut Turns, mut look: impl FnMut(&mut Turns, usize)) -> Result<Driven, NoPath> {
-        let general = Wishes { gap: &self.gap, fragile: self.fragile, hurry: self.hurry };
         turns.take_refusals();
-        let weigh = |passage: &_| turns.weigh(passage, self.robot, general);
+        let weigh = |passage: &_| turns.weigh(passage, self.robot, self.wanted.general());
         let route = self.corridors.route(self.start, self.goal, weigh);
         let route = route.map_err(|error| no_route(error, &turns.take_refusals()))?;
         let mut remarks = Vec::new();
         let steer = |facts: &StepFacts| {
-            let gap = self.gaps.get(&facts.junction).unwrap_or(&self.gap);
-            let decided = turns.decide(facts, Wishes { gap, ..general });
+            let decided = turns.decide(facts, self.wanted.at(facts.junction));
             look(turns, facts.junction);
             let (steer, remark) = decided?;
             remarks.extend(remark.map(|remark| remark.to_string()));
@@ -81,7 +70,7 @@ impl Corridor {
     /// The same with another gap everywhere.
     #[must_use]
     pub fn with_gap(&self, gap: Asked<1>) -> Self {
-        Self { gap, gaps: BTreeMap::new(), ..self.clone() }
+        Self { wanted: self.wanted.with_gap(gap), ..self.clone() }
     }
 }
 
@@ -90,7 +79,7 @@ fn no_route(error: RouteError<NoPath>, refusals: &[Arc<str>]) -> NoPath {
         RouteError::Weigh(no_path) => no_path,
         other => {
             let reason = std::iter::once(other.to_string()).chain(refusals.iter().map(ToString::to_string));
-            NoPath { junction: None, reason: reason.collect::<Vec<_>>().join("; "), considered: vec![] }
+            NoPath::because(reason.collect::<Vec<_>>().join("; "))
         }
     }
 }
@@ -107,42 +96,25 @@ fn no_drive(error: DriveError<NoPath>) -> NoPath {
     };
     match error {
         DriveError::Steer(no_path) => no_path,
-        other => NoPath { junction, reason: other.to_string(), considered: vec![] },
+        other => NoPath { junction, ..NoPath::because(other.to_string()) },
     }
 }
 
-const KEYS: [&str; 9] =
-    ["channels", "robot", "start", "heading", "goal", "gap", "junction", "fragile", "hurry"];
+const KEYS: [&str; 5] = ["channels", "robot", "start", "heading", "goal"];
 
 /// Reads `[corridor]`.
 pub(super) fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Corridor> {
-    fields.refuse_unknown(&KEYS, problems);
+    fields.refuse_unknown(&[&KEYS[..], &Wanted::<1>::KEYS].concat(), problems);
     let corridors = corridors(fields, problems);
     let robot = robot(fields, problems);
     let start = end(fields, "start", corridors.as_ref(), problems);
     let goal = end(fields, "goal", corridors.as_ref(), problems);
     let heading = fields.get("heading").and_then(|_| fields.number("heading", problems));
-    let gap = Asked::read(fields, problems);
-    let gaps = gaps_of_junctions(fields, problems);
-    let (fragile, hurry) = (flag(fields, "fragile", problems), flag(fields, "hurry", problems));
+    let wanted = Wanted::read(fields, problems);
     let (corridors, robot, start, goal) = (corridors?, robot?, start?, goal?);
-    for (number, (_, at)) in &gaps {
-        if *number > corridors.junctions().len() {
-            let message = format!("there is no junction {number}; there are {}", corridors.junctions().len());
-            problems.push(fields.text.problem(Code::Outside, at, message));
-        }
-    }
-    Some(Corridor {
-        corridors,
-        robot,
-        start,
-        heading: heading.map(|degrees| degrees.value.to_radians()),
-        goal,
-        gap,
-        gaps: gaps.into_iter().map(|(number, (gap, _))| (number, gap)).collect(),
-        fragile,
-        hurry,
-    })
+    refuse_beyond(corridors.junctions().len(), fields, problems);
+    let heading = heading.map(|degrees| degrees.value.to_radians());
+    Some(Corridor { corridors, robot, start, heading, goal, wanted })
 }
 
 fn corridors(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Corridors> {

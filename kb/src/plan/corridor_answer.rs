@@ -5,85 +5,18 @@ use adit_planners::channels::corridor::{Primitive, TurnMade};
 use adit_planners::geometry::{Point, Rect};
 use serde_json::{Value, json};
 
-use super::answer::refused;
 use super::corridor::{Corridor, Driven};
-use super::refusal::NoPath;
-use super::said::Said;
+use super::said::Answer;
 use crate::words::number::number;
 
-/// A robot's path or why there is none, and what rules said on the way.
-#[derive(Clone, Debug)]
-pub struct DriveAnswer {
-    pub path: Result<Driven, NoPath>,
-    /// What rules said, junction by junction, as far as they were asked.
-    pub said: Vec<Said>,
-}
-
-impl DriveAnswer {
+impl Answer<Driven> {
     /// As JSON; headings in degrees, counter-clockwise from the x axis.
     pub fn json(&self, explained: bool) -> Value {
-        let driven = match &self.path {
-            Ok(driven) => driven,
-            Err(no_path) => return refused(no_path),
-        };
-        let turn_of =
-            |junction: usize| driven.drive.turns.iter().find(|turn| turn.facts.junction == junction);
-        let primitives: Vec<Value> = driven
-            .drive
-            .primitives
-            .iter()
-            .map(|primitive| match *primitive {
-                Primitive::Line { a, b, from_heading, to_heading, clearance } => json!({
-                    "kind": "line", "a": at(a), "b": at(b), "from_heading": from_heading.to_degrees(),
-                    "heading": to_heading.to_degrees(), "clearance": clearance,
-                }),
-                Primitive::Arc { junction, centre, radius, turn, a, b, from_heading, to_heading, clearance } => json!({
-                    "kind": "arc", "centre": at(centre), "radius": radius, "turn": turn.name(), "a": at(a), "b": at(b),
-                    "junction": junction, "rule": turn_of(junction).and_then(|turn| turn.steer.rule),
-                    "from_heading": from_heading.to_degrees(), "heading": to_heading.to_degrees(),
-                    "clearance": clearance,
-                }),
-            })
-            .collect();
-        let turns: Vec<Value> = driven.drive.turns.iter().map(turn).collect();
-        let mut answer = json!({
-            "status": "ok",
-            "primitives": primitives,
-            "length": driven.drive.length,
-            "min_clearance": driven.drive.min_clearance,
-            "turns": turns,
-            "channels": driven.channels,
-            "weight": driven.weight,
-            "remarks": driven.remarks,
-        });
-        if explained {
-            answer["said"] = json!(self.said);
-        }
-        answer
+        self.as_json(explained, json_of)
     }
 
     pub fn lines(&self, explained: bool) -> Vec<String> {
-        let mut lines = Vec::new();
-        match &self.path {
-            Ok(driven) => {
-                let channels: Vec<String> = driven.channels.iter().map(ToString::to_string).collect();
-                lines.push(format!("through channels {}", channels.join(", ")));
-                lines.extend(
-                    driven.drive.primitives.iter().map(|primitive| text(primitive, &driven.drive.turns)),
-                );
-                lines.push(format!(
-                    "length {}, least clearance {}",
-                    number(driven.drive.length),
-                    number(driven.drive.min_clearance)
-                ));
-                lines.extend(driven.remarks.iter().map(|remark| format!("note: {remark}")));
-            }
-            Err(no_path) => no_path.add_to(&mut lines),
-        }
-        if explained {
-            lines.extend(self.said.iter().flat_map(Said::lines));
-        }
-        lines
+        self.as_lines(explained, lines_of)
     }
 
     /// As it is kept.
@@ -117,19 +50,56 @@ impl DriveAnswer {
                 turned: turned.contains(&point),
             }));
         }
-        match &self.path {
-            Ok(driven) => {
-                record.length = Some(driven.drive.length);
-                record.min_clearance = Some(driven.drive.min_clearance);
-                record.steps = steps(driven);
-            }
-            Err(no_path) => record.reason = Some(no_path.reason.clone()),
-        }
-        for said in &self.said {
-            super::keep::rows(said, &mut record);
-        }
+        self.add_to(&mut record, |driven| (driven.drive.length, driven.drive.min_clearance, steps(driven)));
         record
     }
+}
+
+fn json_of(driven: &Driven) -> Value {
+    let turn_of = |junction: usize| driven.drive.turns.iter().find(|turn| turn.facts.junction == junction);
+    let primitives: Vec<Value> = driven
+            .drive
+            .primitives
+            .iter()
+            .map(|primitive| match *primitive {
+                Primitive::Line { a, b, from_heading, to_heading, clearance } => json!({
+                    "kind": "line", "a": at(a), "b": at(b), "from_heading": from_heading.to_degrees(),
+                    "heading": to_heading.to_degrees(), "clearance": clearance,
+                }),
+                Primitive::Arc { junction, centre, radius, turn, a, b, from_heading, to_heading, clearance } => json!({
+                    "kind": "arc", "centre": at(centre), "radius": radius, "turn": turn.name(), "a": at(a), "b": at(b),
+                    "junction": junction, "rule": turn_of(junction).and_then(|turn| turn.steer.rule),
+                    "from_heading": from_heading.to_degrees(), "heading": to_heading.to_degrees(),
+                    "clearance": clearance,
+                }),
+            })
+            .collect();
+    let turns: Vec<Value> = driven.drive.turns.iter().map(turn).collect();
+    json!({
+        "status": "ok",
+        "primitives": primitives,
+        "length": driven.drive.length,
+        "min_clearance": driven.drive.min_clearance,
+        "turns": turns,
+        "channels": driven.channels,
+        "weight": driven.weight,
+        "remarks": driven.remarks,
+    })
+}
+
+fn lines_of(driven: &Driven) -> Vec<String> {
+    let mut lines = Vec::new();
+    let channels: Vec<String> = driven.channels.iter().map(ToString::to_string).collect();
+    lines.push(format!("through channels {}", channels.join(", ")));
+    lines.extend(driven.drive.primitives.iter().map(|primitive| text(primitive, &driven.drive.turns)));
+    lines.push(format!(
+        "length {}, least clearance {}",
+        number(driven.drive.length),
+        number(driven.drive.min_clearance)
+    ));
+    lines.extend(driven.remarks.iter().map(|remark| format!("note: {remark}")));
+
+    lines
 }
 
 fn turn(turn: &TurnMade) -> Value {

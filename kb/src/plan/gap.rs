@@ -1,8 +1,9 @@
-//! What a world asks for as the gap at its junctions.
+//! What a world asks for at its junctions: the gap, and how the part or the load is to be handled.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
-use adit_planners::read::{Fields, Problem};
+use adit_planners::read::{Code, Fields, Problem};
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -115,4 +116,96 @@ impl<const N: usize> Asked<N> {
             _ => wrong(problems),
         }
     }
+}
+
+/// What a world asks for at one junction, besides its geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct Wishes<'a, const N: usize> {
+    pub gap: &'a Asked<N>,
+    /// Whether the part, or the load, must not be scratched.
+    pub fragile: bool,
+    /// Whether time presses.
+    pub hurry: bool,
+}
+
+/// What a world asks for at all of its junctions.
+#[derive(Clone, Debug)]
+pub struct Wanted<const N: usize> {
+    pub gap: Asked<N>,
+    /// Where it is another one: the number of the junction.
+    pub gaps: BTreeMap<usize, Asked<N>>,
+    /// Whether the part, or the load, must not be scratched.
+    pub fragile: bool,
+    /// Whether time presses.
+    pub hurry: bool,
+}
+
+impl<const N: usize> Wanted<N> {
+    /// The keys of it in a world.
+    pub(super) const KEYS: [&str; 4] = ["gap", "junction", "fragile", "hurry"];
+
+    pub(super) fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
+        Self {
+            gap: Asked::read(fields, problems),
+            gaps: gaps_of_junctions(fields, problems),
+            fragile: flag(fields, "fragile", problems),
+            hurry: flag(fields, "hurry", problems),
+        }
+    }
+
+    /// What is asked for where no junction is meant.
+    pub fn general(&self) -> Wishes<'_, N> {
+        Wishes { gap: &self.gap, fragile: self.fragile, hurry: self.hurry }
+    }
+
+    /// What is asked for at a junction.
+    pub fn at(&self, junction: usize) -> Wishes<'_, N> {
+        Wishes { gap: self.gaps.get(&junction).unwrap_or(&self.gap), ..self.general() }
+    }
+
+    /// The same with another gap everywhere.
+    #[must_use]
+    pub fn with_gap(&self, gap: Asked<N>) -> Self {
+        Self { gap, gaps: BTreeMap::new(), fragile: self.fragile, hurry: self.hurry }
+    }
+}
+
+/// `[[....junction]]`: a gap of its own for one junction.
+fn gaps_of_junctions<const N: usize>(
+    fields: &Fields<'_, '_>,
+    problems: &mut Vec<Problem>,
+) -> BTreeMap<usize, Asked<N>> {
+    let mut gaps = BTreeMap::new();
+    for entry in fields.tables("junction", "[[junction]]", problems) {
+        entry.refuse_unknown(&["number", "gap"], problems);
+        let Some(number) = entry.number("number", problems) else { continue };
+        if number.value.fract() != 0.0 || number.value < 1.0 {
+            let message = format!("`number` is {}; junctions are numbered 1, 2, ...", number.value);
+            problems.push(entry.text.problem(Code::WrongType, &number.span, message));
+            continue;
+        }
+        let junction = number.value as usize;
+        if gaps.insert(junction, Asked::read(&entry, problems)).is_some() {
+            let message = format!("junction {junction} stands here twice");
+            problems.push(entry.text.problem(Code::DuplicateName, &number.span, message));
+        }
+    }
+    gaps
+}
+
+/// Refuses gaps for junctions that a world of so many has not.
+pub(super) fn refuse_beyond(junctions: usize, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) {
+    // what else is wrong with the tables was said when they were read
+    let said = &mut Vec::new();
+    for entry in fields.tables("junction", "[[junction]]", said) {
+        if let Some(number) = entry.number("number", said).filter(|number| number.value > junctions as f64) {
+            let message = format!("there is no junction {}; there are {junctions}", number.value);
+            problems.push(entry.text.problem(Code::Outside, &number.span, message));
+        }
+    }
+}
+
+/// True or false under a key; false where it is missing.
+fn flag(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> bool {
+    fields.get(key).is_some() && fields.truth(key, problems).unwrap_or(false)
 }

@@ -59,9 +59,19 @@ impl fmt::Display for NoPath {
 }
 
 impl NoPath {
-    pub(super) fn add_to(&self, lines: &mut Vec<String>) {
-        lines.push(format!("no path: {}", self.reason));
-        lines.extend(self.considered.iter().map(|rule| format!("  {}", rule.text())));
+    /// At a junction, for this reason alone.
+    pub(super) fn at(junction: usize, reason: String) -> Self {
+        Self { junction: Some(junction), ..Self::because(reason) }
+    }
+
+    /// For a reason that is not about one junction.
+    pub(super) fn because(reason: String) -> Self {
+        Self { junction: None, reason, considered: Vec::new() }
+    }
+
+    pub(super) fn lines(&self) -> Vec<String> {
+        let considered = self.considered.iter().map(|rule| format!("  {}", rule.text()));
+        std::iter::once(format!("no path: {}", self.reason)).chain(considered).collect()
     }
 }
 

@@ -3,12 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use adit_engine::{Consultation, Datum, RuleBase, Schema, Severity, Type};
+use adit_engine::{RuleBase, Schema, Severity};
 
-use crate::adapt::{CELL_CHANGES, EDGES, LANDMARKS, OF_CELL_CHANGES, OF_EDGES, OF_LANDMARKS};
+use super::consult::Class;
 use crate::error::{Error, Result};
-use crate::navigation::guide::{OF_OPENINGS, OPENINGS};
-use crate::navigation::judge::{OF_SEGMENTS, OF_SITUATIONS, OF_WAYS, SEGMENTS, SITUATIONS, WAYS};
 use crate::site::lint;
 use crate::site::rules::{self, Rules};
 
@@ -33,28 +31,20 @@ impl Kind {
         }
     }
 
-    /// What is asked of the rules.
-    fn asked(self) -> Vec<String> {
-        let asked: &[(&str, &[&str])] = match self {
-            Self::Channels => &[
-                ("STEPS", &super::steps::OUTPUTS),
-                ("TURNS", &super::turns::OUTPUTS),
-                ("PASSAGES", &super::turns::WEIGHED),
-            ],
-            Self::Navigation => &[
-                ("SITUATIONS", &OF_SITUATIONS),
-                ("SEGMENTS", &OF_SEGMENTS),
-                ("WAYS", &OF_WAYS),
-                ("OPENINGS", &OF_OPENINGS),
-            ],
-            Self::Adapt => {
-                &[("CELL_CHANGES", &OF_CELL_CHANGES), ("LANDMARKS", &OF_LANDMARKS), ("EDGES", &OF_EDGES)]
-            }
-        };
-        let named = |(class, properties): &(&str, &[&str])| -> Vec<String> {
-            properties.iter().map(|property| format!("{class}.{property}")).collect()
-        };
-        asked.iter().flat_map(named).collect()
+    /// The classes of objects that its rules are asked about.
+    pub fn classes(self) -> Vec<Class> {
+        match self {
+            Self::Channels => [super::steps::class()].into_iter().chain(super::turns::classes()).collect(),
+            Self::Navigation => crate::navigation::judge::classes().into(),
+            Self::Adapt => crate::adapt::classes().into(),
+        }
+    }
+
+    /// The properties that are read by others than rules.
+    fn asked(self) -> impl Iterator<Item = String> {
+        let named =
+            |class: Class| class.asked.iter().map(move |property| format!("{}.{property}", class.name));
+        self.classes().into_iter().flat_map(named)
     }
 
     fn folder(self, name: &str) -> String {
@@ -66,122 +56,9 @@ impl Kind {
 
     /// The classes and properties that rules may name.
     pub fn schema(self) -> Schema {
-        match self {
-            Self::Channels => {
-                Schema::default().class("STEPS", STEPS).class("TURNS", TURNS).class("PASSAGES", PASSAGES)
-            }
-            Self::Navigation => Schema::default()
-                .class("SITUATIONS", SITUATIONS)
-                .class("SEGMENTS", SEGMENTS)
-                .class("WAYS", WAYS)
-                .class("OPENINGS", OPENINGS),
-            Self::Adapt => Schema::default()
-                .class("CELL_CHANGES", CELL_CHANGES)
-                .class("LANDMARKS", LANDMARKS)
-                .class("EDGES", EDGES),
-        }
+        let add = |schema: Schema, class: Class| schema.class(class.name, &class.told);
+        self.classes().into_iter().fold(Schema::default(), add)
     }
-}
-
-/// Asks rules about an object. A rule that fails says nothing of it, and the one below it would count in its stead: its
-/// failure becomes the `trouble`, where there is none yet.
-pub fn consult(consultation: &mut Consultation, object: &[Datum<'_>], trouble: &mut Option<String>) {
-    consultation.consult(object);
-    if trouble.is_none() {
-        *trouble = consultation.failure();
-    }
-}
-
-/// What rules are told of a step of a part: it is about to enter a junction.
-pub const STEPS: &[(&str, Type)] = &[
-    ("dimensions", Type::Number),
-    ("junction", Type::Number),
-    ("next", Type::Number),
-    ("entering", Type::Text),
-    ("leaving", Type::Text),
-    ("junction_min_x", Type::Number),
-    ("junction_min_y", Type::Number),
-    ("junction_min_z", Type::Number),
-    ("junction_max_x", Type::Number),
-    ("junction_max_y", Type::Number),
-    ("junction_max_z", Type::Number),
-    ("part_min_x", Type::Number),
-    ("part_min_y", Type::Number),
-    ("part_min_z", Type::Number),
-    ("part_max_x", Type::Number),
-    ("part_max_y", Type::Number),
-    ("part_max_z", Type::Number),
-    ("next_min_x", Type::Number),
-    ("next_min_y", Type::Number),
-    ("next_min_z", Type::Number),
-    ("next_max_x", Type::Number),
-    ("next_max_y", Type::Number),
-    ("next_max_z", Type::Number),
-    ("bound_x", Type::Number),
-    ("bound_y", Type::Number),
-    ("bound_z", Type::Number),
-    ("room", Type::Number),
-    ("asked", Type::Text),
-    ("asked_x", Type::Number),
-    ("asked_y", Type::Number),
-    ("asked_z", Type::Number),
-    ("fragile", Type::Truth),
-    ("hurry", Type::Truth),
-];
-
-/// What rules are told of a turn of a robot: it is about to enter a junction.
-pub const TURNS: &[(&str, Type)] = &[
-    ("junction", Type::Number),
-    ("entering", Type::Text),
-    ("junction_x", Type::Number),
-    ("junction_y", Type::Number),
-    ("robot_x", Type::Number),
-    ("robot_y", Type::Number),
-    ("next_x", Type::Number),
-    ("next_y", Type::Number),
-    ("corridor", Type::Number),
-    ("bound", Type::Number),
-    ("width", Type::Number),
-    ("length", Type::Number),
-    ("asked", Type::Text),
-    ("asked_gap", Type::Number),
-    ("fragile", Type::Truth),
-    ("hurry", Type::Truth),
-];
-
-/// What rules are told of a passage: a stretch of one corridor, between two junctions, the start or the goal.
-pub const PASSAGES: &[(&str, Type)] = &[
-    ("channel", Type::Number),
-    ("length", Type::Number),
-    ("corridor", Type::Number),
-    ("room", Type::Number),
-    ("width", Type::Number),
-    ("asked_gap", Type::Number),
-    ("fragile", Type::Truth),
-    ("hurry", Type::Truth),
-];
-
-/// Where a property stands in one of these lists; asked when compiled.
-pub(crate) const fn place(list: &[(&str, Type)], name: &str) -> usize {
-    let mut at = 0;
-    while !same(list[at].0.as_bytes(), name.as_bytes()) {
-        at += 1;
-    }
-    at
-}
-
-pub(crate) const fn same(one: &[u8], other: &[u8]) -> bool {
-    if one.len() != other.len() {
-        return false;
-    }
-    let mut at = 0;
-    while at < one.len() {
-        if one[at] != other[at] {
-            return false;
-        }
-        at += 1;
-    }
-    true
 }
 
 /// Reads a rule base: a shipped one by its name, else a folder. One that cannot be right, or fails a test beside it, is

@@ -2,15 +2,52 @@
 
 use std::sync::Arc;
 
-use adit_engine::{ClassError, Consultation, Datum, RuleBase};
+use adit_engine::{ClassError, Consultation, Datum, RuleBase, Type};
 use adit_planners::channels::assembly::{Decision, Margin, StepFacts};
 
-use super::gap::Asked;
+use super::consult::{Class, is_same, meant};
+use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke};
-use super::rules::{STEPS, place};
+use super::said::Fact;
 
-pub(super) const OUTPUTS: [&str; 8] =
-    ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
+/// What rules are told of a step of a part: it is about to enter a junction.
+const STEPS: &[(&str, Type)] = &[
+    ("dimensions", Type::Number),
+    ("junction", Type::Number),
+    ("next", Type::Number),
+    ("entering", Type::Text),
+    ("leaving", Type::Text),
+    ("junction_min_x", Type::Number),
+    ("junction_min_y", Type::Number),
+    ("junction_min_z", Type::Number),
+    ("junction_max_x", Type::Number),
+    ("junction_max_y", Type::Number),
+    ("junction_max_z", Type::Number),
+    ("part_min_x", Type::Number),
+    ("part_min_y", Type::Number),
+    ("part_min_z", Type::Number),
+    ("part_max_x", Type::Number),
+    ("part_max_y", Type::Number),
+    ("part_max_z", Type::Number),
+    ("next_min_x", Type::Number),
+    ("next_min_y", Type::Number),
+    ("next_min_z", Type::Number),
+    ("next_max_x", Type::Number),
+    ("next_max_y", Type::Number),
+    ("next_max_z", Type::Number),
+    ("bound_x", Type::Number),
+    ("bound_y", Type::Number),
+    ("bound_z", Type::Number),
+    ("room", Type::Number),
+    ("asked", Type::Text),
+    ("asked_x", Type::Number),
+    ("asked_y", Type::Number),
+    ("asked_z", Type::Number),
+    ("fragile", Type::Truth),
+    ("hurry", Type::Truth),
+];
+
+const OUTPUTS: [&str; 8] = ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
 const RULE: usize = 0;
 const MARGIN: usize = 1;
 const GAP: usize = 4;
@@ -18,23 +55,18 @@ const REFUSAL: usize = 7;
 /// The axes, as rules call them.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// What rules are told of steps, and what they are asked.
+pub(super) fn class() -> Class {
+    Class { name: "STEPS", told: STEPS.to_vec(), asked: &OUTPUTS }
+}
+
 /// The rules, ready to be asked step after step.
 #[derive(Debug)]
 pub struct Steps(Consultation);
 
-/// What a world says of each step, besides its geometry.
-#[derive(Clone, Copy, Debug)]
-pub struct Wishes<'a, const D: usize> {
-    /// The gap that is asked for at this junction.
-    pub gap: &'a Asked<D>,
-    /// Whether the part must not be scratched.
-    pub fragile: bool,
-    pub hurry: bool,
-}
-
 impl Steps {
-    pub fn new(rules: Arc<RuleBase>) -> Result<Self, ClassError> {
-        Ok(Self(Consultation::new(rules, "STEPS", STEPS, &OUTPUTS)?))
+    pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
+        Ok(Self(class().consultation(rules)?))
     }
 
     /// What the rules say of a step.
@@ -45,11 +77,7 @@ impl Steps {
     ) -> Result<Decision<D>, NoPath> {
         self.0.consult(&object(facts, wishes));
         if let Some(reason) = self.0.text(REFUSAL) {
-            return Err(NoPath {
-                junction: Some(facts.number),
-                reason: reason.to_string(),
-                considered: vec![],
-            });
+            return Err(NoPath::at(facts.number, reason.to_string()));
         }
         let mut decision = Decision { rule: self.0.number(RULE), gap: [0.0; D], margin: [Margin::Keep; D] };
         for at in 0..D {
@@ -69,7 +97,7 @@ impl Steps {
                         SIDES[axis].0,
                         SIDES[axis].1,
                     );
-                    return Err(NoPath { junction: Some(facts.number), reason, considered: vec![] });
+                    return Err(NoPath::at(facts.number, reason));
                 }
             }
         }
@@ -77,16 +105,8 @@ impl Steps {
     }
 
     fn margin(&self, axis: usize) -> Result<Margin, Option<String>> {
-        let output = MARGIN + axis;
-        if self.0.is(output, SIDES[axis].0) {
-            Ok(Margin::Low)
-        } else if self.0.is(output, SIDES[axis].1) {
-            Ok(Margin::High)
-        } else if self.0.is(output, "keep") {
-            Ok(Margin::Keep)
-        } else {
-            Err(self.0.value(output).map(|value| value.to_string()))
-        }
+        let (low, high) = SIDES[axis];
+        meant(&self.0, MARGIN + axis, &[(low, Margin::Low), (high, Margin::High), ("keep", Margin::Keep)])
     }
 
     /// No rule spoke, or several that disagree.
@@ -105,8 +125,8 @@ impl Steps {
     }
 
     /// What the rules were told of the last step and what they concluded, by property.
-    pub fn facts(&mut self) -> Vec<super::keep::Fact> {
-        super::keep::facts(&mut self.0, "STEPS", STEPS, &OUTPUTS)
+    pub fn facts(&mut self) -> Vec<Fact> {
+        super::said::facts(&mut self.0, "STEPS", STEPS, &OUTPUTS)
     }
 }
 
@@ -120,31 +140,40 @@ pub(super) const fn named<const D: usize>(axis: usize) -> usize {
 
 fn object<'a, const D: usize>(facts: &StepFacts<D>, wishes: Wishes<'a, D>) -> [Datum<'a>; STEPS.len()] {
     let mut object = [Datum::Unknown; STEPS.len()];
-    object[const { place(STEPS, "dimensions") }] = Datum::Number(D as f64);
-    object[const { place(STEPS, "junction") }] = Datum::Number(facts.number as f64);
-    object[const { place(STEPS, "entering") }] = Datum::Text(AXES[named::<D>(facts.entering)]);
-    object[const { place(STEPS, "leaving") }] = Datum::Text(AXES[named::<D>(facts.leaving)]);
+    object[const { place("dimensions") }] = Datum::Number(D as f64);
+    object[const { place("junction") }] = Datum::Number(facts.number as f64);
+    object[const { place("entering") }] = Datum::Text(AXES[named::<D>(facts.entering)]);
+    object[const { place("leaving") }] = Datum::Text(AXES[named::<D>(facts.leaving)]);
     let mut room = f64::INFINITY;
     for at in 0..D {
         let axis = named::<D>(at);
-        object[const { place(STEPS, "junction_min_x") } + axis] = Datum::Number(facts.junction.min[at]);
-        object[const { place(STEPS, "junction_max_x") } + axis] = Datum::Number(facts.junction.max[at]);
-        object[const { place(STEPS, "part_min_x") } + axis] = Datum::Number(facts.part.min[at]);
-        object[const { place(STEPS, "part_max_x") } + axis] = Datum::Number(facts.part.max[at]);
+        object[const { place("junction_min_x") } + axis] = Datum::Number(facts.junction.min[at]);
+        object[const { place("junction_max_x") } + axis] = Datum::Number(facts.junction.max[at]);
+        object[const { place("part_min_x") } + axis] = Datum::Number(facts.part.min[at]);
+        object[const { place("part_max_x") } + axis] = Datum::Number(facts.part.max[at]);
         if let Some(next) = &facts.next {
-            object[const { place(STEPS, "next_min_x") } + axis] = Datum::Number(next.min[at]);
-            object[const { place(STEPS, "next_max_x") } + axis] = Datum::Number(next.max[at]);
+            object[const { place("next_min_x") } + axis] = Datum::Number(next.min[at]);
+            object[const { place("next_max_x") } + axis] = Datum::Number(next.max[at]);
         }
-        object[const { place(STEPS, "bound_x") } + axis] = Datum::Number(facts.bound[at]);
-        object[const { place(STEPS, "asked_x") } + axis] = wishes.gap.along(at).into();
+        object[const { place("bound_x") } + axis] = Datum::Number(facts.bound[at]);
+        object[const { place("asked_x") } + axis] = wishes.gap.along(at).into();
         room = room.min(facts.bound[at] / facts.part.size(at));
     }
     if facts.next.is_some() {
-        object[const { place(STEPS, "next") }] = Datum::Number((facts.number - 1) as f64);
+        object[const { place("next") }] = Datum::Number((facts.number - 1) as f64);
     }
-    object[const { place(STEPS, "room") }] = Datum::Number(room);
-    object[const { place(STEPS, "asked") }] = Datum::Text(wishes.gap.word());
-    object[const { place(STEPS, "fragile") }] = Datum::Truth(wishes.fragile);
-    object[const { place(STEPS, "hurry") }] = Datum::Truth(wishes.hurry);
+    object[const { place("room") }] = Datum::Number(room);
+    object[const { place("asked") }] = Datum::Text(wishes.gap.word());
+    object[const { place("fragile") }] = Datum::Truth(wishes.fragile);
+    object[const { place("hurry") }] = Datum::Truth(wishes.hurry);
     object
+}
+
+/// Where a property stands in the list; asked when compiled.
+const fn place(name: &str) -> usize {
+    let mut at = 0;
+    while !is_same(STEPS[at].0, name) {
+        at += 1;
+    }
+    at
 }

@@ -2,19 +2,27 @@
 
 use std::sync::Arc;
 
-use adit_engine::{ClassError, Consultation, Datum, RuleBase};
+use adit_engine::{ClassError, Consultation, RuleBase};
 use adit_planners::channels::corridor::{
     Axis, Extreme, Offset, Part, Passage, Robot, Steer, StepFacts, Turn,
 };
 
-use super::gap::Asked;
-use super::keep::Fact;
+use super::consult::Of::{Number, Perhaps, Text, Truth};
+use super::consult::{Class, Property, is_same, meant, object, typed, word_for};
+use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke, silent};
-use super::rules::{PASSAGES, TURNS, place};
+use super::said::Fact;
 
-pub(super) const OUTPUTS: [&str; 10] =
+const OUTPUTS: [&str; 10] =
     ["rule", "gap", "corner_x", "corner_y", "turns", "arrive_x", "arrive_y", "offset", "refusal", "remark"];
-pub(super) const WEIGHED: [&str; 3] = ["weight", "passable", "refusal"];
+
+/// What rules are told of turns and passages, and what they are asked.
+pub(super) fn classes() -> [Class; 2] {
+    [
+        Class::new("TURNS", told_of_turns(), &OUTPUTS),
+        Class::new("PASSAGES", told_of_passages(), &["weight", "passable", "refusal"]),
+    ]
+}
 
 /// The rules, ready to be asked turn after turn.
 #[derive(Debug)]
@@ -25,20 +33,12 @@ pub struct Turns {
     refusals: Vec<Arc<str>>,
 }
 
-/// What a world says of each turn, besides its geometry.
-#[derive(Clone, Copy, Debug)]
-pub struct Wishes<'a> {
-    pub gap: &'a Asked<1>,
-    /// Whether the load must not be scratched.
-    pub fragile: bool,
-    pub hurry: bool,
-}
-
 impl Turns {
-    pub fn new(rules: Arc<RuleBase>) -> Result<Self, ClassError> {
+    pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
+        let [junctions, passages] = classes();
         Ok(Self {
-            junctions: Consultation::new(Arc::clone(&rules), "TURNS", TURNS, &OUTPUTS)?,
-            passages: Consultation::new(rules, "PASSAGES", PASSAGES, &WEIGHED)?,
+            junctions: junctions.consultation(rules)?,
+            passages: passages.consultation(rules)?,
             refusals: Vec::new(),
         })
     }
@@ -53,23 +53,11 @@ impl Turns {
         &mut self,
         passage: &Passage,
         robot: Robot,
-        wishes: Wishes<'_>,
+        wishes: Wishes<'_, 1>,
     ) -> Result<Option<f64>, NoPath> {
-        let mut object = [Datum::Unknown; PASSAGES.len()];
-        object[const { place(PASSAGES, "channel") }] = Datum::Number(passage.channel as f64);
-        object[const { place(PASSAGES, "length") }] = Datum::Number(passage.length);
-        object[const { place(PASSAGES, "corridor") }] = Datum::Number(passage.width);
-        object[const { place(PASSAGES, "room") }] = Datum::Number((passage.width - robot.width) / 2.0);
-        object[const { place(PASSAGES, "width") }] = Datum::Number(robot.width);
-        object[const { place(PASSAGES, "asked_gap") }] = wishes.gap.along(0).into();
-        object[const { place(PASSAGES, "fragile") }] = Datum::Truth(wishes.fragile);
-        object[const { place(PASSAGES, "hurry") }] = Datum::Truth(wishes.hurry);
-        self.passages.consult(&object);
-        let said = |what: &str| NoPath {
-            junction: None,
-            reason: format!("no rule says {what} of {passage}, or several disagree"),
-            considered: vec![],
-        };
+        self.passages.consult(&object(told_of_passages(), &(passage, robot, wishes)));
+        let said =
+            |what: &str| NoPath::because(format!("no rule says {what} of {passage}, or several disagree"));
         match self.passages.truth(1) {
             None => Err(said("whether it is passable")),
             Some(false) => {
@@ -85,12 +73,11 @@ impl Turns {
     pub fn decide(
         &mut self,
         facts: &StepFacts,
-        wishes: Wishes<'_>,
+        wishes: Wishes<'_, 1>,
     ) -> Result<(Steer, Option<Arc<str>>), NoPath> {
-        self.junctions.consult(&object(facts, wishes));
-        let refused = |reason: String| NoPath { junction: Some(facts.junction), reason, considered: vec![] };
+        self.junctions.consult(&object(told_of_turns(), &(facts, wishes)));
         if let Some(reason) = self.junctions.text(const { output("refusal") }) {
-            return Err(refused(reason.to_string()));
+            return Err(NoPath::at(facts.junction, reason.to_string()));
         }
         let Some(gap) = self.junctions.number(const { output("gap") }) else {
             return Err(silent(&mut self.junctions, "TURNS", facts.junction, "gap"));
@@ -114,17 +101,15 @@ impl Turns {
 
     /// What an output's word stands for.
     fn word<T: Copy>(&mut self, facts: &StepFacts, at: usize, words: &[(&str, T)]) -> Result<T, NoPath> {
-        if let Some((_, meant)) = words.iter().find(|(word, _)| self.junctions.is(at, word)) {
-            return Ok(*meant);
-        }
-        let Some(found) = self.junctions.value(at) else {
-            return Err(silent(&mut self.junctions, "TURNS", facts.junction, OUTPUTS[at]));
-        };
-        let words: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
         let (name, junction) = (OUTPUTS[at], facts.junction);
-        let reason =
-            format!("rules give {name} of junction {junction} as \"{found}\"; expected {}", words.join(", "));
-        Err(NoPath { junction: Some(facts.junction), reason, considered: vec![] })
+        meant(&self.junctions, at, words).map_err(|found| {
+            let Some(found) = found else { return silent(&mut self.junctions, "TURNS", junction, name) };
+            let words: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+            let wanted = words.join(", ");
+            let reason =
+                format!("rules give {name} of junction {junction} as \"{found}\"; expected {wanted}");
+            NoPath::at(junction, reason)
+        })
     }
 
     /// Which rules spoke of the last turn's corner, and why the others did not.
@@ -134,7 +119,7 @@ impl Turns {
 
     /// What the rules were told of the last turn and what they concluded, by property.
     pub fn facts(&mut self) -> Vec<Fact> {
-        super::keep::facts(&mut self.junctions, "TURNS", TURNS, &OUTPUTS)
+        super::said::facts(&mut self.junctions, "TURNS", &typed(told_of_turns()), &OUTPUTS)
     }
 
     /// Whether the rules look at one turn or passage alone, so that they are asked at full speed.
@@ -156,31 +141,44 @@ const OFFSETS: [(&str, Offset); 4] = [
 /// The number of an output; asked when compiled.
 const fn output(name: &str) -> usize {
     let mut at = 0;
-    while !super::rules::same(OUTPUTS[at].as_bytes(), name.as_bytes()) {
+    while !is_same(OUTPUTS[at], name) {
         at += 1;
     }
     at
 }
 
-fn object<'a>(facts: &StepFacts, wishes: Wishes<'a>) -> [Datum<'a>; TURNS.len()] {
-    let mut object = [Datum::Unknown; TURNS.len()];
-    let centre = facts.rect.centre();
-    object[const { place(TURNS, "junction") }] = Datum::Number(facts.junction as f64);
-    object[const { place(TURNS, "entering") }] =
-        Datum::Text(if facts.entering == Axis::X { "x" } else { "y" });
-    object[const { place(TURNS, "junction_x") }] = Datum::Number(centre.x);
-    object[const { place(TURNS, "junction_y") }] = Datum::Number(centre.y);
-    object[const { place(TURNS, "robot_x") }] = Datum::Number(facts.present.x);
-    object[const { place(TURNS, "robot_y") }] = Datum::Number(facts.present.y);
-    object[const { place(TURNS, "next_x") }] = Datum::Number(facts.next.x);
-    object[const { place(TURNS, "next_y") }] = Datum::Number(facts.next.y);
-    object[const { place(TURNS, "corridor") }] = Datum::Number(facts.width);
-    object[const { place(TURNS, "bound") }] = Datum::Number(facts.safest);
-    object[const { place(TURNS, "width") }] = Datum::Number(facts.robot.width);
-    object[const { place(TURNS, "length") }] = Datum::Number(facts.robot.length);
-    object[const { place(TURNS, "asked") }] = Datum::Text(wishes.gap.word());
-    object[const { place(TURNS, "asked_gap") }] = wishes.gap.along(0).into();
-    object[const { place(TURNS, "fragile") }] = Datum::Truth(wishes.fragile);
-    object[const { place(TURNS, "hurry") }] = Datum::Truth(wishes.hurry);
-    object
+/// What rules are told of a turn of a robot: it is about to enter a junction.
+const fn told_of_turns<'t>() -> [Property<(&'t StepFacts, Wishes<'t, 1>)>; 16] {
+    [
+        ("junction", Number(|(facts, _)| facts.junction as f64)),
+        ("entering", Text(|(facts, _)| word_for(&AXES, &facts.entering))),
+        ("junction_x", Number(|(facts, _)| facts.rect.centre().x)),
+        ("junction_y", Number(|(facts, _)| facts.rect.centre().y)),
+        ("robot_x", Number(|(facts, _)| facts.present.x)),
+        ("robot_y", Number(|(facts, _)| facts.present.y)),
+        ("next_x", Number(|(facts, _)| facts.next.x)),
+        ("next_y", Number(|(facts, _)| facts.next.y)),
+        ("corridor", Number(|(facts, _)| facts.width)),
+        ("bound", Number(|(facts, _)| facts.safest)),
+        ("width", Number(|(facts, _)| facts.robot.width)),
+        ("length", Number(|(facts, _)| facts.robot.length)),
+        ("asked", Text(|(_, wishes)| Some(wishes.gap.word()))),
+        ("asked_gap", Perhaps(|(_, wishes)| wishes.gap.along(0))),
+        ("fragile", Truth(|(_, wishes)| wishes.fragile)),
+        ("hurry", Truth(|(_, wishes)| wishes.hurry)),
+    ]
+}
+
+/// What rules are told of a passage: a stretch of one corridor, between two junctions, the start or the goal.
+const fn told_of_passages<'p>() -> [Property<(&'p Passage, Robot, Wishes<'p, 1>)>; 8] {
+    [
+        ("channel", Number(|(passage, ..)| passage.channel as f64)),
+        ("length", Number(|(passage, ..)| passage.length)),
+        ("corridor", Number(|(passage, ..)| passage.width)),
+        ("room", Number(|(passage, robot, _)| (passage.width - robot.width) / 2.0)),
+        ("width", Number(|(_, robot, _)| robot.width)),
+        ("asked_gap", Perhaps(|(.., wishes)| wishes.gap.along(0))),
+        ("fragile", Truth(|(.., wishes)| wishes.fragile)),
+        ("hurry", Truth(|(.., wishes)| wishes.hurry)),
+    ]
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adit_engine::RuleBase;
-use adit_planners::read::{Document, Fields, Problem};
+use adit_planners::read::{Document, Problem};
 
 use super::assembly::Assembly;
 use super::corridor::Corridor;
@@ -121,9 +121,13 @@ fn parse(name: &str, text: &str, world: &str, folder: &Path) -> Result<(Option<S
     };
     let kinds: Vec<&str> = KINDS.into_iter().filter(|kind| fields.get(kind).is_some()).collect();
     let task = match kinds.as_slice() {
-        ["assembly"] => fields
-            .table("assembly", "[assembly]", &mut problems)
-            .and_then(|fields| super::assembly::read(&fields, &mut problems)),
+        ["assembly"] => fields.table("assembly", "[assembly]", &mut problems).and_then(|fields| {
+            if super::assembly::is_solid(&fields) {
+                super::assembly::read(&fields, &mut problems).map(Task::SolidAssembly)
+            } else {
+                super::assembly::read(&fields, &mut problems).map(Task::Assembly)
+            }
+        }),
         ["corridor"] => fields
             .table("corridor", "[corridor]", &mut problems)
             .and_then(|fields| super::corridor::read(&fields, &mut problems))
@@ -151,9 +155,4 @@ fn parse(name: &str, text: &str, world: &str, folder: &Path) -> Result<(Option<S
         Some(task) if problems.is_empty() => Ok((rules, task)),
         _ => Err(Error::all(problems)),
     }
-}
-
-/// True or false under a key; false where it is missing.
-pub(super) fn flag(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> bool {
-    fields.get(key).is_some() && fields.truth(key, problems).unwrap_or(false)
 }

@@ -1,6 +1,6 @@
 //! What rules see, what SQL keeps and what the command takes is written down.
 
-use adit::plan::rules::{PASSAGES, STEPS, TURNS};
+use adit::plan::rules::Kind;
 
 fn documented() -> String {
     std::fs::read_to_string(adit_tests::repository().join("kb/PLAN.md")).expect("kb/PLAN.md")
@@ -9,7 +9,7 @@ fn documented() -> String {
 #[test]
 fn every_property_that_rules_are_told() {
     let page = documented();
-    for (name, _) in [STEPS, TURNS, PASSAGES].concat() {
+    for (name, _) in Kind::Channels.classes().into_iter().flat_map(|class| class.told) {
         // Of three axes the first, or first and last, stand for all.
         let first =
             |axis: &str| name.strip_suffix(axis).map_or_else(|| name.to_owned(), |stem| format!("{stem}_x"));

@@ -1,12 +1,13 @@
 //! The shipped rules say at every step what the tables say that the planners' property tests steer by (no collision, the
 //! clearance that a gap promises, no error within the bounds): what holds there holds for the rules.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
 use adit::plan::assembly::Assembly;
 use adit::plan::corridor::Corridor;
-use adit::plan::{Asked, Steps, Turns, rules};
+use adit::plan::{Asked, Steps, Turns, Wanted, Wishes, rules};
 use adit_engine::RuleBase;
 use adit_planners::channels::assembly::{self, StepFacts};
 use adit_planners::channels::corridor::{Axis, Corridors, Robot};
@@ -33,11 +34,8 @@ fn world<const D: usize>(chain: &Chain<D>) -> Assembly<D> {
             (index + 1, Asked::Gap(std::array::from_fn(|axis| shares[axis] * bound(axis))))
         });
     Assembly {
-        gaps: gaps.collect(),
-        gap: Asked::Safest,
+        wanted: Wanted { gap: Asked::Safest, gaps: gaps.collect(), fragile: false, hurry: false },
         geometry,
-        fragile: false,
-        hurry: false,
         female_moves: false,
         displacement: None,
         base: None,
@@ -45,7 +43,7 @@ fn world<const D: usize>(chain: &Chain<D>) -> Assembly<D> {
 }
 
 fn gap_at<const D: usize>(world: &Assembly<D>, facts: &StepFacts<D>) -> [f64; D] {
-    match world.gaps[&facts.number] {
+    match world.wanted.gaps[&facts.number] {
         Asked::Gap(gap) => gap,
         _ => facts.bound,
     }
@@ -60,7 +58,7 @@ proptest! {
 
     #[test]
     fn table_1_in_the_plane(chain in chains::<2>(1..8)) {
-        let mut steps = Steps::new(shipped()).expect("rules");
+        let mut steps = Steps::new(&shipped()).expect("rules");
         prop_assert!(steps.is_direct());
         let world = world(&chain);
         let by_rules = world.plan(&mut steps).expect("a path");
@@ -70,7 +68,7 @@ proptest! {
 
     #[test]
     fn table_1_in_space(chain in chains::<3>(1..6)) {
-        let mut steps = Steps::new(shipped()).expect("rules");
+        let mut steps = Steps::new(&shipped()).expect("rules");
         let world = world(&chain);
         let by_rules = world.plan(&mut steps).expect("a path");
         let by_table = world.geometry.disassemble(None, |facts| table_for_any_dimension(facts, gap_at(&world, facts)));
@@ -84,7 +82,7 @@ proptest! {
         [to_x, to_y] in prop::array::uniform2(numbers()),
         upright in any::<bool>(),
     ) {
-        let mut turns = Turns::new(shipped()).expect("rules");
+        let mut turns = Turns::new(&shipped()).expect("rules");
         prop_assert!(turns.is_direct());
         // The junction's middle lies on other numbers than the points, so that none is level with it.
         let facts = adit_planners::channels::corridor::StepFacts {
@@ -100,7 +98,7 @@ proptest! {
             safest: 0.9,
             robot: Robot { width: 1.0, length: 1.5 },
         };
-        let wishes = adit::plan::TurnWishes { gap: &Asked::Gap([0.25]), fragile: false, hurry: false };
+        let wishes = Wishes { gap: &Asked::Gap([0.25]), fragile: false, hurry: false };
         let (by_rules, remark) = turns.decide(&facts, wishes).expect("a rule speaks");
         prop_assert_eq!(Ok(by_rules), corrected(&facts, 0.25));
         prop_assert_eq!(remark, None);
@@ -116,7 +114,7 @@ fn a_path_through_a_network_is_what_its_table_gives() {
         Rect::new(0.0, 27.0, 25.0, 30.0),
     ];
     let corridors = Corridors::new(&channels).expect("corridors");
-    let mut turns = Turns::new(shipped()).expect("rules");
+    let mut turns = Turns::new(&shipped()).expect("rules");
     let robot = Robot { width: 1.0, length: 1.5 };
     for (start, goal) in [((1.5, 2.0), (23.5, 7.0)), ((23.5, 28.5), (1.5, 2.0)), ((10.0, 28.5), (10.0, 13.5))]
     {
@@ -126,10 +124,7 @@ fn a_path_through_a_network_is_what_its_table_gives() {
             start: Point::new(start.0, start.1),
             heading: None,
             goal: Point::new(goal.0, goal.1),
-            gap: Asked::Gap([0.4]),
-            gaps: std::collections::BTreeMap::new(),
-            fragile: false,
-            hurry: false,
+            wanted: Wanted { gap: Asked::Gap([0.4]), gaps: BTreeMap::new(), fragile: false, hurry: false },
         };
         let by_rules = world.plan(&mut turns).expect("a path");
         let route = corridors
