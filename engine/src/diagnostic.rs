@@ -9,18 +9,28 @@ use crate::script::source::{Place, SourceFile};
 
 /// The codes with the names that users and programs see.
 macro_rules! codes {
-    ($($(#[$doc:meta])* $code:ident = $name:literal,)*) => {
+    ($(#[doc = $meaning:literal] $code:ident = $name:literal,)*) => {
         /// Stable names of what can be wrong.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum Code {
-            $($(#[$doc])* $code,)*
+            $(#[doc = $meaning] $code,)*
         }
 
         impl Code {
+            pub const ALL: &[Self] = &[$(Self::$code,)*];
+
+            /// The name that users and programs see.
             pub const fn as_str(self) -> &'static str {
                 match self {
                     $(Self::$code => $name,)*
+                }
+            }
+
+            /// What it means, in one sentence for users.
+            pub const fn meaning(self) -> &'static str {
+                match self {
+                    $(Self::$code => $meaning,)*
                 }
             }
         }
@@ -30,27 +40,37 @@ macro_rules! codes {
 codes! {
     /// The file does not read as rules.
     Syntax = "rule/syntax",
+    /// A file is larger than is accepted.
     TooLarge = "rule/too-large",
     /// Something other than a rule, a function or a constant stands in the file.
     Statement = "rule/statement",
+    /// Two rules have one name.
     DuplicateName = "rule/duplicate-name",
+    /// No such class.
     UnknownClass = "rule/unknown-class",
+    /// No such property of a class.
     UnknownProperty = "rule/unknown-property",
+    /// No such variable in the rule.
     UnknownVariable = "rule/unknown-variable",
+    /// No such function.
     UnknownFunction = "rule/unknown-function",
+    /// A value of the wrong type.
     Type = "rule/type",
     /// Something that cannot be set, or not like this.
     Assignment = "rule/assignment",
+    /// Rules that need each other's conclusions.
     Cycle = "rule/cycle",
     /// A declaration that cannot be, or that a rule does not keep to.
     Declaration = "rule/declaration",
     /// A table that does not read as one.
     Table = "rule/table",
+    /// Rows of a table that match the same.
     Overlap = "rule/overlap",
-    /// Inputs without a row.
+    /// Inputs for which a table has no row, or objects for which no rule gives what is needed.
     Gap = "rule/gap",
     /// A row, or a rule, that never counts.
     Unreachable = "rule/unreachable",
+    /// What is named and never used.
     Unused = "rule/unused",
     /// A hypothesis that is concluded in another way too, or is not the first object's.
     Hypothesis = "rule/hypothesis",
@@ -58,6 +78,7 @@ codes! {
     Operator = "rule/operator",
     /// Two rules set one property of one object to different values.
     Conflict = "rule/conflict",
+    /// A part that the interpreter runs has failed.
     Evaluation = "rule/evaluation",
     /// A rule took longer, or did more, than it may.
     Deadline = "rule/deadline",
@@ -65,9 +86,11 @@ codes! {
     Loop = "rule/loop",
     /// A rule that reacts has more matches than are kept.
     Matches = "rule/matches",
+    /// The engine itself failed.
     Panic = "rule/panic",
     /// A file of rule tests does not read as tests.
     TestSyntax = "test/syntax",
+    /// A rule test does not hold.
     TestFailed = "test/failed",
 }
 

@@ -10,7 +10,7 @@ use adit_db::Tx;
 use adit_db::route::{Step, Waypoint};
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
 
@@ -30,6 +30,17 @@ pub enum Status {
     UnknownStart,
     /// The goal is no place, room or point of the map.
     UnknownGoal,
+}
+
+impl Status {
+    /// What is wrong with the question; `None` where it has an answer.
+    pub fn code(self) -> Option<Code> {
+        match self {
+            Self::UnknownStart => Some(Code::RouteUnknownStart),
+            Self::UnknownGoal => Some(Code::RouteUnknownGoal),
+            Self::Ok | Self::SameRoom | Self::NoRoute => None,
+        }
+    }
 }
 
 /// A route with its steps, or why there is none.
@@ -109,16 +120,16 @@ pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
         Some(name) if robots.iter().any(|robot| robot == name) => Ok(name.to_owned()),
         Some(name) => {
             let help = did_you_mean(name, robots.iter().map(String::as_str));
-            Err(Error::said("route/unknown-robot", format!("there is no robot `{name}`"), help))
+            Err(Error::said(Code::RouteUnknownRobot, format!("there is no robot `{name}`"), help))
         }
         None if robots.len() > 1 => {
             let message =
                 format!("the site has several robots: say which with --robot ({})", robots.join(", "));
-            Err(Error::said("route/which-robot", message, None))
+            Err(Error::said(Code::RouteWhichRobot, message, None))
         }
         None => robots.first().cloned().ok_or_else(|| {
             Error::said(
-                "route/unbuilt",
+                Code::RouteUnbuilt,
                 "the site has no robot yet",
                 Some("run `adit build` first".to_owned()),
             )

@@ -668,11 +668,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Demo(args) => demo::run(args).map(|()| 0),
         Verb::New(args) => new::run(args).map(|()| 0),
         Verb::Build(args) => build::run(args).map(|()| 0),
-        Verb::Route(args) => route::run(args).map(|outcome| match outcome {
-            route::Outcome::Found => 0,
-            route::Outcome::NoRoute => 1,
-            route::Outcome::Unknown => 2,
-        }),
+        Verb::Route(args) => route::run(args),
         Verb::Tune(args) => tune::tune(args).map(|()| 0),
         Verb::Tell(args) => tell::run(args).map(|()| 0),
         Verb::Tuning(args) => tuning::run(args).map(|()| 0),
@@ -702,12 +698,7 @@ pub fn run(cli: &Cli) -> ExitCode {
                 output::line(&serde_json::json!({"error": output::as_json(error.problems())}).to_string());
             }
             output::problems(error.problems());
-            // no route, or a check that failed, is no unusable input
-            let is_finding = |problem: &miette::Report| {
-                let code = problem.code().map(|code| code.to_string());
-                matches!(code.as_deref(), Some("draw/no-route" | "test/failed"))
-            };
-            ExitCode::from(if error.problems().iter().all(is_finding) { 1 } else { 2 })
+            ExitCode::from(error.exit())
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use adit_engine::RuleBase;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::robots::ONLY_ROBOT;
 use crate::state::tunings;
@@ -101,7 +101,7 @@ impl Edit {
                 gone.map_err(|error| match error {
                     adit_db::Error::UnknownKey { .. } => {
                         let help = "`adit tell SITE --list` shows what is told".to_owned();
-                        Error::said("tell/unknown-fact", format!("there is no fact {id}"), Some(help))
+                        Error::said(Code::TellUnknownFact, format!("there is no fact {id}"), Some(help))
                     }
                     error => error.into(),
                 })?
@@ -112,7 +112,7 @@ impl Edit {
             Self::Undo(Some(id)) => tx.undo(*id, author)?,
             Self::Undo(None) => match tx.undoable(1)?.first() {
                 Some(id) => tx.undo(*id, author)?,
-                None => return Err(Error::said("edit/nothing-to-undo", "there is nothing to undo", None)),
+                None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),
             },
         };
         Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new })
@@ -159,7 +159,11 @@ fn conflict(tx: &mut Tx<'_>, (table, done, column): (&str, &Done, &str)) -> Resu
     });
     let by = last.map_or_else(String::new, |edit| format!(", set by {} at {}", edit.who, edit.at));
     let message = format!("{table}.{}.{column} is {} by now{by}", done.key, done.old);
-    Ok(Error::said("edit/conflict", message, Some("look at the present value, then set it again".to_owned())))
+    Ok(Error::said(
+        Code::EditConflict,
+        message,
+        Some("look at the present value, then set it again".to_owned()),
+    ))
 }
 
 /// A number where the text is one; no value where there is no text.
@@ -204,11 +208,11 @@ fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
         let message =
             format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
         let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
-        return Err(Error::said("edit/derived", message, Some(help)));
+        return Err(Error::said(Code::EditDerived, message, Some(help)));
     }
     if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {
         let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
-        return Err(Error::said("edit/unknown-table", format!("there is no table `{table}`"), help));
+        return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{table}`"), help));
     }
     Ok(tx.read_table(table)?.columns)
 }
@@ -218,13 +222,13 @@ fn cell_of(table: &str, column: &str, value: &str, columns: &[RelationColumn]) -
     let Some(known) = columns.iter().find(|known| known.name == column) else {
         let help = did_you_mean(column, columns.iter().map(|known| known.name.as_str()));
         let message = format!("table `{table}` has no column `{column}`");
-        return Err(Error::said("edit/unknown-column", message, help));
+        return Err(Error::said(Code::EditUnknownColumn, message, help));
     };
     let cell = cell(value);
     let holds_numbers = ["REAL", "INTEGER"].contains(&known.declared.as_str());
     if holds_numbers && matches!(cell, Cell::Text(_)) {
         let message = format!("`{column}` of `{table}` holds numbers, and `{value}` is none");
-        return Err(Error::said("edit/not-a-number", message, None));
+        return Err(Error::said(Code::EditNotANumber, message, None));
     }
     Ok(cell)
 }
@@ -241,7 +245,7 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
     }
     if parts.len() != keys.len() {
         let message = format!("the key of `{table}` is {}, and `{key}` is not that", keys.join("/"));
-        return Err(Error::said("edit/key", message, None));
+        return Err(Error::said(Code::EditKey, message, None));
     }
     let mut row: Vec<(String, Cell)> = Vec::new();
     for (name, part) in keys.iter().zip(parts) {
@@ -253,7 +257,7 @@ fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> R
             let message = format!("`{name}` is given twice: by {key} and by {name}={value}");
             let twice = format!("`{name}` is given twice, the second time as {name}={value}");
             let message = if keys.contains(&name.as_str()) { message } else { twice };
-            return Err(Error::said("edit/usage", message, None));
+            return Err(Error::said(Code::EditUsage, message, None));
         }
         row.push((name.clone(), cell));
     }
@@ -281,7 +285,7 @@ fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, valu
     } else {
         String::new()
     };
-    Error::said("edit/refused", format!("{error}{found}"), help)
+    Error::said(Code::EditRefused, format!("{error}{found}"), help)
 }
 
 /// The keys of a table's rows, whole and without the robot.

@@ -1,15 +1,19 @@
 //! What can go wrong, gathered from all crates, so that a caller has one type and the command line one printer.
 
+pub(crate) mod code;
+pub(crate) mod finding;
 pub(crate) mod problem;
 
 use std::fmt;
 use std::path::Path;
 
-use miette::{Diagnostic, Report};
+pub use code::Code;
+pub use finding::Finding;
+use problem::Problem;
 
 /// One or more problems, none of them half-done work: whatever failed has left the site as it was.
 pub struct Error {
-    problems: Vec<Report>,
+    problems: Vec<Finding>,
 }
 
 /// The result of everything that can fail.
@@ -17,28 +21,38 @@ pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
     /// Several problems of one kind.
-    pub fn all<D: Diagnostic + Send + Sync + 'static>(problems: impl IntoIterator<Item = D>) -> Self {
-        Self { problems: problems.into_iter().map(Report::new).collect() }
+    pub fn all(problems: impl IntoIterator<Item: Into<Finding>>) -> Self {
+        Self { problems: problems.into_iter().map(Into::into).collect() }
     }
 
     /// A problem in one sentence, with what to do about it.
-    pub fn said(code: &'static str, message: impl Into<String>, help: Option<String>) -> Self {
-        Self::all([Said { code, message: message.into(), help }])
+    pub fn said(code: Code, message: impl Into<String>, help: Option<String>) -> Self {
+        Self::all([Finding::said(code, message, help)])
+    }
+
+    /// Makes what something else says into a problem with this code.
+    pub(crate) fn of<E: fmt::Display>(code: Code) -> impl Fn(E) -> Self {
+        move |error| Self::said(code, error.to_string(), None)
     }
 
     /// A file that cannot be read or written.
     pub fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
-        Self::said("file/unreadable", format!("cannot {doing} {}: {error}", path.display()), None)
+        Self::said(Code::FileUnreadable, format!("cannot {doing} {}: {error}", path.display()), None)
     }
 
-    /// The problems, one by one.
-    pub fn into_problems(self) -> Vec<Report> {
+    pub(crate) fn into_problems(self) -> Vec<Finding> {
         self.problems
     }
 
     /// The problems, to be printed one by one.
-    pub fn problems(&self) -> &[Report] {
+    pub fn problems(&self) -> &[Finding] {
         &self.problems
+    }
+
+    /// The exit status of a program that ends with it: 1 where all that is wrong is that there is no route or that a
+    /// check failed, else 2.
+    pub fn exit(&self) -> u8 {
+        self.problems.iter().map(|problem| problem.code().map_or(2, Code::exit)).max().unwrap_or(2)
     }
 }
 
@@ -56,8 +70,8 @@ impl fmt::Display for Error {
 
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for problem in &self.problems {
-            writeln!(f, "{problem:?}")?;
+        for problem in Problem::all(&self.problems) {
+            writeln!(f, "{problem}")?;
         }
         Ok(())
     }
@@ -74,37 +88,6 @@ impl From<adit_db::Error> for Error {
             }
             _ => None,
         };
-        let code = match &error {
-            adit_db::Error::Refused { .. }
-            | adit_db::Error::Conflict { .. }
-            | adit_db::Error::UnknownTable(_)
-            | adit_db::Error::UnknownColumn { .. }
-            | adit_db::Error::UnknownKey { .. }
-            | adit_db::Error::AmbiguousKey { .. }
-            | adit_db::Error::NotEditable(_)
-            | adit_db::Error::NotANumber { .. } => "database/refused",
-            error if error.is_busy() => "database/locked",
-            _ => "database",
-        };
-        Self::said(code, error.to_string(), help)
-    }
-}
-
-/// A problem without a place in a text.
-#[derive(Debug, thiserror::Error)]
-#[error("{message}")]
-struct Said {
-    code: &'static str,
-    message: String,
-    help: Option<String>,
-}
-
-impl Diagnostic for Said {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.code))
-    }
-
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as _)
+        Self::said(Code::from(&error), error.to_string(), help)
     }
 }

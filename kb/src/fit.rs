@@ -24,7 +24,7 @@ use adit_db::traversal::Traversal;
 use adit_db::{Store, Tx};
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::state::generation;
 use crate::words::suggest::did_you_mean;
@@ -203,13 +203,17 @@ fn one_measure(rows: &[Traversal], wanted: Option<&str>) -> Result<Option<String
         (Some(wanted), _) => {
             let help = did_you_mean(wanted, known.iter().copied());
             let help = help.unwrap_or_else(|| format!("measured were {}", known.join(", ")));
-            Err(Error::said("fit/unknown-measure", format!("nothing is measured in `{wanted}`"), Some(help)))
+            Err(Error::said(
+                Code::FitUnknownMeasure,
+                format!("nothing is measured in `{wanted}`"),
+                Some(help),
+            ))
         }
         (None, [one]) => Ok(Some((*one).to_owned())),
         (None, []) => Ok(None),
         (None, several) => {
             let message = format!("measured were {}: say which is meant", several.join(", "));
-            Err(Error::said("fit/which-measure", message, Some("`--measure seconds`".to_owned())))
+            Err(Error::said(Code::FitWhichMeasure, message, Some("`--measure seconds`".to_owned())))
         }
     }
 }
@@ -257,7 +261,7 @@ fn scaled(
             let found = states.iter().find(|state| state.state == name);
             let Some(found) = found else {
                 let help = did_you_mean(name, states.iter().map(|state| &*state.state));
-                return Err(Error::said("fit/unknown-state", format!("there is no state `{name}`"), help));
+                return Err(Error::said(Code::FitUnknownState, format!("there is no state `{name}`"), help));
             };
             Some(found).filter(usable)
         }

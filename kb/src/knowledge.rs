@@ -21,7 +21,7 @@ use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
 use crate::site::rules;
@@ -375,7 +375,7 @@ impl KnowledgeBase {
                 "rooms = \"{}\" weighs doors for one robot, and this site has {named}",
                 self.site.rooms.name()
             );
-            return Err(Error::said("site/robots", message, Some("use rooms = \"by-state\"".to_owned())));
+            return Err(Error::said(Code::SiteRobots, message, Some("use rooms = \"by-state\"".to_owned())));
         }
         Ok(robots)
     }

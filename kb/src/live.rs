@@ -17,7 +17,7 @@ use adit_db::history::Author;
 use crate::answer::Answer;
 use crate::edit::Tell;
 use crate::edit::{Done, Edit};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::Report;
 use crate::state::State;
@@ -143,7 +143,7 @@ impl Live {
         self.reopen()?;
         let outcome = self.follow(Some((edit, author)))?.ok_or_else(|| {
             let help = Some("try again".to_owned());
-            Error::said("live/stale", "the site's tables were edited meanwhile", help)
+            Error::said(Code::LiveStale, "the site's tables were edited meanwhile", help)
         })?;
         Ok(Outcome { anew: true, ..outcome })
     }

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
 use std::time::{Duration, Instant};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use settings::Settings;
 use shared::Shared;
@@ -56,7 +56,7 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     while !(desk.is_finished() && watcher.is_finished() && porter.is_finished()) {
         if began.elapsed() > FAREWELL {
             let message = "an edit was still at work and was broken off: nothing of it is kept";
-            return Err(Error::said("serve/broken-off", message, None));
+            return Err(Error::said(Code::ServeBrokenOff, message, None));
         }
         std::thread::sleep(Duration::from_millis(20));
     }
@@ -65,7 +65,7 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     shared.stop_reading();
     match (desk, watcher, porter) {
         (Ok(live), Ok(()), Ok(())) => live.unshare(),
-        _ => Err(Error::said("serve/ended", "the service ended by a defect of its own", None)),
+        _ => Err(Error::said(Code::ServeEnded, "the service ended by a defect of its own", None)),
     }
 }
 
@@ -84,7 +84,7 @@ fn tokens(settings: &Settings) -> Result<Option<Tokens>> {
             };
             let message = format!("{elsewhere} can be reached from elsewhere, and the site has no tokens");
             let help = "`adit token SITE add NAME --role tune` makes one".to_owned();
-            Err(Error::said("serve/no-tokens", message, Some(help)))
+            Err(Error::said(Code::ServeNoTokens, message, Some(help)))
         }
     }
 }

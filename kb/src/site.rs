@@ -20,7 +20,7 @@ use adit_planners::world::World;
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
-use crate::error::{Error, Result};
+use crate::error::{self, Error, Result};
 use crate::words::suggest::did_you_mean;
 use siphasher::sip::SipHasher13;
 
@@ -227,7 +227,7 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
         return Error::io("read", file, error);
     }
     Error::said(
-        "site/missing",
+        error::Code::SiteMissing,
         format!("{} is not a site: it has no site.toml", folder.display()),
         Some(format!("`adit new {}` starts one", folder.display())),
     )

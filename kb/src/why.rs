@@ -9,7 +9,7 @@ use adit_db::Cell;
 use adit_engine::{Origin, Support, Value};
 use serde::Serialize;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::why::subject::Subject;
@@ -101,7 +101,7 @@ impl State {
                 let help = did_you_mean(property, properties.iter().copied()).or_else(|| {
                     (!properties.is_empty()).then(|| format!("concluded are {}", properties.join(", ")))
                 });
-                Err(Error::said("why/not-concluded", message, help))
+                Err(Error::said(Code::WhyNotConcluded, message, help))
             }
             _ => Ok((found, facts)),
         }

@@ -7,7 +7,7 @@ use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenar
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 
@@ -104,7 +104,7 @@ impl Cell {
                     self.name
                 );
                 let help = "what it kept stands; run the task again, one program at a time".to_owned();
-                Error::said("plan/two-programs", message, Some(help))
+                Error::said(Code::PlanTwoPrograms, message, Some(help))
             }
             other => other.into(),
         }
@@ -147,14 +147,14 @@ impl Cell {
                     limits.len(),
                     limits.join(" and ")
                 );
-                Err(Error::said("plan/configuration", message, None))
+                Err(Error::said(Code::PlanConfiguration, message, None))
             }
             None => {
                 let names: Vec<&str> = self.goals.iter().map(|goal| goal.name.as_str()).collect();
                 let message = format!("`{text}` is no goal of {}, and no configuration `a,b`", self.name);
                 let help = did_you_mean(text, names.iter().copied())
                     .or_else(|| Some(format!("goals: {}, home", names.join(", "))));
-                Err(Error::said("plan/unknown-goal", message, help))
+                Err(Error::said(Code::PlanUnknownGoal, message, help))
             }
         }
     }

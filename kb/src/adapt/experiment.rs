@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::cell::Cell;
 use super::judge::{RuleJudge, strategy_of, strategy_word};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// A row of the table: a task of a method, over all runs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,7 +68,7 @@ pub fn run(
     done: &(dyn Fn() + Sync),
 ) -> Result<Outcome> {
     let scenario = cell.scenario();
-    let wrong = |error: &dyn std::fmt::Display| Error::said("experiment/rules", error.to_string(), None);
+    let wrong = |error: &dyn std::fmt::Display| Error::said(Code::ExperimentRules, error.to_string(), None);
     // Rules that cannot be asked are found here, so that a judge can be made for each run.
     RuleJudge::new(rules, None, false).map_err(|error| wrong(&error))?;
     let trouble: Trouble = Arc::default();

@@ -12,7 +12,7 @@ use adit_planners::pose::Pose;
 
 use super::cell::Cell;
 use super::figures::Figures;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The planner as it was after the last task that was kept.
 pub(super) fn planner(
@@ -88,7 +88,7 @@ pub(super) fn of_robot(cell: &Cell, kept: &rows::Experience) -> Result<()> {
         kept.cell.cell, kept.cell.robot, cell.robot_text
     );
     let help = "keep this one in another database, or under another name of the file".to_owned();
-    Err(Error::said("plan/other-robot", message, Some(help)))
+    Err(Error::said(Code::PlanOtherRobot, message, Some(help)))
 }
 
 fn experience(kept: &rows::Experience) -> Result<Experience> {
@@ -143,5 +143,5 @@ fn small(kept: &rows::Experience, number: i64) -> Result<u32> {
 fn damaged(kept: &rows::Experience, what: &str) -> Error {
     let message = format!("the experience of {} cannot be read: {what}", kept.cell.cell);
     let help = format!("`DELETE FROM cells WHERE cell = '{}'` forgets it", kept.cell.cell);
-    Error::said("plan/damaged-experience", message, Some(help))
+    Error::said(Code::PlanDamagedExperience, message, Some(help))
 }

@@ -11,7 +11,7 @@ use serde_saphyr::{Location, Spanned};
 
 use super::cell::{Cell, Change, Goal, Target, name_of};
 use super::draft::{ArmDraft, Draft};
-use crate::error::{Error, Result};
+use crate::error::{self, Error, Result};
 
 /// The version of the format that is read; a file that names none has it.
 const VERSION: f64 = 1.0;
@@ -95,7 +95,7 @@ pub fn one(path: &Path, name: Option<&str>) -> Result<Cell> {
             None => format!("{} has {} scenarios; name one with --scenario", path.display(), names.len()),
             Some(name) => format!("{} has no scenario {name}", path.display()),
         };
-        Error::said("plan/scenario", message, Some(format!("scenarios: {}", names.join(", "))))
+        Error::said(error::Code::PlanScenario, message, Some(format!("scenarios: {}", names.join(", "))))
     })
 }
 
@@ -118,7 +118,11 @@ fn parse(file: &str, text: &str, name: &str) -> Result<Vec<Cell>> {
         vec![serde_saphyr::from_str::<Written>(text).map_err(wrong)?]
     };
     if written.is_empty() {
-        return Err(Error::said("map/impossible", format!("{file} has no scenario in `scenarios`"), None));
+        return Err(Error::said(
+            error::Code::Map(Code::Impossible),
+            format!("{file} has no scenario in `scenarios`"),
+            None,
+        ));
     }
     let mut draft = Draft { text: &source, problems: Vec::new() };
     let names: Vec<(String, Range<usize>)> = written

@@ -16,7 +16,7 @@ use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
 use super::{keep, recall};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::whole::Whole;
 
 /// How a session begins.
@@ -77,7 +77,7 @@ impl Session {
         beginning: Beginning<'_>,
     ) -> Result<(Self, Option<Changed>)> {
         let judge = RuleJudge::new(rules, beginning.strategy, beginning.explains)
-            .map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+            .map_err(Error::of(Code::PlanRules))?;
         let mut made = Whole::default();
         if let Some(db) = beginning.db {
             made.database(db);
@@ -98,7 +98,7 @@ impl Session {
         } else {
             let now = described.after(0);
             let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
-                .map_err(|error| Error::said("plan/cell", error.to_string(), None))?;
+                .map_err(Error::of(Code::PlanCell))?;
             (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
         };
         let cell = described.after(adapt.progress().tasks as usize);
@@ -129,9 +129,7 @@ impl Session {
 
     /// Compares the cell with what the planner knows of it.
     fn take_in(&mut self) -> Result<Option<Changed>> {
-        self.adapt
-            .change(self.cell.objects.clone(), &mut self.judge)
-            .map_err(|error| Error::said("plan/cell", error.to_string(), None))
+        self.adapt.change(self.cell.objects.clone(), &mut self.judge).map_err(Error::of(Code::PlanCell))
     }
 
     /// Goes to a goal. Of the configurations in which the tool is there, the one nearest to home is tried first.
@@ -205,7 +203,7 @@ impl Session {
     fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
         // What the planner did then rests on no rule.
         if let Some(trouble) = self.judge.trouble() {
-            return Err(Error::said("plan/rules", trouble.to_owned(), None));
+            return Err(Error::said(Code::PlanRules, trouble.to_owned(), None));
         }
         let considered = self.judge.take_considered();
         let mut step =
@@ -247,7 +245,7 @@ fn experience(
             kept.cell.tasks
         );
         let help = format!("`DELETE FROM cells WHERE cell = '{name}'` forgets it");
-        return Err(Error::said("plan/has-experience", message, Some(help)));
+        return Err(Error::said(Code::PlanHasExperience, message, Some(help)));
     }
     let read = |store: &mut Store| store.snapshot(|tx| Ok::<_, Error>((tx.experience(other)?, tx.cells()?)));
     let (copy, cells) = match file {
@@ -261,7 +259,7 @@ fn experience(
         } else {
             format!("there is of: {}", cells.join(", "))
         };
-        return Err(Error::said("plan/no-experience", message, Some(help)));
+        return Err(Error::said(Code::PlanNoExperience, message, Some(help)));
     };
     // Before anything is written: what is of another robot would stand in the way of this cell's own.
     recall::of_robot(cell, &copy)?;

@@ -6,7 +6,7 @@ use adit_planners::layers::{Headroom, headroom, narrowest};
 use adit_planners::routes::{Blockage, Start, blockage};
 use adit_planners::world::World;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::{End, Rules, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
 use crate::words::number::number;
@@ -121,8 +121,7 @@ fn apart(
             None => "walls part start and goal: there is no way of any width".to_owned(),
         });
     };
-    let high =
-        headroom(world, from, to, slimmest, step).map_err(|what| Error::said("route/reason", what, None))?;
+    let high = headroom(world, from, to, slimmest, step).map_err(Error::of(Code::RouteReason))?;
     Ok(match high {
         Headroom::Limited { height, at } => {
             let lower: Vec<&str> = states

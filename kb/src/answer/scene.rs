@@ -7,7 +7,7 @@ use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
 use crate::draw::{Door, DoorKind as Kind, PrimeArea, Room, Route, Scene, Step, StepKind};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::knowledge::KnowledgeBase;
 
@@ -23,7 +23,7 @@ impl KnowledgeBase {
             if !matches!(answer.status, Status::Ok | Status::SameRoom) {
                 let why = answer.reason.unwrap_or_default();
                 let message = format!("no route from {} to {}: {why}", answer.start, answer.goal);
-                return Err(Error::said("draw/no-route", message, None));
+                return Err(Error::said(Code::DrawNoRoute, message, None));
             }
             scene.route = Some(self.drawn(&answer)?);
         }

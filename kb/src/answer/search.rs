@@ -7,7 +7,7 @@ use adit_planners::world::World;
 
 use super::{Answer, Status, json, steps};
 use crate::answer::reason;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::{End, Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
@@ -83,7 +83,7 @@ impl Basis<'_> {
         let Some(found) = self.find(&ends, &answer.robot) else { return Ok(None) };
         answer.goal.clone_from(&names[found.goal]);
         let text = json::write(&answer, (self.graph, texts, self.rules), &found.way);
-        text.map(Some).map_err(|error| Error::said("route/json", error.to_string(), None))
+        text.map(Some).map_err(Error::of(Code::RouteJson))
     }
 
     /// What start and goals are; where one is nothing, the answer says so.
@@ -136,10 +136,10 @@ impl Basis<'_> {
         if !world.bounds.contains(*point) {
             let b = world.bounds;
             let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
-            return Err(Error::said("route/outside", format!("{named} is outside of the map"), Some(map)));
+            return Err(Error::said(Code::RouteOutside, format!("{named} is outside of the map"), Some(map)));
         }
         if gauge.is_solid(world, *point) {
-            return Err(Error::said("route/solid", format!("{named} is inside an obstacle"), None));
+            return Err(Error::said(Code::RouteSolid, format!("{named} is inside an obstacle"), None));
         }
         Ok(())
     }

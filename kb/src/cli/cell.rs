@@ -12,14 +12,14 @@ use crate::adapt::{
     Beginning, Cell, Done, Session, change_json, change_line, drawn, strategy_of, task_json, taught,
 };
 use crate::draw::render_cell;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::words::number::number;
 use crate::words::progress::Bar;
 
 /// Does the tasks that are asked for, one after the other; `false` where one found no path.
 pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> {
     if !args.gap.is_empty() {
-        return Err(Error::said("plan/gap", "a cell has no gap", None));
+        return Err(Error::said(Code::PlanGap, "a cell has no gap", None));
     }
     let learning = &args.learning;
     let named: Vec<&String> = args.start.iter().chain(&args.goal).chain(&args.more).collect();
@@ -45,7 +45,7 @@ pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> 
     let bar = Bar::new("tasks", u64::from(learning.tasks));
     for _ in 0..learning.tasks {
         let Some(goal) = session.draw(learning.seed) else {
-            return Err(Error::said("plan/no-goals", format!("{} has no goal to draw", cell.name), None));
+            return Err(Error::said(Code::PlanNoGoals, format!("{} has no goal to draw", cell.name), None));
         };
         tasks.push(session.go(&goal)?);
         bar.step();

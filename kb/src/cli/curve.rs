@@ -8,7 +8,7 @@ use adit_engine::RuleBase;
 use super::SimulateArgs;
 use super::output::{json, table};
 use super::picture;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::tours::{Driven, draw, drive};
 
@@ -31,7 +31,7 @@ pub fn run(
             "--metres {:?} is no distance; expected more than 0 and at most {FARTHEST_M}",
             args.metres
         );
-        return Err(Error::said("simulate/metres", message, None));
+        return Err(Error::said(Code::SimulateMetres, message, None));
     }
     let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;
     picture::save(draw(world, &drives), output, PNG_WIDTH)?;

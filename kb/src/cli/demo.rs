@@ -9,7 +9,7 @@ use super::picture::save;
 use super::route;
 use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_svg};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::shipped::{self, Sites};
 use crate::site::whole::{self, Whole};
@@ -102,7 +102,7 @@ fn renew(folder: &Path, name: &str, made: &mut Whole) -> Result<()> {
         let message =
             format!("{} is a site, and not the example that would be written there", folder.display());
         let help = "name another folder with --out, or move this one away".to_owned();
-        return Err(Error::said("site/exists", message, Some(help)));
+        return Err(Error::said(Code::SiteExists, message, Some(help)));
     }
     for (file, text) in files {
         whole::write(&folder.join(file), text.as_bytes())?;

@@ -11,7 +11,8 @@ use crate::error::Result;
 pub fn check(args: &CheckArgs) -> Result<bool> {
     let (found, sound) = match open(&args.site).and_then(|knowledge| knowledge.check()) {
         Ok(found) => {
-            let sound = found.iter().all(|problem| problem.severity() == Some(miette::Severity::Advice));
+            let sound =
+                found.iter().all(|problem| problem.diagnostic().severity() == Some(miette::Severity::Advice));
             (found, sound)
         }
         Err(error) => (error.into_problems(), false),

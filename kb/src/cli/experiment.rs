@@ -7,7 +7,7 @@ use super::output::{json, line, remark, table};
 use super::picture;
 use crate::adapt::{ExperimentOutcome, Row, experiment, is_scenario, method_of, scenario, write_csv};
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::plan::rules::{self, Kind};
 use crate::site::whole;
 use crate::words::number::number;
@@ -21,7 +21,7 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     if !is_scenario(&args.scenario) {
         let message = format!("{} is no scenario; expected a .json file", args.scenario.display());
         let help = "a world of your own (.toml) is planned in by `adit plan`".to_owned();
-        return Err(Error::said("experiment/format", message, Some(help)));
+        return Err(Error::said(Code::ExperimentFormat, message, Some(help)));
     }
     let cells = match &args.only {
         Some(name) => vec![scenario::one(&args.scenario, Some(name))?],
@@ -48,8 +48,9 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     let rows: Vec<Row> = outcomes.iter().flat_map(|outcome| outcome.rows.iter().cloned()).collect();
     if let Some(path) = &args.csv {
         let mut table = Vec::new();
-        write_csv(&rows, &mut table)
-            .map_err(|error| Error::said("experiment/csv", format!("{}: {error}", path.display()), None))?;
+        write_csv(&rows, &mut table).map_err(|error| {
+            Error::said(Code::ExperimentCsv, format!("{}: {error}", path.display()), None)
+        })?;
         whole::write(path, &table)?;
     }
     if let Some(output) = &args.picture {

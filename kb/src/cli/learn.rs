@@ -16,7 +16,7 @@ use serde_json::json;
 use super::SimulateArgs;
 use super::output::{json as print, line, remark, table};
 use super::simulate::heading;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;
 use crate::navigation::keep;
@@ -126,7 +126,7 @@ pub fn drive(
     let building = learned.building();
     let from = (script.start, args.seed);
     let driven = drive_by(&script.orders, from, &walls, &building, &outfit, &mut judge, |_| {})
-        .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+        .map_err(Error::of(Code::SimulateImpossible))?;
     refuse(judge.trouble())?;
     for place in &driven.places {
         stored.places.retain(|(name, _)| *name != place.name);

@@ -7,7 +7,7 @@ use adit_planners::read::{MapSettings, read_map};
 
 use super::NewArgs;
 use super::output::{json, line, program, quoted};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::rules::TESTS;
 use crate::site::shipped::{self, Rules, Sites};
 use crate::site::whole::Whole;
@@ -17,7 +17,7 @@ use crate::site::{Rooms, Site};
 pub fn run(args: &NewArgs) -> Result<()> {
     if args.dir.join("site.toml").exists() {
         let message = format!("{} is a site already", args.dir.display());
-        return Err(Error::said("site/exists", message, None));
+        return Err(Error::said(Code::SiteExists, message, None));
     }
     let mode =
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
@@ -51,10 +51,13 @@ pub fn run(args: &NewArgs) -> Result<()> {
 
 /// A map of the user's, with its image where it has one, under its own name.
 fn copy_map(map: &Path, into: &Path, made: &mut Whole) -> Result<String> {
-    let name = map
-        .file_name()
-        .map(PathBuf::from)
-        .ok_or_else(|| Error::said("map/unreadable", format!("{} is no file", map.display()), None))?;
+    let name = map.file_name().map(PathBuf::from).ok_or_else(|| {
+        Error::said(
+            Code::Map(adit_planners::read::Code::Unreadable),
+            format!("{} is no file", map.display()),
+            None,
+        )
+    })?;
     let text = fs::read_to_string(map).map_err(|error| Error::io("read", map, &error))?;
     let is_toml = name.extension().is_some_and(|extension| extension == "toml");
     let image = text

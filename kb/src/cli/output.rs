@@ -10,7 +10,7 @@ use comfy_table::{ContentArrangement, Table, presets};
 use serde::Serialize;
 
 use crate::error::problem::Problem;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Finding, Result};
 
 /// Whether some of the answer could not be written, to a full disk for one.
 static LOST: AtomicBool = AtomicBool::new(false);
@@ -37,8 +37,7 @@ pub fn remark(text: &str) {
 
 /// Prints a value as JSON.
 pub fn json(value: &impl Serialize) -> Result<()> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|error| Error::said("output/json", error.to_string(), None))?;
+    let text = serde_json::to_string_pretty(value).map_err(Error::of(Code::OutputJson))?;
     line(&text);
     Ok(())
 }
@@ -57,11 +56,11 @@ pub fn table(head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
 }
 
 /// Prints what went wrong, each problem with its place.
-pub fn problems(problems: &[miette::Report]) {
+pub fn problems(problems: &[Finding]) {
     let handler = miette::GraphicalReportHandler::new_themed(theme()).with_width(100);
     for problem in problems {
         let mut text = String::new();
-        if handler.render_report(&mut text, problem.as_ref()).is_err() {
+        if handler.render_report(&mut text, problem.diagnostic()).is_err() {
             text = problem.to_string();
         }
         remark(text.trim_end());
@@ -69,7 +68,7 @@ pub fn problems(problems: &[miette::Report]) {
 }
 
 /// Problems for programs: see [`Problem`].
-pub fn as_json(problems: &[miette::Report]) -> serde_json::Value {
+pub fn as_json(problems: &[Finding]) -> serde_json::Value {
     serde_json::json!(Problem::all(problems))
 }
 

@@ -8,7 +8,7 @@ use super::build::open;
 use super::output::{json, line};
 use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_png, render_svg};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::whole;
 use crate::words::suggest::did_you_mean;
 
@@ -31,7 +31,7 @@ pub fn run(args: &DrawArgs) -> Result<()> {
             let named =
                 || format!("states with rooms: {}", known.iter().copied().collect::<Vec<_>>().join(", "));
             let help = did_you_mean(state, known.iter().copied()).or_else(|| (!known.is_empty()).then(named));
-            return Err(Error::said("draw/unknown-state", message, help));
+            return Err(Error::said(Code::DrawUnknownState, message, help));
         }
         Some(_) => {}
     }
@@ -55,13 +55,13 @@ pub fn check(output: &Path) -> Result<()> {
         return Ok(());
     }
     let message = format!("{} is neither .svg nor .png", output.display());
-    Err(Error::said("draw/format", message, None))
+    Err(Error::said(Code::DrawFormat, message, None))
 }
 
 /// Writes a picture in the format that its file name asks for; how many bytes.
 pub fn save(svg: String, output: &Path, width: u32) -> Result<usize> {
     let bytes = if extension(output) == "png" {
-        render_png(&svg, width).map_err(|error| Error::said("draw/png", error.to_string(), None))?
+        render_png(&svg, width).map_err(Error::of(Code::DrawPng))?
     } else {
         svg.into_bytes()
     };
@@ -74,7 +74,7 @@ fn layers(args: &DrawArgs) -> Result<Layers> {
         Layers::default()
     } else {
         args.layer.join(",").parse().map_err(|error: crate::draw::UnknownLayer| {
-            Error::said("draw/unknown-layer", error.to_string(), None)
+            Error::said(Code::DrawUnknownLayer, error.to_string(), None)
         })?
     };
     layers.state.clone_from(&args.state);

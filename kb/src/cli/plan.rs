@@ -12,7 +12,7 @@ use super::PlanArgs;
 use super::output::{json, line, remark};
 use super::picture;
 use crate::draw::{ChannelPanel, render_channels, render_floor};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::keep::record;
 use crate::plan::assembly::Assembly;
@@ -35,13 +35,13 @@ pub fn run(args: &PlanArgs) -> Result<bool> {
     for text in &remarks {
         remark(text);
     }
-    let steps = || Steps::new(&rules).map_err(|error| Error::said("plan/rules", error.to_string(), None));
+    let steps = || Steps::new(&rules).map_err(Error::of(Code::PlanRules));
     match &world.task {
         Task::Assembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
         Task::SolidAssembly(assembly) => assemble(args, &world, name, assembly, &mut steps()?),
         Task::Corridor(corridor) => {
             let turns = Turns::new(&rules);
-            let mut turns = turns.map_err(|error| Error::said("plan/rules", error.to_string(), None))?;
+            let mut turns = turns.map_err(Error::of(Code::PlanRules))?;
             drive(args, &world, name, &between(args, corridor)?, &mut turns)
         }
         Task::FloorPlan(floor) => walk(args, &world.name, name, floor, &rules),
@@ -54,10 +54,10 @@ fn two_ends(args: &PlanArgs) -> Result<()> {
     let learning = &args.learning;
     if let Some(one) = args.more.first() {
         let message = format!("`{one}` is one too many: this world takes START and GOAL");
-        return Err(Error::said("plan/ends", message, None));
+        return Err(Error::said(Code::PlanEnds, message, None));
     }
     if args.start.is_some() != args.goal.is_some() {
-        return Err(Error::said("plan/ends", "START needs a GOAL", None));
+        return Err(Error::said(Code::PlanEnds, "START needs a GOAL", None));
     }
     let of_cells = [
         (learning.tasks > 0, "--tasks"),
@@ -67,7 +67,7 @@ fn two_ends(args: &PlanArgs) -> Result<()> {
     ];
     match of_cells.into_iter().find(|(is_given, _)| *is_given) {
         Some((_, flag)) => {
-            Err(Error::said("plan/no-cell", format!("{flag} is for worlds with [cell]"), None))
+            Err(Error::said(Code::PlanNoCell, format!("{flag} is for worlds with [cell]"), None))
         }
         None => Ok(()),
     }
@@ -82,7 +82,7 @@ fn walk(
 ) -> Result<bool> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
         let help = format!("places: {}", floor.names().join(", "));
-        return Err(Error::said("plan/ends", "a floor plan needs START and GOAL", Some(help)));
+        return Err(Error::said(Code::PlanEnds, "a floor plan needs START and GOAL", Some(help)));
     };
     let mut judge = floor.judge(rules)?;
     let walked = floor.plan(floor.point(start)?, floor.point(goal)?, &mut judge)?;
@@ -110,7 +110,7 @@ fn walk(
 fn between(args: &PlanArgs, corridor: &Corridor) -> Result<Corridor> {
     let point = |text: &String| {
         let wrong =
-            || Error::said("plan/point", format!("`{text}` is no point; expected `x,y` in metres"), None);
+            || Error::said(Code::PlanPoint, format!("`{text}` is no point; expected `x,y` in metres"), None);
         let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
         match numbers.as_deref() {
             Some([x, y]) if x.is_finite() && y.is_finite() => Ok(Point::new(*x, *y)),
@@ -198,7 +198,7 @@ fn gaps<W: Clone, const N: usize>(
     with: impl Fn(&W, Asked<N>) -> W,
 ) -> Result<Vec<W>> {
     let gap = |text: &String| {
-        let gap = Asked::parse(text).map_err(|message| Error::said("plan/gap", message, None))?;
+        let gap = Asked::parse(text).map_err(Error::of(Code::PlanGap))?;
         Ok(with(world, gap))
     };
     if args.gap.is_empty() { Ok(vec![world.clone()]) } else { args.gap.iter().map(gap).collect() }

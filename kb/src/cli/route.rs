@@ -4,10 +4,10 @@ use super::RouteArgs;
 use super::build::open;
 use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};
-use crate::error::Result;
+use crate::error::{Code, Result};
 
-/// Prints the route; `false` where there is none.
-pub fn run(args: &RouteArgs) -> Result<Outcome> {
+/// Prints the route, and gives the exit status.
+pub fn run(args: &RouteArgs) -> Result<u8> {
     let goals: Vec<String> = std::iter::once(&args.goal).chain(&args.others).cloned().collect();
     let knowledge = open(&args.site)?.at(args.at.as_deref())?;
     let answer = knowledge.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
@@ -24,22 +24,7 @@ pub fn run(args: &RouteArgs) -> Result<Outcome> {
     } else {
         summary(&answer);
     }
-    Ok(match answer.status {
-        Status::Ok | Status::SameRoom => Outcome::Found,
-        Status::NoRoute => Outcome::NoRoute,
-        Status::UnknownStart | Status::UnknownGoal => Outcome::Unknown,
-    })
-}
-
-/// What the exit status says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// A route.
-    Found,
-    /// None, for a reason that is said.
-    NoRoute,
-    /// A name that nobody knows.
-    Unknown,
+    Ok(answer.status.code().map_or(u8::from(answer.status == Status::NoRoute), Code::exit))
 }
 
 /// Prints an answer for people; whether there are steps to print.

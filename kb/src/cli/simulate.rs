@@ -11,7 +11,7 @@ use adit_planners::pose::Pose;
 use super::SimulateArgs;
 use super::output::{json, line, remark, table};
 use super::picture::extension;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
 use crate::navigation::learning;
@@ -26,7 +26,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let world = World::read(&args.world)?;
     let Task::FloorPlan(floor) = &world.task else {
         let message = format!("{} has no [floor_plan]: there is nothing to simulate", args.world.display());
-        return Err(Error::said("simulate/no-floor-plan", message, None));
+        return Err(Error::said(Code::SimulateNoFloorPlan, message, None));
     };
     check_film(args)?;
     let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
@@ -44,7 +44,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     if let Some(script) = &args.drive {
         return match learned {
             Some((stored, known)) => super::learn::drive(args, script, (stored, floor, &known), &rules),
-            None => Err(Error::said("simulate/drive", "--drive goes with --learned and --db", None)),
+            None => Err(Error::said(Code::SimulateDrive, "--drive goes with --learned and --db", None)),
         };
     }
     let stage = match &learned {
@@ -81,12 +81,12 @@ fn check_film(args: &SimulateArgs) -> Result<()> {
     let Some(film) = &args.film else { return Ok(()) };
     if extension(film) != "svg" {
         let message = format!("{} is no .svg; a film is an SVG that plays", film.display());
-        return Err(Error::said("simulate/film", message, None));
+        return Err(Error::said(Code::SimulateFilm, message, None));
     }
     if !(args.speed.is_finite() && args.speed > 0.0) {
         let message =
             format!("a film cannot play {} times as fast as time; expected more than 0", args.speed);
-        return Err(Error::said("simulate/speed", message, None));
+        return Err(Error::said(Code::SimulateSpeed, message, None));
     }
     Ok(())
 }
@@ -99,7 +99,7 @@ fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m
     let mission = args.mission.checked_sub(1).and_then(|index| missions.get(index));
     let missing =
         || format!("there is no mission {}; they are numbered 1 to {}", args.mission, missions.len());
-    mission.map(Some).ok_or_else(|| Error::said("simulate/no-mission", missing(), None))
+    mission.map(Some).ok_or_else(|| Error::said(Code::SimulateNoMission, missing(), None))
 }
 
 /// Runs missions one after the other, each kept with its journal.
@@ -140,7 +140,7 @@ fn kept(
 fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::learned::Learned, Floor)> {
     let Some(db) = &args.db else {
         return Err(Error::said(
-            "simulate/learned",
+            Code::SimulateLearned,
             "--learned goes with --db: the building stands there",
             None,
         ));
@@ -149,7 +149,7 @@ fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::
     let Some(stored) = stored else {
         let message = format!("{} has no building that was learned of the world `{world}`", db.display());
         let help = "learn it first: `adit simulate WORLD --learn START --db FILE`".to_owned();
-        return Err(Error::said("simulate/not-learned", message, Some(help)));
+        return Err(Error::said(Code::SimulateNotLearned, message, Some(help)));
     };
     let known = learning::known(&stored, floor)?;
     Ok((stored, known))
@@ -167,7 +167,7 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
             "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
             start.x, start.y
         );
-        return Err(Error::said("simulate/impossible", message, None));
+        return Err(Error::said(Code::SimulateImpossible, message, None));
     }
     let heading = heading(args)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
@@ -180,7 +180,7 @@ pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
         return Ok(args.heading.to_radians());
     }
     let message = format!("--heading {:?} is no heading; expected degrees from -360 to 360", args.heading);
-    Err(Error::said("simulate/heading", message, None))
+    Err(Error::said(Code::SimulateHeading, message, None))
 }
 
 fn show(rows: &[Row]) {

@@ -8,7 +8,7 @@ use super::output::{json, line, table};
 use super::tune::apply;
 use crate::edit::Edit;
 use crate::edit::Tell;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 
 /// Tells a fact, takes one back, or lists them.
@@ -31,7 +31,7 @@ pub fn run(args: &TellArgs) -> Result<()> {
             let help =
                 "adit tell my-site DOORS \"door 7\" passable false --until 18:00; or --list, or --retract ID";
             return Err(Error::said(
-                "tell/usage",
+                Code::TellUsage,
                 "a fact is CLASS OBJECT PROPERTY VALUE",
                 Some(help.to_owned()),
             ));

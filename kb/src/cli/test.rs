@@ -26,8 +26,7 @@ pub fn run(args: &TestArgs) -> Result<bool> {
         (0, all) => format!("{all} tests, all hold"),
         (failed, all) => format!("{failed} of {all} tests fail"),
     });
-    for failure in tested.outcomes.into_iter().flat_map(|outcome| outcome.failures) {
-        problems(&[miette::Report::new(failure.diagnostic)]);
-    }
+    let failures = tested.outcomes.into_iter().flat_map(|outcome| outcome.failures);
+    problems(&failures.map(|failure| failure.diagnostic.into()).collect::<Vec<_>>());
     Ok(failed == 0)
 }

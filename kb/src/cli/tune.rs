@@ -7,7 +7,7 @@ use super::build::{changes, notes, open};
 use super::output::{json, line, table};
 use super::{HistoryArgs, TuneArgs, UndoArgs};
 use crate::edit::Edit;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::words::progress::Spinner;
 
@@ -32,14 +32,14 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
         let pair = |cell: &String| {
             cell.split_once('=')
                 .map(|(column, value)| (column.to_owned(), value.to_owned()))
-                .ok_or_else(|| Error::said("edit/usage", format!("`{cell}` is not column=value"), None))
+                .ok_or_else(|| Error::said(Code::EditUsage, format!("`{cell}` is not column=value"), None))
         };
         return Ok(Edit::Add(table, key, args.cells.iter().map(pair).collect::<Result<_>>()?));
     }
     match args.cells.as_slice() {
         [column, value] => Ok(Edit::Set(table, key, column.clone(), value.clone())),
         _ => Err(Error::said(
-            "edit/usage",
+            Code::EditUsage,
             "a cell is TABLE KEY COLUMN VALUE",
             Some("adit tune my-site robots SQUAT hardness 3".to_owned()),
         )),

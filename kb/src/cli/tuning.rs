@@ -7,7 +7,7 @@ use super::build::open;
 use super::output::{json, line, maybe, table};
 use super::tune::apply;
 use crate::edit::Edit;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::preview::compare::BASE;
 use crate::words::suggest::did_you_mean;
@@ -51,7 +51,7 @@ fn usage(message: &str, help: Option<String>) -> Error {
     let help = help.unwrap_or_else(|| {
         "adit tuning SITE [NAME [set TABLE KEY COLUMN VALUE | unset TABLE KEY COLUMN | on | off | preview]]".to_owned()
     });
-    Error::said("tuning/usage", message, Some(help))
+    Error::said(Code::TuningUsage, message, Some(help))
 }
 
 fn is_on(knowledge: &KnowledgeBase, name: &str) -> Result<bool> {

@@ -3,7 +3,7 @@
 use super::build::open;
 use super::output::{json, line};
 use super::{SiteArgs, WhyArgs, WhyNotArgs};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::why as mission;
 
@@ -19,7 +19,7 @@ pub fn why(args: &WhyArgs) -> Result<()> {
         let message =
             format!("--at and --world are for missions, and {} is no file", args.site.site.display());
         let help = "`adit simulate WORLD --db FILE` keeps missions; `adit why FILE NUMBER` asks about one";
-        return Err(Error::said("why/no-missions", message, Some(help.to_owned())));
+        return Err(Error::said(Code::WhyNoMissions, message, Some(help.to_owned())));
     }
     let answer = Live::open(open(&args.site)?)?.why(&args.what)?;
     if args.site.json {

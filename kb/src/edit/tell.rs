@@ -7,7 +7,7 @@ use adit_db::history::Author;
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::clock::stored;
 use crate::state::classes;
@@ -98,14 +98,14 @@ impl Tell {
             help.or_else(|| Some(format!("there are {}", schema.classes().collect::<Vec<_>>().join(", "))));
         let message =
             format!("there is no class {class}: no planner gives it, and no rule reads such a table");
-        Err(Error::said("tell/unknown-class", message, help))
+        Err(Error::said(Code::TellUnknownClass, message, help))
     }
 
     fn check_property(&self, class: &str, schema: &Schema, rules: &RuleBase) -> Result<()> {
         let property = self.property.as_str();
         if schema.key_of(class).is_some_and(|key| key.iter().any(|part| part == property)) {
             let message = format!("{class}.{property} says which object it is, and cannot be told");
-            return Err(Error::said("tell/key", message, None));
+            return Err(Error::said(Code::TellKey, message, None));
         }
         let mut known: Vec<&str> = schema.properties(class).collect();
         for rule in rules.rules() {
@@ -119,7 +119,7 @@ impl Tell {
         let message = format!("no rule reads {class}.{property}, and nothing gives it");
         let meant = did_you_mean(property, known.iter().copied());
         let help = meant.unwrap_or_else(|| "--new tells a property that no rule reads yet".to_owned());
-        Err(Error::said("tell/unknown-property", message, Some(help)))
+        Err(Error::said(Code::TellUnknownProperty, message, Some(help)))
     }
 
     /// Which object is meant. What has a number now is at once turned into a point.
@@ -152,7 +152,7 @@ impl Tell {
         let found = text.parse::<f64>().ok().filter(|number| number.is_finite());
         let wrong = |wanted: &str| {
             let message = format!("{class}.{} holds {wanted}, and `{text}` is none", self.property);
-            Error::said("tell/type", message, None)
+            Error::said(Code::TellType, message, None)
         };
         let as_truth = |truth: bool| ("truth", Cell::Integer(truth.into()));
         let as_number = |number: f64| ("number", Cell::Real(number));
@@ -173,7 +173,7 @@ impl Tell {
         if end <= clock.now() {
             let message = format!("--until {until} is {}, and that is over", stored(end));
             return Err(Error::said(
-                "tell/past",
+                Code::TellPast,
                 message,
                 Some("say when it will end, or leave it out".to_owned()),
             ));
@@ -236,13 +236,13 @@ fn door_at(tx: &mut Tx<'_>, at: Point) -> Result<[f64; 4]> {
                 number(distance)
             );
             Err(Error::said(
-                "tell/no-door",
+                Code::TellNoDoor,
                 message,
                 Some("name a door, or say a point nearer to it".to_owned()),
             ))
         }
         None => Err(Error::said(
-            "tell/no-door",
+            Code::TellNoDoor,
             "the site has no door",
             Some("run `adit build` first".to_owned()),
         )),
@@ -267,12 +267,12 @@ fn door(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
             0 => "run `adit build` first".to_owned(),
             all => format!("there are {all} doors, numbered from 1; or say a point as x,y"),
         };
-        return Err(Error::said("tell/unknown-object", format!("there is no door `{name}`"), Some(help)));
+        return Err(Error::said(Code::TellUnknownObject, format!("there is no door `{name}`"), Some(help)));
     };
     if door.kind != DoorKind::Door {
         let message = format!("door {name} is a change of shape, not a place that can be found again");
         let help = "tell about a room, or about a state in ROBOTS".to_owned();
-        return Err(Error::said("tell/change", message, Some(help)));
+        return Err(Error::said(Code::TellChange, message, Some(help)));
     }
     let [x0, y0, x1, y1] = door.segment;
     Ok(Object::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], Some(door.segment)))
@@ -283,7 +283,7 @@ fn room(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
         let rooms = tx.rooms()?;
         let help = did_you_mean(name, rooms.iter().map(|room| room.name.as_str()));
         let help = help.or_else(|| Some("say a room's name, or a point as x,y".to_owned()));
-        return Err(Error::said("tell/unknown-object", format!("there is no room `{name}`"), help));
+        return Err(Error::said(Code::TellUnknownObject, format!("there is no room `{name}`"), help));
     };
     let [x0, y0, x1, y1] = room.rect;
     Ok(Object::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], None))
@@ -300,7 +300,7 @@ fn key(tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told, text: &str) -
     if parts.is_empty() || (is_counted && !told.classes.contains_key(class)) {
         let message =
             format!("objects of {class} are numbered anew by each build: nothing can be told about one");
-        return Err(Error::said("tell/numbered", message, None));
+        return Err(Error::said(Code::TellNumbered, message, None));
     }
     let keys = classes::keys(&table, parts);
     // the robot may be left out, as in `adit tune`
@@ -316,11 +316,11 @@ fn key(tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told, text: &str) -
             let short = keys.iter().filter(|_| parts[0] == "robot").filter_map(|key| key.split_once('/'));
             let names = short.map(|(_, rest)| rest).chain(keys.iter().map(String::as_str));
             let help = did_you_mean(text, names);
-            Err(Error::said("tell/unknown-object", format!("{class} has no object `{text}`"), help))
+            Err(Error::said(Code::TellUnknownObject, format!("{class} has no object `{text}`"), help))
         }
         [one, other, ..] => {
             let message = format!("`{text}` may be {one} or {other} of {class}");
-            Err(Error::said("tell/unknown-object", message, Some("give the whole key".to_owned())))
+            Err(Error::said(Code::TellUnknownObject, message, Some("give the whole key".to_owned())))
         }
     }
 }

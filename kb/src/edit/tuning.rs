@@ -6,7 +6,7 @@ use adit_db::edit::Edited;
 use adit_db::history::Author;
 
 use super::{cell_of, columns, explain};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::words::suggest::did_you_mean;
 
 const CELLS: &str = "tuning_cells";
@@ -17,7 +17,7 @@ pub fn set(tx: &mut Tx<'_>, tuning: &str, cell: &[String; 4], author: &Author) -
     let [table, key, column, value] = cell;
     if tuning.trim().is_empty() || tuning.contains(['/', '\n']) {
         let message = format!("a tuning cannot be called {tuning:?}");
-        return Err(Error::said("tuning/name", message, Some("a word like `night` is one".to_owned())));
+        return Err(Error::said(Code::TuningName, message, Some("a word like `night` is one".to_owned())));
     }
     let known = columns(tx, table)?;
     let given = cell_of(table, column, value, &known)?;
@@ -66,7 +66,7 @@ pub fn unset(tx: &mut Tx<'_>, tuning: &str, cell: &[String; 3], author: &Author)
             let why = if found.is_empty() { "does not set" } else { "sets for several robots" };
             let message = format!("the tuning `{tuning}` {why} {table}.{key}.{column}");
             Err(Error::said(
-                "tuning/no-such-cell",
+                Code::TuningNoSuchCell,
                 message,
                 Some(format!("`adit tuning SITE {tuning}` shows what it sets")),
             ))
@@ -83,7 +83,11 @@ pub fn switch(tx: &mut Tx<'_>, tuning: &str, on: bool, author: &Author) -> Resul
     }
     if is_on == on {
         let state = if on { "on" } else { "off" };
-        return Err(Error::said("tuning/already", format!("the tuning `{tuning}` is {state} already"), None));
+        return Err(Error::said(
+            Code::TuningAlready,
+            format!("the tuning `{tuning}` is {state} already"),
+            None,
+        ));
     }
     if on {
         return Ok(tx.add_row(ACTIVE, &[("tuning", Cell::from(tuning))], author)?);
@@ -100,5 +104,5 @@ pub fn known(tx: &mut Tx<'_>, tuning: &str) -> Result<()> {
     let help = did_you_mean(tuning, cells.iter().map(|cell| cell.tuning.as_str()));
     let help =
         help.unwrap_or_else(|| format!("`adit tuning SITE {tuning} set TABLE KEY COLUMN VALUE` starts it"));
-    Err(Error::said("tuning/unknown", format!("there is no tuning `{tuning}`"), Some(help)))
+    Err(Error::said(Code::TuningUnknown, format!("there is no tuning `{tuning}`"), Some(help)))
 }

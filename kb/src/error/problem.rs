@@ -6,16 +6,17 @@ use miette::Severity;
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::{Code, Finding};
+
 /// One thing that is wrong, or that one should know, with its place where it has one.
 #[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
 pub struct Problem {
-    /// Its kind, as `rule/syntax`.
-    pub code: Option<String>,
+    /// What kind of thing is wrong; null for a note.
+    pub code: Option<Code>,
     /// error, warning or advice.
     pub severity: &'static str,
     /// In one sentence.
     pub message: String,
-    /// The file.
     pub file: Option<String>,
     /// Line, from 1.
     pub line: Option<usize>,
@@ -47,17 +48,17 @@ impl fmt::Display for Problem {
 }
 
 impl Problem {
-    /// What a diagnostic says.
-    pub fn of(diagnostic: &dyn miette::Diagnostic) -> Self {
+    pub(crate) fn of(found: &Finding) -> Self {
+        let diagnostic = found.diagnostic();
         let severity = match diagnostic.severity() {
             Some(Severity::Advice) => "advice",
             Some(Severity::Warning) => "warning",
             _ => "error",
         };
         let mut problem = Self {
-            code: diagnostic.code().map(|code| code.to_string()),
+            code: found.code(),
             severity,
-            message: diagnostic.to_string(),
+            message: found.to_string(),
             file: None,
             line: None,
             column: None,
@@ -84,8 +85,7 @@ impl Problem {
         problem
     }
 
-    /// What several diagnostics say.
-    pub fn all(diagnostics: &[miette::Report]) -> Vec<Self> {
-        diagnostics.iter().map(|diagnostic| Self::of(diagnostic.as_ref())).collect()
+    pub(crate) fn all(found: &[Finding]) -> Vec<Self> {
+        found.iter().map(Self::of).collect()
     }
 }

@@ -6,7 +6,7 @@ use adit_db::robot::State;
 use adit_db::traversal::Traversal;
 use serde::{Deserialize, Serialize};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::words::suggest::did_you_mean;
 
 /// A traversal to be added.
@@ -37,7 +37,7 @@ pub struct Row {
 const COLUMNS: [&str; 7] = ["mission", "robot", "state", "action", "distance", "measured", "measure"];
 
 fn refused(row: usize, what: impl std::fmt::Display, help: Option<String>) -> Error {
-    Error::said("fit/row", format!("row {row}: {what}; nothing was added"), help)
+    Error::said(Code::FitRow, format!("row {row}: {what}; nothing was added"), help)
 }
 
 /// The rows of a CSV text: a line with the names of the columns, then a line a row.
@@ -50,7 +50,7 @@ pub fn rows_of_csv(text: &str) -> Result<Vec<Row>> {
             let help = did_you_mean(name, COLUMNS.into_iter())
                 .unwrap_or_else(|| format!("columns are {}", COLUMNS.join(", ")));
             return Err(Error::said(
-                "fit/column",
+                Code::FitColumn,
                 format!("the first line names a column `{name}`"),
                 Some(help),
             ));
@@ -60,7 +60,7 @@ pub fn rows_of_csv(text: &str) -> Result<Vec<Row>> {
         if !names.iter().any(|known| known == name) {
             let help = format!("columns are {}", COLUMNS.join(", "));
             return Err(Error::said(
-                "fit/column",
+                Code::FitColumn,
                 format!("the first line names no column `{name}`"),
                 Some(help),
             ));

@@ -12,7 +12,7 @@ use super::memory::Memory;
 use super::report::Report;
 use crate::answer::{Answer, Basis, Ground, Status, pick_robot};
 use crate::edit::{Done, Edit};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Finding, Result};
 use crate::graph::gauge::sizes_of;
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
@@ -21,28 +21,6 @@ use crate::site::{lint, rules, states};
 use crate::state::generation;
 use crate::state::inputs::Inputs;
 use crate::words::progress::{Progress, Silent};
-
-/// Something that the expert should know, though nothing is wrong.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(severity(advice))]
-struct Note(String);
-
-/// Something that routes need and no rule gives.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(code("rule/gap"), severity(warning))]
-struct Gap(String);
-
-/// A fact that no longer finds what it is about.
-#[derive(Debug, thiserror::Error, miette::Diagnostic)]
-#[error("{0}")]
-#[diagnostic(
-    code("tell/lost"),
-    severity(warning),
-    help("tell it again where it now is, or take it back with `adit tell SITE --retract ID`")
-)]
-struct Lost(String);
 
 impl KnowledgeBase {
     /// Map, facts, rules, routes: into the site's database, all or nothing.
@@ -62,7 +40,7 @@ impl KnowledgeBase {
         }
         if outcome.is_ok() && !database.exists() {
             let message = format!("{} was removed by someone while it was built", database.display());
-            return Err(Error::said("database", message, Some("build again".to_owned())));
+            return Err(Error::said(Code::Database, message, Some("build again".to_owned())));
         }
         Ok(outcome?.1)
     }
@@ -103,7 +81,7 @@ impl KnowledgeBase {
 
     /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
     /// away; the site's database is not touched.
-    pub fn check(&self) -> Result<Vec<miette::Report>> {
+    pub fn check(&self) -> Result<Vec<Finding>> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
         let mut problems = lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners());
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
@@ -114,10 +92,13 @@ impl KnowledgeBase {
         }
         let report = self.build_at(&scratch, &Silent)?;
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
-        problems.extend(notes.map(|note| miette::Report::new(Note(note))));
-        problems.extend(report.lost.into_iter().map(|lost| miette::Report::new(Lost(lost))));
-        problems.extend(report.gaps.into_iter().map(|gap| miette::Report::new(Gap(gap))));
-        problems.extend(lint::never_chosen(&report.dominated).into_iter().map(miette::Report::new));
+        problems.extend(notes.map(Finding::note));
+        let help = "tell it again where it now is, or take it back with `adit tell SITE --retract ID`";
+        let lost = |lost| Finding::warning(Code::TellLost, lost, Some(help.to_owned()));
+        problems.extend(report.lost.into_iter().map(lost));
+        let gap = |gap| Finding::warning(Code::Rule(adit_engine::Code::Gap), gap, None);
+        problems.extend(report.gaps.into_iter().map(gap));
+        problems.extend(lint::never_chosen(&report.dominated));
         Ok(problems)
     }
 

@@ -9,7 +9,7 @@ use adit_planners::routes::Start;
 use rayon::prelude::*;
 
 use super::report::{PlaceCosts, Routes};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph, place_node};
 use crate::site::Starts;
@@ -93,12 +93,12 @@ pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Re
 fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
     for (index, name) in names.iter().enumerate() {
         if names[..index].contains(name) {
-            return Err(Error::said("site/starts", format!("`starts` names `{name}` twice"), None));
+            return Err(Error::said(Code::SiteStarts, format!("`starts` names `{name}` twice"), None));
         }
         if !matches!(graph.end(name), Some(End::Place(_) | End::Room(_))) {
             let help = did_you_mean(name, graph.names());
             return Err(Error::said(
-                "site/unknown-start",
+                Code::SiteUnknownStart,
                 format!("`starts` names `{name}`, which is no place or room"),
                 help,
             ));
@@ -121,14 +121,14 @@ pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
         let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
         if place.place.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y)) {
             return Err(Error::said(
-                "site/place-named-like-a-point",
+                Code::SitePlaceNamedLikeAPoint,
                 format!("place `{}` is named like a point, so it would mean two things", place.place),
                 Some("give the place a name that is not `x,y`".to_owned()),
             ));
         }
         if graph.rooms.iter().any(|room| room.name == place.place) {
             return Err(Error::said(
-                "site/place-named-like-a-room",
+                Code::SitePlaceNamedLikeARoom,
                 format!(
                     "place `{}` is named like a room, so `{}` would mean two things",
                     place.place, place.place

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::judge::RuleJudge;
 use super::told::Told;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 
@@ -33,7 +33,7 @@ impl Floor {
     }
 
     pub fn judge(&self, rules: &Arc<RuleBase>) -> Result<RuleJudge> {
-        RuleJudge::with(rules, &self.told).map_err(|error| Error::said("plan/rules", error.to_string(), None))
+        RuleJudge::with(rules, &self.told).map_err(Error::of(Code::PlanRules))
     }
 
     /// The building as a robot drives in it: its ways leave room beside the robot, where there is a way with room.
@@ -57,7 +57,7 @@ impl Floor {
                 let names = self.names();
                 let help = did_you_mean(text, names.iter().copied());
                 Err(Error::said(
-                    "plan/unknown-place",
+                    Code::PlanUnknownPlace,
                     message,
                     help.or_else(|| Some(format!("places: {}", names.join(", ")))),
                 ))
@@ -78,7 +78,7 @@ impl Floor {
             nearest_adit: path(Rule::Nearest).ok().map(|path| path.length),
         };
         match judge.trouble() {
-            Some(trouble) => Err(Error::said("plan/rules", trouble.to_owned(), None)),
+            Some(trouble) => Err(Error::said(Code::PlanRules, trouble.to_owned(), None)),
             None => Ok(walked),
         }
     }

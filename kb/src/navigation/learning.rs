@@ -15,7 +15,7 @@ use serde::Serialize;
 use super::floor::Floor;
 use super::missions::refuse;
 use super::told::Told;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// How sure a robot is of where it begins in a building that it has learned: the model is so much off, metres.
 pub const START_SIGMA_M: f64 = 0.05;
@@ -80,7 +80,7 @@ pub fn explore(
     let mut guide = floor.judge(rules)?;
     let explored = exploration
         .run(&floor.plan, &outfit, &mut guide, |_| {}, film)
-        .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+        .map_err(Error::of(Code::SimulateImpossible))?;
     refuse(guide.trouble())?;
     let learned = &explored.learned;
     let score = score(learned, &floor.plan).map_err(|error| Error::all(error.problems))?;

@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::floor::Floor;
 use super::judge::{Noting, RuleJudge};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// How a mission went.
 #[derive(Clone, Debug, Serialize)]
@@ -71,7 +71,7 @@ pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> 
         let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
         draw(&floor.plan, &floor.network, floor.network.disc.radius, seed).ok_or_else(|| {
             let message = "the plan has no room for missions: start and goal need some metres between them";
-            Error::said("simulate/no-room", message, None)
+            Error::said(Code::SimulateNoRoom, message, None)
         })
     };
     (0..missions).map(of).collect()
@@ -127,7 +127,7 @@ pub fn run(
 
 /// Refuses what came of rules that failed, or did not say what they were asked.
 pub fn refuse(trouble: Option<&str>) -> Result<()> {
-    trouble.map_or(Ok(()), |trouble| Err(Error::said("simulate/rules", trouble.to_owned(), None)))
+    trouble.map_or(Ok(()), |trouble| Err(Error::said(Code::SimulateRules, trouble.to_owned(), None)))
 }
 
 /// Runs a mission without a journal.
@@ -163,7 +163,7 @@ fn judged(
     let before = Instant::now();
     let outcome = mission
         .run(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
-        .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+        .map_err(Error::of(Code::SimulateImpossible))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let radius = stage.truth.network.disc.radius;
     let possible = mission.possible(&stage.truth.plan, radius);

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::floor::Floor;
 use super::missions::refuse;
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// Stops of a drive.
 const STOPS: usize = 12;
@@ -64,7 +64,7 @@ pub fn drive(
         let stops = stops(&floor.plan, &known.network, radius, STOPS, seed);
         let [start, _, ..] = stops[..] else {
             let message = "the plan has no room for a drive: stops need some metres between them";
-            return Err(Error::said("simulate/no-room", message, None));
+            return Err(Error::said(Code::SimulateNoRoom, message, None));
         };
         let stops = [&stops[1..], &stops[..1]].concat();
         let tour = Tour { start: Pose { at: start, heading: 0.0 }, stops, far_m, seed };
@@ -73,7 +73,7 @@ pub fn drive(
         let of_robot = if is_known { &known } else { &unknown };
         let wrong = tour
             .run(&known.walls, of_robot, &outfit, &mut judge)
-            .map_err(|error| Error::said("simulate/impossible", error.to_string(), None))?;
+            .map_err(Error::of(Code::SimulateImpossible))?;
         refuse(judge.trouble())?;
         Ok(Driven::new(seed, is_known, wrong))
     };

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::plan::Spoke;
 use crate::plan::rules::{self, Kind};
 use crate::words::number::number;
@@ -62,10 +62,10 @@ pub fn why(
 ) -> Result<Answer> {
     let number: i64 = mission.trim().parse().map_err(|_| {
         let message = format!("`{mission}` is no mission of {}: missions have numbers", database.display());
-        Error::said("why/no-mission", message, None)
+        Error::said(Code::WhyNoMission, message, None)
     })?;
     if let Some(at) = at.filter(|at| !at.is_finite()) {
-        return Err(Error::said("why/time", format!("--at {at} is no time; expected seconds"), None));
+        return Err(Error::said(Code::WhyTime, format!("--at {at} is no time; expected seconds"), None));
     }
     let mut store = Store::open_read_only(database)?;
     let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
@@ -74,7 +74,7 @@ pub fn why(
         if !(first..=last).contains(&number) {
             let message =
                 format!("{world} has no mission {number}; its {count} are numbered {first} to {last}");
-            return Err(Error::said("why/no-mission", message, None));
+            return Err(Error::said(Code::WhyNoMission, message, None));
         }
         // Times are read from tables, where they are rounded.
         let until = at.map_or(f64::INFINITY, |at| at + ROUNDED_S);
@@ -84,7 +84,7 @@ pub fn why(
     let Some(decision) = found else {
         let when = at.map_or_else(String::new, |at| format!(" yet at {} s", self::number(at)));
         let message = format!("mission {number} of {world} had decided nothing{when}");
-        return Err(Error::said("why/no-stop", message, None));
+        return Err(Error::said(Code::WhyNoStop, message, None));
     };
     explained((world, number), decision, rules)
 }
@@ -95,7 +95,7 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
         (_, []) => {
             let help = "`adit simulate WORLD --db FILE` keeps missions with their journals".to_owned();
             Err(Error::said(
-                "why/no-missions",
+                Code::WhyNoMissions,
                 format!("{} keeps no missions", database.display()),
                 Some(help),
             ))
@@ -104,7 +104,7 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
         (None, _) => {
             let message = format!("{} has missions of several worlds", database.display());
             Err(Error::said(
-                "why/which-world",
+                Code::WhyWhichWorld,
                 message,
                 Some(format!("--world NAME says which: {}", listed())),
             ))
@@ -113,7 +113,7 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
         (Some(wanted), _) => {
             let help = did_you_mean(wanted, worlds.iter().map(String::as_str)).unwrap_or_else(listed);
             let message = format!("{} has no missions of a world `{wanted}`", database.display());
-            Err(Error::said("why/which-world", message, Some(help)))
+            Err(Error::said(Code::WhyWhichWorld, message, Some(help)))
         }
     }
 }
@@ -127,8 +127,7 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
     let instead = rules.map(|rules| rules.display().to_string());
     let name = instead.unwrap_or_else(|| decision.rules.clone());
     let base = Arc::new(rules::found(Kind::Navigation, &name, Path::new(""))?.base);
-    let mut judge =
-        RuleJudge::new(&base).map_err(|error| Error::said("why/rules", error.to_string(), None))?;
+    let mut judge = RuleJudge::new(&base).map_err(Error::of(Code::WhyRules))?;
     let facts = facts(&decision);
     let (said, considered) = judge.consider(|name| match facts.get(name) {
         Some(Value::Number(number)) => number.as_f64().into(),
@@ -137,7 +136,7 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
         _ => Datum::Unknown,
     });
     if let Some(trouble) = judge.trouble() {
-        return Err(Error::said("why/rules", trouble.to_owned(), None));
+        return Err(Error::said(Code::WhyRules, trouble.to_owned(), None));
     }
     let was = [decision.next.clone(), decision.action.clone()];
     Ok(Answer {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adit_engine::{RuleBase, Schema, Severity};
 
 use super::consult::Class;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Finding, Result};
 use crate::site::lint;
 use crate::site::rules::{self, Rules};
 
@@ -83,7 +83,7 @@ pub fn load_by(
     if !errors.is_empty() {
         return Err(Error::all(errors));
     }
-    let idle = lint::not_carried_out(&base, "worlds", miette::Severity::Error);
+    let idle = lint::not_carried_out(&base, "worlds", Finding::said);
     if !idle.is_empty() {
         return Err(Error::all(idle));
     }
@@ -117,5 +117,5 @@ pub(crate) fn found(kind: Kind, name: &str, beside: &Path) -> Result<Rules> {
     let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
     let help =
         format!("the shipped ones are `{}`; anything else is a folder", kind.shipped().join("` and `"));
-    Err(Error::said("plan/no-rules", message, Some(help)))
+    Err(Error::said(Code::PlanNoRules, message, Some(help)))
 }

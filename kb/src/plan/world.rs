@@ -11,7 +11,7 @@ use super::assembly::Assembly;
 use super::corridor::Corridor;
 use super::rules::{self, Kind};
 use crate::adapt::{self, Cell};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::reading;
 
@@ -85,7 +85,7 @@ impl World {
                 return Self::read(path);
             }
             let message = format!("{} has no scenarios to choose from: it is no .json", path.display());
-            return Err(Error::said("plan/scenario", message, None));
+            return Err(Error::said(Code::PlanScenario, message, None));
         }
         let cell = adapt::scenario::one(path, scenario)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
@@ -144,11 +144,11 @@ fn parse(name: &str, text: &str, world: &str, folder: &Path) -> Result<(Option<S
         [] => {
             let message = format!("{name} is no world of a planner");
             let help = format!("it needs a table [{}]", KINDS.join("] or ["));
-            return Err(Error::said("plan/no-task", message, Some(help)));
+            return Err(Error::said(Code::PlanNoTask, message, Some(help)));
         }
         several => {
             let message = format!("{name} has [{}]; one world has one of them", several.join("] and ["));
-            return Err(Error::said("plan/two-tasks", message, None));
+            return Err(Error::said(Code::PlanTwoTasks, message, None));
         }
     };
     match task {

@@ -8,7 +8,7 @@ use adit_db::{Store, Tx};
 use serde::Serialize;
 
 use crate::edit::Edit;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::Memory;
 use crate::state::inputs::Inputs;
@@ -83,7 +83,7 @@ fn costs_between_places(tx: &mut Tx<'_>) -> Result<Costs> {
         let message =
             format!("{} routes between places are more than are compared", starts.len() * places.len());
         let help = format!("name at most {} in `starts` of site.toml", MOST / places.len().max(1));
-        return Err(Error::said("tuning/too-many", message, Some(help)));
+        return Err(Error::said(Code::TuningTooMany, message, Some(help)));
     }
     let mut costs = Costs::new();
     for start in &starts {

@@ -15,7 +15,7 @@ use super::event::{Changed, Event};
 use super::shared::{Job, Seen, Shared, Source};
 use crate::edit::Edit;
 use crate::error::problem::Problem;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::watch::{Eye, Files};
 use crate::live::{Live, Outcome, Renewal};
 use crate::site::clock::stored;
@@ -84,7 +84,7 @@ pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thr
         desk.live
     };
     let builder = thread::Builder::new().name("desk".to_owned()).stack_size(STACK);
-    builder.spawn(work).map_err(|error| Error::said("serve/thread", error.to_string(), None))
+    builder.spawn(work).map_err(Error::of(Code::ServeThread))
 }
 
 impl Desk {
@@ -190,7 +190,7 @@ impl Desk {
             return Ok(());
         }
         let message = "the site's database was removed or replaced while it was served: nothing can be saved";
-        Err(Error::said("database/replaced", message, Some("start the service again".to_owned())))
+        Err(Error::said(Code::DatabaseReplaced, message, Some("start the service again".to_owned())))
     }
 
     fn look(&mut self) -> Files {

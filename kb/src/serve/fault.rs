@@ -1,13 +1,12 @@
 //! What a request that fails is answered with: one shape of JSON, whatever went wrong.
 
 use axum::Json;
-use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use crate::error::Error;
 use crate::error::problem::Problem;
+use crate::error::{Code, Error};
 
 /// The body of every answer with a status of 400 or more.
 #[derive(Clone, Debug, Serialize, ToSchema)]
@@ -19,10 +18,10 @@ pub struct Failure {
 /// What went wrong.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub struct Fault {
-    /// The HTTP status.
-    pub status: u16,
-    /// Its kind, as `edit/conflict`.
-    pub code: String,
+    /// The HTTP status: that of the code.
+    status: u16,
+    /// What kind of thing went wrong.
+    pub code: Code,
     /// In one sentence.
     pub message: String,
     /// What to do about it.
@@ -39,55 +38,39 @@ pub struct Fault {
 pub type Answered<T> = Result<T, Fault>;
 
 impl Fault {
-    /// A failure in one sentence.
-    pub fn new(status: StatusCode, code: &str, message: impl Into<String>) -> Self {
-        Self {
-            status: status.as_u16(),
-            code: code.to_owned(),
-            message: message.into(),
-            help: None,
-            problems: Vec::new(),
-            current: None,
-        }
-    }
-
-    /// A request that cannot be understood.
-    pub fn bad(code: &str, message: impl Into<String>) -> Self {
-        Self::new(StatusCode::BAD_REQUEST, code, message)
-    }
-
-    /// Something that is not there.
-    pub fn missing(code: &str, message: impl Into<String>) -> Self {
-        Self::new(StatusCode::NOT_FOUND, code, message)
-    }
-
-    /// Something that is another by now than the caller thought.
-    pub fn conflict(code: &str, message: impl Into<String>) -> Self {
-        Self::new(StatusCode::CONFLICT, code, message)
+    pub fn new(code: Code, message: impl Into<String>) -> Self {
+        let (status, message) = (code.http().as_u16(), message.into());
+        Self { status, code, message, help: None, problems: Vec::new(), current: None }
     }
 
     /// A defect of the service itself; the log says more.
     pub fn internal() -> Self {
         let message = "something went wrong here that should not have; the log of the service says more";
-        Self::new(StatusCode::INTERNAL_SERVER_ERROR, "service/internal", message)
+        Self::new(Code::ServiceInternal, message)
     }
 
     /// An answer that takes too long; what was asked for is not begun, and will not be.
     pub fn late() -> Self {
         let message = "the answer took too long, and nothing was changed";
-        Self::new(StatusCode::SERVICE_UNAVAILABLE, "service/late", message)
+        Self::new(Code::ServiceLate, message)
     }
 
     /// The service ends before it came to what was asked for.
     pub fn ending() -> Self {
         let message = "the service ends, and nothing was changed";
-        Self::new(StatusCode::SERVICE_UNAVAILABLE, "service/ending", message)
+        Self::new(Code::ServiceEnding, message)
     }
 
     /// More is asked at once than can be answered.
     pub fn busy() -> Self {
         let message = "too much is asked at once; try again in a moment";
-        Self::new(StatusCode::SERVICE_UNAVAILABLE, "service/busy", message)
+        Self::new(Code::ServiceBusy, message)
+    }
+
+    #[must_use]
+    pub fn with_problems(mut self, problems: Vec<Problem>) -> Self {
+        self.problems = problems;
+        self
     }
 
     /// With what to do about it.
@@ -101,13 +84,13 @@ impl Fault {
 impl From<Error> for Fault {
     fn from(error: Error) -> Self {
         let problems = Problem::all(error.problems());
-        let Some(first) = problems.first().cloned() else { return Self::internal() };
-        let code = first.code.unwrap_or_else(|| "failed".to_owned());
+        let Some(first) = problems.first() else { return Self::internal() };
         let message = match problems.len() {
-            1 => first.message,
+            1 => first.message.clone(),
             more => format!("{}; and {} more", first.message, more - 1),
         };
-        Self { status: status(&code).as_u16(), code, message, help: first.help, problems, current: None }
+        let (code, help) = (first.code.unwrap_or(Code::ServiceInternal), first.help.clone());
+        Self { help, ..Self::new(code, message).with_problems(problems) }
     }
 }
 
@@ -117,26 +100,8 @@ impl From<adit_db::Error> for Fault {
     }
 }
 
-/// The status that a kind of problem has.
-fn status(code: &str) -> StatusCode {
-    let (class, kind) = code.split_once('/').unwrap_or((code, ""));
-    match (class, kind) {
-        ("rule" | "rules" | "test" | "map" | "rooms" | "site" | "hours", _) => {
-            StatusCode::UNPROCESSABLE_ENTITY
-        }
-        (_, "missing" | "nothing-to-undo") => StatusCode::NOT_FOUND,
-        (_, kind) if kind.starts_with("unknown") => StatusCode::NOT_FOUND,
-        ("database", "refused") => StatusCode::BAD_REQUEST,
-        ("database", "locked") => StatusCode::SERVICE_UNAVAILABLE,
-        ("planner", _) => StatusCode::UNPROCESSABLE_ENTITY,
-        ("file" | "database" | "live", _) => StatusCode::INTERNAL_SERVER_ERROR,
-        _ => StatusCode::BAD_REQUEST,
-    }
-}
-
 impl IntoResponse for Fault {
     fn into_response(self) -> Response {
-        let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
-        (status, Json(Failure { error: self })).into_response()
+        (self.code.http(), Json(Failure { error: self })).into_response()
     }
 }

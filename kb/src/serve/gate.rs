@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use axum::extract::{Request, State};
-use axum::http::{HeaderMap, StatusCode, header};
+use axum::http::{HeaderMap, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
 use super::fault::{Answered, Fault};
 use super::role::{Caller, Role};
 use super::shared::Shared;
+use crate::error::Code;
 
 /// Under which name a caller edits where no token is needed; percent-encoded.
 const WHO: &str = "x-adit-who";
@@ -46,8 +47,7 @@ fn check_host(shared: &Shared, headers: &HeaderMap) -> Answered<()> {
         return Ok(());
     }
     let fault = Fault::new(
-        StatusCode::FORBIDDEN,
-        "auth/host",
+        Code::AuthHost,
         format!("this service is not called `{}`", name.chars().take(NAME_LENGTH).collect::<String>()),
     );
     Err(fault.helped("start it with `--host NAME` to let it be called so"))
@@ -70,7 +70,7 @@ fn check_origin(headers: &HeaderMap) -> Answered<()> {
     if called_by == Some(host) {
         return Ok(());
     }
-    Err(Fault::new(StatusCode::FORBIDDEN, "auth/origin", "a page from elsewhere may not call this service"))
+    Err(Fault::new(Code::AuthOrigin, "a page from elsewhere may not call this service"))
 }
 
 /// Who asks, by the token that is sent.
@@ -78,13 +78,12 @@ pub fn caller(shared: &Shared, headers: &HeaderMap) -> Answered<Caller> {
     let tokens = shared.tokens.borrow();
     let given = headers.get(header::AUTHORIZATION).map(|value| value.to_str().unwrap_or_default());
     let token = given.map(|value| value.strip_prefix("Bearer ").unwrap_or_default());
-    let unauthorized = |code: &str, message: &str| Fault::new(StatusCode::UNAUTHORIZED, code, message);
     match (token, tokens.as_ref()) {
         // who sends a token wants to be known: nobody is taken for somebody else
         (Some(token), tokens) => tokens
             .and_then(|tokens| tokens.holder(token.trim()))
-            .ok_or_else(|| unauthorized("auth/token-unknown", "nobody holds this token")),
-        (None, Some(_)) => Err(unauthorized("auth/token-missing", "this site asks for a token")
+            .ok_or_else(|| Fault::new(Code::AuthTokenUnknown, "nobody holds this token")),
+        (None, Some(_)) => Err(Fault::new(Code::AuthTokenMissing, "this site asks for a token")
             .helped("send it as `Authorization: Bearer TOKEN`; `adit token SITE add NAME` makes one")),
         (None, None) => Ok(Caller { name: said(headers), roles: vec![Role::Admin] }),
     }
@@ -109,5 +108,5 @@ pub fn require(caller: &Caller, role: Role) -> Answered<()> {
     }
     let role = format!("{role:?}").to_lowercase();
     let message = format!("`{}` may not do this: it needs the role `{role}`", caller.name);
-    Err(Fault::new(StatusCode::FORBIDDEN, "auth/role", message))
+    Err(Fault::new(Code::AuthRole, message))
 }

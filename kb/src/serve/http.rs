@@ -41,6 +41,7 @@ use super::fault::{Answered, Failure, Fault};
 use super::shared::Shared;
 use super::waiting::Waiting;
 use super::{event, gate, meter, page};
+use crate::error::Code;
 
 /// The longest body that is read, bytes.
 const BODY: usize = 2 << 20;
@@ -184,14 +185,13 @@ pub fn router(shared: Arc<Shared>) -> Router {
 }
 
 async fn unknown() -> Fault {
-    Fault::missing("service/unknown", "there is nothing at this address")
+    Fault::new(Code::ServiceUnknown, "there is nothing at this address")
         .helped("GET /api/openapi.json lists all")
 }
 
 async fn not_so() -> Fault {
     let message = "this address is not asked in this way";
-    Fault::new(StatusCode::METHOD_NOT_ALLOWED, "service/method", message)
-        .helped("GET /api/openapi.json lists all")
+    Fault::new(Code::ServiceMethod, message).helped("GET /api/openapi.json lists all")
 }
 
 /// Refuses what is more than can be worked on at once.
@@ -232,9 +232,14 @@ async fn shape(request: Request<Body>, next: middleware::Next) -> Response {
     if status.as_u16() < 400 || is_json {
         return response;
     }
-    let (code, message) = match status {
-        StatusCode::PAYLOAD_TOO_LARGE => ("service/too-large", format!("a body may have {BODY} bytes")),
-        _ => ("service/refused", status.canonical_reason().unwrap_or("refused").to_owned()),
+    let fault = match status {
+        StatusCode::PAYLOAD_TOO_LARGE => too_large(),
+        _ if status.is_server_error() => Fault::internal(),
+        _ => Fault::new(Code::ServiceRefused, status.canonical_reason().unwrap_or("refused")),
     };
-    Fault::new(status, code, message).into_response()
+    fault.into_response()
+}
+
+fn too_large() -> Fault {
+    Fault::new(Code::ServiceTooLarge, format!("a body may have {BODY} bytes"))
 }

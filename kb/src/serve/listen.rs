@@ -13,7 +13,7 @@ use tower::ServiceExt;
 
 use super::shared::Shared;
 use super::{http, meter};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// Rules run on these threads, too, in previews: their deepest nesting needs more than the usual stack.
 const STACK: usize = 16 << 20;
@@ -29,7 +29,7 @@ const FAREWELL: Duration = Duration::from_secs(5);
 
 /// Answers requests until the program is told to end (Ctrl-C, SIGTERM).
 pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()> {
-    let failed = |error: std::io::Error| Error::said("serve/runtime", error.to_string(), None);
+    let failed = |error: std::io::Error| Error::said(Code::ServeRuntime, error.to_string(), None);
     let mut runtime = tokio::runtime::Builder::new_multi_thread();
     let runtime = runtime.enable_all().thread_stack_size(STACK).build().map_err(failed)?;
     meter::start();
@@ -37,7 +37,7 @@ pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()>
         let listen = shared.settings.listen;
         let listener = TcpListener::bind(listen).await.map_err(|error| {
             let help = "`--listen 127.0.0.1:0` takes any free port".to_owned();
-            Error::said("serve/address", format!("cannot listen on {listen}: {error}"), Some(help))
+            Error::said(Code::ServeAddress, format!("cannot listen on {listen}: {error}"), Some(help))
         })?;
         ready(listener.local_addr().map_err(failed)?);
         accept(shared, &listener).await;

@@ -1,10 +1,11 @@
 //! The page: its files, from the program itself.
 
-use axum::http::{StatusCode, header};
+use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use rust_embed::RustEmbed;
 
 use super::fault::Fault;
+use crate::error::Code;
 
 /// The folder `kb/page`.
 #[derive(RustEmbed)]
@@ -23,7 +24,7 @@ pub async fn asset(axum::extract::Path(name): axum::extract::Path<String>) -> Re
 
 fn file(name: &str) -> Response {
     let Some(file) = Page::get(name) else {
-        return Fault::new(StatusCode::NOT_FOUND, "service/unknown", "there is no such file").into_response();
+        return Fault::new(Code::ServiceUnknown, "there is no such file").into_response();
     };
     let kind = match name.rsplit_once('.').map(|(_, extension)| extension) {
         Some("html") => "text/html; charset=utf-8",

@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::shared::{Shared, Source};
 use super::token::{self, Tokens};
 use crate::error::problem::Problem;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// How often the file is looked at. What still changes is being written: it is taken when two looks agree.
 const TICK: Duration = Duration::from_millis(200);
@@ -29,7 +29,7 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
         }
     };
     let builder = thread::Builder::new().name("porter".to_owned());
-    builder.spawn(work).map_err(|error| Error::said("serve/thread", error.to_string(), None))
+    builder.spawn(work).map_err(Error::of(Code::ServeThread))
 }
 
 /// Takes the tokens as they now are. Where they cannot be read, those of before stay good.

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::event::{Event, Rerouted, RouteCost};
 use super::shared::Shared;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::{Renewal, View};
 
 /// How long no change may come before kept routes are found anew.
@@ -56,7 +56,7 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
         }
     };
     let builder = thread::Builder::new().name("routes".to_owned());
-    builder.spawn(work).map_err(|error| Error::said("serve/thread", error.to_string(), None))
+    builder.spawn(work).map_err(Error::of(Code::ServeThread))
 }
 
 /// What routes between places cost, by robot, start and goal.

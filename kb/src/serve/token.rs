@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
 use super::role::{Caller, Role};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The file's name, in the folder of the site.
 pub const FILE: &str = "tokens.toml";
@@ -56,7 +56,7 @@ pub fn none(file: &Path) -> Error {
     let message = format!("there is no token in {}: nobody is let in", file.display());
     let help = "`adit token SITE add NAME` makes one; a service that is started without this file lets in whoever \
                 reaches this machine";
-    Error::said("tokens/none", message, Some(help.to_owned()))
+    Error::said(Code::TokensNone, message, Some(help.to_owned()))
 }
 
 impl Tokens {
@@ -70,7 +70,7 @@ impl Tokens {
         match text {
             Ok(text) => toml::from_str(text).map(Some).map_err(|error| {
                 let message = format!("{}: {}", file.display(), error.message());
-                Error::said("tokens/unreadable", message, Some("`adit token` writes this file".to_owned()))
+                Error::said(Code::TokensUnreadable, message, Some("`adit token` writes this file".to_owned()))
             }),
             Err(io::ErrorKind::NotFound) => Ok(None),
             Err(kind) => Err(Error::io("read", file, &(*kind).into())),
@@ -79,8 +79,7 @@ impl Tokens {
 
     /// Writes the file whole, readable by its owner only.
     pub fn write(&self, file: &Path) -> Result<()> {
-        let text = toml::to_string(self)
-            .map_err(|error| Error::said("tokens/unwritable", error.to_string(), None))?;
+        let text = toml::to_string(self).map_err(Error::of(Code::TokensUnwritable))?;
         let text = format!("# Written by `adit token`. Who holds a token may do what its roles say.\n{text}");
         let next = file.with_extension("toml.new");
         let written =
@@ -94,19 +93,19 @@ impl Tokens {
     /// A new token for a holder; the text is nowhere else.
     pub fn add(&mut self, name: &str, roles: &[Role]) -> Result<String> {
         if name.trim().is_empty() || name.contains(char::is_control) {
-            return Err(Error::said("tokens/name", format!("a token cannot be called {name:?}"), None));
+            return Err(Error::said(Code::TokensName, format!("a token cannot be called {name:?}"), None));
         }
         if self.tokens.iter().any(|token| token.name == name) {
             let help = format!("`adit token SITE remove {name}` takes the old one away");
             return Err(Error::said(
-                "tokens/exists",
+                Code::TokensExists,
                 format!("there is a token `{name}` already"),
                 Some(help),
             ));
         }
         let mut bytes = [0; BYTES];
         getrandom::fill(&mut bytes)
-            .map_err(|error| Error::said("tokens/random", format!("no random numbers: {error}"), None))?;
+            .map_err(|error| Error::said(Code::TokensRandom, format!("no random numbers: {error}"), None))?;
         let text = format!("adit_{}", hex(&bytes));
         let mut roles = roles.to_vec();
         roles.sort_unstable();
@@ -120,7 +119,7 @@ impl Tokens {
         let before = self.tokens.len();
         self.tokens.retain(|token| token.name != name);
         if self.tokens.len() == before {
-            return Err(Error::said("tokens/unknown", format!("there is no token `{name}`"), None));
+            return Err(Error::said(Code::TokensUnknown, format!("there is no token `{name}`"), None));
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use jiff::civil::{Date, DateTime, Time};
 use jiff::tz::TimeZone;
 use jiff::{Span, Timestamp, Zoned};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The moment for which facts are told, and the site's time zone.
 #[derive(Clone, Debug)]
@@ -56,7 +56,7 @@ impl Clock {
         };
         found.ok_or_else(|| {
             let help = "write 2026-11-21T18:00, 2026-11-21, 18:00, 2h or 2026-11-21T18:00:00Z".to_owned();
-            Error::said("time/unreadable", format!("`{text}` is no time"), Some(help))
+            Error::said(Code::TimeUnreadable, format!("`{text}` is no time"), Some(help))
         })
     }
 

@@ -8,7 +8,7 @@ use adit_planners::read::{Code, Fields, Problem};
 use jiff::civil::{Date, Weekday};
 use jiff::{Timestamp, Zoned};
 
-use crate::error::{Error, Result};
+use crate::error::{self, Error, Result};
 use crate::site::clock::Clock;
 
 const DAYS: [&str; 7] = ["mon", "tue", "wed", "thu", "fri", "sat", "sun"];
@@ -39,7 +39,7 @@ impl Opening {
                     row.name, row.days, row.opens, row.closes
                 );
                 Error::said(
-                    "hours/unreadable",
+                    error::Code::HoursUnreadable,
                     message,
                     Some("write days like mon-fri or sat,sun".to_owned()),
                 )

@@ -11,7 +11,7 @@ use adit_db::load::Load;
 use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Located, Problem};
 
-use crate::error::{Error, Result};
+use crate::error::{self, Error, Result};
 use crate::site::not_negative;
 
 /// The robot's name where a file names none.
@@ -50,7 +50,7 @@ impl RobotFile {
         }
         if file.robots.is_empty() {
             return Err(Error::said(
-                "robots/empty",
+                error::Code::RobotsEmpty,
                 format!("{name} has no state of a robot"),
                 Some(EXAMPLE.to_owned()),
             ));

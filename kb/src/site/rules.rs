@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use adit_engine::{RuleBase, RuleTests, SourceFile};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::Site;
 use crate::site::shipped;
 
@@ -67,7 +67,7 @@ fn folder_sources(folder: &Path) -> Result<Sources> {
             Some((file, why)) => format!("{} is not read: {why}", file.display()),
             None => "without the folder the shipped rules count; copy them into it to change them".to_owned(),
         };
-        return Err(Error::said("rules/none", message, Some(help)));
+        return Err(Error::said(Code::RulesNone, message, Some(help)));
     }
     Ok(Sources { rules, tests })
 }

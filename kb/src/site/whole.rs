@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// What was made so far. Unless it is kept it is taken away again when this goes; what was there before stays.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ impl Whole {
             return Ok(());
         }
         let message = format!("cannot make {}: a file of this name is there", path.display());
-        Err(Error::said("site/exists", message, None))
+        Err(Error::said(Code::SiteExists, message, None))
     }
 
     /// Makes a file. One that is there is an error.
@@ -34,7 +34,7 @@ impl Whole {
         let made = OpenOptions::new().write(true).create_new(true).open(path);
         let mut file = made.map_err(|error| match error.kind() {
             ErrorKind::AlreadyExists => {
-                Error::said("site/exists", format!("{} is there already", path.display()), None)
+                Error::said(Code::SiteExists, format!("{} is there already", path.display()), None)
             }
             _ => Error::io("make", path, &error),
         })?;

@@ -3,7 +3,7 @@
 use adit_engine::{Class, KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts, Table};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// Where NULL is not unknown: a height that nothing limits.
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
@@ -40,7 +40,7 @@ pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()
             class = class.null_means(*property, Value::Number(f64::INFINITY));
         }
     }
-    knowledge.assert(class).map_err(|error| Error::said("facts/class", error.to_string(), None))
+    knowledge.assert(class).map_err(Error::of(Code::FactsClass))
 }
 
 fn first_if_unique(table: &Table) -> Vec<&str> {

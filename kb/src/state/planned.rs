@@ -10,7 +10,7 @@ use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use siphasher::sip::SipHasher13;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 
 /// Facts of planners, by class, and the fingerprint of what each planner worked from.
@@ -104,5 +104,5 @@ fn hash_table(table: &Table, hasher: &mut impl Hasher) {
 /// What a planner gives for what it knows.
 pub fn facts(planner: &dyn Planner, world: &World, known: &Facts) -> Result<Facts> {
     let given = planner.facts(world, known);
-    given.map_err(|error| Error::said("planner/failed", error.to_string(), None))
+    given.map_err(Error::of(Code::PlannerFailed))
 }

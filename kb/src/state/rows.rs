@@ -7,7 +7,7 @@ use adit_db::schema::{Column, Kind, Part, Row, Value};
 use adit_planners::facts::{self, Table};
 use adit_planners::world::World;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The columns of a class, by name, each a problem of its own where it is missing.
 struct Columns<'a> {
@@ -41,7 +41,7 @@ impl<'a> Columns<'a> {
     }
 
     fn missing(&self, what: &str) -> Error {
-        Error::said("facts/property", format!("class {}: {what}", self.class), None)
+        Error::said(Code::FactsProperty, format!("class {}: {what}", self.class), None)
     }
 }
 

@@ -13,7 +13,7 @@ pub use super::planned::{Nothing, Recall};
 use super::twin::Twin;
 use super::weighed::{Look, Weighed, Which, is_same_cut};
 use super::{Pending, State};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
 use crate::state::classes;
@@ -192,7 +192,7 @@ impl State {
         for (class, row, property) in before.cells().keys().filter(is_over) {
             let value = self.planned.value(self.twin.shown(), (class, *row, property));
             let told = self.knowledge.tell_row(class, *row, property, value);
-            told.map_err(|error| Error::said("tell/refused", error.to_string(), None))?;
+            told.map_err(Error::of(Code::TellRefused))?;
         }
         Ok(())
     }
@@ -337,7 +337,7 @@ pub(crate) fn needs_changed(needs: &[String], changes: &Changes) -> bool {
 /// The complaint that a planner lacks what nobody gives.
 fn stuck(planner: &dyn Planner, missing: &[String]) -> Error {
     Error::said(
-        "rules/missing",
+        Code::RulesMissing,
         format!("{} cannot be made: no rule, table or planner gives {}", planner.name(), missing.join(", ")),
         Some("the shipped rule bases have such rules: copy the missing one from there".to_owned()),
     )
@@ -348,5 +348,5 @@ fn circle(planner: &dyn Planner) -> Error {
     let message =
         format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
     let help = "a rule concludes something that this planner works from out of what it gives".to_owned();
-    Error::said("rules/circle", message, Some(help))
+    Error::said(Code::RulesCircle, message, Some(help))
 }

@@ -6,7 +6,7 @@ use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
 use adit_planners::facts::{Column, Facts, Table};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The states of the robots as a class.
 pub fn robots(states: &[State]) -> Table {
@@ -91,7 +91,7 @@ fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     if texts > 0 && numbers > 0 {
         let message =
             format!("column `{}` of table `{table}` holds {texts} texts and {numbers} numbers", column.name);
-        return Err(Error::said("table/mixed", message, Some("a rule needs one or the other".to_owned())));
+        return Err(Error::said(Code::TableMixed, message, Some("a rule needs one or the other".to_owned())));
     }
     let is_text = texts > 0 || (numbers == 0 && (declared.contains("CHAR") || declared.contains("TEXT")));
     let text = |cell: &Cell| match cell {
@@ -133,7 +133,7 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
             "a planner gives the class {}, and the site has a table `{name}` of its own",
             name.to_uppercase()
         );
-        return Err(Error::said("table/taken", message, Some("rename one of them".to_owned())));
+        return Err(Error::said(Code::TableTaken, message, Some("rename one of them".to_owned())));
     }
     if taken && kept(tx, name).is_ok_and(|kept| kept == *table) {
         return Ok(());

@@ -9,7 +9,7 @@ use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::site::clock::{Clock, stored};
 use crate::state::tunings::RowKeys;
 use crate::words::number::number;
@@ -76,7 +76,7 @@ impl Fact {
         };
         let (Some(value), Some(object)) = (value, object) else {
             let message = format!("fact {} of the table `told` has no object, or no {}", row.id, row.kind);
-            return Err(Error::said("tell/unreadable", message, None));
+            return Err(Error::said(Code::TellUnreadable, message, None));
         };
         let (id, class, property) = (row.id, row.class.clone(), row.property.clone());
         Ok(Self { id, class, object, property, value })
@@ -107,7 +107,7 @@ impl Fact {
         let told = knowledge.tell_row(class, row, property, Some(self.value.clone()));
         told.map_err(|error| {
             let help = "take it back with `adit tell SITE --retract ID`".to_owned();
-            Error::said("tell/refused", format!("{}: {error}", self.name()), Some(help))
+            Error::said(Code::TellRefused, format!("{}: {error}", self.name()), Some(help))
         })
     }
 

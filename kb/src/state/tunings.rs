@@ -6,7 +6,7 @@ use adit_db::tuning::TuningCell;
 use adit_db::{Cell, Tx};
 use adit_planners::facts::{Column, Facts};
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 
 /// The keys of a class's rows, as people write them, by class.
 pub type RowKeys = BTreeMap<String, Vec<String>>;
@@ -37,7 +37,7 @@ fn conflict(one: &TuningCell, other: &TuningCell) -> Error {
         one.tuning, other.tuning, one.table, one.key, one.column, one.value, other.value
     );
     let help = format!("switch one of them off: `adit tuning SITE {} off`", one.tuning);
-    Error::said("tuning/conflict", message, Some(help))
+    Error::said(Code::TuningConflict, message, Some(help))
 }
 
 /// Lays the cells over the tables as they are told.
@@ -84,7 +84,7 @@ fn set(column: &mut Column, row: usize, cell: &TuningCell) -> Result<()> {
             let place = format!("{}.{}.{}", cell.table, cell.key, cell.column);
             let message =
                 format!("the tuning `{}` sets {place} to {value}, and it holds {holds}", cell.tuning);
-            return Err(Error::said("tuning/type", message, None));
+            return Err(Error::said(Code::TuningType, message, None));
         }
     }
     Ok(())

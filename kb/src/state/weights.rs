@@ -5,7 +5,7 @@ use adit_db::room::Room;
 use adit_engine::{Changes, KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::state::classes;
 use crate::words::number::number;
 
@@ -23,7 +23,7 @@ fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -> St
             let kind = if matches!(other, Column::Text(_)) { "texts" } else { "truth values" };
             let rules = rules(knowledge, class);
             let message = format!("{class}.hardness must hold numbers, and {rules} gives it {kind}");
-            return Err(Error::said("rule/hardness", message, None));
+            return Err(Error::said(Code::RuleHardness, message, None));
         }
         None => return Ok(()),
     };
@@ -80,7 +80,7 @@ fn refusal(
     let found = value.map_or_else(String::new, number);
     let message = format!("{by} gives {} the hardness {found}", name(row));
     let help = "a hardness is finite and not negative; revisions count, too".to_owned();
-    Error::said("rule/hardness", message, Some(help))
+    Error::said(Code::RuleHardness, message, Some(help))
 }
 
 /// The rules that give a class its hardness.

@@ -27,7 +27,7 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::answer;
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
@@ -138,7 +138,7 @@ impl State {
     pub(crate) fn end(&self, name: &str) -> Result<crate::graph::End> {
         self.graph().end(name).ok_or_else(|| {
             let message = format!("`{name}` is no place, no room and no point `x,y`");
-            Error::said("route/unknown", message, did_you_mean(name, self.graph().names()))
+            Error::said(Code::RouteUnknown, message, did_you_mean(name, self.graph().names()))
         })
     }
 }

@@ -1,6 +1,6 @@
 //! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
 
@@ -27,7 +27,7 @@ impl Subject {
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");
             let help = "say `door 7`, `room d`, `doors.7` or `doors.7.hardness`".to_owned();
-            return Err(Error::said("why/unknown", message, Some(help)));
+            return Err(Error::said(Code::WhyUnknown, message, Some(help)));
         };
         let class = class.to_lowercase();
         if let Some(found) = Self::of(fork, &class, rest, None) {
@@ -73,5 +73,5 @@ fn unknown(fork: &State, class: &str, key: &str) -> Error {
         "rooms" => did_you_mean(key, graph.rooms.iter().map(|room| room.name.as_str())),
         _ => None,
     };
-    Error::said("why/unknown", format!("nothing is concluded about {class} {key}"), help)
+    Error::said(Code::WhyUnknown, format!("nothing is concluded about {class} {key}"), help)
 }

@@ -11,7 +11,7 @@ use adit_planners::routes::Way;
 use serde::Serialize;
 
 use crate::answer::{self, Answer};
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::why::Reasoned;
@@ -97,7 +97,7 @@ impl State {
             "doors" => self.graph().doors.binary_search_by_key(&key, |door| door.door).ok().map(Via::Door),
             _ => {
                 let message = format!("a route leads through rooms and doors, not {}", subject.name);
-                return Err(Error::said("why/through", message, None));
+                return Err(Error::said(Code::WhyThrough, message, None));
             }
         };
         let best = question.best();

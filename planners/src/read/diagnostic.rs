@@ -6,106 +6,99 @@ use std::sync::Arc;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
 
-/// Stable names of what can be wrong with a map or with what a site lays over it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum Code {
-    /// The file cannot be read at all.
-    Unreadable,
-    /// The file's extension says nothing that a reader knows.
-    UnknownFormat,
-    /// The text is not TOML or not YAML.
-    Syntax,
-    UnknownKey,
-    MissingKey,
-    /// A value of the wrong type or with the wrong number of entries.
-    WrongType,
-    /// Not a number, or infinite.
-    NotFinite,
-    /// Zero or negative where only more than zero makes sense.
-    NotPositive,
-    /// A rectangle without an area.
-    Degenerate,
-    /// Wholly outside of the environment.
-    Outside,
-    /// Partly outside of the environment: cut at the edge, a note.
-    Clipped,
-    /// A polygon with fewer than three distinct corners.
-    FewCorners,
-    /// A polygon whose outline crosses or touches itself.
-    SelfCrossing,
-    /// A name without a character.
-    EmptyName,
-    /// Two places of one name.
-    DuplicatePlace,
-    /// Two areas or doors, or one and a place, of one name.
-    DuplicateName,
-    /// A named door that lies in walls wholly, a note.
-    DoorInWall,
-    PlaceInWall,
-    PlaceOutside,
-    /// Thresholds outside of 0 to 1, or in the wrong order.
-    Thresholds,
-    /// A `mode` that is not trinary, scale or raw.
-    Mode,
-    ImageMissing,
-    /// The image file holds no PGM or PNG image.
-    NotAnImage,
-    /// An image with more than 8 bits a channel.
-    ImageDepth,
-    /// An image file that ends before its last pixel.
-    ImageTruncated,
-    /// A grid so fine that the map has more cells than a planner takes.
-    GridTooFine,
-    /// An image with more pixels than a map may have.
-    ImageTooLarge,
-    /// A wall that bounds no free space, or no walls that do.
-    OpenOutline,
-    /// Two walls that cross or lie on one another.
-    CrossingWalls,
-    /// A robot that fits through no doorway.
-    RobotTooWide,
-    /// A world of a planner that cannot be as it is given.
-    Impossible,
+/// The codes with the names that users and programs see.
+macro_rules! codes {
+    ($(#[doc = $meaning:literal] $code:ident = $name:literal,)*) => {
+        /// Stable names of what can be wrong with a map or with what a site lays over it.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[non_exhaustive]
+        pub enum Code {
+            $(#[doc = $meaning] $code,)*
+        }
+
+        impl Code {
+            pub const ALL: &[Self] = &[$(Self::$code,)*];
+
+            /// The name that users and programs see.
+            pub const fn as_str(self) -> &'static str {
+                match self {
+                    $(Self::$code => $name,)*
+                }
+            }
+
+            /// What it means, in one sentence for users.
+            pub const fn meaning(self) -> &'static str {
+                match self {
+                    $(Self::$code => $meaning,)*
+                }
+            }
+        }
+    };
 }
 
-impl Code {
-    /// The name as printed and documented: `map/unknown-key`.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Unreadable => "map/unreadable",
-            Self::UnknownFormat => "map/unknown-format",
-            Self::Syntax => "map/syntax",
-            Self::UnknownKey => "map/unknown-key",
-            Self::MissingKey => "map/missing-key",
-            Self::WrongType => "map/wrong-type",
-            Self::NotFinite => "map/not-finite",
-            Self::NotPositive => "map/not-positive",
-            Self::Degenerate => "map/degenerate",
-            Self::Outside => "map/outside",
-            Self::Clipped => "map/clipped",
-            Self::FewCorners => "map/few-corners",
-            Self::SelfCrossing => "map/self-crossing",
-            Self::EmptyName => "map/empty-name",
-            Self::DuplicatePlace => "map/duplicate-place",
-            Self::DuplicateName => "map/duplicate-name",
-            Self::DoorInWall => "map/door-in-wall",
-            Self::PlaceInWall => "map/place-in-wall",
-            Self::PlaceOutside => "map/place-outside",
-            Self::Thresholds => "map/thresholds",
-            Self::Mode => "map/mode",
-            Self::ImageMissing => "map/image-missing",
-            Self::NotAnImage => "map/not-an-image",
-            Self::ImageDepth => "map/image-depth",
-            Self::ImageTruncated => "map/image-truncated",
-            Self::GridTooFine => "map/grid-too-fine",
-            Self::ImageTooLarge => "map/image-too-large",
-            Self::OpenOutline => "map/open-outline",
-            Self::CrossingWalls => "map/crossing-walls",
-            Self::RobotTooWide => "map/robot-too-wide",
-            Self::Impossible => "map/impossible",
-        }
-    }
+codes! {
+    /// The file cannot be read at all.
+    Unreadable = "map/unreadable",
+    /// The file's extension says nothing that a reader knows.
+    UnknownFormat = "map/unknown-format",
+    /// The text is not TOML or not YAML.
+    Syntax = "map/syntax",
+    /// A key that means nothing here.
+    UnknownKey = "map/unknown-key",
+    /// A key that must be there.
+    MissingKey = "map/missing-key",
+    /// A value of the wrong type or with the wrong number of entries.
+    WrongType = "map/wrong-type",
+    /// Not a number, or infinite.
+    NotFinite = "map/not-finite",
+    /// Zero or negative where only more than zero makes sense.
+    NotPositive = "map/not-positive",
+    /// A rectangle without an area.
+    Degenerate = "map/degenerate",
+    /// Wholly outside of the environment.
+    Outside = "map/outside",
+    /// Partly outside of the environment: cut at the edge, a note.
+    Clipped = "map/clipped",
+    /// A polygon with fewer than three distinct corners.
+    FewCorners = "map/few-corners",
+    /// A polygon whose outline crosses or touches itself.
+    SelfCrossing = "map/self-crossing",
+    /// A name without a character.
+    EmptyName = "map/empty-name",
+    /// Two places of one name.
+    DuplicatePlace = "map/duplicate-place",
+    /// Two areas or doors, or one and a place, of one name.
+    DuplicateName = "map/duplicate-name",
+    /// A named door that lies in walls wholly, a note.
+    DoorInWall = "map/door-in-wall",
+    /// A place in something solid.
+    PlaceInWall = "map/place-in-wall",
+    /// A place outside of the environment.
+    PlaceOutside = "map/place-outside",
+    /// Thresholds outside of 0 to 1, or in the wrong order.
+    Thresholds = "map/thresholds",
+    /// A `mode` that is not trinary, scale or raw.
+    Mode = "map/mode",
+    /// The image file is missing.
+    ImageMissing = "map/image-missing",
+    /// The image file holds no PGM or PNG image.
+    NotAnImage = "map/not-an-image",
+    /// An image with more than 8 bits a channel.
+    ImageDepth = "map/image-depth",
+    /// An image file that ends before its last pixel.
+    ImageTruncated = "map/image-truncated",
+    /// A grid so fine that the map has more cells than a planner takes.
+    GridTooFine = "map/grid-too-fine",
+    /// An image with more pixels than a map may have.
+    ImageTooLarge = "map/image-too-large",
+    /// A wall that bounds no free space, or no walls that do.
+    OpenOutline = "map/open-outline",
+    /// Two walls that cross or lie on one another.
+    CrossingWalls = "map/crossing-walls",
+    /// A robot that fits through no doorway.
+    RobotTooWide = "map/robot-too-wide",
+    /// A world of a planner that cannot be as it is given.
+    Impossible = "map/impossible",
 }
 
 /// One thing that is wrong (or, with [`Severity::Advice`], worth a note), with its place in the text.

@@ -12,6 +12,7 @@ use super::Site;
 use super::extract::Body;
 use crate::edit::Tell;
 use crate::edit::{Done, Edit};
+use crate::error::Code;
 use crate::live::Outcome;
 use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
@@ -182,8 +183,8 @@ impl Fact {
     pub fn edit(&self) -> Answered<Edit> {
         let until = match (&self.until, self.for_seconds) {
             (Some(_), Some(_)) => {
-                return Err(Fault::bad(
-                    "tell/usage",
+                return Err(Fault::new(
+                    Code::TellUsage,
                     "a fact ends at `until` or after `for_seconds`, not both",
                 ));
             }
@@ -330,9 +331,8 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
 /// Adds to a conflict what is there now.
 async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
     if let Edit::SetFrom(cell, ..) = edit
-        && fault.code == "edit/conflict"
+        && fault.code == Code::EditConflict
     {
-        fault.status = axum::http::StatusCode::CONFLICT.as_u16();
         let [table, key, column] = cell.clone();
         let present = site.read(move |tx| Ok(tx.cell(&table, &key, &column)?)).await;
         fault.current = present.ok().map(|present| Box::new(serde_json::json!(present)));
@@ -373,7 +373,7 @@ pub struct PreviewBody {
     responses((status = 200, body = Preview), (status = "4XX", body = Failure)))]
 pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json<Preview>> {
     if body.edits.len() > PREVIEWED {
-        return Err(Fault::bad("service/too-many", format!("a preview holds up to {PREVIEWED} edits")));
+        return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
     }
     let edits = body.edits.iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
     let mut fork = site.fork().await?;

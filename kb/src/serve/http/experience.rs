@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::extract::{Asked, Body};
-use super::{BODY, Site};
+use super::{BODY, Site, too_large};
+use crate::error::Code;
 use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
@@ -80,12 +81,9 @@ pub async fn add(
     let kind = request.headers().get(header::CONTENT_TYPE).and_then(|kind| kind.to_str().ok());
     let (rows, measure) = if kind.is_some_and(|kind| kind.starts_with("text/csv")) {
         let bytes = axum::body::to_bytes(request.into_body(), BODY).await;
-        let bytes = bytes.map_err(|_| {
-            let message = format!("a body may have {BODY} bytes");
-            Fault::new(axum::http::StatusCode::PAYLOAD_TOO_LARGE, "service/too-large", message)
-        })?;
+        let bytes = bytes.map_err(|_| too_large())?;
         let text = String::from_utf8(bytes.into())
-            .map_err(|_| Fault::bad("service/body", "the text is not in UTF-8"))?;
+            .map_err(|_| Fault::new(Code::ServiceSyntax, "the text is not in UTF-8"))?;
         (rows_of_csv(&text)?, asked.measure)
     } else {
         let Body(body) = Body::<TraversalsBody>::from_request(request, &()).await?;

@@ -2,9 +2,11 @@
 
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{FromRequest, FromRequestParts, Json, Query, Request};
+use axum::http::StatusCode;
 use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
 
+use crate::error::Code;
 use crate::serve::fault::Fault;
 use crate::serve::role::Caller;
 
@@ -23,10 +25,14 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
 }
 
 fn body_fault(rejection: &JsonRejection) -> Fault {
-    let fault = Fault::new(rejection.status(), "service/body", rejection.body_text());
+    let fault = |code| Fault::new(code, rejection.body_text());
     match rejection {
-        JsonRejection::MissingJsonContentType(_) => fault.helped("send `Content-Type: application/json`"),
-        _ => fault,
+        JsonRejection::JsonDataError(_) => fault(Code::ServiceBody),
+        JsonRejection::MissingJsonContentType(_) => {
+            fault(Code::ServiceContentType).helped("send `Content-Type: application/json`")
+        }
+        _ if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE => fault(Code::ServiceTooLarge),
+        _ => fault(Code::ServiceSyntax),
     }
 }
 
@@ -39,7 +45,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Asked<T> {
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Fault> {
         match Query::<T>::from_request_parts(parts, state).await {
             Ok(Query(value)) => Ok(Self(value)),
-            Err(rejection) => Err(Fault::bad("service/question", rejection.body_text())),
+            Err(rejection) => Err(Fault::new(Code::ServiceQuestion, rejection.body_text())),
         }
     }
 }
@@ -53,7 +59,7 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Named<T
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Fault> {
         match axum::extract::Path::<T>::from_request_parts(parts, state).await {
             Ok(axum::extract::Path(value)) => Ok(Self(value)),
-            Err(rejection) => Err(Fault::bad("service/path", rejection.body_text())),
+            Err(rejection) => Err(Fault::new(Code::ServicePath, rejection.body_text())),
         }
     }
 }

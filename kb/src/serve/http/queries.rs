@@ -7,6 +7,7 @@ use utoipa::ToSchema;
 
 use super::Site;
 use super::extract::{Body, Named};
+use crate::error::Code;
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
@@ -54,7 +55,7 @@ pub async fn remove(site: Site, caller: Caller, Named(name): Named<String>) -> A
     require(&caller, Role::Tune)?;
     let gone = site.edit_at_desk(move |desk| Ok(desk.live.keep_query(&name, None)?)).await?;
     if !gone {
-        return Err(Fault::missing("sql/unknown-query", "no query of this name is kept"));
+        return Err(Fault::new(Code::SqlUnknownQuery, "no query of this name is kept"));
     }
     list(site).await
 }

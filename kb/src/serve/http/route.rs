@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use axum::Json;
 use axum::extract::RawQuery;
-use axum::http::{StatusCode, header};
+use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
 use super::Site;
-use crate::answer::{Answer, Status};
+use crate::answer::Answer;
+use crate::error::Code;
 use crate::live::View;
 use crate::serve::fault::{Answered, Failure, Fault};
 
@@ -32,7 +33,7 @@ impl Question {
                 "robot" => robot = Some(value.into_owned()),
                 other => {
                     let message = format!("a route has `start`, `goal` and `robot`, and not `{other}`");
-                    return Err(Fault::bad("service/question", message));
+                    return Err(Fault::new(Code::ServiceQuestion, message));
                 }
             }
         }
@@ -40,7 +41,7 @@ impl Question {
             Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot }),
             _ => {
                 let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
-                Err(Fault::bad("service/question", message).helped("/api/route?start=dock&goal=ward%206"))
+                Err(Fault::new(Code::ServiceQuestion, message).helped("/api/route?start=dock&goal=ward%206"))
             }
         }
     }
@@ -53,12 +54,10 @@ impl Question {
 
     fn answer(&self, view: &View) -> Answered<Response> {
         let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
-        let code = match answer.status {
-            Status::UnknownStart => "route/unknown-start",
-            Status::UnknownGoal => "route/unknown-goal",
-            Status::Ok | Status::SameRoom | Status::NoRoute => return Ok(Json(answer).into_response()),
-        };
-        Err(Fault::new(StatusCode::NOT_FOUND, code, answer.reason.unwrap_or_default()))
+        match answer.status.code() {
+            Some(code) => Err(Fault::new(code, answer.reason.unwrap_or_default())),
+            None => Ok(Json(answer).into_response()),
+        }
     }
 }
 

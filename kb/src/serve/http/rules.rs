@@ -10,8 +10,8 @@ use utoipa::ToSchema;
 
 use super::Site;
 use super::extract::{Asked, Body, Named};
-use crate::error::Error;
 use crate::error::problem::Problem;
+use crate::error::{Code, Error};
 use crate::knowledge::{KnowledgeBase, Tested};
 use crate::live::View;
 use crate::serve::desk::{Cause, Desk};
@@ -113,7 +113,8 @@ impl TestsOf {
         let failed = tested.outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
         let passed = tested.outcomes.len() - failed;
         let failures = tested.outcomes.into_iter().flat_map(|outcome| outcome.failures);
-        let failures = failures.map(|failure| near(Problem::of(&failure.diagnostic), folder)).collect();
+        let failures =
+            failures.map(|failure| near(Problem::of(&failure.diagnostic.into()), folder)).collect();
         Self { passed, failed, failures }
     }
 }
@@ -234,36 +235,34 @@ fn replace(
     let site = desk.shared.settings.open()?;
     let Some(folder) = site.rule_folder().map(Path::to_owned) else {
         let message = "the rules are the shipped ones, which cannot be edited";
-        return Err(Fault::conflict("rules/shipped", message).helped("copy them into the site first"));
+        return Err(Fault::new(Code::RulesShipped, message).helped("copy them into the site first"));
     };
     let path = folder.join(file);
     let before = fs::read_to_string(&path).ok();
     if before.is_none() && text.is_none() {
-        return Err(Fault::missing("rules/unknown-file", format!("there is no rule file {file}")));
+        return Err(Fault::new(Code::RulesUnknownFile, format!("there is no rule file {file}")));
     }
     if before.is_some() && read.is_none() {
         let message = format!("{file} is there already: say the version that was read");
         return Err(
-            Fault::conflict("rules/conflict", message).helped("GET /api/rules says the version of each file")
+            Fault::new(Code::RulesConflict, message).helped("GET /api/rules says the version of each file")
         );
     }
     if before.as_deref().map(version).as_deref() != read {
         let message = format!("{file} is another by now: somebody saved it since it was read");
         return Err(
-            Fault::conflict("rules/conflict", message).helped("read it again, then make the change again")
+            Fault::new(Code::RulesConflict, message).helped("read it again, then make the change again")
         );
     }
     let refused = |error: Error| {
         let problems = near_all(&error, &folder);
-        Fault { problems, status: 422, ..Fault::from(error) }
+        Fault::from(error).with_problems(problems)
     };
     let tested = site.try_rules(file, text.as_deref()).map_err(refused)?;
     let tests = TestsOf::of(tested, &folder);
     if tests.failed > 0 {
         let message = format!("{} of {} tests of the rules fail", tests.failed, tests.failed + tests.passed);
-        let mut fault = Fault::new(axum::http::StatusCode::UNPROCESSABLE_ENTITY, "rules/tests", message);
-        fault.problems = tests.failures;
-        return Err(fault);
+        return Err(Fault::new(Code::RulesTests, message).with_problems(tests.failures));
     }
     put(&path, text.as_deref())?;
     let outcome = match desk.live.open_again(site) {
@@ -311,14 +310,14 @@ fn check_name(file: &str) -> Answered<()> {
     if !stem.is_empty() && !stem.starts_with(['.', ' ']) && stem.chars().all(is_plain) && name.len() < 100 {
         return Ok(());
     }
-    Err(Fault::bad("rules/name", "a rule file is called NAME.rhai, and a test of rules tests/NAME.toml"))
+    Err(Fault::new(Code::RulesName, "a rule file is called NAME.rhai, and a test of rules tests/NAME.toml"))
 }
 
 fn check_length(text: &str) -> Answered<()> {
     if text.len() <= LONGEST {
         return Ok(());
     }
-    Err(Fault::bad("rules/too-long", format!("a rule file may have {LONGEST} bytes")))
+    Err(Fault::new(Code::RulesTooLong, format!("a rule file may have {LONGEST} bytes")))
 }
 
 /// Copies the shipped rules into the site, so that they can be edited.
@@ -332,7 +331,7 @@ fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {
     let settings = desk.shared.settings.clone();
     let site = settings.open()?;
     if site.rule_folder().is_some() {
-        return Err(Fault::conflict("rules/own", "the site has rules of its own already"));
+        return Err(Fault::new(Code::RulesOwn, "the site has rules of its own already"));
     }
     let (base, into) = (site.site().rooms.rule_base(), settings.folder.join("rules"));
     let mut made = Whole::default();

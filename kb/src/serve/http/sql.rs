@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
+use adit_db::Cell;
 use adit_db::query::{Answer, Limits};
 use adit_db::relation::Named as Relation;
-use adit_db::{Cell, Store};
 use axum::Json;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -13,7 +13,7 @@ use utoipa::ToSchema;
 
 use super::Site;
 use super::extract::{Asked, Body};
-use crate::error::Error;
+use crate::error::{Code, Error};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
@@ -54,8 +54,7 @@ pub struct SqlAnswer {
 async fn answer(site: &Site, query: String, rows: usize) -> Answered<Answer> {
     let settings = &site.settings;
     let limits = Limits { deadline: settings.sql_deadline, rows: rows.min(settings.sql_rows), bytes: BYTES };
-    let answer = site.query(move |store: &mut Store| store.query(&query, &limits).map_err(Error::from)).await;
-    answer.map_err(|fault| Fault { status: 400, code: "sql/refused".to_owned(), ..fault })
+    site.query(move |store| store.query(&query, &limits).map_err(Error::of(Code::SqlRefused))).await
 }
 
 /// Answers one SQL statement that reads: see `/api/schema` for what there is.

@@ -10,7 +10,7 @@ use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
 use adit_planners::routes::Walking;
 
-use crate::error::{Error, Result};
+use crate::error::{Code, Error, Result};
 use crate::graph::{SiteGraph, walking};
 use crate::state::classes;
 use crate::state::{Look, State, Which, needs_changed};
@@ -106,7 +106,7 @@ impl Prober {
         let fork = &mut self.fork;
         let told =
             fork.knowledge.tell_row(&lever.class, lever.row, &lever.column, Some(Value::Number(value)));
-        told.map_err(|error| Error::said("firm/refused", error.to_string(), None))?;
+        told.map_err(Error::of(Code::FirmRefused))?;
         let changes = fork.knowledge.update(&fork.inputs.rules);
         let (knowledge, graph) = (&fork.knowledge, fork.graph());
         let (rules, which) = (&fork.inputs.rules, Which::Touched(&changes));
