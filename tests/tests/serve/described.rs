@@ -1,5 +1,9 @@
-//! Every route, setting and function of rules is documented.
+//! Every route, setting, function of rules and code of a failure is documented.
 
+use std::collections::BTreeSet;
+use std::fs;
+
+use adit::Code;
 use adit_tests::{Ran, adit, repository};
 use serde_json::Value;
 
@@ -41,7 +45,7 @@ fn every_route_says_what_it_is_for_what_it_takes_and_what_it_gives() {
         let name: String = text[at + 21..].chars().take_while(|c| *c != '"').collect();
         assert!(!description["components"]["schemas"][&name].is_null(), "there is no schema {name}");
     }
-    let manual = std::fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
+    let manual = fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
     for route in all {
         let path =
             route.split(' ').nth(1).unwrap().split('{').next().unwrap().trim_end_matches('/').to_owned();
@@ -53,7 +57,7 @@ fn every_route_says_what_it_is_for_what_it_takes_and_what_it_gives() {
 fn every_setting_of_the_service_is_documented() {
     let help = Ran::new(&std::process::Command::new(adit()).args(["serve", "--help"]).output().unwrap())
         .expecting(0);
-    let manual = std::fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
+    let manual = fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
     let words = help.stdout.split(|c: char| !(c.is_alphanumeric() || c == '-'));
     let settings: Vec<&str> = words.filter(|word| word.starts_with("--") && word.len() > 3).collect();
     assert!(settings.len() > 6);
@@ -63,4 +67,45 @@ fn every_setting_of_the_service_is_documented() {
             "SERVICE.md does not name {setting}"
         );
     }
+}
+
+/// With `WRITE_CODES=1` in the environment the page is written instead.
+#[test]
+fn the_page_of_codes_lists_every_code_with_its_statuses_and_no_other() {
+    const HEAD: &str = "| code | HTTP | exit | what it means |\n|---|---|---|---|\n";
+    let mut codes: Vec<Code> = Code::all().collect();
+    codes.sort_by_key(|code| code.as_str());
+    let row = |code: Code| {
+        format!("| `{code}` | {} | {} | {} |\n", code.http().as_u16(), code.exit(), code.meaning())
+    };
+    let table: String = codes.into_iter().map(row).collect();
+    let file = repository().join("kb/CODES.md");
+    let page = fs::read_to_string(&file).unwrap();
+    let (before, written) = page.split_once(HEAD).expect("the head of the table");
+    if std::env::var_os("WRITE_CODES").is_some() {
+        fs::write(&file, format!("{before}{HEAD}{table}")).unwrap();
+    } else {
+        assert_eq!(written, table, "`WRITE_CODES=1 tests/run --test serve` writes kb/CODES.md anew");
+    }
+}
+
+#[test]
+fn no_two_codes_have_one_name_and_each_says_what_it_means() {
+    let mut names = BTreeSet::new();
+    for code in Code::all() {
+        assert!(names.insert(code.as_str()), "{code} stands twice");
+        assert!(code.meaning().ends_with('.') && !code.meaning().contains('|'), "{code}");
+        assert!(code.http().as_u16() >= 400 && [1, 2].contains(&code.exit()), "{code}");
+    }
+}
+
+#[test]
+fn the_description_lists_the_codes_that_a_failure_may_have() {
+    let (_site, service) = served("paper");
+    let (_, description) = service.ask("GET", "/api/openapi.json", None);
+    let schemas = &description["components"]["schemas"];
+    let listed: Vec<&str> =
+        schemas["Code"]["enum"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
+    assert_eq!(listed, Code::all().map(Code::as_str).collect::<Vec<_>>());
+    assert_eq!(schemas["Fault"]["properties"]["code"]["$ref"], "#/components/schemas/Code");
 }

@@ -1,5 +1,6 @@
 //! Every failure has one shape.
 
+use adit::Code;
 use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
@@ -12,7 +13,8 @@ fn expect_shape(status: u16, answer: &Value, asked: &str) {
     let error = &answer["error"];
     assert!(status >= 400, "{asked} did not fail: {answer}");
     assert_eq!(error["status"], json!(status), "{asked}: {answer}");
-    assert!(error["code"].as_str().is_some_and(|code| code.contains('/')), "{asked}: {answer}");
+    let code = Code::all().find(|code| error["code"] == code.as_str());
+    assert_eq!(code.map(|code| code.http().as_u16()), Some(status), "{asked}: {answer}");
     assert!(error["message"].as_str().is_some_and(|message| !message.is_empty()), "{asked}: {answer}");
     assert!(error.get("help").is_some() && error["problems"].is_array(), "{asked}: {answer}");
     assert_eq!(answer.as_object().unwrap().len(), 1, "{asked}: {answer}");
