@@ -16,9 +16,11 @@ use crate::words::suggest::did_you_mean;
 
 mod tell;
 mod tuning;
+mod words;
 
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
+pub(crate) use words::change;
 
 /// What is to be edited. Values are as people write them; the column says what they must be.
 #[derive(Clone, Debug, PartialEq)]

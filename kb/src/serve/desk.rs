@@ -28,7 +28,6 @@ const TICK: Duration = Duration::from_millis(200);
 
 /// Where all edits are made.
 pub struct Desk {
-    /// The site.
     pub live: Live,
     /// What requests see.
     pub shared: Arc<Shared>,
@@ -42,11 +41,8 @@ pub struct Desk {
 
 /// Who did something, why, and what, in a few words.
 pub struct Cause {
-    /// Who.
     pub who: String,
-    /// Why.
     pub why: String,
-    /// What.
     pub what: String,
 }
 
@@ -113,16 +109,11 @@ impl Desk {
     }
 
     /// Makes an edit, and tells everyone.
-    pub fn edit(
-        &mut self,
-        edit: &Edit,
-        author: &Author,
-        what: impl FnOnce(&Outcome) -> String,
-    ) -> Result<Outcome> {
+    pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         self.check_database()?;
         let outcome = self.live.edit(edit, author)?;
         let (who, why) = (author.who.clone(), author.why.clone());
-        let what = what(&outcome);
+        let what = outcome.done.as_ref().map_or_else(String::new, |done| edit.words(done));
         self.publish(&outcome, &Cause { who, why, what });
         Ok(outcome)
     }

@@ -10,7 +10,6 @@ use crate::error::problem::Problem;
 pub struct Event {
     /// hello, changed, routes or problems.
     pub name: &'static str,
-    /// Its data.
     pub data: String,
 }
 
@@ -37,9 +36,7 @@ pub struct Changed {
     pub generation: u64,
     /// Names the cut of the floor.
     pub layout: String,
-    /// Who did it.
     pub who: String,
-    /// Why.
     pub why: String,
     /// What was done, in a few words.
     pub what: String,
@@ -69,11 +66,8 @@ pub struct Rerouted {
 /// What a route between two places cost before, and costs now.
 #[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
 pub struct RouteCost {
-    /// Whose route.
     pub robot: String,
-    /// From which place.
     pub start: String,
-    /// To which place.
     pub goal: String,
     /// Hardness of before; null: there was no route.
     pub old: Option<f64>,

@@ -11,18 +11,15 @@ use crate::error::{Code, Error};
 /// The body of every answer with a status of 400 or more.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub struct Failure {
-    /// What went wrong.
     pub error: Fault,
 }
 
-/// What went wrong.
 #[derive(Clone, Debug, Serialize, ToSchema)]
 pub struct Fault {
     /// The HTTP status: that of the code.
     status: u16,
     /// What kind of thing went wrong.
     pub code: Code,
-    /// In one sentence.
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,

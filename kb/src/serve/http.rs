@@ -31,8 +31,8 @@ use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
-use utoipa::openapi::OpenApi;
-use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityScheme};
+use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
+use utoipa::openapi::{Content, OpenApi, Ref, ResponseBuilder};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -139,6 +139,15 @@ fn describe(api: &mut OpenApi) {
     add(schemas::<event::Changed>());
     add(schemas::<event::Rerouted>());
     add(schemas::<event::Problems>());
+    let failure = Content::new(Some(Ref::from_schema_name("Failure")));
+    let failure = ResponseBuilder::new().content("application/json", failure).build();
+    for path in api.paths.paths.values_mut() {
+        let asked = [&mut path.get, &mut path.put, &mut path.post, &mut path.delete];
+        for operation in asked.into_iter().flatten() {
+            operation.security = Some(vec![SecurityRequirement::new("token", [""; 0])]);
+            operation.responses.responses.insert("4XX".to_owned(), failure.clone().into());
+        }
+    }
     let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer).build();
     parts.add_security_scheme("token", SecurityScheme::Http(bearer));
     api.components = Some(parts);

@@ -12,7 +12,6 @@ use crate::error::Code;
 #[folder = "$CARGO_MANIFEST_DIR/page"]
 struct Page;
 
-/// The page itself.
 pub async fn index() -> Response {
     file("index.html")
 }

@@ -23,10 +23,7 @@ pub enum Role {
     Admin,
 }
 
-/// All roles.
 pub const ALL: [Role; 6] = [Role::Read, Role::Query, Role::Tell, Role::Tune, Role::Rules, Role::Admin];
-
-/// Who asks.
 #[derive(Clone, Debug)]
 pub struct Caller {
     /// By the name of the token, or as the caller says where no token is needed.

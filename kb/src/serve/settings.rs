@@ -10,13 +10,11 @@ use crate::knowledge::KnowledgeBase;
 /// How the service is started.
 #[derive(Clone, Debug)]
 pub struct Settings {
-    /// The site's folder.
     pub folder: PathBuf,
     /// The database, instead of the site's own.
     pub database: Option<PathBuf>,
     /// The rules, instead of the site's own.
     pub rules: Option<PathBuf>,
-    /// Where to listen.
     pub listen: SocketAddr,
     /// Names besides those of this machine under which browsers may call the service.
     pub hosts: Vec<String>,

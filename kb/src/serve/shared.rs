@@ -27,7 +27,6 @@ mod parking;
 /// Something that is done where edits are done, one after the other.
 pub type Job = Box<dyn FnOnce(&mut Desk) + Send>;
 
-/// What all requests share.
 pub struct Shared {
     /// How the service was started.
     pub settings: Settings,
@@ -55,7 +54,6 @@ pub struct Shared {
 /// Where problems come from. Those of one source do not wipe out those of another.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Source {
-    /// The file of tokens.
     Tokens,
     /// The site: its rules, map, settings, tables.
     Site,
@@ -63,7 +61,6 @@ pub enum Source {
 
 /// The site after an edit, and when that was.
 pub struct Seen {
-    /// The site.
     pub view: View,
     /// When it became so, in UTC.
     pub since: String,
@@ -137,8 +134,7 @@ impl Shared {
         work: impl FnOnce(&mut Tx<'_>) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let shared = Arc::clone(self);
-        let done = tokio::task::spawn_blocking(move || shared.readers.with(|store| store.snapshot(work)));
-        done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+        beside(move || shared.readers.with(|store| store.snapshot(work))).await
     }
 
     /// Answers a question of somebody's, with the whole store; few such questions are answered at once.
@@ -223,18 +219,23 @@ async fn at_a_place<T: Send + 'static>(
     work: impl FnOnce() -> Result<T> + Send + 'static,
 ) -> Answered<T> {
     let place = Arc::clone(places).acquire_owned().await.map_err(|_| Fault::internal())?;
-    let done = tokio::task::spawn_blocking(move || {
+    let placed = move || {
         // whoever asked may have gone: the place is free when the work is done
         let _place = place;
         work()
-    });
-    done.await.map_err(|_| Fault::internal())?.map_err(Fault::from)
+    };
+    beside(placed).await
 }
 
-/// A subscriber's place.
+/// Does something that takes a thread for a while.
+pub async fn beside<T: Send + 'static, E: Into<Fault> + Send + 'static>(
+    work: impl FnOnce() -> std::result::Result<T, E> + Send + 'static,
+) -> Answered<T> {
+    tokio::task::spawn_blocking(work).await.map_err(|_| Fault::internal())?.map_err(Into::into)
+}
+
 pub struct Subscription {
     shared: Arc<Shared>,
-    /// What is said.
     pub events: broadcast::Receiver<Arc<Event>>,
 }
 

@@ -12,12 +12,11 @@ use super::extract::{Asked, Body};
 use super::{BODY, Site, too_large};
 use crate::error::Code;
 use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::serve::shared::beside;
 use crate::why::firm::Firm;
-
-/// Which route.
 #[derive(Deserialize)]
 pub struct Way {
     start: String,
@@ -27,16 +26,15 @@ pub struct Way {
 
 /// How firm a route is: for each hardness the interval around its present value within which the route stays the best, and
 /// what takes over beyond either end.
-#[utoipa::path(get, path = "/api/firm", tag = "reasons", security(("token" = [])),
+#[utoipa::path(get, path = "/api/firm", tag = "reasons",
     params(("start" = String, Query, description = "A place, a room or `x,y`"), ("goal" = String, Query, description = "A place, a room or `x,y`"),
            ("robot" = Option<String>, Query, description = "Whose route")),
-    responses((status = 200, body = Firm), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Firm)))]
 pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
     let fork = site.fork().await?;
     site.at_length(move || fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
 }
 
-/// Traversals that are kept.
 #[derive(Serialize, ToSchema)]
 pub struct TraversalsAnswer {
     /// In the order in which they were added.
@@ -45,7 +43,7 @@ pub struct TraversalsAnswer {
 }
 
 /// The traversals that are kept: metres driven in a state, and what was measured.
-#[utoipa::path(get, path = "/api/traversals", tag = "experience", security(("token" = [])), responses((status = 200, body = TraversalsAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/traversals", tag = "experience", responses((status = 200, body = TraversalsAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<TraversalsAnswer>> {
     site.read(|tx| Ok(TraversalsAnswer { traversals: tx.traversals()? })).await.map(Json)
 }
@@ -61,16 +59,15 @@ pub struct TraversalsBody {
     measure: Option<String>,
 }
 
-/// What is measured.
 #[derive(Deserialize)]
 pub struct Measured {
     measure: Option<String>,
 }
 
 /// Adds traversals, as JSON or as `text/csv` with a line of column names; all of them, or none.
-#[utoipa::path(post, path = "/api/traversals", tag = "experience", security(("token" = [])), request_body = TraversalsBody,
+#[utoipa::path(post, path = "/api/traversals", tag = "experience", request_body = TraversalsBody,
     params(("measure" = Option<String>, Query, description = "What a CSV measures, where no column says: `seconds`, `joules`")),
-    responses((status = 200, body = Added), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Added)))]
 pub async fn add(
     site: Site,
     caller: Caller,
@@ -95,7 +92,6 @@ pub async fn add(
     added.await.map(Json)
 }
 
-/// What was removed.
 #[derive(Serialize, ToSchema)]
 pub struct Removed {
     /// How many traversals are gone.
@@ -103,7 +99,7 @@ pub struct Removed {
 }
 
 /// Removes all traversals.
-#[utoipa::path(delete, path = "/api/traversals", tag = "experience", security(("token" = [])), responses((status = 200, body = Removed), (status = "4XX", body = Failure)))]
+#[utoipa::path(delete, path = "/api/traversals", tag = "experience", responses((status = 200, body = Removed)))]
 pub async fn clear(site: Site, caller: Caller) -> Answered<Json<Removed>> {
     require(&caller, Role::Tune)?;
     let gone = site.edit_at_desk(|desk| Ok(desk.live.site().clear_traversals()?)).await?;
@@ -122,14 +118,14 @@ pub struct Fitted {
 
 /// The hardness of each state that fits the traversals best, with 95 % intervals. One state keeps its present hardness, the
 /// most driven one unless said otherwise, since all hardness may be scaled and each route stays the best.
-#[utoipa::path(get, path = "/api/fit", tag = "experience", security(("token" = [])),
+#[utoipa::path(get, path = "/api/fit", tag = "experience",
     params(("robot" = Option<String>, Query, description = "Whose"), ("measure" = Option<String>, Query, description = "Of which measure, where there are several"),
            ("reference" = Option<String>, Query, description = "The state that keeps its hardness"),
            ("per_metre" = Option<bool>, Query, description = "Whether hardness is the measure a metre, instead")),
-    responses((status = 200, body = Fit), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Fit)))]
 pub async fn fit(site: Site, Asked(asked): Asked<Fitted>) -> Answered<Json<Fit>> {
     let view = site.view.load().view.clone();
-    let fitted = tokio::task::spawn_blocking(move || {
+    let fitted = beside(move || {
         let scale = match &asked.reference {
             Some(state) => Scale::Reference(state),
             None if asked.per_metre => Scale::Measure,
@@ -137,5 +133,5 @@ pub async fn fit(site: Site, Asked(asked): Asked<Fitted>) -> Answered<Json<Fit>>
         };
         view.site().fit(asked.robot.as_deref(), asked.measure.as_deref(), scale)
     });
-    Ok(Json(fitted.await.map_err(|_| Fault::internal())??))
+    fitted.await.map(Json)
 }

@@ -9,8 +9,6 @@ use serde::de::DeserializeOwned;
 use crate::error::Code;
 use crate::serve::fault::Fault;
 use crate::serve::role::Caller;
-
-/// The body, as JSON.
 pub struct Body<T>(pub T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {

@@ -5,50 +5,40 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::Site;
-use super::edits::{self, Edited, Fact, Scalar};
+use super::edits::{self, Edited, Scalar, Wish};
 use super::extract::{Asked, Body, Named};
 use crate::edit::Edit;
-use crate::serve::fault::{Answered, Failure};
+use crate::serve::fault::Answered;
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-
-/// Facts that are told.
 #[derive(Serialize, ToSchema)]
 pub struct FactsAnswer {
-    /// The state that the answer rests on.
     generation: u64,
     /// In the order in which they were told.
     facts: Vec<FactOf>,
 }
 
-/// A fact that is told.
 #[derive(Serialize, ToSchema)]
 struct FactOf {
-    /// Its number.
     id: i64,
-    /// The class.
     class: String,
     /// The object: its name, or `x,y`.
     object: String,
-    /// The property.
     property: String,
-    /// What it is.
     #[schema(value_type = serde_json::Value)]
     value: serde_json::Value,
     /// When it ends, in UTC.
     until: Option<String>,
-    /// Who told it.
     who: String,
     /// When, in UTC.
     at: String,
-    /// Why.
     why: String,
     /// holds, lost (it no longer finds what it is about) or expired.
     standing: &'static str,
 }
 
 /// All facts that are told.
-#[utoipa::path(get, path = "/api/facts", tag = "facts", security(("token" = [])), responses((status = 200, body = FactsAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/facts", tag = "facts", responses((status = 200, body = FactsAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
     let answer = site.read(|tx| {
         let generation = crate::state::generation::read(tx)?;
@@ -101,19 +91,18 @@ pub struct TellBody {
 /// What telling a fact did.
 #[derive(Serialize, ToSchema)]
 pub struct Told {
-    /// The fact's number.
     fact: i64,
     #[serde(flatten)]
     edited: Edited,
 }
 
 /// Tells a fact: "door 7 is closed", "spill in room d". It stands before what rules conclude until it ends.
-#[utoipa::path(post, path = "/api/facts", tag = "facts", security(("token" = [])), request_body = TellBody,
-    responses((status = 200, body = Told), (status = "4XX", body = Failure)))]
+#[utoipa::path(post, path = "/api/facts", tag = "facts", request_body = TellBody,
+    responses((status = 200, body = Told)))]
 pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Answered<Json<Told>> {
     require(&caller, Role::Tell)?;
     let TellBody { class, object, property, value, until, for_seconds, why } = body;
-    let edit = Fact { class, object, property, value, until, for_seconds }.edit()?;
+    let edit = Wish::Tell { class, object, property, value, until, for_seconds }.edit()?;
     let edited = edits::make(&site, &caller, edit, why.unwrap_or_default()).await?;
     let fact = edited.done.as_ref().and_then(|done| done.key.parse().ok()).unwrap_or_default();
     Ok(Json(Told { fact, edited }))
@@ -127,9 +116,9 @@ pub struct Why {
 }
 
 /// Takes a fact back.
-#[utoipa::path(delete, path = "/api/facts/{fact}", tag = "facts", security(("token" = [])),
+#[utoipa::path(delete, path = "/api/facts/{fact}", tag = "facts",
     params(("fact" = i64, Path, description = "Its number"), ("why" = Option<String>, Query, description = "Why")),
-    responses((status = 200, body = Edited), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Edited)))]
 pub async fn retract(
     site: Site,
     caller: Caller,

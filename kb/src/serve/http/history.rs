@@ -6,7 +6,7 @@ use utoipa::ToSchema;
 
 use super::Site;
 use super::extract::Asked;
-use crate::serve::fault::{Answered, Failure};
+use crate::serve::fault::Answered;
 
 /// Entries that one answer gives at most.
 const MOST: u32 = 1_000;
@@ -18,21 +18,18 @@ pub struct Part {
     before: Option<i64>,
 }
 
-/// Edits, the newest first.
 #[derive(Serialize, ToSchema)]
 pub struct HistoryAnswer {
-    /// The state that the answer rests on.
     generation: u64,
-    /// The edits.
     #[schema(value_type = Vec<Object>)]
     edits: Vec<adit_db::history::Edit>,
 }
 
 /// Who changed what, when, and why; the newest first.
-#[utoipa::path(get, path = "/api/history", tag = "tables", security(("token" = [])),
+#[utoipa::path(get, path = "/api/history", tag = "tables",
     params(("limit" = Option<u32>, Query, description = "How many, 50 unless said, at most 1,000"),
            ("before" = Option<i64>, Query, description = "Only entries with a smaller number")),
-    responses((status = 200, body = HistoryAnswer), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = HistoryAnswer)))]
 pub async fn history(site: Site, Asked(part): Asked<Part>) -> Answered<Json<HistoryAnswer>> {
     let (limit, before) = (part.limit.unwrap_or(50).min(MOST), part.before);
     let answer = site.read(move |tx| {

@@ -6,15 +6,11 @@ use utoipa::ToSchema;
 
 use super::Site;
 use crate::graph::SiteGraph;
-use crate::serve::fault::Failure;
 use adit_planners::world::{Shape, World};
-
-/// The floor as it is cut.
 #[derive(Serialize, ToSchema)]
 pub struct MapAnswer {
     /// Names this cut of the floor.
     layout: String,
-    /// The state that the answer rests on.
     generation: u64,
     /// The map's edges: x0, y0, x1, y1.
     bounds: [f64; 4],
@@ -22,11 +18,8 @@ pub struct MapAnswer {
     walls: Vec<Vec<f64>>,
     /// What can be passed under.
     bridges: Vec<BridgeOf>,
-    /// Named areas.
     areas: Vec<AreaOf>,
-    /// Named doors.
     named_doors: Vec<NamedDoorOf>,
-    /// Places.
     places: Vec<PlaceOf>,
     /// The layers of robots' states; none in the paper's modes.
     layers: Vec<LayerOf>,
@@ -95,7 +88,7 @@ struct DoorOf {
 }
 
 /// The floor: walls, rooms and doors.
-#[utoipa::path(get, path = "/api/map", tag = "map", security(("token" = [])), responses((status = 200, body = MapAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/map", tag = "map", responses((status = 200, body = MapAnswer)))]
 pub async fn map(site: Site) -> Json<MapAnswer> {
     let seen = site.view.load();
     let (graph, world) = (seen.view.graph(), &seen.view.inputs().world);
@@ -197,11 +190,8 @@ fn rect(r: &adit_planners::geometry::Rect) -> [f64; 4] {
 pub struct WeightsAnswer {
     /// The cut of the floor that it is about.
     layout: String,
-    /// The state that the answer rests on.
     generation: u64,
-    /// Of rooms.
     rooms: Weights,
-    /// Of doors.
     doors: Weights,
 }
 
@@ -217,7 +207,7 @@ struct Weights {
 }
 
 /// What rules say of rooms and doors, in the order of `/api/map`.
-#[utoipa::path(get, path = "/api/weights", tag = "map", security(("token" = [])), responses((status = 200, body = WeightsAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/weights", tag = "map", responses((status = 200, body = WeightsAnswer)))]
 pub async fn weights(site: Site) -> Json<WeightsAnswer> {
     let seen = site.view.load();
     let graph = seen.view.graph();

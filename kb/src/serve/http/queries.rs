@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 use super::Site;
 use super::extract::{Body, Named};
 use crate::error::Code;
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 
@@ -19,7 +19,7 @@ pub struct QueriesAnswer {
 }
 
 /// The queries that are kept.
-#[utoipa::path(get, path = "/api/queries", tag = "sql", security(("token" = [])), responses((status = 200, body = QueriesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/queries", tag = "sql", responses((status = 200, body = QueriesAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<QueriesAnswer>> {
     site.read(|tx| Ok(QueriesAnswer { queries: tx.saved_queries()? })).await.map(Json)
 }
@@ -28,13 +28,12 @@ pub async fn list(site: Site) -> Answered<Json<QueriesAnswer>> {
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QueryBody {
-    /// Its text.
     query: String,
 }
 
 /// Keeps a query under a name, in place of one of the same name.
-#[utoipa::path(put, path = "/api/queries/{name}", tag = "sql", security(("token" = [])), request_body = QueryBody,
-    params(("name" = String, Path, description = "Its name")), responses((status = 200, body = QueriesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(put, path = "/api/queries/{name}", tag = "sql", request_body = QueryBody,
+    params(("name" = String, Path, description = "Its name")), responses((status = 200, body = QueriesAnswer)))]
 pub async fn save(
     site: Site,
     caller: Caller,
@@ -49,8 +48,8 @@ pub async fn save(
 }
 
 /// Takes a query away.
-#[utoipa::path(delete, path = "/api/queries/{name}", tag = "sql", security(("token" = [])),
-    params(("name" = String, Path, description = "Its name")), responses((status = 200, body = QueriesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(delete, path = "/api/queries/{name}", tag = "sql",
+    params(("name" = String, Path, description = "Its name")), responses((status = 200, body = QueriesAnswer)))]
 pub async fn remove(site: Site, caller: Caller, Named(name): Named<String>) -> Answered<Json<QueriesAnswer>> {
     require(&caller, Role::Tune)?;
     let gone = site.edit_at_desk(move |desk| Ok(desk.live.keep_query(&name, None)?)).await?;

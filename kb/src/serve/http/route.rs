@@ -11,12 +11,11 @@ use super::Site;
 use crate::answer::Answer;
 use crate::error::Code;
 use crate::live::View;
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Fault};
+use crate::serve::shared::beside;
 
 /// Goals that one question may name.
 const GOALS: usize = 100;
-
-/// What is asked.
 struct Question {
     start: String,
     goals: Vec<String>,
@@ -64,13 +63,13 @@ impl Question {
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
 ///
 /// What was edited or told before is known to it, also where routes kept in the database have yet to follow.
-#[utoipa::path(get, path = "/api/route", tag = "routes", security(("token" = [])),
+#[utoipa::path(get, path = "/api/route", tag = "routes",
     params(
         ("start" = String, Query, description = "A place, a room or `x,y` in metres"),
         ("goal" = String, Query, description = "A place, a room or `x,y`; may stand several times"),
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
     ),
-    responses((status = 200, body = Answer), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     let seen = Arc::clone(&site.view.load());
@@ -78,6 +77,5 @@ pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> 
         return Ok(response);
     }
     // over measured rooms it takes milliseconds, and so does the reason why there is no route
-    let answer = tokio::task::spawn_blocking(move || question.answer(&seen.view));
-    answer.await.map_err(|_| Fault::internal())?
+    beside(move || question.answer(&seen.view)).await
 }

@@ -18,6 +18,7 @@ use crate::serve::desk::{Cause, Desk};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::serve::shared::beside;
 use crate::serve::token::hex;
 use crate::site::rules::{self, TESTS};
 use crate::site::shipped;
@@ -25,17 +26,12 @@ use crate::site::whole::Whole;
 
 /// The longest rule file, bytes.
 const LONGEST: usize = 1 << 20;
-
-/// The rule base.
 #[derive(Serialize, ToSchema)]
 pub struct RulesAnswer {
-    /// The state that the answer rests on.
     generation: u64,
     /// The folder's name; null: the rules are the shipped ones, which are only read.
     folder: Option<String>,
-    /// Rules.
     files: Vec<FileOf>,
-    /// Tests of rules.
     tests: Vec<FileOf>,
 }
 
@@ -45,16 +41,14 @@ struct FileOf {
     file: String,
     /// Names its text: whoever saves says what was read.
     version: String,
-    /// Its text.
     text: String,
 }
 
 /// The rule base: its files, and its tests.
-#[utoipa::path(get, path = "/api/rules", tag = "rules", security(("token" = [])), responses((status = 200, body = RulesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/rules", tag = "rules", responses((status = 200, body = RulesAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<RulesAnswer>> {
     let view = site.view.load().view.clone();
-    let read = tokio::task::spawn_blocking(move || read(&view));
-    read.await.map_err(|_| Fault::internal())?.map(Json)
+    beside(move || read(&view)).await.map(Json)
 }
 
 fn read(view: &View) -> Answered<RulesAnswer> {
@@ -84,13 +78,10 @@ fn version(text: &str) -> String {
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckBody {
-    /// The file.
     file: String,
-    /// Its text.
     text: String,
 }
 
-/// What a text is worth.
 #[derive(Serialize, ToSchema)]
 pub struct Checked {
     /// What is wrong with the rules, each with its place.
@@ -99,7 +90,6 @@ pub struct Checked {
     tests: Option<TestsOf>,
 }
 
-/// What the tests of the rules gave.
 #[derive(Serialize, ToSchema)]
 pub struct TestsOf {
     passed: usize,
@@ -139,8 +129,8 @@ fn folder_of(site: &KnowledgeBase) -> &Path {
 
 /// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules, in 10 s at most.
 /// Nothing is saved. Role `rules`: what is tried runs.
-#[utoipa::path(post, path = "/api/rules/check", tag = "rules", security(("token" = [])), request_body = CheckBody,
-    responses((status = 200, body = Checked), (status = "4XX", body = Failure)))]
+#[utoipa::path(post, path = "/api/rules/check", tag = "rules", request_body = CheckBody,
+    responses((status = 200, body = Checked)))]
 pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
     require(&caller, Role::Rules)?;
     check_name(&body.file)?;
@@ -156,24 +146,20 @@ pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> A
     checked.await.map(Json)
 }
 
-/// A text to be saved.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SaveBody {
-    /// The text.
     text: String,
     /// The version that was read before; null for a file that is new.
     version: Option<String>,
 }
 
-/// What saving did.
 #[derive(Serialize, ToSchema)]
 pub struct Saved {
     /// Number of the knowledge base's state from now on.
     generation: u64,
     /// Names the text; null where the file is gone.
     version: Option<String>,
-    /// What the tests gave.
     tests: Option<TestsOf>,
     /// Rooms with another hardness, action or passability.
     rooms: usize,
@@ -184,10 +170,10 @@ pub struct Saved {
 }
 
 /// Saves a rule file or a test of rules, if all rules are right with it and every test passes; else nothing is saved.
-#[utoipa::path(put, path = "/api/rules/{*file}", tag = "rules", security(("token" = [])), request_body = SaveBody,
+#[utoipa::path(put, path = "/api/rules/{*file}", tag = "rules", request_body = SaveBody,
     params(("file" = String, Path, description = "`doors.rhai`, or `tests/doors.toml`")),
     responses((status = 200, body = Saved), (status = 409, description = "the file is another by now", body = Failure),
-        (status = 422, description = "the rules are wrong with it", body = Failure), (status = "4XX", body = Failure)))]
+        (status = 422, description = "the rules are wrong with it", body = Failure)))]
 pub async fn save(
     site: Site,
     caller: Caller,
@@ -203,17 +189,16 @@ pub async fn save(
         .map(Json)
 }
 
-/// Which version is meant.
 #[derive(Deserialize)]
 pub struct Version {
     version: Option<String>,
 }
 
 /// Takes a rule file away, if all rules are right without it.
-#[utoipa::path(delete, path = "/api/rules/{*file}", tag = "rules", security(("token" = [])),
+#[utoipa::path(delete, path = "/api/rules/{*file}", tag = "rules",
     params(("file" = String, Path, description = "`doors.rhai`, or `tests/doors.toml`"),
            ("version" = Option<String>, Query, description = "The version that was read before")),
-    responses((status = 200, body = Saved), (status = 409, body = Failure), (status = 422, body = Failure), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = Saved), (status = 409, body = Failure), (status = 422, body = Failure)))]
 pub async fn remove(
     site: Site,
     caller: Caller,
@@ -321,7 +306,7 @@ fn check_length(text: &str) -> Answered<()> {
 }
 
 /// Copies the shipped rules into the site, so that they can be edited.
-#[utoipa::path(post, path = "/api/rules/adopt", tag = "rules", security(("token" = [])), responses((status = 200, body = RulesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(post, path = "/api/rules/adopt", tag = "rules", responses((status = 200, body = RulesAnswer)))]
 pub async fn adopt(site: Site, caller: Caller) -> Answered<Json<RulesAnswer>> {
     require(&caller, Role::Rules)?;
     site.edit_at_desk(move |desk| copy(desk, &caller)).await.map(Json)

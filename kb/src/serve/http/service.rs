@@ -10,7 +10,7 @@ use utoipa::ToSchema;
 
 use super::Site;
 use crate::error::problem::Problem;
-use crate::serve::fault::{Answered, Failure};
+use crate::serve::fault::Answered;
 use crate::serve::role::{Caller, Role};
 use crate::serve::{gate, meter};
 
@@ -23,7 +23,6 @@ pub async fn health() -> &'static str {
 /// What is served, and where it stands.
 #[derive(Serialize, ToSchema)]
 pub struct SiteAnswer {
-    /// The site's name.
     name: String,
     /// Number of the knowledge base's state; it grows with every change.
     generation: u64,
@@ -31,19 +30,14 @@ pub struct SiteAnswer {
     layout: String,
     /// by-state, paper or minimum.
     rooms_mode: &'static str,
-    /// The robots' names.
     robots: Vec<String>,
     /// The map's edges, metres: x0, y0, x1, y1.
     bounds: [f64; 4],
-    /// How many rooms there are.
     rooms: usize,
-    /// How many doors.
     doors: usize,
-    /// How many places.
     places: usize,
     /// What the caller may do.
     roles: Vec<Role>,
-    /// Who the caller is.
     who: String,
     /// When the last change came into force, in UTC.
     changed_at: String,
@@ -55,12 +49,11 @@ pub struct SiteAnswer {
     routes_due: bool,
     /// What the expert should know, in sentences.
     notes: Vec<String>,
-    /// The program's version.
     version: &'static str,
 }
 
 /// What is served, and where it stands.
-#[utoipa::path(get, path = "/api/site", tag = "service", security(("token" = [])), responses((status = 200, body = SiteAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/site", tag = "service", responses((status = 200, body = SiteAnswer)))]
 pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
     let seen = shared.view.load();
     let view = &seen.view;
@@ -88,7 +81,7 @@ pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
 }
 
 /// This description.
-#[utoipa::path(get, path = "/api/openapi.json", tag = "service", responses((status = 200, body = Object), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/openapi.json", tag = "service", responses((status = 200, body = Object)))]
 pub async fn openapi() -> Response {
     static TEXT: OnceLock<String> = OnceLock::new();
     let text = TEXT.get_or_init(|| super::openapi().to_json().unwrap_or_default());
@@ -96,7 +89,7 @@ pub async fn openapi() -> Response {
 }
 
 /// What is counted and timed, for Prometheus.
-#[utoipa::path(get, path = "/metrics", tag = "service", security(("token" = [])), responses((status = 200, body = String, content_type = "text/plain"), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/metrics", tag = "service", responses((status = 200, body = String, content_type = "text/plain")))]
 pub async fn metrics(site: Site, caller: Caller) -> Answered<Response> {
     gate::require(&caller, Role::Read)?;
     Ok(([(header::CONTENT_TYPE, "text/plain; version=0.0.4")], meter::text(&site)).into_response())

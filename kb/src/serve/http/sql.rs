@@ -14,17 +14,16 @@ use utoipa::ToSchema;
 use super::Site;
 use super::extract::{Asked, Body};
 use crate::error::{Code, Error};
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::words::cells::{object, text};
 
 /// Rows of an answer on the page, unless more are asked for; a download has as many as the service allows.
 const ROWS: usize = 1_000;
 
 /// Bytes of one answer.
 const BYTES: usize = 16 << 20;
-
-/// A question.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SqlBody {
@@ -38,7 +37,6 @@ pub struct SqlBody {
 /// The answer to a question.
 #[derive(Serialize, ToSchema)]
 pub struct SqlAnswer {
-    /// The columns' names.
     columns: Vec<String>,
     /// A value for each column.
     #[schema(value_type = Vec<Vec<serde_json::Value>>)]
@@ -47,7 +45,6 @@ pub struct SqlAnswer {
     truncated: bool,
     /// Milliseconds that it took.
     took_ms: f64,
-    /// The state that the answer rests on.
     generation: u64,
 }
 
@@ -58,8 +55,8 @@ async fn answer(site: &Site, query: String, rows: usize) -> Answered<Answer> {
 }
 
 /// Answers one SQL statement that reads: see `/api/schema` for what there is.
-#[utoipa::path(post, path = "/api/sql", tag = "sql", security(("token" = [])), request_body = SqlBody,
-    responses((status = 200, body = SqlAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(post, path = "/api/sql", tag = "sql", request_body = SqlBody,
+    responses((status = 200, body = SqlAnswer)))]
 pub async fn ask(site: Site, caller: Caller, Body(body): Body<SqlBody>) -> Answered<Json<SqlAnswer>> {
     require(&caller, Role::Query)?;
     let began = Instant::now();
@@ -69,7 +66,6 @@ pub async fn ask(site: Site, caller: Caller, Body(body): Body<SqlBody>) -> Answe
     Ok(Json(SqlAnswer { columns, rows, truncated, took_ms, generation }))
 }
 
-/// What to download.
 #[derive(Deserialize)]
 pub struct Download {
     query: String,
@@ -77,7 +73,6 @@ pub struct Download {
     format: Format,
 }
 
-/// As what.
 #[derive(Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
@@ -89,9 +84,9 @@ pub enum Format {
 }
 
 /// The answer to one SQL statement as a file; the address is a link that can be shared.
-#[utoipa::path(get, path = "/api/sql", tag = "sql", security(("token" = [])),
+#[utoipa::path(get, path = "/api/sql", tag = "sql",
     params(("query" = String, Query, description = "One statement that reads"), ("format" = Option<String>, Query, description = "json or csv")),
-    responses((status = 200, body = String, content_type = "text/csv"), (status = "4XX", body = Failure)))]
+    responses((status = 200, body = String, content_type = "text/csv")))]
 pub async fn download(site: Site, caller: Caller, Asked(asked): Asked<Download>) -> Answered<Response> {
     require(&caller, Role::Query)?;
     let answer = answer(&site, asked.query, usize::MAX).await?;
@@ -109,19 +104,12 @@ pub async fn download(site: Site, caller: Caller, Asked(asked): Asked<Download>)
 }
 
 fn json(answer: &Answer) -> String {
-    let object = |row: &Vec<Cell>| -> serde_json::Value {
-        let pairs = answer.columns.iter().cloned().zip(row.iter().map(|cell| serde_json::json!(cell)));
-        serde_json::Value::Object(pairs.collect())
-    };
-    serde_json::Value::Array(answer.rows.iter().map(object).collect()).to_string()
+    let rows = answer.rows.iter().map(|row| object(&answer.columns, row));
+    serde_json::Value::Array(rows.collect()).to_string()
 }
 
 fn csv(answer: &Answer) -> Answered<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let text = |cell: &Cell| match cell {
-        Cell::Null => String::new(),
-        cell => cell.to_string(),
-    };
     let mut written = writer.write_record(&answer.columns);
     for row in &answer.rows {
         written = written.and_then(|()| writer.write_record(row.iter().map(text)));
@@ -131,14 +119,13 @@ fn csv(answer: &Answer) -> Answered<String> {
     String::from_utf8(bytes).map_err(|_| Fault::internal())
 }
 
-/// Tables and views.
 #[derive(Serialize, ToSchema)]
 pub struct SchemaAnswer {
     tables: Vec<Relation>,
 }
 
 /// The tables and views that can be asked about, with their columns.
-#[utoipa::path(get, path = "/api/schema", tag = "sql", security(("token" = [])), responses((status = 200, body = SchemaAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/schema", tag = "sql", responses((status = 200, body = SchemaAnswer)))]
 pub async fn schema(site: Site) -> Answered<Json<SchemaAnswer>> {
     site.read(|tx| Ok(SchemaAnswer { tables: tx.relations()? })).await.map(Json)
 }

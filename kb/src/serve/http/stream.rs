@@ -12,7 +12,7 @@ use tokio::sync::watch;
 
 use super::Site;
 use crate::serve::event::{Event, Hello};
-use crate::serve::fault::{Answered, Failure, Fault};
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate;
 use crate::serve::shared::Subscription;
 use crate::serve::token::Tokens;
@@ -22,8 +22,8 @@ const ALIVE: Duration = Duration::from_secs(15);
 
 /// Live events: `hello` first, then `changed` after each change, `routes` with the routes between places that cost more
 /// or less, and `problems` when a file is saved that cannot be used. A reader that lags far behind is cut off.
-#[utoipa::path(get, path = "/api/events", tag = "service", security(("token" = [])),
-    responses((status = 200, content_type = "text/event-stream", body = String), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/events", tag = "service",
+    responses((status = 200, content_type = "text/event-stream", body = String)))]
 pub async fn events(
     site: Site,
     headers: HeaderMap,

@@ -9,14 +9,13 @@ use utoipa::ToSchema;
 use super::Site;
 use crate::edit;
 use crate::error::Result;
-use crate::serve::fault::{Answered, Failure};
+use crate::serve::fault::Answered;
 use crate::state::generation;
 use crate::state::tunings;
 
 /// All tables that may be edited.
 #[derive(Serialize, ToSchema)]
 pub struct TablesAnswer {
-    /// The state that the answer rests on.
     generation: u64,
     /// The tables: the robots' first.
     tables: Vec<TableOf>,
@@ -58,7 +57,7 @@ struct Overridden {
 }
 
 /// The tables that people tune: robots, changes, loads, hours, and the site's own.
-#[utoipa::path(get, path = "/api/tables", tag = "tables", security(("token" = [])), responses((status = 200, body = TablesAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/tables", tag = "tables", responses((status = 200, body = TablesAnswer)))]
 pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
     site.read(read_all).await.map(Json)
 }
@@ -136,7 +135,6 @@ fn column(relation: &Relation, column: &RelationColumn) -> ColumnOf {
     }
 }
 
-/// Named tunings.
 #[derive(Serialize, ToSchema)]
 pub struct TuningsAnswer {
     tunings: Vec<TuningOf>,
@@ -147,13 +145,12 @@ struct TuningOf {
     tuning: String,
     /// Whether it counts now.
     on: bool,
-    /// What it sets.
     #[schema(value_type = Vec<Object>)]
     cells: Vec<adit_db::tuning::TuningCell>,
 }
 
 /// Named tunings: sets of cells that count instead of the tables' own while they are on.
-#[utoipa::path(get, path = "/api/tunings", tag = "tables", security(("token" = [])), responses((status = 200, body = TuningsAnswer), (status = "4XX", body = Failure)))]
+#[utoipa::path(get, path = "/api/tunings", tag = "tables", responses((status = 200, body = TuningsAnswer)))]
 pub async fn tunings(site: Site) -> Answered<Json<TuningsAnswer>> {
     let answer = site.read(|tx| {
         let active = tx.active_tunings()?;

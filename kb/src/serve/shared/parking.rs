@@ -17,7 +17,6 @@ pub struct Readers {
 const KEPT: usize = 8;
 
 impl Readers {
-    /// Of a database.
     pub fn new(database: &Path) -> Self {
         Self { database: database.to_owned(), free: Mutex::default() }
     }
