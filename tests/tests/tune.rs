@@ -162,3 +162,26 @@ fn a_place_added_to_the_site_file_is_known_to_the_next_route() {
     site.write("site.toml", format!("{text}\n[[place]]\nname = \"store\"\nat = [11.0, 3.0]\n"));
     site.adit("route", &["dock", "store"]).expect_status(0);
 }
+
+#[test]
+fn what_edits_did_is_said_in_words_also_of_whole_rows() {
+    let site = TestSite::example("paper").built();
+    let first = |verb, args: &[&str]| {
+        let said = site.adit(verb, args).expecting(0).stdout;
+        said.lines().next().unwrap_or_default().to_owned()
+    };
+    assert_eq!(first("tune", &["robots", "SQUAT", "hardness", "3"]), "robots.robot/SQUAT.hardness: 4 → 3");
+    assert_eq!(
+        first("tune", &["robots", "ROLL", "--add", "action=ROLL", "height=3", "width=2", "hardness=6"]),
+        "robots.robot/ROLL is new"
+    );
+    assert_eq!(first("undo", &[]), "undone: robot/ROLL is gone again");
+    assert_eq!(
+        first("tuning", &["night", "set", "robots", "SQUAT", "hardness", "2"]),
+        "tuning night: robots.SQUAT.hardness = 2"
+    );
+    assert_eq!(first("tuning", &["night", "on"]), "tuning night is on");
+    let history = site.adit("history", &[]).expecting(0).stdout;
+    assert!(history.contains("new: robot robot, state ROLL, action ROLL, height 3"), "{history}");
+    assert!(!history.contains('{'), "{history}");
+}

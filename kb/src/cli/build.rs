@@ -1,11 +1,25 @@
 //! `adit build`, and what it and `tune` print of a report.
 
+use clap::Args;
+
+use super::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
-use super::{BuildArgs, SiteArgs};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::Report;
 use crate::words::progress::Spinner;
+
+#[derive(Args, Debug)]
+pub struct BuildArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Take the robot table from the file again, instead of the database's
+    #[arg(long)]
+    pub reseed: bool,
+    /// As if it were this time: `2026-11-21T18:00`, `18:00`, `2h`
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
+}
 
 /// Opens a site as the arguments say.
 pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
@@ -28,7 +42,6 @@ pub fn run(args: &BuildArgs) -> Result<()> {
     Ok(())
 }
 
-/// Prints what was made.
 pub fn show(knowledge: &KnowledgeBase, report: &Report) {
     let routes = &report.routes;
     line(&format!(

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use adit_engine::RuleBase;
 use serde_json::json;
 
-use super::PlanArgs;
 use super::output::{json, line, remark, table};
 use super::picture;
+use super::plan::PlanArgs;
 use crate::adapt::{
     Beginning, Cell, Done, Session, change_json, change_line, drawn, strategy_of, task_json, taught,
 };
@@ -53,7 +53,7 @@ pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> 
     drop(bar);
     let explained = session.explained();
     if let Some(output) = &args.output {
-        picture::save(render_cell(&drawn(&session, &tasks)), output, PNG_WIDTH)?;
+        picture::save(render_cell(&drawn(&session, &tasks)), output, picture::WIDTH)?;
     }
     if args.json {
         let experience = session.adapt().experience();
@@ -124,6 +124,3 @@ fn path(done: &Done) {
         line(&format!("  ({})", numbers.join(", ")));
     }
 }
-
-/// Width of a PNG in pixels.
-const PNG_WIDTH: u32 = 1600;

@@ -5,15 +5,13 @@ use std::sync::Arc;
 
 use adit_engine::RuleBase;
 
-use super::SimulateArgs;
-use super::output::{json, table};
+use super::output::{either, table};
 use super::picture;
+use super::simulate::SimulateArgs;
 use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::tours::{Driven, draw, drive};
 
-/// Width of a PNG in pixels.
-const PNG_WIDTH: u32 = 1600;
 /// A drive is at most so long, metres.
 const FARTHEST_M: f64 = 100_000.0;
 
@@ -34,13 +32,8 @@ pub fn run(
         return Err(Error::said(Code::SimulateMetres, message, None));
     }
     let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;
-    picture::save(draw(world, &drives), output, PNG_WIDTH)?;
-    if args.json {
-        json(&drives)?;
-    } else {
-        show(&drives);
-    }
-    Ok(())
+    picture::save(draw(world, &drives), output, picture::WIDTH)?;
+    either(args.json, &drives[..], show)
 }
 
 fn show(drives: &[Driven]) {

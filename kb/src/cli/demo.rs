@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::DemoArgs;
+use clap::Args;
+
 use super::build::show;
 use super::output::{json, line, maybe, program, quoted, table};
-use super::picture::save;
+use super::picture::{WIDTH, save};
 use super::route;
 use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_svg};
@@ -15,6 +16,16 @@ use crate::site::shipped::{self, Sites};
 use crate::site::whole::{self, Whole};
 use crate::words::progress::Spinner;
 use adit_db::Store;
+
+#[derive(Args, Debug)]
+pub struct DemoArgs {
+    /// Where the example sites and pictures are written
+    #[arg(long, value_name = "DIR", default_value = "adit-demo")]
+    pub out: PathBuf,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Builds the examples into a folder and shows them.
 pub fn run(args: &DemoArgs) -> Result<()> {
@@ -85,7 +96,7 @@ fn build(args: &DemoArgs, name: &str, (start, goal): (&str, &str)) -> Result<Sho
     let scene = knowledge.scene(Some((start, goal)), None)?;
     let layers = Layers { state: scene.route.as_ref().and_then(main_state), ..Layers::default() };
     let svg = render_svg(&scene, &layers, &Style::default());
-    save(svg, &picture, 1600)?;
+    save(svg, &picture, WIDTH)?;
     made.keep();
     drop(spinner);
     Ok(Shown { knowledge, report, answer, picture })

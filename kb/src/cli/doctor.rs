@@ -1,15 +1,27 @@
 //! `adit check` and `adit doctor`.
 
-use adit_db::Store;
+use std::path::PathBuf;
 
+use adit_db::Store;
+use clap::Args;
+
+use super::SiteArgs;
 use super::build::open;
 use super::output::{as_json, json, line, problems};
-use super::{CheckArgs, DoctorArgs};
 use crate::error::Result;
 
+#[derive(Args, Debug)]
+pub struct DoctorArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Write a copy of the database to this file
+    #[arg(long, value_name = "FILE")]
+    pub backup: Option<PathBuf>,
+}
+
 /// Lints rules, tables and map; `false` where something is wrong.
-pub fn check(args: &CheckArgs) -> Result<bool> {
-    let (found, sound) = match open(&args.site).and_then(|knowledge| knowledge.check()) {
+pub fn check(args: &SiteArgs) -> Result<bool> {
+    let (found, sound) = match open(args).and_then(|knowledge| knowledge.check()) {
         Ok(found) => {
             let sound =
                 found.iter().all(|problem| problem.diagnostic().severity() == Some(miette::Severity::Advice));
@@ -17,7 +29,7 @@ pub fn check(args: &CheckArgs) -> Result<bool> {
         }
         Err(error) => (error.into_problems(), false),
     };
-    if args.site.json {
+    if args.json {
         json(&as_json(&found))?;
     } else {
         problems(&found);

@@ -1,8 +1,9 @@
 //! `adit experiment`: scenarios over many seeds, as a table, CSV and a picture.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::ExperimentArgs;
+use clap::Args;
+
 use super::output::{json, line, remark, table};
 use super::picture;
 use crate::adapt::{ExperimentOutcome, Row, experiment, is_scenario, method_of, scenario, write_csv};
@@ -12,6 +13,37 @@ use crate::plan::rules::{self, Kind};
 use crate::site::whole;
 use crate::words::number::number;
 use crate::words::progress::Bar;
+
+#[derive(Args, Debug)]
+pub struct ExperimentArgs {
+    /// A scenario, or several (.json)
+    pub scenario: PathBuf,
+    /// How often each scenario is run
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub runs: u32,
+    /// Of chance: the first run has this seed, each next one the next
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// What is compared, by commas
+    #[arg(long, value_delimiter = ',', value_name = "STRATEGIES", default_value = "a0,a1,a2,a3,solve",
+          value_parser = ["a0", "a1", "a2", "a3", "solve"])]
+    pub strategy: Vec<String>,
+    /// Only the scenario of this name
+    #[arg(long, value_name = "NAME")]
+    pub only: Option<String>,
+    /// The rule base: `adapt` or a folder
+    #[arg(long, value_name = "RULES", default_value = "adapt")]
+    pub rules: String,
+    /// Write a row for each scenario, strategy and task
+    #[arg(long, value_name = "FILE")]
+    pub csv: Option<PathBuf>,
+    /// Draw the curves (the paper's Figure 5): .svg or .png
+    #[arg(long, value_name = "FILE")]
+    pub picture: Option<PathBuf>,
+    /// Print the rows as JSON
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Runs the scenarios; `false` where a task found no path.
 pub fn run(args: &ExperimentArgs) -> Result<bool> {
@@ -56,7 +88,7 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     if let Some(output) = &args.picture {
         let title = format!("{} runs of each, seed {}", args.runs, args.seed);
         let panels: Vec<Vec<CurvePanel>> = outcomes.iter().map(panels).collect();
-        picture::save(render_curves(&title, &panels), output, PNG_WIDTH)?;
+        picture::save(render_curves(&title, &panels), output, picture::WIDTH)?;
     }
     if args.json {
         json(&rows)?;
@@ -122,6 +154,3 @@ fn show(outcome: &ExperimentOutcome) {
     });
     table(&["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds"], cells);
 }
-
-/// Width of a PNG in pixels.
-const PNG_WIDTH: u32 = 1600;

@@ -1,6 +1,6 @@
 //! `adit firm`.
 
-use super::FirmArgs;
+use super::WayArgs;
 use super::build::open;
 use super::output::{json, line, table};
 use crate::error::Result;
@@ -9,7 +9,7 @@ use crate::why::firm::{Beyond, FirmCell};
 use crate::words::number::number;
 
 /// Prints how far each cell may change before another way is the best.
-pub fn run(args: &FirmArgs) -> Result<()> {
+pub fn run(args: &WayArgs) -> Result<()> {
     let live = Live::open(open(&args.site)?)?;
     let firm = live.firm(&args.start, &args.goal, args.robot.as_deref())?;
     if args.site.json {

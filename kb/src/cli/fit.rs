@@ -1,15 +1,42 @@
 //! `adit fit`.
 
 use std::fs;
+use std::path::PathBuf;
 
-use adit_db::history::Author;
+use clap::Args;
 
-use super::FitArgs;
+use super::SiteArgs;
 use super::build::open;
-use super::output::{json, line, table};
+use super::output::{either, line, table};
+use super::tune::author;
 use crate::error::{Error, Result};
 use crate::fit::{Fit, Scale, rows_of_csv};
 use crate::words::number::number;
+
+#[derive(Args, Debug)]
+pub struct FitArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Add the traversals of a CSV file with the columns distance and measured, state or action, and perhaps mission,
+    /// robot and measure: all of them or none
+    #[arg(long, value_name = "FILE")]
+    pub add: Option<PathBuf>,
+    /// Remove all traversals first
+    #[arg(long)]
+    pub clear: bool,
+    /// What was measured: seconds, joules, ...
+    #[arg(long)]
+    pub measure: Option<String>,
+    /// The state that keeps its hardness; otherwise the one with the most metres
+    #[arg(long, value_name = "STATE", conflicts_with = "per_metre")]
+    pub reference: Option<String>,
+    /// Take the measure a metre as hardness, and keep none
+    #[arg(long)]
+    pub per_metre: bool,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+}
 
 /// Adds or clears traversals, and prints the hardness that fits them best.
 pub fn run(args: &FitArgs) -> Result<()> {
@@ -22,9 +49,7 @@ pub fn run(args: &FitArgs) -> Result<()> {
     }
     if let Some(file) = &args.add {
         let text = fs::read_to_string(file).map_err(|error| Error::io("read", file, &error))?;
-        let who = std::env::var("USER").or_else(|_| std::env::var("LOGNAME"));
-        let author = Author { who: who.unwrap_or_else(|_| "cli".to_owned()), why: String::new() };
-        let added = knowledge.add_traversals(&rows_of_csv(&text)?, args.measure.as_deref(), &author)?;
+        let added = knowledge.add_traversals(&rows_of_csv(&text)?, args.measure.as_deref(), &author(""))?;
         if !args.site.json {
             line(&format!("{} traversals are added, {} in all", added.added, added.total));
         }
@@ -35,11 +60,7 @@ pub fn run(args: &FitArgs) -> Result<()> {
         None => Scale::MostDriven,
     };
     let fit = knowledge.fit(args.robot.as_deref(), args.measure.as_deref(), scale)?;
-    if args.site.json {
-        return json(&fit);
-    }
-    print(&fit);
-    Ok(())
+    either(args.site.json, &fit, print)
 }
 
 fn print(fit: &Fit) {

@@ -13,9 +13,8 @@ use adit_planners::navigation::{Outfit, drive as drive_by};
 use adit_planners::pose::Pose;
 use serde_json::json;
 
-use super::SimulateArgs;
-use super::output::{json as print, line, remark, table};
-use super::simulate::heading;
+use super::output::{either, json as print, line, remark, table};
+use super::simulate::{SimulateArgs, heading};
 use crate::error::{Code, Error, Result};
 use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;
@@ -55,11 +54,7 @@ pub fn run(
         keep_learned(db, &record, floor, rules)?;
         made.keep();
     }
-    if args.json {
-        print(&row)?;
-    } else {
-        show(&row);
-    }
+    either(args.json, &row, show)?;
     Ok(row.is_right())
 }
 

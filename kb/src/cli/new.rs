@@ -4,14 +4,29 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use adit_planners::read::{MapSettings, read_map};
+use clap::Args;
 
-use super::NewArgs;
 use super::output::{json, line, program, quoted};
 use crate::error::{Code, Error, Result};
 use crate::site::rules::TESTS;
 use crate::site::shipped::{self, Rules, Sites};
 use crate::site::whole::Whole;
 use crate::site::{Rooms, Site};
+
+#[derive(Args, Debug)]
+pub struct NewArgs {
+    /// The folder to make
+    pub dir: PathBuf,
+    /// A map to copy into it: a TOML map, or a ROS map.yaml with its image
+    #[arg(long, value_name = "FILE")]
+    pub map: Option<PathBuf>,
+    /// How the map is cut into rooms
+    #[arg(long, value_name = "MODE", default_value = "by-state", value_parser = ["by-state", "paper", "minimum"])]
+    pub rooms: String,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Starts a site. Where that fails nothing of it is left.
 pub fn run(args: &NewArgs) -> Result<()> {

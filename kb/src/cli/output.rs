@@ -36,9 +36,18 @@ pub fn remark(text: &str) {
 }
 
 /// Prints a value as JSON.
-pub fn json(value: &impl Serialize) -> Result<()> {
+pub fn json(value: &(impl Serialize + ?Sized)) -> Result<()> {
     let text = serde_json::to_string_pretty(value).map_err(Error::of(Code::OutputJson))?;
     line(&text);
+    Ok(())
+}
+
+/// Prints an answer as JSON, or for people.
+pub fn either<T: Serialize + ?Sized>(as_json: bool, answer: &T, show: impl FnOnce(&T)) -> Result<()> {
+    if as_json {
+        return json(answer);
+    }
+    show(answer);
     Ok(())
 }
 

@@ -1,16 +1,45 @@
 //! `adit draw`.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::DrawArgs;
+use clap::Args;
+
+use super::SiteArgs;
 use super::build::open;
 use super::output::{json, line};
 use crate::answer::scene::main_state;
-use crate::draw::{Layers, Style, render_png, render_svg};
+use crate::draw::{Layers, Style, UnknownLayer, render_png, render_svg};
 use crate::error::{Code, Error, Result};
 use crate::site::whole;
 use crate::words::suggest::did_you_mean;
+
+/// Width of a PNG in pixels, unless said.
+pub const WIDTH: u32 = 1600;
+
+#[derive(Args, Debug)]
+pub struct DrawArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The picture: .svg or .png
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// What to draw, by commas: strips, primes, rooms, graph, weighted (the paper's Figures 4 to 9)
+    #[arg(long, value_delimiter = ',', value_name = "LAYERS")]
+    pub layer: Vec<String>,
+    /// Draw the route from START to GOAL
+    #[arg(long, num_args = 2, value_names = ["START", "GOAL"], allow_hyphen_values = true)]
+    pub route: Option<Vec<String>>,
+    /// The state whose layer of rooms is drawn, where rooms are by state
+    #[arg(long)]
+    pub state: Option<String>,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+    /// Width of a PNG in pixels
+    #[arg(long, default_value_t = WIDTH, value_parser = clap::value_parser!(u32).range(64..=16384))]
+    pub width: u32,
+}
 
 /// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
@@ -73,9 +102,7 @@ fn layers(args: &DrawArgs) -> Result<Layers> {
     let mut layers = if args.layer.is_empty() {
         Layers::default()
     } else {
-        args.layer.join(",").parse().map_err(|error: crate::draw::UnknownLayer| {
-            Error::said(Code::DrawUnknownLayer, error.to_string(), None)
-        })?
+        args.layer.join(",").parse().map_err(Error::of::<UnknownLayer>(Code::DrawUnknownLayer))?
     };
     layers.state.clone_from(&args.state);
     Ok(layers)

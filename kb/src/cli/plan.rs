@@ -1,14 +1,14 @@
 //! `adit plan`: the planners of worlds of their own.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adit_db::plan::Plan;
 use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
 use adit_planners::geometry::Point;
+use clap::Args;
 
-use super::PlanArgs;
 use super::output::{json, line, remark};
 use super::picture;
 use crate::draw::{ChannelPanel, render_channels, render_floor};
@@ -20,6 +20,67 @@ use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World};
 use crate::site::whole::Whole;
 use crate::words::number::number;
+
+#[derive(Args, Debug)]
+pub struct PlanArgs {
+    /// The world: a TOML file with `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`, or a scenario (.json)
+    pub world: PathBuf,
+    /// Where to start instead of where the world says, `x,y` in metres (corridors, floor plans); in a cell, the first goal
+    #[arg(allow_hyphen_values = true)]
+    pub start: Option<String>,
+    /// Where to go, likewise; in a cell, the second goal
+    #[arg(allow_hyphen_values = true)]
+    pub goal: Option<String>,
+    /// In a cell, the goals after that
+    #[arg(value_name = "GOAL")]
+    pub more: Vec<String>,
+    #[command(flatten)]
+    pub learning: LearningArgs,
+    /// The rule base instead of the world's: `corrected`, `printed` or a folder
+    #[arg(long, value_name = "RULES")]
+    pub rules: Option<String>,
+    /// The gap instead of the world's: metres, `x/z` for one an axis, `safest` or `rules`; several give a plan each
+    #[arg(long, value_name = "GAPS", value_delimiter = ',')]
+    pub gap: Vec<String>,
+    /// Say at each junction which rule spoke, and why the others did not
+    #[arg(long)]
+    pub explain: bool,
+    /// Keep facts, path and what rules said in this database
+    #[arg(long, value_name = "FILE")]
+    pub db: Option<PathBuf>,
+    /// Draw it: .svg or .png; several gaps stand side by side
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What `adit plan` takes for a robot that learns in a cell.
+#[derive(Args, Debug)]
+pub struct LearningArgs {
+    /// After the goals, so many tasks with goals by chance (cells)
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub tasks: u32,
+    /// Of chance (cells); a database goes on with the seed that it was begun with
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// A path that is tried before any other is looked for, `[[a, b], ...]` (cells)
+    #[arg(long, value_name = "PATH.json")]
+    pub teach: Vec<PathBuf>,
+    /// Begin with a copy of the experience of another cell (cells)
+    #[arg(long, value_name = "CELL", requires = "db")]
+    pub from: Option<String>,
+    /// The database of that other cell, if not the same
+    #[arg(long, value_name = "FILE", requires = "from")]
+    pub from_db: Option<PathBuf>,
+    /// What becomes of experience after a change, whatever rules say (cells)
+    #[arg(long, value_parser = ["a0", "a1", "a2", "a3"])]
+    pub strategy: Option<String>,
+    /// Which scenario of a file with several (cells)
+    #[arg(long, value_name = "NAME")]
+    pub scenario: Option<String>,
+}
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {
@@ -101,7 +162,7 @@ fn walk(
             Some(path) => format!("{world}: {start} to {goal}, {} m", number(path.length)),
             None => format!("{world}: no path from {start} to {goal}"),
         };
-        picture::save(render_floor(&title, &floor.plan, &floor.network, path), output, PNG_WIDTH)?;
+        picture::save(render_floor(&title, &floor.plan, &floor.network, path), output, picture::WIDTH)?;
     }
     Ok(walked.is_path())
 }
@@ -132,26 +193,18 @@ fn drive(
     corridor: &Corridor,
     turns: &mut Turns,
 ) -> Result<bool> {
-    let mut well = true;
-    let mut answers = Vec::new();
-    let mut record = None;
-    let mut panels = Vec::new();
+    let mut plans = Plans::default();
     for corridor in gaps(args, corridor, Corridor::with_gap)? {
         let answer = corridor.explained(turns);
-        well &= answer.path.is_ok();
         if let Ok(driven) = &answer.path {
             let gap = corridor.wanted.gap.to_string();
-            panels.push(ChannelPanel::drive(&gap, &corridor.corridors, corridor.robot, &driven.drive));
+            plans.panels.push(ChannelPanel::drive(&gap, &corridor.corridors, corridor.robot, &driven.drive));
         }
-        record = Some(answer.record(&world.name, rules, &corridor));
-        if args.json {
-            answers.push(answer.json(args.explain));
-        } else {
-            answer.lines(args.explain).iter().for_each(|text| line(text));
-        }
+        plans.record = Some(answer.record(&world.name, rules, &corridor));
+        let (json, lines) = (|| answer.json(args.explain), || answer.lines(args.explain));
+        plans.say(args, answer.path.is_ok(), json, lines);
     }
-    finish(args, &world.name, answers, record, &panels)?;
-    Ok(well)
+    plans.finish(args, &world.name)
 }
 
 fn assemble<const D: usize>(
@@ -161,13 +214,9 @@ fn assemble<const D: usize>(
     assembly: &Assembly<D>,
     steps: &mut Steps,
 ) -> Result<bool> {
-    let mut well = true;
-    let mut answers = Vec::new();
-    let mut record = None;
-    let mut panels = Vec::new();
+    let mut plans = Plans::default();
     for assembly in gaps(args, assembly, Assembly::with_gap)? {
         let answer = assembly.explained(steps);
-        well &= answer.path.is_ok();
         if let Ok(path) = &answer.path {
             let gap = assembly.wanted.gap.to_string();
             // In three dimensions from the front and from above.
@@ -176,19 +225,16 @@ fn assemble<const D: usize>(
             } else {
                 &[(", from the front", [0, 2]), (", from above", [0, 1])]
             };
-            panels.extend(views.iter().map(|(view, axes)| {
+            plans.panels.extend(views.iter().map(|(view, axes)| {
                 ChannelPanel::assembly(&format!("{gap}{view}"), &assembly.geometry, path, *axes)
             }));
         }
-        record = Some(answer.record(&world.name, rules, &assembly));
-        if args.json {
-            answers.push(answer.json(&assembly, args.explain));
-        } else {
-            answer.lines(&assembly, args.explain).iter().for_each(|text| line(text));
-        }
+        plans.record = Some(answer.record(&world.name, rules, &assembly));
+        let (json, lines) =
+            (|| answer.json(&assembly, args.explain), || answer.lines(&assembly, args.explain));
+        plans.say(args, answer.path.is_ok(), json, lines);
     }
-    finish(args, &world.name, answers, record, &panels)?;
-    Ok(well)
+    plans.finish(args, &world.name)
 }
 
 /// The world as it is, or once for each gap that the command line asks for.
@@ -213,30 +259,48 @@ fn keep(path: &Path, work: impl FnOnce(&mut Tx<'_>) -> adit_db::Result<()>) -> R
     Ok(())
 }
 
-/// Keeps the last plan, draws all of them, and prints them where JSON is wanted.
-fn finish(
-    args: &PlanArgs,
-    name: &str,
-    mut answers: Vec<serde_json::Value>,
+/// What came of a world, once for each gap.
+#[derive(Default)]
+struct Plans {
+    failed: bool,
+    answers: Vec<serde_json::Value>,
     record: Option<Plan>,
-    panels: &[ChannelPanel],
-) -> Result<()> {
-    if let (Some(path), Some(record)) = (&args.db, record) {
-        keep(path, |tx| tx.keep_plan(&record))?;
-    }
-    match (&args.output, panels) {
-        (None, _) => {}
-        (Some(output), []) => remark(&format!("{} is not drawn: there is no path", output.display())),
-        (Some(output), panels) => {
-            picture::save(render_channels(name, panels), output, PNG_WIDTH)?;
-        }
-    }
-    match answers.len() {
-        0 => Ok(()),
-        1 => json(&answers.remove(0)),
-        _ => json(&answers),
-    }
+    panels: Vec<ChannelPanel>,
 }
 
-/// Width of a PNG in pixels.
-const PNG_WIDTH: u32 = 1600;
+impl Plans {
+    fn say(
+        &mut self,
+        args: &PlanArgs,
+        is_path: bool,
+        json: impl Fn() -> serde_json::Value,
+        lines: impl Fn() -> Vec<String>,
+    ) {
+        self.failed |= !is_path;
+        if args.json {
+            self.answers.push(json());
+        } else {
+            lines().iter().for_each(|text| line(text));
+        }
+    }
+
+    /// Keeps the last plan, draws all of them, and prints them where JSON is wanted; `false` where one has no path.
+    fn finish(mut self, args: &PlanArgs, name: &str) -> Result<bool> {
+        if let (Some(path), Some(record)) = (&args.db, &self.record) {
+            keep(path, |tx| tx.keep_plan(record))?;
+        }
+        match (&args.output, self.panels.as_slice()) {
+            (None, _) => {}
+            (Some(output), []) => remark(&format!("{} is not drawn: there is no path", output.display())),
+            (Some(output), panels) => {
+                picture::save(render_channels(name, panels), output, picture::WIDTH)?;
+            }
+        }
+        match self.answers.len() {
+            0 => {}
+            1 => json(&self.answers.remove(0))?,
+            _ => json(&self.answers)?,
+        }
+        Ok(!self.failed)
+    }
+}

@@ -1,20 +1,37 @@
 //! `adit route`.
 
-use super::RouteArgs;
+use clap::Args;
+
+use super::WayArgs;
 use super::build::open;
 use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};
 use crate::error::{Code, Result};
 
+#[derive(Args, Debug)]
+pub struct RouteArgs {
+    #[command(flatten)]
+    pub way: WayArgs,
+    /// Another goal, as often as you like; the route leads to the one that costs least
+    #[arg(long = "or", value_name = "GOAL", allow_hyphen_values = true)]
+    pub others: Vec<String>,
+    /// Print every step, not only where the action changes
+    #[arg(long)]
+    pub steps: bool,
+    /// The route as it would be at this time: `2026-11-21T18:00`, `18:00`, `2h`
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
+}
+
 /// Prints the route, and gives the exit status.
 pub fn run(args: &RouteArgs) -> Result<u8> {
-    let goals: Vec<String> = std::iter::once(&args.goal).chain(&args.others).cloned().collect();
-    let knowledge = open(&args.site)?.at(args.at.as_deref())?;
-    let answer = knowledge.route_to_nearest(&args.start, &goals, args.robot.as_deref())?;
+    let goals: Vec<String> = std::iter::once(&args.way.goal).chain(&args.others).cloned().collect();
+    let knowledge = open(&args.way.site)?.at(args.at.as_deref())?;
+    let answer = knowledge.route_to_nearest(&args.way.start, &goals, args.way.robot.as_deref())?;
     for lost in knowledge.lost()? {
         remark(&format!("note: {lost}"));
     }
-    if args.site.json {
+    if args.way.site.json {
         json(&answer)?;
         if let Some(reason) = &answer.reason {
             remark(reason);

@@ -1,15 +1,85 @@
 //! `adit serve` and `adit token`.
 
+use std::net::SocketAddr;
+use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::{Args, Subcommand};
+
+use super::SiteArgs;
 use super::output::{json, line, remark, table};
-use super::{ServeArgs, TokenArgs, TokenVerb};
 use crate::error::Result;
 use crate::error::problem::Problem;
 use crate::serve;
+use crate::serve::role::Role;
 use crate::serve::settings::Settings;
 use crate::serve::token::{self, Tokens};
 use crate::site::Site;
+
+#[derive(Args, Debug)]
+pub struct ServeArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Where to listen; port 0 takes any free one. To be reached from elsewhere the site needs tokens
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:7373")]
+    pub listen: SocketAddr,
+    /// A name besides `localhost` and the address itself by which browsers may call the service
+    #[arg(long = "host", value_name = "NAME")]
+    pub hosts: Vec<String>,
+    /// Seconds that one SQL query may take
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
+    pub sql_seconds: f64,
+    /// Rows that one SQL query may give
+    #[arg(long, value_name = "ROWS", default_value_t = 100_000)]
+    pub sql_rows: usize,
+    /// Seconds that an answer may take; an edit that has begun by then is waited for
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    pub answer_seconds: f64,
+    /// Requests that are worked on at once; more are told to come back
+    #[arg(long, value_name = "N", default_value_t = 1_024)]
+    pub requests: usize,
+    /// Streams of events that are open at once
+    #[arg(long, value_name = "N", default_value_t = 256)]
+    pub subscribers: usize,
+}
+
+/// A time of more than nothing and less than an hour.
+fn seconds(text: &str) -> std::result::Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    if seconds > 0.0 && seconds < 3600.0 { Ok(seconds) } else { Err("between 0 and 3600 seconds".to_owned()) }
+}
+
+#[derive(Args, Debug)]
+pub struct TokenArgs {
+    /// Folder of the site
+    pub site: PathBuf,
+    /// What to do
+    #[command(subcommand)]
+    pub verb: TokenVerb,
+    /// Print the list as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What to do with tokens.
+#[derive(Subcommand, Debug)]
+pub enum TokenVerb {
+    /// Make a token; it is printed this once
+    Add {
+        /// Who holds it: edits are kept under this name
+        name: String,
+        /// What the holder may do, besides reading; may stand several times
+        #[arg(long = "role", value_enum, default_values = ["read"])]
+        roles: Vec<Role>,
+    },
+    /// Who has a token, and what it allows
+    List,
+    /// Make a token void
+    Remove {
+        /// Who holds it
+        name: String,
+    },
+}
 
 /// Serves until the program is told to end.
 pub fn run(args: &ServeArgs) -> Result<()> {

@@ -5,11 +5,24 @@ use std::io::{BufRead, IsTerminal, stdin};
 use adit_db::Store;
 use adit_db::cell::Cell;
 use adit_db::query::{Answer, Limits};
+use clap::Args;
 
-use super::SqlArgs;
+use super::SiteArgs;
 use super::build::open;
 use super::output::{json, line, problems, remark};
 use crate::error::Result;
+use crate::words::cells::{object, text};
+
+#[derive(Args, Debug)]
+pub struct SqlArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// One SQL statement; without it, statements are read from standard input
+    pub query: Option<String>,
+    /// At most so many rows of an answer; that there are more is said
+    #[arg(long, value_name = "ROWS", default_value_t = 1_000)]
+    pub limit: usize,
+}
 
 /// One query, or those of standard input, each ended by `;`.
 pub fn run(args: &SqlArgs) -> Result<bool> {
@@ -55,11 +68,7 @@ fn answer(store: &Store, statement: &str, limits: &Limits, as_json: bool) -> boo
 /// Columns by `|`, as the sqlite3 shell prints them, with a head; or objects as JSON.
 fn show(answer: &Answer, as_json: bool) -> Result<()> {
     if as_json {
-        let object = |row: &Vec<Cell>| -> serde_json::Value {
-            let pairs = answer.columns.iter().cloned().zip(row.iter().map(|cell| serde_json::json!(cell)));
-            serde_json::Value::Object(pairs.collect())
-        };
-        json(&answer.rows.iter().map(object).collect::<Vec<_>>())?;
+        json(&answer.rows.iter().map(|row| object(&answer.columns, row)).collect::<Vec<_>>())?;
     } else {
         line(&answer.columns.join("|"));
         for row in &answer.rows {
@@ -76,8 +85,7 @@ fn show(answer: &Answer, as_json: bool) -> Result<()> {
 /// As the sqlite3 shell prints it: a real number keeps its point.
 fn cell(cell: &Cell) -> String {
     match cell {
-        Cell::Null => String::new(),
         Cell::Real(value) if value.fract() == 0.0 && value.abs() < 1e15 => format!("{value:.1}"),
-        other => other.to_string(),
+        other => text(other),
     }
 }

@@ -1,8 +1,9 @@
 //! `adit tell`.
 
 use adit_db::Store;
+use clap::Args;
 
-use super::TellArgs;
+use super::SiteArgs;
 use super::build::open;
 use super::output::{json, line, table};
 use super::tune::apply;
@@ -10,6 +11,44 @@ use crate::edit::Edit;
 use crate::edit::Tell;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
+use crate::words::cells::{object, text};
+
+#[derive(Args, Debug)]
+pub struct TellArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The class: DOORS, ROOMS, ROBOTS, or any that rules read
+    pub class: Option<String>,
+    /// The object: its name, a point `x,y`, `door 7` or `room d`
+    #[arg(allow_hyphen_values = true)]
+    pub object: Option<String>,
+    /// The property
+    pub property: Option<String>,
+    /// The value: a number, a text, `true` or `false`
+    #[arg(allow_hyphen_values = true)]
+    pub value: Option<String>,
+    /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+    /// Show what would change and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Tell a property that no rule reads yet
+    #[arg(long)]
+    pub new: bool,
+    /// Show what is told
+    #[arg(long, conflicts_with_all = ["class", "retract"])]
+    pub list: bool,
+    /// Take a fact back, by its number in the list
+    #[arg(long, value_name = "ID", conflicts_with = "class")]
+    pub retract: Option<i64>,
+    /// As if it were this time
+    #[arg(long, value_name = "TIME")]
+    pub at: Option<String>,
+}
 
 /// Tells a fact, takes one back, or lists them.
 pub fn run(args: &TellArgs) -> Result<()> {
@@ -45,13 +84,8 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
     let facts = Store::open_read_only(knowledge.database())?.snapshot(|tx| tx.read_table("facts_told"))?;
     let rows = facts.columns.first().map_or(0, |column| column.values.len());
     if as_json {
-        let row = |row: usize| -> serde_json::Value {
-            let cells = facts
-                .columns
-                .iter()
-                .map(|column| (column.name.clone(), serde_json::json!(column.values[row])));
-            serde_json::Value::Object(cells.collect())
-        };
+        let names = || facts.columns.iter().map(|column| &column.name);
+        let row = |row: usize| object(names(), facts.columns.iter().map(|column| &column.values[row]));
         return json(&(0..rows).map(row).collect::<Vec<_>>());
     }
     if rows == 0 {
@@ -59,10 +93,6 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         return Ok(());
     }
     let names: Vec<&str> = facts.columns.iter().map(|column| column.name.as_str()).collect();
-    let text = |cell: &adit_db::Cell| match cell {
-        adit_db::Cell::Null => String::new(),
-        cell => cell.to_string(),
-    };
     let cells = |row: usize| facts.columns.iter().map(|column| text(&column.values[row])).collect();
     table(&names, (0..rows).map(cells));
     Ok(())

@@ -1,15 +1,15 @@
 //! `adit test`: the tests of the rules, a line a test.
 
-use super::TestArgs;
+use super::SiteArgs;
 use super::build::open;
 use super::output::{json, line, problems};
 use crate::error::Result;
 
 /// Runs the tests of the rule base that is in force; `false` where one fails.
-pub fn run(args: &TestArgs) -> Result<bool> {
-    let tested = open(&args.site)?.test()?;
+pub fn run(args: &SiteArgs) -> Result<bool> {
+    let tested = open(args)?.test()?;
     let failed = tested.outcomes.iter().filter(|outcome| !outcome.passed).count();
-    if args.site.json {
+    if args.json {
         json(&serde_json::json!({
             "generation": tested.generation,
             "passed": failed == 0,

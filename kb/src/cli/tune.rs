@@ -2,22 +2,63 @@
 
 use adit_db::Store;
 use adit_db::history::Author;
+use clap::Args;
 
+use super::SiteArgs;
 use super::build::{changes, notes, open};
 use super::output::{json, line, table};
-use super::{HistoryArgs, TuneArgs, UndoArgs};
-use crate::edit::Edit;
+use crate::edit::{Edit, change};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::words::progress::Spinner;
 
-/// `adit tune`.
+#[derive(Args, Debug)]
+pub struct TuneArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The table: robots, changes, or one of the site's own
+    pub table: String,
+    /// Key of the row; parts joined by `/` (`SQUAT`, `robot/SQUAT`, `robot/STAND/SQUAT`)
+    pub key: String,
+    /// The column, then its new value; with --add, `column=value` for each column
+    #[arg(allow_negative_numbers = true)]
+    pub cells: Vec<String>,
+    /// Show what would change and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Add a row
+    #[arg(long, conflicts_with = "remove")]
+    pub add: bool,
+    /// Remove the row
+    #[arg(long)]
+    pub remove: bool,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct HistoryArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// How many edits, the latest first
+    #[arg(long, default_value_t = 50)]
+    pub limit: u32,
+}
+
+#[derive(Args, Debug)]
+pub struct UndoArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// Number of the edit in the history; the latest one without it
+    pub edit: Option<i64>,
+}
+
 pub fn tune(args: &TuneArgs) -> Result<()> {
     let edit = edit_of(args)?;
     apply(&open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
 }
 
-/// `adit undo`.
 pub fn undo(args: &UndoArgs) -> Result<()> {
     let why = args.edit.map_or("undo".to_owned(), |edit| format!("undo {edit}"));
     apply(&open(&args.site)?, &Edit::Undo(args.edit), Some(&why), (false, args.site.json))
@@ -46,6 +87,12 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
     }
 }
 
+/// Whoever runs the program.
+pub fn author(why: &str) -> Author {
+    let who = std::env::var("USER").or_else(|_| std::env::var("LOGNAME"));
+    Author { who: who.unwrap_or_else(|_| "cli".to_owned()), why: why.to_owned() }
+}
+
 /// Carries out an edit, or only shows what it would change, and prints that.
 pub fn apply(
     knowledge: &KnowledgeBase,
@@ -53,9 +100,7 @@ pub fn apply(
     why: Option<&str>,
     (rehearse, as_json): (bool, bool),
 ) -> Result<()> {
-    let who =
-        std::env::var("USER").or_else(|_| std::env::var("LOGNAME")).unwrap_or_else(|_| "cli".to_owned());
-    let author = Author { who, why: why.unwrap_or_default().to_owned() };
+    let author = author(why.unwrap_or_default());
     let (done, report) = {
         let spinner = Spinner::new();
         knowledge.edit(edit, &author, rehearse, &spinner)?
@@ -68,19 +113,11 @@ pub fn apply(
         return json(&value);
     }
     let doing = if rehearse { "would be: " } else { "" };
-    match edit {
-        Edit::Tell(_) => line(&format!("{doing}fact {} is told", done.key)),
-        Edit::Retract(_) => line(&format!("{doing}fact {} is taken back", done.key)),
-        Edit::Switch(tuning, on) => {
-            line(&format!("{doing}tuning {tuning} is {}", if *on { "on" } else { "off" }));
-        }
-        _ => line(&format!("{doing}{}: {} → {}", done.key, done.old, done.new)),
-    }
+    line(&format!("{doing}{}", edit.words(&done)));
     changes(&report);
     Ok(())
 }
 
-/// `adit history`.
 pub fn history(args: &HistoryArgs) -> Result<()> {
     let knowledge = open(&args.site)?;
     let edits = Store::open_read_only(knowledge.database())?.snapshot(|tx| tx.history(args.limit))?;
@@ -95,7 +132,7 @@ pub fn history(args: &HistoryArgs) -> Result<()> {
             edit.at.clone(),
             edit.who.clone(),
             format!("{}.{}{column}", edit.table, edit.key),
-            format!("{} → {}", edit.old, edit.new),
+            change(&edit.old, &edit.new),
             edit.why.clone(),
             undone,
         ]

@@ -1,8 +1,9 @@
 //! `adit tuning`.
 
 use adit_db::Store;
+use clap::Args;
 
-use super::TuningArgs;
+use super::SiteArgs;
 use super::build::open;
 use super::output::{json, line, maybe, table};
 use super::tune::apply;
@@ -11,6 +12,24 @@ use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::preview::compare::BASE;
 use crate::words::suggest::did_you_mean;
+
+#[derive(Args, Debug)]
+#[command(after_help = "adit tuning SITE                                  lists the tunings\n\
+adit tuning SITE NAME                             shows one\n\
+adit tuning SITE NAME set TABLE KEY COLUMN VALUE  a cell that counts while it is on\n\
+adit tuning SITE NAME unset TABLE KEY COLUMN      takes the cell out\n\
+adit tuning SITE NAME on | off | preview          switches it, or shows what that would change\n\
+adit tuning SITE compare A B                      routes between places, side by side; `base` is none")]
+pub struct TuningArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The tuning, and what to do with it
+    #[arg(allow_negative_numbers = true)]
+    pub words: Vec<String>,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+}
 
 const ACTIONS: [&str; 5] = ["set", "unset", "on", "off", "preview"];
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::WatchArgs;
+use super::SiteArgs;
 use super::build::{changes, notes, open};
 use super::output::{as_json, line, problems, remark};
 use crate::error::Result;
@@ -10,15 +10,15 @@ use crate::live::report::Report;
 use crate::live::watch::{Event, PAUSE, watch};
 
 /// Watches the site; does not come back.
-pub fn run(args: &WatchArgs) -> Result<()> {
+pub fn run(args: &SiteArgs) -> Result<()> {
     // a folder that is no site is an error at once, not something to wait for
-    let name = open(&args.site)?.site().name.clone();
+    let name = open(args)?.site().name.clone();
     remark(&format!("watching {name}; Ctrl-C ends it"));
     let stop = AtomicBool::new(false);
     let mut last = None;
     let mut said = |event: Event| match event {
         Event::Built(report) => {
-            if args.site.json {
+            if args.json {
                 let mut value = report.json();
                 value["event"] = "built".into();
                 line(&value.to_string());
@@ -29,7 +29,7 @@ pub fn run(args: &WatchArgs) -> Result<()> {
             last = Some(report.generation);
         }
         Event::Refused(error) => {
-            if args.site.json {
+            if args.json {
                 let event = serde_json::json!({"event": "refused", "error": as_json(error.problems())});
                 line(&event.to_string());
             }
@@ -37,7 +37,7 @@ pub fn run(args: &WatchArgs) -> Result<()> {
             remark("refused; the site is as it was");
         }
     };
-    watch(&|| open(&args.site), &stop, PAUSE, &mut said);
+    watch(&|| open(args), &stop, PAUSE, &mut said);
     Ok(())
 }
 

@@ -1,11 +1,37 @@
 //! `adit why` and `adit why-not`.
 
+use clap::Args;
+
 use super::build::open;
 use super::output::{json, line};
-use super::{SiteArgs, WhyArgs, WhyNotArgs};
+use super::{SiteArgs, WayArgs};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::why as mission;
+
+#[derive(Args, Debug)]
+pub struct WhyArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; of a database of `adit simulate --db` instead of a site the
+    /// number of a mission: why the robot stopped
+    pub what: String,
+    /// Of a mission: ask about what the robot did at this time instead of about its last stop
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    pub at: Option<f64>,
+    /// Of a mission: the name of its world, where the database has several
+    #[arg(long, value_name = "NAME")]
+    pub world: Option<String>,
+}
+
+#[derive(Args, Debug)]
+pub struct WhyNotArgs {
+    #[command(flatten)]
+    pub way: WayArgs,
+    /// The room or door: `room d`, `door 7`
+    #[arg(long, value_name = "WHAT")]
+    pub through: String,
+}
 
 /// Rejections that are printed; all of them stand in the JSON.
 const PRINTED: usize = 20;
@@ -49,10 +75,9 @@ fn of_mission(args: &WhyArgs) -> Result<()> {
 
 /// Prints why no route leads through a room or door.
 pub fn why_not(args: &WhyNotArgs) -> Result<()> {
-    let robot = args.robot.as_deref();
-    let live = Live::open(open(&args.site)?)?;
-    let answer = live.why_not(&args.start, &args.goal, &args.through, robot)?;
-    if args.site.json {
+    let WayArgs { site, start, goal, robot } = &args.way;
+    let answer = Live::open(open(site)?)?.why_not(start, goal, &args.through, robot.as_deref())?;
+    if site.json {
         return json(&answer);
     }
     line(&answer.reason);
