@@ -38,7 +38,6 @@ pub struct Cli {
     pub verb: Verb,
 }
 
-/// The verbs.
 #[derive(Subcommand, Debug)]
 pub enum Verb {
     /// Build the bundled examples, show rooms, routes and a picture, and say what to try next

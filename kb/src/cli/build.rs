@@ -27,7 +27,6 @@ pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
     Ok(knowledge.with_database(args.db.as_deref()).with_rules(args.rules.as_deref()))
 }
 
-/// `adit build`.
 pub fn run(args: &BuildArgs) -> Result<()> {
     let knowledge = open(&args.site)?.at(args.at.as_deref())?.reseeding(args.reseed);
     let report = {
@@ -93,7 +92,6 @@ pub fn notes(report: &Report) {
 /// How many rooms and doors are listed one by one.
 const LISTED: usize = 10;
 
-/// Prints what an edit changed.
 pub fn changes(report: &Report) {
     if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));

@@ -20,7 +20,6 @@ pub fn is_lost() -> bool {
     LOST.load(Ordering::Relaxed)
 }
 
-/// Prints a line of data.
 pub fn line(text: &str) {
     if let Err(error) = writeln!(stdout(), "{text}")
         && error.kind() != ErrorKind::BrokenPipe
@@ -30,12 +29,10 @@ pub fn line(text: &str) {
     }
 }
 
-/// Prints a remark on standard error.
 pub fn remark(text: &str) {
     writeln!(stderr(), "{text}").ok();
 }
 
-/// Prints a value as JSON.
 pub fn json(value: &(impl Serialize + ?Sized)) -> Result<()> {
     let text = serde_json::to_string_pretty(value).map_err(Error::of(Code::OutputJson))?;
     line(&text);
@@ -51,7 +48,6 @@ pub fn either<T: Serialize + ?Sized>(as_json: bool, answer: &T, show: impl FnOnc
     Ok(())
 }
 
-/// Prints a table with a head.
 pub fn table(head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_content_arrangement(ContentArrangement::Disabled);

@@ -41,7 +41,6 @@ pub struct DrawArgs {
     pub width: u32,
 }
 
-/// Draws a site into a file.
 pub fn run(args: &DrawArgs) -> Result<()> {
     check(&args.output)?;
     let mut layers = layers(args)?;

@@ -111,7 +111,6 @@ pub fn run(args: &ServeArgs) -> Result<()> {
     Ok(())
 }
 
-/// Adds, lists or removes tokens.
 pub fn token(args: &TokenArgs) -> Result<()> {
     let folder = Site::open(&args.site)?.folder;
     let file = token::file(&folder);

@@ -36,7 +36,6 @@ pub struct WhyNotArgs {
 /// Rejections that are printed; all of them stand in the JSON.
 const PRINTED: usize = 20;
 
-/// Prints why an object is as it is.
 pub fn why(args: &WhyArgs) -> Result<()> {
     if args.site.site.is_file() {
         return of_mission(args);
@@ -60,7 +59,6 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     Ok(())
 }
 
-/// Prints why a robot stopped.
 fn of_mission(args: &WhyArgs) -> Result<()> {
     let SiteArgs { site, rules, .. } = &args.site;
     let answer = mission::why(site, &args.what, args.world.as_deref(), args.at, rules.as_deref())?;
@@ -73,7 +71,6 @@ fn of_mission(args: &WhyArgs) -> Result<()> {
     Ok(())
 }
 
-/// Prints why no route leads through a room or door.
 pub fn why_not(args: &WhyNotArgs) -> Result<()> {
     let WayArgs { site, start, goal, robot } = &args.way;
     let answer = Live::open(open(site)?)?.why_not(start, goal, &args.through, robot.as_deref())?;

@@ -26,7 +26,6 @@ const STACK: usize = 16 << 20;
 /// How long nobody asks before files, clock and other programs are looked after; then twice a file must look the same.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Where all edits are made.
 pub struct Desk {
     pub live: Live,
     /// What requests see.

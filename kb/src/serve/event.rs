@@ -14,7 +14,6 @@ pub struct Event {
 }
 
 impl Event {
-    /// An event with its data.
     pub fn new(name: &'static str, data: &impl Serialize) -> Self {
         Self { name, data: serde_json::to_string(data).unwrap_or_default() }
     }

@@ -18,7 +18,6 @@ pub struct Failure {
 pub struct Fault {
     /// The HTTP status: that of the code.
     status: u16,
-    /// What kind of thing went wrong.
     pub code: Code,
     pub message: String,
     /// What to do about it.
@@ -31,7 +30,6 @@ pub struct Fault {
     pub current: Option<Box<serde_json::Value>>,
 }
 
-/// The outcome of everything that answers.
 pub type Answered<T> = Result<T, Fault>;
 
 impl Fault {
@@ -70,7 +68,6 @@ impl Fault {
         self
     }
 
-    /// With what to do about it.
     #[must_use]
     pub fn helped(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());

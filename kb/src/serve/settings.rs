@@ -7,20 +7,15 @@ use std::time::Duration;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 
-/// How the service is started.
 #[derive(Clone, Debug)]
 pub struct Settings {
     pub folder: PathBuf,
-    /// The database, instead of the site's own.
     pub database: Option<PathBuf>,
-    /// The rules, instead of the site's own.
     pub rules: Option<PathBuf>,
     pub listen: SocketAddr,
     /// Names besides those of this machine under which browsers may call the service.
     pub hosts: Vec<String>,
-    /// Time that one SQL query may take.
     pub sql_deadline: Duration,
-    /// Rows that one SQL query may give.
     pub sql_rows: usize,
     /// Time that an answer may take.
     pub patience: Duration,

@@ -28,7 +28,6 @@ mod parking;
 pub type Job = Box<dyn FnOnce(&mut Desk) + Send>;
 
 pub struct Shared {
-    /// How the service was started.
     pub settings: Settings,
     /// The site after the last edit.
     pub view: ArcSwap<Seen>,

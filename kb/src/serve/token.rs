@@ -17,7 +17,6 @@ pub const FILE: &str = "tokens.toml";
 /// Random bytes of a token.
 const BYTES: usize = 24;
 
-/// The tokens of a site.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Tokens {
@@ -26,7 +25,6 @@ pub struct Tokens {
     pub tokens: Vec<Token>,
 }
 
-/// A token, as it is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Token {

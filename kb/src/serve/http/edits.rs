@@ -177,7 +177,6 @@ pub struct EditBody {
 
 #[derive(Debug, Serialize, ToSchema)]
 pub struct Edited {
-    /// The entry of the history.
     #[schema(value_type = Object)]
     pub done: Option<Done>,
     /// Number of the knowledge base's state from now on.
@@ -194,7 +193,6 @@ pub struct Edited {
     pub took_ms: f64,
 }
 
-/// Makes an edit for a caller.
 pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answered<Edited> {
     let began = Instant::now();
     let author = Author { who: caller.name.clone(), why };

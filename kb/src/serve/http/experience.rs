@@ -48,7 +48,6 @@ pub async fn list(site: Site) -> Answered<Json<TraversalsAnswer>> {
     site.read(|tx| Ok(TraversalsAnswer { traversals: tx.traversals()? })).await.map(Json)
 }
 
-/// Traversals to be added.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TraversalsBody {
@@ -94,7 +93,6 @@ pub async fn add(
 
 #[derive(Serialize, ToSchema)]
 pub struct Removed {
-    /// How many traversals are gone.
     removed: u64,
 }
 
@@ -106,7 +104,6 @@ pub async fn clear(site: Site, caller: Caller) -> Answered<Json<Removed>> {
     Ok(Json(Removed { removed: gone }))
 }
 
-/// What is to be fitted.
 #[derive(Deserialize)]
 pub struct Fitted {
     robot: Option<String>,

@@ -71,7 +71,6 @@ pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
     answer.await.map(Json)
 }
 
-/// A fact, with its reason.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TellBody {
@@ -88,7 +87,6 @@ pub struct TellBody {
     why: Option<String>,
 }
 
-/// What telling a fact did.
 #[derive(Serialize, ToSchema)]
 pub struct Told {
     fact: i64,
@@ -108,7 +106,6 @@ pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Ans
     Ok(Json(Told { fact, edited }))
 }
 
-/// Why it is no longer told.
 #[derive(Deserialize)]
 pub struct Why {
     #[serde(default)]

@@ -11,7 +11,6 @@ use crate::serve::fault::Answered;
 /// Entries that one answer gives at most.
 const MOST: u32 = 1_000;
 
-/// What part of the history.
 #[derive(Deserialize)]
 pub struct Part {
     limit: Option<u32>,

@@ -16,7 +16,6 @@ pub struct MapAnswer {
     bounds: [f64; 4],
     /// Everything solid: polygons as x, y, x, y, …
     walls: Vec<Vec<f64>>,
-    /// What can be passed under.
     bridges: Vec<BridgeOf>,
     areas: Vec<AreaOf>,
     named_doors: Vec<NamedDoorOf>,

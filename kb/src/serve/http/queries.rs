@@ -12,7 +12,6 @@ use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 
-/// Queries that are kept, by name.
 #[derive(Serialize, ToSchema)]
 pub struct QueriesAnswer {
     queries: Vec<SavedQuery>,
@@ -24,7 +23,6 @@ pub async fn list(site: Site) -> Answered<Json<QueriesAnswer>> {
     site.read(|tx| Ok(QueriesAnswer { queries: tx.saved_queries()? })).await.map(Json)
 }
 
-/// A query to be kept.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct QueryBody {

@@ -20,7 +20,6 @@ pub async fn health() -> &'static str {
     "ok"
 }
 
-/// What is served, and where it stands.
 #[derive(Serialize, ToSchema)]
 pub struct SiteAnswer {
     name: String,

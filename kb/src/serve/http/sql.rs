@@ -34,7 +34,6 @@ pub struct SqlBody {
     limit: Option<usize>,
 }
 
-/// The answer to a question.
 #[derive(Serialize, ToSchema)]
 pub struct SqlAnswer {
     columns: Vec<String>,

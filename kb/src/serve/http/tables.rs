@@ -13,7 +13,6 @@ use crate::serve::fault::Answered;
 use crate::state::generation;
 use crate::state::tunings;
 
-/// All tables that may be edited.
 #[derive(Serialize, ToSchema)]
 pub struct TablesAnswer {
     generation: u64,
