@@ -10,10 +10,11 @@ use adit_engine::RuleBase;
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::tunings;
 use crate::site::robots::ONLY_ROBOT;
-use crate::state::tunings;
 use crate::words::suggest::did_you_mean;
 
+pub mod rehearse;
 mod tell;
 mod tuning;
 mod words;

@@ -26,7 +26,7 @@ use serde::Serialize;
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::state::generation;
+use crate::knowledge::generation;
 use crate::words::suggest::did_you_mean;
 pub use estimate::{Estimate, Observation, Unknown, Value, estimate};
 pub use upload::{Row, rows_of_csv};

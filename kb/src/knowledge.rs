@@ -1,6 +1,13 @@
 //! The knowledge base of one site: planners are registered, the site is built, tables are edited, and each
 //! time everything that follows is derived by the same path, in one transaction.
 
+pub(crate) mod classes;
+pub(crate) mod generation;
+pub(crate) mod inputs;
+pub(crate) mod tables;
+pub(crate) mod told;
+pub(crate) mod tunings;
+
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
@@ -22,18 +29,18 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use crate::error::{Code, Error, Result};
+use crate::knowledge::classes;
+use crate::knowledge::generation;
+use crate::knowledge::inputs::Inputs;
+use crate::knowledge::tables;
+use crate::knowledge::told::{Fact, Told};
+use crate::knowledge::tunings::{self, RowKeys};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
 use crate::site::rules;
 use crate::site::rules::Rules;
 use crate::site::states;
 use crate::site::{Rooms, Site};
-use crate::state::classes;
-use crate::state::generation;
-use crate::state::inputs::Inputs;
-use crate::state::tables;
-use crate::state::told::{Fact, Told};
-use crate::state::tunings::{self, RowKeys};
 use crate::words::progress::Progress;
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved

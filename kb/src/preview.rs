@@ -11,10 +11,11 @@ use serde::Serialize;
 
 use crate::answer::Answer;
 use crate::edit::Edit;
+use crate::edit::rehearse::{Cell, differences};
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
-use crate::state::{Cell, Nothing, State, Weighed};
+use crate::state::{Nothing, State, Weighed};
 use crate::words::progress::Silent;
 pub use routes::{PlaceRoute, PlaceRoutes};
 
@@ -113,7 +114,7 @@ impl State {
     /// As [`Live::preview`], of the state that was forked; the site is not held up meanwhile.
     pub fn preview(mut self, edits: &[Edit], route: Option<Wanted<'_>>) -> Result<Preview> {
         let rehearsed = self.rehearse(edits)?;
-        let cells = crate::state::differences(&rehearsed.before, &rehearsed.after);
+        let cells = differences(&rehearsed.before, &rehearsed.after);
         if !self.told.counts_as(&rehearsed.before) {
             // others edited the tables meanwhile, or the clock went on: what they did is no part of the preview
             let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;

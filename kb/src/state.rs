@@ -3,18 +3,11 @@
 //! a step of a fork, an edit a step whose change is kept in the database.
 
 pub(crate) mod before;
-pub(crate) mod classes;
-pub(crate) mod generation;
 pub(crate) mod grounds;
-pub(crate) mod inputs;
 pub(crate) mod keep;
 mod planned;
-mod rehearse;
 pub(crate) mod rows;
 mod step;
-pub(crate) mod tables;
-pub(crate) mod told;
-pub(crate) mod tunings;
 mod twin;
 mod weighed;
 pub(crate) mod weights;
@@ -28,12 +21,10 @@ use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::pairs::Known;
 use crate::knowledge::KnowledgeBase;
-use crate::state::inputs::Inputs;
-use crate::state::told::{Attached, Told};
+use crate::knowledge::inputs::Inputs;
+use crate::knowledge::told::{Attached, Told};
 use planned::Planned;
 pub(crate) use planned::content;
-pub use rehearse::Cell;
-pub(crate) use rehearse::differences;
 pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
 pub(crate) use weighed::{Look, Weighed, Which, truth};

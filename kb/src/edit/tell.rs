@@ -9,10 +9,10 @@ use adit_planners::geometry::Point;
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::classes;
+use crate::knowledge::told::attach::REACH;
+use crate::knowledge::told::{Object, Told};
 use crate::site::clock::stored;
-use crate::state::classes;
-use crate::state::told::attach::REACH;
-use crate::state::told::{Object, Told};
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 
@@ -328,7 +328,7 @@ fn key(tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told, text: &str) -
 /// What a planner gave of a class, as the last build kept it.
 fn kept(tx: &mut Tx<'_>, table: &str) -> Result<adit_planners::facts::Table> {
     if tx.user_tables()?.iter().any(|known| known.name == table) {
-        return crate::state::tables::read(&tx.read_table(table)?);
+        return crate::knowledge::tables::read(&tx.read_table(table)?);
     }
     Ok(adit_planners::facts::Table::default())
 }

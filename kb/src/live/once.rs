@@ -16,10 +16,10 @@ use crate::error::{Code, Error, Finding, Result};
 use crate::graph::gauge::sizes_of;
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::generation;
+use crate::knowledge::inputs::Inputs;
 use crate::site::robots::RobotFile;
 use crate::site::{lint, rules, states};
-use crate::state::generation;
-use crate::state::inputs::Inputs;
 use crate::words::progress::{Progress, Silent};
 
 impl KnowledgeBase {

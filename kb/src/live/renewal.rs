@@ -10,8 +10,8 @@ use super::memory::ROUTES;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
+use crate::knowledge::generation;
 use crate::live::trees::{self, Plan};
-use crate::state::generation;
 
 /// What is to be found anew, apart from the [`Live`] site that it was asked of.
 pub struct Renewal {

@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
-use crate::state::inputs::Inputs;
+use crate::knowledge::inputs::Inputs;
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
 #[derive(Clone)]

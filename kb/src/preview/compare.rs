@@ -10,8 +10,8 @@ use serde::Serialize;
 use crate::edit::Edit;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::inputs::Inputs;
 use crate::live::Memory;
-use crate::state::inputs::Inputs;
 use crate::words::progress::Silent;
 
 /// The name that stands for no tuning at all.

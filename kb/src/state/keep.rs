@@ -16,12 +16,12 @@ use adit_planners::planner::Planner;
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
+use crate::knowledge::classes;
+use crate::knowledge::tables;
+use crate::knowledge::told::{Attached, Told};
 use crate::state::before::Before;
-use crate::state::classes;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
-use crate::state::tables;
-use crate::state::told::{Attached, Told};
 use crate::state::{Look, Recall, State, Step, Which, content, truth};
 
 /// What planners of rooms make: rooms, doors, and which room lies in which named area or door.

@@ -16,10 +16,10 @@ use super::{Pending, State};
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
-use crate::state::classes;
+use crate::knowledge::classes;
+use crate::knowledge::told::{Attached, Told};
 use crate::state::grounds::Reasons;
 use crate::state::rows;
-use crate::state::told::{Attached, Told};
 use crate::state::weights;
 use crate::words::progress::{Progress, Stage, Stopwatch};
 

@@ -6,7 +6,7 @@ use adit_engine::{Changes, KnowledgeBase as Inference, Value};
 use adit_planners::facts::Column;
 
 use crate::error::{Code, Error, Result};
-use crate::state::classes;
+use crate::knowledge::classes;
 use crate::words::number::number;
 
 /// The largest hardness that the tables take.

@@ -41,7 +41,7 @@ struct FactOf {
 #[utoipa::path(get, path = "/api/facts", tag = "facts", responses((status = 200, body = FactsAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
     let answer = site.read(|tx| {
-        let generation = crate::state::generation::read(tx)?;
+        let generation = crate::knowledge::generation::read(tx)?;
         let standings = tx.standings()?;
         let standing = |id: i64| {
             let state = standings.iter().find(|standing| standing.told == id);

@@ -33,7 +33,7 @@ pub async fn history(site: Site, Asked(part): Asked<Part>) -> Answered<Json<Hist
     let (limit, before) = (part.limit.unwrap_or(50).min(MOST), part.before);
     let answer = site.read(move |tx| {
         Ok(HistoryAnswer {
-            generation: crate::state::generation::read(tx)?,
+            generation: crate::knowledge::generation::read(tx)?,
             edits: tx.history_before(before, limit)?,
         })
     });

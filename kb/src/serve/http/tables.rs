@@ -9,9 +9,9 @@ use utoipa::ToSchema;
 use super::Site;
 use crate::edit;
 use crate::error::Result;
+use crate::knowledge::generation;
+use crate::knowledge::tunings;
 use crate::serve::fault::Answered;
-use crate::state::generation;
-use crate::state::tunings;
 
 #[derive(Serialize, ToSchema)]
 pub struct TablesAnswer {
@@ -95,7 +95,7 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
         };
         rows.sort_by_key(place);
     }
-    let all_keys = crate::state::tables::keys(relation);
+    let all_keys = crate::knowledge::tables::keys(relation);
     TableOf {
         table: relation.name.clone(),
         columns: relation.columns.iter().map(|known| column(relation, known)).collect(),

@@ -12,7 +12,7 @@ use adit_planners::routes::Walking;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::{SiteGraph, walking};
-use crate::state::classes;
+use crate::knowledge::classes;
 use crate::state::{Look, State, Which, needs_changed};
 
 /// A number of a table that people tune.

@@ -10,8 +10,8 @@ use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
 use crate::error::{Code, Error, Result};
+use crate::knowledge::tunings::RowKeys;
 use crate::site::clock::{Clock, stored};
-use crate::state::tunings::RowKeys;
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 pub use attach::Attached;

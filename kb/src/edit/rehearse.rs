@@ -6,12 +6,12 @@ use adit_db::{Cell as Value, Store, Tx};
 use adit_planners::facts::Table;
 use serde::Serialize;
 
-use super::State;
-use crate::edit::Edit;
+use super::Edit;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::state::tables;
-use crate::state::told::{Object, Told};
+use crate::knowledge::tables;
+use crate::knowledge::told::{Object, Told};
+use crate::state::State;
 
 /// A cell that would count instead of another: of a table, with the named tunings that are on, or a fact.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -100,7 +100,7 @@ fn table_differences(class: &str, (old, new): (&Table, &Table), keys: [&[String]
 }
 
 fn fact_differences(before: &Told, after: &Told, found: &mut Vec<Cell>) {
-    let cell = |fact: &crate::state::told::Fact, is_new: bool| {
+    let cell = |fact: &crate::knowledge::told::Fact, is_new: bool| {
         let object = match &fact.object {
             Object::Key(key) => key.clone(),
             Object::Point([x, y], _) => {
