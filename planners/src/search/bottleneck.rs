@@ -1,7 +1,8 @@
 //! The best way by its worst point.
 //!
-//! petgraph has no such search; its `astar` finds the way where adding takes the smaller value, in RATIO times the time
-//! (`cargo bench -p adit-planners --bench search`).
+//! petgraph has no such search. Its `astar` finds the way where adding takes the larger lack, and as quickly, but over a
+//! graph that has to be laid first (`cargo bench -p adit-planners --bench search`); here a value, which may take long to
+//! find, is asked for when the search comes to a node.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -1,4 +1,8 @@
 //! Which corridors to take: the way of least weight through the network.
+//!
+//! petgraph's `astar` takes as long, where all passages are laid and weighed first (`cargo bench -p adit-planners --bench
+//! search`); here a passage is weighed when the search comes to it, by rules that may fail, and of ways that weigh the same
+//! one with fewest junctions is taken.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
