@@ -1,6 +1,6 @@
 //! What rules see and what SQL keeps is written down.
 
-use adit::adapt::{CELL_CHANGES, EDGES, LANDMARKS};
+use adit::plan::rules::Kind;
 use adit_tests::repository;
 
 fn page() -> String {
@@ -10,7 +10,7 @@ fn page() -> String {
 #[test]
 fn every_property_that_rules_are_told() {
     let page = page();
-    for (name, _) in [CELL_CHANGES, LANDMARKS, EDGES].concat() {
+    for (name, _) in Kind::Adapt.classes().into_iter().flat_map(|class| class.told) {
         assert!(page.contains(&format!("`{name}`")), "{name} is not in kb/ADAPT.md");
     }
 }
