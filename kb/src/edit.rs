@@ -34,7 +34,6 @@ pub enum Edit {
     Add(String, String, Vec<(String, String)>),
     /// A row that goes: table, key.
     Remove(String, String),
-    /// A fact about one object.
     Tell(Tell),
     /// A fact, by its number, that is no longer told.
     Retract(i64),
@@ -50,9 +49,7 @@ pub enum Edit {
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Done {
-    /// Number in the history.
     pub id: i64,
-    /// The row's whole key.
     pub key: String,
     /// The value, or the row, of before.
     pub old: Cell,

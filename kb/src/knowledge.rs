@@ -183,7 +183,6 @@ impl KnowledgeBase {
         &self.site
     }
 
-    /// The file of the database.
     pub fn database(&self) -> &Path {
         &self.database
     }

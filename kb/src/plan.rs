@@ -19,6 +19,7 @@ mod turns;
 mod world;
 
 pub use gap::{Asked, Wanted, Wishes};
+pub(crate) use refusal::decided;
 pub use refusal::{NoPath, Spoke};
 pub use said::{Answer, Said};
 pub use steps::Steps;

@@ -55,12 +55,9 @@ impl Rooms {
     }
 }
 
-/// From where routes are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Starts {
-    /// From every place and every room.
     All,
-    /// From these places and rooms.
     Named(Vec<String>),
 }
 

@@ -19,35 +19,28 @@ pub struct Cell {
     pub robot: RobotKind,
     /// The robot in words and numbers; experience of a robot of which another text is said is none of this one.
     pub robot_text: String,
-    /// What stands in it.
     pub objects: Vec<Object>,
     /// Where the robot is before its first task.
     pub home: Configuration,
-    /// Where it may be sent.
     pub goals: Vec<Goal>,
     /// What changes while tasks are done; a cell of a TOML file changes when the file is edited.
     pub change: Option<Change>,
-    /// How many tasks an experiment has.
     pub tasks: usize,
 }
 
-/// The robot of a cell.
 #[derive(Clone, Debug)]
 pub enum RobotKind {
-    /// An arm in the plane.
     Arm(Arc<Arm>),
     /// A disc, or a point, in the plane.
     Point(Arc<PointRobot>),
 }
 
-/// Where the robot may be sent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
     pub name: String,
     pub target: Target,
 }
 
-/// Where a goal is.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     Configuration(Configuration),

@@ -96,7 +96,6 @@ impl Draft<'_> {
         }
     }
 
-    /// A disc in a box.
     pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<(RobotKind, String)> {
         if !self.within("`bounds`", &bounds.span, &bounds.value, LARGEST_M)
             || !self.within("`radius`", &radius.span, &[radius.value], LARGEST_M)

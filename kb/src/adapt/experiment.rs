@@ -46,7 +46,6 @@ pub fn method_of(word: &str) -> Option<Method> {
     if word == "solve" { Some(Method::Solve) } else { strategy_of(word).map(Method::Adapt) }
 }
 
-/// What one scenario gave.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     pub scenario: String,

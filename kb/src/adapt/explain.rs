@@ -9,7 +9,6 @@ use serde::Serialize;
 #[derive(Clone, Debug, Default)]
 pub struct Explained(BTreeMap<Decision, u64>);
 
-/// A decision, for programs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Decision {
     /// `strategy`, `landmark` or `trust`.
@@ -32,7 +31,6 @@ pub struct Counted<'e> {
 }
 
 impl Explained {
-    /// Counts the rules that spoke.
     pub(super) fn add(&mut self, question: &'static str, answer: &str, considered: &[Considered]) {
         for rule in considered.iter().filter(|rule| rule.miss.is_none()) {
             let decision = Decision {

@@ -27,7 +27,6 @@ struct Counts {
     refusals: u64,
 }
 
-/// The counts of a planner.
 pub(super) fn text(progress: &Progress) -> String {
     let figures = Figures {
         tasks_before_change: progress.tasks_before_change,

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use adit_db::experience as rows;
-use adit_db::mission::Decided;
 use adit_engine::Considered;
 use adit_planners::adapt::{
     Adapt, Clearance, Edge, Noted, ObjectChange, Outcome, Removal, Report, Vertex, VertexId,
@@ -11,6 +10,7 @@ use adit_planners::adapt::{
 
 use super::cell::Cell;
 use super::judge::{strategy_word, told};
+use crate::plan::decided;
 
 /// All that happened since this was last asked, as a step.
 pub(crate) fn step(
@@ -82,7 +82,7 @@ pub(crate) fn step(
                 task,
                 strategy: strategy_word(strategy),
                 facts: told(&facts).to_string(),
-                rule: decided(considered),
+                rule: considered.iter().find(|rule| rule.miss.is_none()).map(decided),
             }),
             Noted::Forgotten => {
                 step = rows::Step {
@@ -116,16 +116,6 @@ pub(crate) fn step(
 
 fn pair(ends: (VertexId, VertexId)) -> [i64; 2] {
     [i64::from(ends.0.0), i64::from(ends.1.0)]
-}
-
-/// The rule that spoke.
-fn decided(considered: &[Considered]) -> Option<Decided> {
-    considered.iter().find(|rule| rule.miss.is_none()).map(|rule| Decided {
-        rule: rule.rule.clone(),
-        row: rule.row.map(|row| row as i64),
-        file: rule.file.clone(),
-        line: rule.line as i64,
-    })
 }
 
 fn state(cell: &Cell, seed: u64, copied_from: Option<&str>, adapt: &Adapt) -> rows::Cell {

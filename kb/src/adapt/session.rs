@@ -19,7 +19,6 @@ use super::{keep, recall};
 use crate::error::{Code, Error, Result};
 use crate::site::whole::Whole;
 
-/// How a session begins.
 #[derive(Clone, Debug, Default)]
 pub struct Beginning<'b> {
     /// Where experience is kept; nothing is kept without.
@@ -30,7 +29,6 @@ pub struct Beginning<'b> {
     pub from: Option<(&'b str, Option<&'b Path>)>,
     /// A strategy of repair that counts instead of what rules say.
     pub strategy: Option<Strategy>,
-    /// Paths that were taught.
     pub taught: Vec<Vec<Configuration>>,
     /// Whether it is asked of every decision which rules made it.
     pub explains: bool,
@@ -38,7 +36,6 @@ pub struct Beginning<'b> {
     pub goals: Vec<&'b str>,
 }
 
-/// A robot at work.
 pub struct Session {
     cell: Cell,
     /// The cell as its file has it, its change not yet due.
@@ -113,7 +110,6 @@ impl Session {
         Ok((session, changed))
     }
 
-    /// The cell as it is now.
     pub const fn cell(&self) -> &Cell {
         &self.cell
     }

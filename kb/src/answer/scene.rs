@@ -1,12 +1,11 @@
 //! A site as a scene to be drawn: its map, its tables, and a route.
 
-use adit_db::door::DoorKind;
 use adit_db::{Store, Tx};
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
-use crate::draw::{Door, DoorKind as Kind, PrimeArea, Room, Route, Scene, Step, StepKind};
+use crate::draw::{Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::knowledge::KnowledgeBase;
@@ -65,13 +64,8 @@ fn crop(scene: &mut Scene, world: &World) {
     if world.occupancy.is_none() || scene.rooms.is_empty() {
         return;
     }
-    let none = Rect::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
-    let all = scene.rooms.iter().fold(none, |all, room| {
-        let r = room.rect;
-        Rect::new(all.x0.min(r.x0), all.y0.min(r.y0), all.x1.max(r.x1), all.y1.max(r.y1))
-    });
-    let margin = 0.05 * all.dx().max(all.dy());
-    let seen = Rect::new(all.x0 - margin, all.y0 - margin, all.x1 + margin, all.y1 + margin);
+    let all = Rect::around(scene.rooms.iter().flat_map(|room| room.rect.corners()));
+    let seen = all.grown(0.05 * all.dx().max(all.dy()));
     scene.bounds = scene.bounds.intersection(&seen).unwrap_or(scene.bounds);
     let bounds = scene.bounds;
     scene.obstacles = std::mem::take(&mut scene.obstacles)
@@ -105,10 +99,7 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     for door in tx.doors()? {
         scene.doors.push(Door {
             number: door.door,
-            kind: match door.kind {
-                DoorKind::Door => Kind::Door,
-                DoorKind::Change => Kind::Change,
-            },
+            kind: door.kind,
             room1: index(door.side1.room),
             room2: index(door.side2.room),
             crossing: Some(rect(door.segment)),

@@ -26,11 +26,9 @@ pub struct CellPicture {
     pub subgoals: Vec<Point>,
     /// The tool's way along each edge.
     pub edges: Vec<Vec<Point>>,
-    /// The configuration space.
     pub space: Option<SpacePicture>,
 }
 
-/// A configuration space of two dimensions.
 #[derive(Clone, Debug)]
 pub struct SpacePicture {
     pub limits: Rect,

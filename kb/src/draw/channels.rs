@@ -16,7 +16,6 @@ use panel::Picture;
 
 /// The longest side of the largest panel.
 const LONGEST: f64 = 420.0;
-/// Panels in a row.
 const IN_A_ROW: usize = 3;
 /// Below each panel, for what is written there.
 const CAPTION: f64 = 74.0;

@@ -9,7 +9,6 @@ use plotters::prelude::*;
 use super::palette::{GREY, INK};
 use super::{svg, text};
 
-/// Curves in one pair of axes.
 #[derive(Clone, Debug)]
 pub struct CurvePanel {
     /// What stands above it.
@@ -25,7 +24,6 @@ pub struct CurvePanel {
     pub level: Option<f64>,
 }
 
-/// How heights are shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scale {
     /// From 0 to the greatest value.

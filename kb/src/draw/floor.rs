@@ -10,7 +10,6 @@ use super::sheet::line;
 use super::svg::{self, Svg};
 use super::{MARGIN, page, text};
 
-/// The longest side of the plan.
 const LONGEST: f64 = 900.0;
 /// Above the plan, for its title; and below, for what signs mean.
 const TITLE: f64 = 34.0;

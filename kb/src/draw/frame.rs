@@ -5,7 +5,6 @@ use adit_planners::geometry::{Point, Rect};
 /// A point or a direction in the picture: x to the right, y down.
 pub(super) type At = (f64, f64);
 
-/// A box in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Block {
     pub x: f64,
@@ -24,7 +23,6 @@ impl Block {
         (self.x + self.w / 2.0, self.y + self.h / 2.0)
     }
 
-    /// Whether the two share an area.
     pub fn overlaps(&self, other: &Self) -> bool {
         self.x < other.x + other.w
             && other.x < self.x + self.w
@@ -73,12 +71,10 @@ impl Frame {
         self.map.y + self.map.h - (y - self.bounds.y0) * self.scale
     }
 
-    /// Where a point lies.
     pub fn at(&self, p: Point) -> At {
         (self.x(p.x), self.y(p.y))
     }
 
-    /// Where a rectangle lies.
     pub fn block(&self, r: &Rect) -> Block {
         Block { x: self.x(r.x0), y: self.y(r.y1), w: r.dx() * self.scale, h: r.dy() * self.scale }
     }

@@ -9,7 +9,6 @@ const BUCKET: f64 = 48.0;
 /// A box over more buckets than this is kept apart: walls can be as long as the map.
 const MOST_BUCKETS: i64 = 256;
 
-/// Boxes in a grid of buckets.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     boxes: Vec<Block>,

@@ -5,7 +5,6 @@ use super::index::Index;
 use super::svg::Svg;
 use super::text;
 
-/// How a label looks.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     pub size: f64,
@@ -34,7 +33,6 @@ impl Labels {
         labels
     }
 
-    /// Whether nothing lies there yet.
     pub fn is_free(&self, block: &Block) -> bool {
         self.taken.is_free(block)
     }

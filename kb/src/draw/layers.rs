@@ -12,7 +12,6 @@ pub enum Layer {
     Rooms,
     /// Doors with their numbers, by hardness.
     Doors,
-    /// The route with its actions.
     Route,
     /// The side panel: steps, actions, the scale of hardness.
     Legend,
@@ -70,7 +69,6 @@ pub struct UnknownLayer {
 /// Parsed from `strips,primes`; the map is always there, so that a figure stands on its ground.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layers {
-    /// The parts to draw.
     pub shown: BTreeSet<Layer>,
     /// Where rooms belong to states: the state whose rooms are drawn. `None`: the one with the largest area, and
     /// of the others the rooms that the route uses.
@@ -83,7 +81,6 @@ impl Layers {
         Self { shown: layers.iter().copied().collect(), state: None }
     }
 
-    /// Whether the layer is drawn.
     pub fn has(&self, layer: Layer) -> bool {
         self.shown.contains(&layer)
     }

@@ -25,7 +25,6 @@ pub(super) fn areas(svg: &mut Svg, sheet: &Sheet) {
     }
 }
 
-/// Named doors, over walls.
 pub(super) fn doors(svg: &mut Svg, sheet: &Sheet) {
     for door in &sheet.scene.named_doors {
         let (from, to) = (sheet.frame.at(door.from), sheet.frame.at(door.to));
@@ -33,7 +32,6 @@ pub(super) fn doors(svg: &mut Svg, sheet: &Sheet) {
     }
 }
 
-/// The names of both.
 pub(super) fn names(sheet: &mut Sheet) {
     let size = 11.0 * sheet.unit;
     let middle = |a: Point, b: Point| Point::new(f64::midpoint(a.x, b.x), f64::midpoint(a.y, b.y));

@@ -27,7 +27,6 @@ const ACTIONS: [(&str, &str); 8] = [
 /// From easy to hard: viridis from its light to its dark end, so that order survives a grey print.
 const HARDNESS: [&str; 5] = ["#7ad151", "#22a884", "#2a788e", "#414487", "#440154"];
 
-/// The colours of a scene's actions.
 #[derive(Debug)]
 pub(super) struct Palette {
     actions: Vec<String>,
@@ -58,7 +57,6 @@ impl Palette {
         Self { actions, closed }
     }
 
-    /// The actions that have a colour.
     pub fn actions(&self) -> &[String] {
         &self.actions
     }
@@ -120,7 +118,6 @@ impl Scale {
         HARDNESS[class.min(HARDNESS.len() - 1)]
     }
 
-    /// Width of a class's line.
     pub fn width(class: usize) -> f64 {
         2.0 + 0.9 * class.min(HARDNESS.len() - 1) as f64
     }

@@ -10,11 +10,9 @@ const LONGEST_SIDE: u32 = 20_000;
 /// Larger pictures are refused, pixels: their memory is four times as many bytes.
 const LARGEST_AREA: u64 = 200_000_000;
 
-/// Why there is no PNG.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PngError {
-    /// The text is not an SVG.
     #[error("the picture cannot be read: {0}")]
     Svg(String),
     /// The size asked for is none, or too large.

@@ -29,7 +29,6 @@ pub(super) fn outlines(svg: &mut Svg, sheet: &Sheet) {
     }
 }
 
-/// Names, each in its area's colour.
 pub(super) fn names(sheet: &mut Sheet) {
     let areas = &sheet.scene.prime_areas;
     if areas.len() > MOST_NAMES {

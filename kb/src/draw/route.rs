@@ -13,7 +13,6 @@ use super::svg::{self, Svg};
 /// A route of more points than this keeps labels off only roughly.
 const MOST_SAMPLES: f64 = 3000.0;
 
-/// The line with its arrows.
 pub(super) fn way(svg: &mut Svg, sheet: &Sheet) {
     let unit = sheet.unit;
     let whole = path(sheet, sheet.runs.iter().flat_map(|run| &run.points));

@@ -8,14 +8,12 @@ use super::scene::{Route, StepKind};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Run {
     pub action: Option<String>,
-    /// The state, where one is known.
     pub state: Option<String>,
     /// Whether it begins with a change of shape.
     pub changed: bool,
     pub metres: f64,
     /// What it adds to the cost, the change of shape included.
     pub hardness: f64,
-    /// Rooms and doors on its way.
     pub places: Vec<String>,
     /// Its way; the first point is where the last run ended.
     pub points: Vec<Point>,

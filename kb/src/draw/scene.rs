@@ -1,5 +1,6 @@
 //! What a picture is drawn from: plain records, as the tables of a site hold them. Metres, in the map's frame.
 
+use adit_db::door::DoorKind;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::{Area, Bridge, NamedDoor, Place, Shape};
 
@@ -16,13 +17,10 @@ pub struct Scene {
     pub bridges: Vec<Bridge>,
     /// Rooms of all states.
     pub rooms: Vec<Room>,
-    /// Doors of all rooms.
     pub doors: Vec<Door>,
-    /// Named points.
     pub places: Vec<Place>,
     /// Parts of the floor with a name.
     pub areas: Vec<Area>,
-    /// Doors with a name.
     pub named_doors: Vec<NamedDoor>,
     /// Edges of the vertical strips, ascending: n + 1 edges make n strips (Figure 4).
     pub strips_x: Vec<f64>,
@@ -30,7 +28,6 @@ pub struct Scene {
     pub strips_y: Vec<f64>,
     /// Prime areas (Figure 5).
     pub prime_areas: Vec<PrimeArea>,
-    /// A route to show.
     pub route: Option<Route>,
     /// The actions in the order of the robot table: an action's colour is that of its position. Actions that
     /// are not named here follow in the order of their first use.
@@ -74,15 +71,6 @@ pub struct Room {
     pub action: Option<String>,
 }
 
-/// Whether the robot passes or changes shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DoorKind {
-    /// A common boundary of two rooms of one layer.
-    Door,
-    /// A common area of two rooms of different layers: a change of shape.
-    Change,
-}
-
 /// A row of `doors`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Door {
@@ -90,7 +78,6 @@ pub struct Door {
     pub kind: DoorKind,
     /// Index of its first room in [`Scene::rooms`].
     pub room1: usize,
-    /// Index of its second room.
     pub room2: usize,
     /// Where it is crossed: a segment (one side 0) or, for a change, an area. `None`: what the two rooms share.
     pub crossing: Option<Rect>,
@@ -121,7 +108,6 @@ pub struct PrimeArea {
 pub struct Route {
     pub start: Place,
     pub goal: Place,
-    /// Its steps in order.
     pub steps: Vec<Step>,
     pub cost: f64,
 }

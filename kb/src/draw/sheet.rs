@@ -20,7 +20,6 @@ pub(super) struct Sheet<'a> {
     pub frame: Frame,
     pub view: View,
     pub palette: Palette,
-    /// Hardness of passable doors.
     pub scale: Option<Scale>,
     /// The route's runs; none where it is not drawn.
     pub runs: Vec<Run>,

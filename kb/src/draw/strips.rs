@@ -8,7 +8,6 @@ use super::text;
 /// Room for the strips' names beside the map.
 pub(super) const MARGIN: f64 = 26.0;
 
-/// The strips' edges and names.
 pub(super) fn strips(svg: &mut Svg, sheet: &Sheet) {
     let map = sheet.frame.map;
     let xs: Vec<f64> = sheet.scene.strips_x.iter().map(|&x| sheet.frame.x(x)).collect();

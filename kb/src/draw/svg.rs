@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::frame::{At, Block};
 
-/// An SVG text in the making.
 #[derive(Debug, Default)]
 pub(super) struct Svg {
     out: String,
@@ -35,7 +34,6 @@ impl Svg {
         }
     }
 
-    /// A disc with a border.
     pub fn disc(&mut self, (x, y): At, radius: f64, fill: &str, (stroke, width): (&str, f64)) {
         self.element("circle")
             .nums([("cx", x), ("cy", y), ("r", radius), ("stroke-width", width)])
@@ -49,7 +47,6 @@ impl Svg {
         self.out.push_str(&other.out);
     }
 
-    /// The text so far.
     pub fn finish(self) -> String {
         self.out
     }
@@ -79,7 +76,6 @@ impl Element<'_> {
         values.into_iter().fold(self, |element, (name, value)| element.num(name, value))
     }
 
-    /// Place and size of a box.
     pub fn block(self, block: &Block) -> Self {
         self.nums([("x", block.x), ("y", block.y), ("width", block.w), ("height", block.h)])
     }
@@ -94,7 +90,6 @@ impl Element<'_> {
         self.svg.out.push_str("/>\n");
     }
 
-    /// Ends it with a text.
     pub fn text(self, content: &str) {
         self.svg.out.push('>');
         escape(&mut self.svg.out, content);
@@ -140,7 +135,6 @@ pub(super) fn through(path: &mut String, points: impl IntoIterator<Item = At>) {
     }
 }
 
-/// Appends the commands of an outline.
 pub(super) fn round(path: &mut String, points: impl IntoIterator<Item = At>) {
     through(path, points);
     path.push('z');

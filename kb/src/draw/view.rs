@@ -2,15 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use adit_db::door::DoorKind;
+
 use super::layers::Layers;
-use super::scene::{DoorKind, Scene, StepKind};
+use super::scene::{Scene, StepKind};
 
 /// The rooms and doors of a picture, as indices of the scene's lists.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct View {
     /// The state whose layer is the base, where rooms belong to states.
     pub state: Option<String>,
-    /// Rooms of the base layer.
     pub rooms: Vec<usize>,
     /// Rooms of other layers that the route uses.
     pub route_rooms: Vec<usize>,
@@ -21,7 +22,6 @@ pub(super) struct View {
 }
 
 impl View {
-    /// What is seen of the scene.
     pub fn of(scene: &Scene, layers: &Layers) -> Self {
         let state = layers.state.clone().or_else(|| largest_layer(scene));
         let passed = |kind: StepKind| -> BTreeSet<&str> {

@@ -74,7 +74,6 @@ pub fn unset(tx: &mut Tx<'_>, tuning: &str, cell: &[String; 3], author: &Author)
     }
 }
 
-/// Switches a tuning on or off.
 pub fn switch(tx: &mut Tx<'_>, tuning: &str, on: bool, author: &Author) -> Result<Edited> {
     let is_on = tx.active_tunings()?.iter().any(|active| active == tuning);
     // one that is on and has lost its cells can still be switched off

@@ -25,21 +25,18 @@ impl Observation {
     }
 }
 
-/// Why a state has no value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unknown {
     /// It is always driven in together with these, in the same proportion.
     NotApart(Vec<String>),
 }
 
-/// What is known of one state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Value {
     /// The measure a metre; `None`: the observations do not tell.
     pub value: Option<f64>,
     /// The interval that holds the true one with 95 %; `None` where there are too few observations.
     pub interval: Option<(f64, f64)>,
-    /// Why there is no value.
     pub unknown: Option<Unknown>,
     /// Observations in which it was driven in.
     pub observations: usize,
@@ -50,7 +47,6 @@ pub struct Value {
 pub struct Estimate {
     /// By state.
     pub values: BTreeMap<String, Value>,
-    /// How many there were.
     pub observations: usize,
     /// How much an observation of one metre scatters.
     pub residual_sd: Option<f64>,

@@ -28,7 +28,6 @@ const LARGEST_TURN: f64 = 3600.0;
 /// Where a drive begins, and what the robot is told.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Script {
-    /// Where the robot stands.
     pub start: Pose,
     pub orders: Vec<Order>,
     /// The line of each order, from 1.

@@ -18,7 +18,6 @@ use crate::words::suggest::did_you_mean;
 #[derive(Debug)]
 pub struct Floor {
     pub plan: FloorPlan,
-    /// Regions, adits and ways.
     pub network: Network,
     /// Tolerances and other figures.
     pub settings: Settings,
@@ -27,7 +26,6 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// The names of its places.
     pub fn names(&self) -> Vec<&str> {
         self.plan.places().iter().map(|place| place.name.as_str()).collect()
     }
@@ -87,7 +85,6 @@ impl Floor {
 /// A path on a floor plan, and how long the untightened ones are.
 #[derive(Clone, Debug)]
 pub struct Walked {
-    /// The path that is driven.
     pub tight: std::result::Result<Walk, NoPath>,
     /// Over all adits, untightened: metres.
     pub all_adits: Option<f64>,
@@ -96,7 +93,6 @@ pub struct Walked {
 }
 
 impl Walked {
-    /// Whether there is a path.
     pub const fn is_path(&self) -> bool {
         self.tight.is_ok()
     }

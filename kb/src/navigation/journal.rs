@@ -1,6 +1,6 @@
 //! The journal of a mission: what happened, and by which rule.
 
-use adit_db::mission::{Decided, Entry, Mission as Record};
+use adit_db::mission::{Entry, Mission as Record};
 use adit_engine::Datum;
 use adit_planners::navigation::{self, Happening, StateFacts};
 use adit_planners::pose::Pose;
@@ -8,23 +8,18 @@ use serde_json::{Value, json};
 
 use super::judge::{Noting, action_word, state_word, told_of};
 use super::missions::Row;
+use crate::plan::decided;
 
-/// The mission as it is kept.
 pub fn record(world: &str, rules: &str, row: &Row, entries: &[navigation::Entry], noted: Noting) -> Record {
-    let mut decided = noted.into_decided();
+    let mut spoke = noted.into_decided();
     let entry = |entry: &navigation::Entry| {
         let (event, change, detail) = told(&entry.event.what);
-        let rule = change.as_ref().and_then(|_| decided.next().flatten());
+        let rule = change.as_ref().and_then(|_| spoke.next().flatten());
         Entry {
             time: entry.event.time_s,
             event: event.to_owned(),
             change,
-            rule: rule.map(|rule| Decided {
-                rule: rule.rule,
-                row: rule.row.map(|row| row as i64),
-                file: rule.file,
-                line: rule.line as i64,
-            }),
+            rule: rule.as_ref().map(decided),
             pose: numbers(&entry.event.pose),
             truth: numbers(&entry.truth),
             detail: detail.map(|detail| detail.to_string()),
@@ -88,7 +83,6 @@ fn told(what: &Happening) -> Told {
     }
 }
 
-/// What the rules were told.
 fn situation(facts: &StateFacts) -> Value {
     let value = |datum| match datum {
         Datum::Number(number) => json!(number),

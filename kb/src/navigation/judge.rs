@@ -281,7 +281,6 @@ pub struct Noting {
 }
 
 impl Noting {
-    /// Notes what this judge decides by.
     pub const fn new(judge: RuleJudge) -> Self {
         Self { judge, decided: Vec::new() }
     }

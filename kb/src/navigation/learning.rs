@@ -23,7 +23,6 @@ pub const START_SIGMA_M: f64 = 0.05;
 /// Deeper than that is a collision, metres.
 const TOUCH_M: f64 = 1e-6;
 
-/// How an exploration went.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Of its errors.

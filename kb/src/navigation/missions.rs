@@ -14,7 +14,6 @@ use super::floor::Floor;
 use super::judge::{Noting, RuleJudge};
 use crate::error::{Code, Error, Result};
 
-/// How a mission went.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Its number, from 1.
@@ -130,7 +129,6 @@ pub fn refuse(trouble: Option<&str>) -> Result<()> {
     trouble.map_or(Ok(()), |trouble| Err(Error::said(Code::SimulateRules, trouble.to_owned(), None)))
 }
 
-/// Runs a mission without a journal.
 fn one(stage: &Stage<'_>, rules: &Arc<RuleBase>, number: usize, mission: &Mission) -> Result<Row> {
     let mut judge = stage.judge(rules)?;
     let row = judged(stage, &mut judge, number, mission, |_| {}, None)?;

@@ -13,7 +13,6 @@ use super::missions::refuse;
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Code, Error, Result};
 
-/// Stops of a drive.
 const STOPS: usize = 12;
 /// The errors that are to be kept, in the median.
 const KEPT_M: f64 = 0.05;
@@ -24,7 +23,6 @@ const KEPT_DEGREES: f64 = 1.0;
 pub struct Driven {
     /// From which stops and errors are drawn.
     pub seed: u64,
-    /// Whether the robot knew the walls.
     pub is_known: bool,
     /// Metres driven.
     pub length: f64,

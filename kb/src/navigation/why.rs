@@ -19,13 +19,10 @@ use crate::words::suggest::did_you_mean;
 /// A decision of a mission, and the rules that were looked at.
 #[derive(Clone, Debug, Serialize)]
 pub struct Answer {
-    /// The name of the world.
     pub world: String,
-    /// The number of the mission.
     pub mission: i64,
     /// How it ended: `arrived`, `no_way` or `gave_up`.
     pub ending: String,
-    /// The entry of the journal.
     pub entry: i64,
     /// Seconds by the robot's clock.
     pub time: f64,
@@ -39,7 +36,6 @@ pub struct Answer {
     /// What the rules say now, where they have been changed since: next state and action.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub now: Option<[String; 2]>,
-    /// What the rules were told.
     pub facts: Map<String, Value>,
     /// The rules that say what comes next, tables row by row: which spoke, and why the others did not.
     pub considered: Vec<Spoke>,
@@ -118,7 +114,6 @@ fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result
     }
 }
 
-/// What the rules were told.
 fn facts(decision: &Decision) -> Map<String, Value> {
     decision.detail.as_deref().and_then(|detail| serde_json::from_str(detail).ok()).unwrap_or_default()
 }

@@ -27,7 +27,6 @@ impl<const D: usize> Answer<PartPath<D>> {
         self.as_lines(explained, |path| lines_of(path, world))
     }
 
-    /// As it is kept.
     pub fn record(&self, plan: &str, rules: &str, world: &Assembly<D>) -> Plan {
         let axes = world.geometry.axes();
         let channels = world.geometry.channels().iter().zip(axes);

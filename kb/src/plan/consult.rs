@@ -25,7 +25,6 @@ pub enum Of<F> {
 /// A property of an object, and how it follows from the facts.
 pub type Property<F> = (&'static str, Of<F>);
 
-/// The properties with their types.
 pub fn typed<F>(properties: impl IntoIterator<Item = Property<F>>) -> Vec<(&'static str, Type)> {
     let kind = |of: &Of<F>| match of {
         Of::Number(_) | Of::Perhaps(_) => Type::Number,
@@ -55,7 +54,6 @@ impl Class {
         Self { name, told: typed(properties), asked }
     }
 
-    /// Makes rules ready to be asked.
     pub fn consultation(&self, rules: &Arc<RuleBase>) -> Result<Consultation, ClassError> {
         Consultation::new(Arc::clone(rules), self.name, &self.told, self.asked)
     }

@@ -28,9 +28,7 @@ pub struct Driven {
     pub drive: Drive,
     /// The channels that it takes, by number.
     pub channels: Vec<usize>,
-    /// What they weigh together.
     pub weight: f64,
-    /// What rules remarked on.
     pub remarks: Vec<String>,
 }
 

@@ -19,7 +19,6 @@ impl Answer<Driven> {
         self.as_lines(explained, lines_of)
     }
 
-    /// As it is kept.
     pub fn record(&self, plan: &str, rules: &str, world: &Corridor) -> Plan {
         let corridors = &world.corridors;
         let mut record = Plan {

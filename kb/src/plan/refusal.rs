@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use adit_db::mission::Decided;
 use adit_engine::{Considered, Consultation, Severity};
 use serde::Serialize;
 
@@ -20,7 +21,6 @@ pub struct NoPath {
 /// A rule, or a row of a table, at a junction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spoke {
-    /// The rule or table.
     pub rule: String,
     /// Its row, from 1, of a table.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,7 +28,6 @@ pub struct Spoke {
     pub file: String,
     pub line: usize,
     pub spoke: bool,
-    /// Why it did not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub because: Option<String>,
 }
@@ -38,6 +37,16 @@ impl From<Considered> for Spoke {
         let because = found.miss.map(|miss| miss.to_string());
         let Considered { rule, file, line, row, .. } = found;
         Self { rule, row, file, line, spoke: because.is_none(), because }
+    }
+}
+
+/// A rule that spoke, as it is kept.
+pub(crate) fn decided(spoke: &Considered) -> Decided {
+    Decided {
+        rule: spoke.rule.clone(),
+        row: spoke.row.map(|row| row as i64),
+        file: spoke.file.clone(),
+        line: spoke.line as i64,
     }
 }
 

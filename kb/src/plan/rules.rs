@@ -10,14 +10,11 @@ use crate::error::{Code, Error, Finding, Result};
 use crate::site::lint;
 use crate::site::rules::{self, Rules};
 
-/// What a rule base is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Parts and corridors: the paper's tables as they are meant, and as they are printed.
     Channels,
-    /// Robots on floor plans.
     Navigation,
-    /// Robots that learn in cells.
     Adapt,
 }
 

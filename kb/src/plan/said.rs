@@ -10,7 +10,6 @@ use super::refusal::{NoPath, Spoke};
 /// What rules were told at a junction, what they concluded, and which of them spoke.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Said {
-    /// Number of the junction.
     pub junction: usize,
     /// The rules that were looked at, tables row by row.
     pub considered: Vec<Spoke>,
@@ -122,7 +121,6 @@ impl<P> Answer<P> {
     }
 }
 
-/// The rows of one junction.
 fn rows(said: &Said, record: &mut Plan) {
     let junction = said.junction as i64;
     record.facts.extend(said.facts.iter().map(|fact| FactRow {

@@ -52,7 +52,6 @@ const RULE: usize = 0;
 const MARGIN: usize = 1;
 const GAP: usize = 4;
 const REFUSAL: usize = 7;
-/// The axes, as rules call them.
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What rules are told of steps, and what they are asked.

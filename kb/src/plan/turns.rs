@@ -99,7 +99,6 @@ impl Turns {
         Ok((steer, self.junctions.text(const { output("remark") })))
     }
 
-    /// What an output's word stands for.
     fn word<T: Copy>(&mut self, facts: &StepFacts, at: usize, words: &[(&str, T)]) -> Result<T, NoPath> {
         let (name, junction) = (OUTPUTS[at], facts.junction);
         meant(&self.junctions, at, words).map_err(|found| {

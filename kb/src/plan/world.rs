@@ -20,20 +20,16 @@ use crate::navigation::reading;
 pub struct World {
     /// Its name: that of the file, without the extension.
     pub name: String,
-    /// The folder that it lies in.
     pub folder: PathBuf,
     /// The rule base: the name of a shipped one, or a folder beside the file.
     pub rules: String,
-    /// What is to be planned.
     pub task: Task,
 }
 
-/// What is to be planned.
 #[derive(Debug)]
 pub enum Task {
     /// A part is to be taken out of another, in two dimensions.
     Assembly(Assembly<2>),
-    /// The same in three.
     SolidAssembly(Assembly<3>),
     /// A robot is to drive through corridors.
     Corridor(Corridor),

@@ -17,14 +17,11 @@ use crate::site::not_negative;
 /// The robot's name where a file names none.
 pub const ONLY_ROBOT: &str = "robot";
 
-/// What the file says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotFile {
     /// States, in the order that breaks ties.
     pub robots: Vec<State>,
-    /// Costs of changing shape.
     pub changes: Vec<Change>,
-    /// What the robots can carry.
     pub loads: Vec<Load>,
 }
 

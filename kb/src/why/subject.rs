@@ -10,7 +10,6 @@ pub struct Subject {
     /// The class, in small letters: for most the name of a table.
     pub class: String,
     pub key: String,
-    /// The property, where one is named.
     pub property: Option<String>,
     /// As people call it: `door 7`, `room d`, `robots robot/SQUAT`.
     pub name: String,

@@ -9,7 +9,6 @@ pub(super) fn dot(svg: &mut Svg, at: At, is_start: bool) {
     svg.disc(at, 3.4, if is_start { ROUTE } else { "#ffffff" }, (ROUTE, 1.4));
 }
 
-/// A number in a white disc.
 pub(super) fn number(svg: &mut Svg, (x, y): At, number: usize) {
     svg.disc((x, y), 8.5, "#ffffff", (ROUTE, 1.0));
     svg.element("text")

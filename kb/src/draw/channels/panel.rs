@@ -81,7 +81,6 @@ impl ChannelPanel {
         }
     }
 
-    /// A robot's drive through corridors.
     pub fn drive(name: &str, corridors: &Corridors, robot: Robot, drive: &Drive) -> Self {
         let hull = corridors.channels().iter().copied().reduce(joined);
         let hull = hull.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));

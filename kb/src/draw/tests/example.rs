@@ -3,7 +3,8 @@
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::{Bridge, Place, Shape};
 
-use crate::draw::{Door, DoorKind, PrimeArea, Room, Route, Scene, Step, StepKind};
+use crate::draw::{Door, PrimeArea, Room, Route, Scene, Step, StepKind};
+use adit_db::door::DoorKind;
 
 /// Name, outline, height, action.
 type RoomRow = (&'static str, [f64; 4], Option<f64>, &'static str);

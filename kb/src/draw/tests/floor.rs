@@ -5,7 +5,8 @@ use adit_planners::world::{Bridge, Place, Shape};
 
 use super::{ALL, picture};
 use crate::draw::png::parse;
-use crate::draw::{Door, DoorKind, Room, Route, Scene, Step, StepKind};
+use crate::draw::{Door, Room, Route, Scene, Step, StepKind};
+use adit_db::door::DoorKind;
 
 /// A floor of `side` x `side` rooms of 5 m x 4 m, of two states, walls between them.
 pub fn floor(side: usize) -> Scene {

@@ -11,7 +11,6 @@ use crate::graph::SiteGraph;
 
 /// The present way, as it is driven best at any weights.
 pub struct SameWay {
-    /// As it is driven now.
     pub path: Path,
     corridor: Option<Corridor>,
     /// So much more than the best may it cost, as a share.

@@ -64,7 +64,6 @@ impl Routes {
         Ok(Self::between(graph.graph(), graph.start(&start, Some(robot)), graph.goal(&goal, Some(robot))))
     }
 
-    /// Between two ends in a graph.
     pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
         let searched = match CompactGraph::new(graph) {
             Some(compact) => Searched::OnDoors(RefCell::new(compact)),

@@ -18,7 +18,6 @@ use crate::state::{Look, State, Which, needs_changed};
 /// A number of a table that people tune.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lever {
-    /// The class of the table.
     pub class: String,
     pub row: usize,
     /// The key by which edits name the row.
@@ -32,7 +31,6 @@ pub struct Lever {
 /// What rooms and doors weigh, by index.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weights {
-    /// What walking in a room weighs.
     pub rooms: Vec<Walking>,
     /// What passing a door weighs; infinite where it is not passed.
     pub doors: Vec<f64>,
@@ -73,7 +71,6 @@ impl Weights {
 /// What a value of a cell leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Probe {
-    /// Rooms and doors weigh so.
     Weighs(Weights),
     /// Rooms and doors would be cut anew.
     CutAnew,

@@ -49,7 +49,6 @@ enum Found {
     Unknown,
 }
 
-/// Searches the range of one cell.
 pub struct Turn<'t> {
     prober: &'t mut Prober,
     routes: &'t Routes,
@@ -61,7 +60,6 @@ pub struct Turn<'t> {
 }
 
 impl<'t> Turn<'t> {
-    /// Searches until the deadline.
     pub fn new(
         prober: &'t mut Prober,
         routes: &'t Routes,

@@ -13,7 +13,6 @@ const NAMED: usize = 3;
 pub enum Takeover {
     /// Another way, and the value of the cell at which it comes to be the better one.
     Way(Path, f64),
-    /// Rooms and doors are cut anew.
     CutAnew,
     /// Rules give no hardness that counts.
     Refused,

@@ -97,7 +97,6 @@ impl<'g> Question<'g> {
 }
 
 impl Passing {
-    /// Whether the way is through.
     pub(super) fn holds_way(&self, way: &Way) -> bool {
         firm::Through::holds(self, &Path::of(way))
     }
