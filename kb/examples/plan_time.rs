@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for path in std::env::args().skip(1) {
         let world = World::read(Path::new(&path))?;
         let (rules, _) = rules::load(world.task.kind(), &world.rules, &world.folder)?;
-        let (mut steps, mut turns) = (Steps::new(rules.clone())?, Turns::new(rules)?);
+        let (mut steps, mut turns) = (Steps::new(&rules)?, Turns::new(&rules)?);
         assert!(steps.is_direct() && turns.is_direct(), "the rules look at one step alone");
         let mut once = || -> Result<f64, String> {
             Ok(match &world.task {

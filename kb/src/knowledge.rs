@@ -29,12 +29,9 @@ use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
 use crate::error::{Code, Error, Result};
-use crate::knowledge::classes;
-use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
-use crate::knowledge::tables;
 use crate::knowledge::told::{Fact, Told};
-use crate::knowledge::tunings::{self, RowKeys};
+use crate::knowledge::tunings::RowKeys;
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
 use crate::site::rules;

@@ -5,12 +5,9 @@ use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::weight::Weight;
-use adit_planners::geometry::Rect;
-use adit_planners::world::World;
 
 use super::*;
 use crate::answer::steps;
-use crate::graph::gauge::{Gauge, Sizes};
 
 /// A floor of rooms in a square, joined by doors to the right and upwards.
 fn floor(side: usize) -> SiteGraph {
@@ -77,7 +74,7 @@ fn rules() -> Rules {
 }
 
 /// The answer as serde writes it, and as it is put together.
-fn both(graph: &SiteGraph, gauge: &Gauge, [start, goal]: [&str; 2]) -> Option<[Vec<u8>; 2]> {
+fn both(graph: &SiteGraph, [start, goal]: [&str; 2]) -> Option<[Vec<u8>; 2]> {
     let ends = [start, goal].map(|name| graph.end(name).unwrap());
     let goals = [graph.goal(&ends[1], None)];
     let (_, way) = graph.graph().way(&graph.start(&ends[0], None), &goals)?;
@@ -85,7 +82,7 @@ fn both(graph: &SiteGraph, gauge: &Gauge, [start, goal]: [&str; 2]) -> Option<[V
     let mut answer = Answer::blank("r", start, &[goal.to_owned()], 7);
     let text = write(&answer, (graph, graph.texts().unwrap(), &rules), &way).unwrap();
     answer.steps = steps::steps(graph, &rules, &way, goals[0].at.is_some());
-    answer.waypoints = steps::waypoints(graph, &way, gauge);
+    answer.waypoints = steps::waypoints(graph, &way, None);
     (answer.cost, answer.status) = (Some(way.cost), Status::of(&way));
     Some([serde_json::to_vec(&answer).unwrap(), text])
 }
@@ -94,7 +91,6 @@ fn both(graph: &SiteGraph, gauge: &Gauge, [start, goal]: [&str; 2]) -> Option<[V
 fn what_is_put_together_is_what_serde_writes() {
     let mut graph = floor(9);
     graph.prepare();
-    let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 36.9, 36.9)), Sizes::new());
     let room = |number: usize| format!("r\"{number}\\é");
     let mut routes = 0;
     for round in 0..3 {
@@ -103,7 +99,7 @@ fn what_is_put_together_is_what_serde_writes() {
                 ["dock".to_owned(), room(from), room(80), room((from * 5 + 3) % 81), "30.25,20".to_owned()]
             {
                 for [start, goal] in [[&room(from), &to], [&to, &room(from)]] {
-                    let Some([serde, ours]) = both(&graph, &gauge, [start, goal]) else { continue };
+                    let Some([serde, ours]) = both(&graph, [start, goal]) else { continue };
                     assert_eq!(String::from_utf8_lossy(&ours), String::from_utf8_lossy(&serde));
                     routes += 1;
                 }
@@ -136,7 +132,6 @@ fn how_long_answers_take() {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             draw.push(graph.rooms[(state >> 33) as usize % (side * side)].name.clone());
         }
-        let gauge = Gauge::new(&World::empty(Rect::new(0.0, 0.0, 1e4, 1e4)), Sizes::new());
         for what in ["way", "steps and waypoints", "with serde", "put together", "put together again"] {
             let (mut took, mut rooms, mut bytes) = (Vec::new(), 0, 0);
             for pair in draw.chunks_exact(2) {
