@@ -11,6 +11,8 @@ use crate::bulk::{self, Record, Values};
 use crate::error::Result;
 use crate::schema::{Part, Row, Weighing, select};
 use crate::stale::in_bulk;
+use crate::transaction::Tx;
+use crate::weight::Weight;
 
 /// The parts that are kept apart, with their name and how many rows one value has: what planners give changes as a whole,
 /// what rules say in a few rows.
@@ -176,4 +178,25 @@ pub(crate) async fn restore<R: Row>(connection: &mut SqliteConnection, rows: &[R
         }
     }
     Ok(())
+}
+
+impl Tx<'_> {
+    /// Gives these rooms or doors, by number, other weights; how many.
+    pub fn put_weights<'w, R: Row>(
+        &mut self,
+        weights: impl IntoIterator<Item = (i64, &'w Weight)>,
+    ) -> Result<u64> {
+        let row = |(key, weight): (i64, &Weight)| {
+            let mut row = R::numbered(key);
+            row.weigh(weight.clone());
+            row
+        };
+        let rows = weights.into_iter().map(row).collect();
+        self.run(async |connection| reweigh::<R>(connection, rows).await)
+    }
+
+    /// Writes the blocks of the rooms or doors that there are, where they have none.
+    pub fn restore_blocks<R: Row>(&mut self, rows: &[R]) -> Result<()> {
+        self.run(async |connection| restore(connection, rows).await)
+    }
 }

@@ -1,6 +1,7 @@
 //! A connection with the runtime that drives it, in blocking form.
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use sqlx::sqlite::SqliteConnectOptions;
 use sqlx::{ConnectOptions, Connection as _, SqliteConnection};
@@ -60,4 +61,16 @@ impl Drop for Connection {
             self.runtime.block_on(connection.close()).ok();
         }
     }
+}
+
+/// What every connection of ours has: foreign keys, full synchronisation, and room for a build's pages.
+pub(crate) fn options(path: &Path, patience: Duration) -> Result<SqliteConnectOptions> {
+    // absolute, since SQLite would take a relative name like `file:x` for a URI
+    let absolute = std::path::absolute(path).map_err(|source| Error::Io { path: path.to_owned(), source })?;
+    Ok(SqliteConnectOptions::new()
+        .filename(absolute)
+        .foreign_keys(true)
+        .busy_timeout(patience)
+        .pragma("cache_size", "-65536")
+        .disable_statement_logging())
 }

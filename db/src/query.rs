@@ -8,9 +8,9 @@ use sqlx::sqlite::LockedSqliteHandle;
 use sqlx::{ConnectOptions, Connection, SqliteConnection};
 
 use crate::cell::Cell;
+use crate::connection;
 use crate::error::{Error, INTERRUPTED, NO_MEMORY, Result};
 use crate::guard::{self, Failed, Statement};
-use crate::store;
 
 /// How much one query may take.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ const MEMORY: i64 = 256 << 20;
 /// Answers one reading statement, on a connection of its own that can do nothing but read the file at `path`. Blocks as long as
 /// that takes.
 pub async fn answer(path: &Path, sql: &str, limits: &Limits) -> Result<Answer> {
-    let options = store::options(path, limits.deadline)?.read_only(true).pragma("query_only", "1");
+    let options = connection::options(path, limits.deadline)?.read_only(true).pragma("query_only", "1");
     let mut connection = options.pragma("cache_size", "-16384").connect().await?;
     let answer = guarded(&mut connection, path, sql, limits).await;
     connection.close().await?;

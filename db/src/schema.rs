@@ -168,7 +168,9 @@ impl<R: Row> Record for &R {
     const COLUMNS: &'static [&'static str] = R::NAMES;
 
     fn bind(&self, values: &mut Values) {
-        R::COLUMNS.iter().for_each(|column| values.lent((column.get)(self)));
+        for column in R::COLUMNS {
+            values.lent((column.get)(self));
+        }
     }
 }
 

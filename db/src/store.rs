@@ -3,11 +3,10 @@
 use std::path::Path;
 use std::time::Duration;
 
-use sqlx::sqlite::SqliteConnectOptions;
-use sqlx::{ConnectOptions, SqliteConnection};
+use sqlx::SqliteConnection;
 
 use crate::backup;
-use crate::connection::Connection;
+use crate::connection::{Connection, options};
 use crate::doctor::{self, Health};
 use crate::error::{Error, Result};
 use crate::migrate::{self, Kind, STEPS, VERSION};
@@ -184,18 +183,6 @@ impl Drop for Store {
             self.connection.execute(ONE_FILE).ok();
         }
     }
-}
-
-/// What every connection of ours has: foreign keys, full synchronisation, and room for a build's pages.
-pub(crate) fn options(path: &Path, patience: Duration) -> Result<SqliteConnectOptions> {
-    // absolute, since SQLite would take a relative name like `file:x` for a URI
-    let absolute = std::path::absolute(path).map_err(|source| Error::Io { path: path.to_owned(), source })?;
-    Ok(SqliteConnectOptions::new()
-        .filename(absolute)
-        .foreign_keys(true)
-        .busy_timeout(patience)
-        .pragma("cache_size", "-65536")
-        .disable_statement_logging())
 }
 
 /// Below 3.51.3, two connections that write in WAL mode may corrupt the database (SQLite's WAL-reset bug).

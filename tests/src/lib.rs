@@ -65,6 +65,7 @@ impl TestSite {
     }
 
     /// A copy of the site as it is now, database and all.
+    #[must_use]
     pub fn copied(&self) -> Self {
         Self::copy_of(self.path())
     }

@@ -90,10 +90,17 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     let tree = all.tree(&Start { rooms: vec![start], at: Point::new(0.0, 0.0) });
     let cost = tree.rooms[goal].unwrap().cost;
     assert_eq!(found[&goal], cost);
-    let is_settled = |room: usize| tree.rooms[room].is_some_and(|arrival| arrival.cost < cost);
-    let settled: Vec<bool> = (0..SIDE * SIDE).map(is_settled).collect();
-    let out_of_settled = pairs.iter().filter(|(a, b)| settled[*a] || settled[*b]).count();
-    assert_eq!(weighed, out_of_settled, "the doors of the rooms settled before the goal");
+    // of rooms that cost as much as the goal, some are settled before it
+    let doors_of = |is_settled: &dyn Fn(usize) -> bool| {
+        pairs.iter().filter(|(a, b)| is_settled(*a) || is_settled(*b)).count()
+    };
+    let costs = |room: usize| tree.rooms[room].map_or(f64::INFINITY, |arrival| arrival.cost);
+    let least = doors_of(&|room| costs(room) < cost);
+    let most = doors_of(&|room| costs(room) <= cost && room != goal);
+    assert!(
+        (least..=most).contains(&weighed),
+        "the doors of the rooms settled before the goal: {least} to {most}"
+    );
     assert!(weighed * 4 < pairs.len());
 
     let compact = CompactGraph::new(&all).unwrap().tree(&[start]);

@@ -79,7 +79,9 @@ fn put_column<'r>(out: &mut Vec<u8>, kind: Kind, values: impl ExactSizeIterator<
         Kind::Integer if far => {
             let (different, places) = places(values.map(integer));
             out.extend((different.len() as u32).to_le_bytes());
-            different.into_iter().for_each(|value| out.extend(value.to_le_bytes()));
+            for value in different {
+                out.extend(value.to_le_bytes());
+            }
             put_integers(out, places.into_iter());
         }
         Kind::Integer | Kind::Truth => put_integers(out, values.map(integer)),

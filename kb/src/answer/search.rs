@@ -29,7 +29,7 @@ pub(crate) struct Basis<'a> {
 pub(crate) enum Ground<'a> {
     Known(&'a World, &'a Gauge),
     /// For a single question: read where it needs the map, for robots of these sizes.
-    Later(&'a Site, Sizes, OnceCell<(World, Gauge)>),
+    Later(&'a Site, Sizes, OnceCell<Box<(World, Gauge)>>),
 }
 
 impl Ground<'_> {
@@ -40,9 +40,9 @@ impl Ground<'_> {
                 if read.get().is_none() {
                     let (world, _, _) = site.world()?;
                     let gauge = Gauge::new(&world, sizes.clone());
-                    read.get_or_init(|| (world, gauge));
+                    read.get_or_init(|| Box::new((world, gauge)));
                 }
-                let (world, gauge) = read.get().expect("it was read just now");
+                let (world, gauge) = &**read.get().expect("it was read just now");
                 Ok((world, gauge))
             }
         }

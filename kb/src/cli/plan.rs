@@ -280,7 +280,9 @@ impl Plans {
         if args.json {
             self.answers.push(json());
         } else {
-            lines().iter().for_each(|text| line(text));
+            for text in lines() {
+                line(&text);
+            }
         }
     }
 

@@ -211,9 +211,10 @@ impl Memory {
             KeptRoutes::write(tx, &renewed)?;
             RoutesNow::Renewed(renewed)
         } else {
-            let so_far = match self.routes_due {
-                true => KeptSoFar::Stored,
-                false => KeptSoFar::Of(state.graph(), self.routes.plan()),
+            let so_far = if self.routes_due {
+                KeptSoFar::Stored
+            } else {
+                KeptSoFar::Of(state.graph(), self.routes.plan())
             };
             let (plan, routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
             RoutesNow::All(plan, routes)

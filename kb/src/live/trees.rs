@@ -187,12 +187,15 @@ pub fn keep(
     let mut routes = Routes::new(plan.starts.len(), comparable);
     let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
     let mut new = PlaceCosts::new();
+    let has_same_ends =
+        matches!(so_far, KeptSoFar::Of(old, _) if comparable && keeps_rooms(old) == keeps_rooms(graph));
+    let ends = (!has_same_ends).then(|| ends(graph)).transpose()?;
     if !comparable {
         tx.clear_trees()?;
         tx.replace_starts(&plan.starts)?;
     }
-    if !matches!(so_far, KeptSoFar::Of(old, _) if comparable && keeps_rooms(old) == keeps_rooms(graph)) {
-        tx.replace_ends(&ends(graph)?)?;
+    if let Some(ends) = ends {
+        tx.replace_ends(&ends)?;
     }
     for (batch, roots) in plan.roots.chunks(64).enumerate() {
         progress.stage(&format!("routes from {} of {} starts", batch * 64, plan.roots.len()));

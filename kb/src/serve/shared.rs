@@ -1,4 +1,7 @@
 //! What all requests share: the view that they read, the way to the one who writes, and the stream of events.
+//!
+//! This file and [`desk`](super::desk) know each other in a circle: a job is left here for the desk, and what the desk
+//! made of it is shown here. What a job may touch is the desk, so its type cannot stand apart from both.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
