@@ -23,6 +23,7 @@ mod parts;
 mod pull;
 mod taut;
 mod trace;
+mod turning;
 mod visit;
 mod way;
 

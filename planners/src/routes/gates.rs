@@ -1,8 +1,9 @@
 //! Where a change of shape can pay: on the rim of the free space of the easier state.
 
 use super::cone::Segment;
-use super::graph::{Gate, RouteGraph};
+use super::graph::RouteGraph;
 use super::mesh::EPSILON;
+use super::turning::Gate;
 use crate::geometry::{Point, Rect};
 
 /// So far a way into the harder state has to lead on beyond a gate, metres, unless a goal lies near: along every wall there
@@ -29,7 +30,7 @@ impl RouteGraph {
     /// another price.
     pub(super) fn gates(&self, door: usize, from: usize) -> &[Gate] {
         let (to, side) = self.beyond(door, from);
-        self.gates[door][side].get_or_init(|| {
+        self.turning().gates[door][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
             let area = self.doors()[door].crossing;
@@ -102,7 +103,7 @@ impl RouteGraph {
         let back = |p: Point| if upright { Point::new(at, p.y) } else { Point::new(p.x, at) };
         let mut parts = Vec::new();
         for exit in
-            self.mesh.portals.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
+            self.exits.portals.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
         {
             let door = Segment::of(&self.doors()[exit.door as usize].crossing);
             let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
@@ -120,7 +121,7 @@ impl RouteGraph {
                 segment.b.y.max(beyond.b.y),
             );
             for exit in
-                self.mesh.changes.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
+                self.exits.changes.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
             {
                 let other = self.rooms()[exit.to as usize].rect;
                 let (low, high) = if upright { (other.x0, other.x1) } else { (other.y0, other.y1) };
@@ -171,12 +172,13 @@ impl RouteGraph {
     fn beside(&self, door: usize, (from, to): (usize, usize), side: Segment) -> (Vec<Segment>, Vec<Segment>) {
         let area = self.doors()[door].crossing;
         let weight = self.passage(door);
-        let free = self.mesh.portals.of(from).iter().filter(|exit| self.is_free(exit.door as usize));
+        let free = self.exits.portals.of(from).iter().filter(|exit| self.is_free(exit.door as usize));
         let rooms = std::iter::once(from).chain(free.map(|exit| exit.to as usize));
         let (mut alike, mut otherwise) = (Vec::new(), Vec::new());
-        for exit in rooms.flat_map(|room| self.mesh.changes.of(room)) {
+        for exit in rooms.flat_map(|room| self.exits.changes.of(room)) {
             let (other, room) = (exit.door as usize, exit.to as usize);
-            let is_of_layer = other != door && self.mesh.layer[room] == self.mesh.layer[to];
+            let is_of_layer =
+                other != door && self.turning().mesh.layer[room] == self.turning().mesh.layer[to];
             let is_like =
                 self.per_m(room).to_bits() == self.per_m(to).to_bits() && self.passage(other) == weight;
             let beside = &self.doors()[other].crossing;
@@ -211,7 +213,7 @@ impl RouteGraph {
         }
         let across = |p: Point| if upright { p.x } else { p.y };
         let mut open: Vec<Segment> = Vec::new();
-        for exit in self.mesh.portals.of(room) {
+        for exit in self.exits.portals.of(room) {
             let door = exit.door as usize;
             let segment = Segment::of(&self.doors()[door].crossing);
             let is_beside = (across(segment.a) - across(side.a)).abs() <= EPSILON

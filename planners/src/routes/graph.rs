@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
-use super::cone::Segment;
 use super::hierarchy::Hierarchy;
-use super::mesh::{Exit, Mesh, NONE};
+use super::mesh::{Exit, Exits};
 use super::parts::{Passing, RouteDoor, RouteRoom, Walking};
+use super::turning::Turning;
 use crate::geometry::Rect;
 use crate::search::Csr;
 
@@ -17,15 +17,11 @@ pub struct RouteGraph {
     /// How many rooms weigh their metres.
     pub(super) measured: usize,
     pub(super) hierarchy: Option<Hierarchy>,
-    pub(super) mesh: Mesh,
+    pub(super) exits: Exits,
+    /// Found when first asked for.
+    turning: OnceLock<Box<Turning>>,
     /// The doors into each room; found when first asked for.
     pub(super) entries: OnceLock<Csr<Exit>>,
-    /// For each end of a door whether a way may bend there.
-    pub(super) bends: Vec<bool>,
-    /// For each door what passing it changes.
-    pub(super) passing: Vec<Passing>,
-    /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
-    pub(super) gates: Vec<[OnceLock<Box<[Gate]>>; 2]>,
     /// Boundaries that nobody crosses.
     pub(super) closed: Vec<Closed>,
     /// The rooms cut along them; found when first asked for.
@@ -37,27 +33,28 @@ pub struct RouteGraph {
 impl RouteGraph {
     /// The graph of all doors with a known hardness that are passable; other doors are kept for [`blockage`].
     pub fn new(rooms: Vec<RouteRoom>, doors: Vec<RouteDoor>) -> Self {
-        let mesh = Mesh::new(&rooms, &doors);
-        let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
-        let (bends, passing) = (vec![false; mesh.ends_count()], Vec::new());
+        let exits = Exits::new(rooms.len(), &doors);
         let measured = rooms.iter().filter(|room| room.is_measured()).count();
-        let mut all = Self {
+        Self {
             rooms,
             doors,
             measured,
             hierarchy: None,
-            mesh,
+            exits,
+            turning: OnceLock::new(),
             entries: OnceLock::new(),
-            bends,
-            passing,
-            gates,
             closed: Vec::new(),
             cut: OnceLock::new(),
             walls: Vec::new(),
-        };
-        all.passing = (0..all.doors.len()).map(|door| all.passing_of(door)).collect();
-        all.find_bends(&(0..all.doors.len()).collect::<Vec<_>>());
-        all
+        }
+    }
+
+    /// Where ways that weigh metres may turn.
+    pub(super) fn turning(&self) -> &Turning {
+        self.turning.get_or_init(|| {
+            let passing = (0..self.doors.len()).map(|door| self.passing_of(door)).collect();
+            Box::new(Turning::new(&self.rooms, &self.doors, passing))
+        })
     }
 
     /// Makes [`way`](Self::way) quick between any two rooms, where all hardness lies on the doors; elsewhere it does
@@ -111,23 +108,25 @@ impl RouteGraph {
                 touched.push(door);
             }
         }
-        let changed: Vec<usize> =
-            touched.iter().copied().filter(|&door| self.passing[door] != self.passing_of(door)).collect();
-        for &door in &changed {
-            self.passing[door] = self.passing_of(door);
-        }
-        self.find_bends(&changed);
         self.reweigh_hierarchy(&touched);
-        if was_on_doors && self.is_on_doors() {
+        let passing: Vec<_> = match self.turning.get() {
+            Some(_) => touched.iter().map(|&door| (door, self.passing_of(door))).collect(),
+            None => return,
+        };
+        let is_on_doors = was_on_doors && self.is_on_doors();
+        let orders_now: Vec<Ordering> = (0..orders.len()).map(|door| self.order(door)).collect();
+        let Some(turning) = self.turning.get_mut() else { return };
+        let is_passed_otherwise = turning.pass((&self.rooms, &self.doors), &passing);
+        if is_on_doors {
             return;
         }
         // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
-        if is_other_price || !changed.is_empty() {
-            self.gates.fill_with(Default::default);
+        if is_other_price || is_passed_otherwise {
+            turning.gates.fill_with(Default::default);
         } else {
-            for (door, before) in orders.into_iter().enumerate() {
-                if before != self.order(door) {
-                    self.gates[door] = Default::default();
+            for (door, (before, now)) in orders.iter().zip(orders_now).enumerate() {
+                if *before != now {
+                    turning.gates[door] = Default::default();
                 }
             }
         }
@@ -140,19 +139,7 @@ impl RouteGraph {
         self.hierarchy = Some(hierarchy);
     }
 
-    /// Finds about which ends of these doors a way may bend.
-    fn find_bends(&mut self, doors: &[usize]) {
-        let ends = doors.iter().flat_map(|&door| self.mesh.ends[door]).filter(|&end| end != NONE);
-        let mut ends: Vec<u32> = ends.collect();
-        ends.sort_unstable();
-        ends.dedup();
-        for end in ends {
-            self.bends[end as usize] =
-                self.mesh.bends(&self.rooms, &self.doors, end, |door| self.passing[door]);
-        }
-    }
-
-    fn passing_of(&self, door: usize) -> Passing {
+    pub(super) fn passing_of(&self, door: usize) -> Passing {
         if self.is_free(door) {
             Passing::Free
         } else if self.passage(door).is_some() {
@@ -219,14 +206,6 @@ impl RouteGraph {
         let least = all.fold(f64::INFINITY, f64::min);
         if least.is_finite() { least } else { 0.0 }
     }
-}
-
-/// Where a change may pay.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gate {
-    pub segment: Segment,
-    /// Whether the harder state has room beyond it for more than half a metre.
-    pub is_deep: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -24,15 +24,20 @@ pub(super) struct Exit {
     pub to: u32,
 }
 
-/// What does not change when rooms and doors are weighed anew.
+/// Which doors lead out of which room, whatever they weigh.
 #[derive(Clone, Debug)]
-pub(super) struct Mesh {
+pub(super) struct Exits {
     /// For each room its doors to pass.
     pub portals: Csr<Exit>,
     /// For each room the changes of shape that begin in it.
     pub changes: Csr<Exit>,
     /// For each room the changes that lead into it; `to` is the room where they begin.
     pub changes_into: Csr<Exit>,
+}
+
+/// Where doors end, whatever they weigh.
+#[derive(Clone, Debug)]
+pub(super) struct Mesh {
     /// For each room its layer: rooms that doors to pass both ways join are of one.
     pub layer: Vec<u32>,
     /// For each door the ends of its segment, by number; [`NONE`] for a change.
@@ -43,8 +48,8 @@ pub(super) struct Mesh {
     points: Vec<Point>,
 }
 
-impl Mesh {
-    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor]) -> Self {
+impl Exits {
+    pub fn new(rooms: usize, doors: &[RouteDoor]) -> Self {
         let (mut portals, mut changes, mut changes_into) = (Vec::new(), Vec::new(), Vec::new());
         for (index, door) in doors.iter().enumerate() {
             let index = index as u32;
@@ -60,11 +65,17 @@ impl Mesh {
                 }
             }
         }
-        let layer = layers(rooms.len(), doors);
-        let (ends, at_end, points) = number_ends(&layer, doors);
         let [portals, changes, changes_into] =
-            [portals, changes, changes_into].map(|items: Vec<(usize, Exit)>| Csr::new(rooms.len(), items));
-        Self { portals, changes, changes_into, layer, ends, at_end, points }
+            [portals, changes, changes_into].map(|items: Vec<(usize, Exit)>| Csr::new(rooms, items));
+        Self { portals, changes, changes_into }
+    }
+}
+
+impl Mesh {
+    pub fn new(rooms: usize, doors: &[RouteDoor]) -> Self {
+        let layer = layers(rooms, doors);
+        let (ends, at_end, points) = number_ends(&layer, doors);
+        Self { layer, ends, at_end, points }
     }
 
     pub fn ends_count(&self) -> usize {

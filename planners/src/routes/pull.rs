@@ -2,8 +2,9 @@
 //! changes, and a shape changed at the best point of the rim on which it may be changed.
 
 use super::cone::{Gap, Segment, View, cross};
-use super::graph::{Gate, RouteGraph};
+use super::graph::RouteGraph;
 use super::mesh::{EPSILON, NONE};
+use super::turning::Gate;
 use super::way::Way;
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
@@ -179,7 +180,7 @@ impl Chain<'_> {
                 let rect = &graph.rooms()[room].rect;
                 rect.nearest_to(p).distance(p)
             };
-            let exits = graph.mesh.portals.of(room).iter().filter(|exit| {
+            let exits = graph.exits.portals.of(room).iter().filter(|exit| {
                 let segment = Segment::of(&graph.doors()[exit.door as usize].crossing);
                 graph.is_free(exit.door as usize)
                     && segment.nearest_to(here).distance(here) <= EPSILON
@@ -211,7 +212,7 @@ impl Chain<'_> {
                 if to == from {
                     return Some((count, None));
                 }
-                let exit = graph.mesh.changes.of(from).iter().find(|exit| {
+                let exit = graph.exits.changes.of(from).iter().find(|exit| {
                     let area = &graph.doors()[exit.door as usize].crossing;
                     exit.to as usize == to
                         && area.nearest_to(at).distance(at) <= SNAP_M
@@ -302,15 +303,15 @@ impl Chain<'_> {
         let is_change = graph.doors()[stop.door].is_change();
         let weight = graph.passage(stop.door);
         let mut rooms = vec![before];
-        let free = graph.mesh.portals.of(before).iter().filter(|exit| graph.is_free(exit.door as usize));
+        let free = graph.exits.portals.of(before).iter().filter(|exit| graph.is_free(exit.door as usize));
         rooms.extend(free.map(|exit| exit.to as usize));
         rooms.retain(|&room| graph.rooms()[room].rect.nearest_to(stop.at).distance(stop.at) <= SNAP_M);
         let mut found = Vec::new();
         for room in rooms {
-            let exits = if is_change { &graph.mesh.changes } else { &graph.mesh.portals };
+            let exits = if is_change { &graph.exits.changes } else { &graph.exits.portals };
             for exit in exits.of(room) {
                 let (door, to) = (exit.door as usize, exit.to as usize);
-                let is_like = graph.mesh.layer[to] == graph.mesh.layer[stop.room]
+                let is_like = graph.turning().mesh.layer[to] == graph.turning().mesh.layer[stop.room]
                     && graph.per_m(to).to_bits() == graph.per_m(stop.room).to_bits()
                     && graph.passage(door) == weight;
                 if !is_like {

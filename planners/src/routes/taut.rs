@@ -11,9 +11,10 @@ use std::collections::{BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View};
 use super::gates::sides;
-use super::graph::{Gate, RouteGraph};
+use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{Goal, Start};
+use super::turning::{Gate, Turning};
 use crate::geometry::Point;
 
 /// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
@@ -95,6 +96,7 @@ struct Target {
 
 pub(super) struct Search<'g> {
     graph: &'g RouteGraph,
+    turning: &'g Turning,
     goals: &'g [Goal],
     wanted: Wanted,
     /// For each room the goals in it.
@@ -138,7 +140,7 @@ impl<'g> Search<'g> {
             for &room in &goal.rooms {
                 targets.push((room as u32, Target { goal: index, at: goal.at, change: None }));
                 let Some(at) = goal.at else { continue };
-                for exit in graph.mesh.changes_into.of(room) {
+                for exit in graph.exits.changes_into.of(room) {
                     let door = &graph.doors()[exit.door as usize];
                     if let Some(weight) = graph.passage(exit.door as usize)
                         && door.crossing.contains(at)
@@ -152,10 +154,12 @@ impl<'g> Search<'g> {
         targets.sort_by_key(|(room, _)| *room);
         let rooms = graph.rooms().len();
         let kept = if wanted == Wanted::Rooms { rooms } else { 0 };
+        let turning = graph.turning();
         let outcome =
             Outcome { nodes: Vec::new(), goals: vec![Vec::new(); goals.len()], rooms: vec![None; kept] };
         Self {
             graph,
+            turning,
             goals,
             wanted,
             targets,
@@ -164,7 +168,7 @@ impl<'g> Search<'g> {
             found: Vec::new(),
             queue: BinaryHeap::new(),
             reached: vec![Vec::new(); rooms],
-            bent: vec![f64::INFINITY; graph.bends.len()],
+            bent: vec![f64::INFINITY; turning.bends.len()],
             looked: HashSet::new(),
             outcome,
             care,
@@ -259,12 +263,12 @@ impl<'g> Search<'g> {
         self.remember(index, &node);
         self.arrive(index, &node);
         self.bend(index, &node);
-        for exit in self.graph.mesh.portals.of(node.room as usize) {
+        for exit in self.graph.exits.portals.of(node.room as usize) {
             if exit.door != node.door {
                 self.pass(index, &node, *exit);
             }
         }
-        for exit in self.graph.mesh.changes.of(node.room as usize) {
+        for exit in self.graph.exits.changes.of(node.room as usize) {
             self.change(index, &node, *exit);
         }
     }
@@ -274,7 +278,7 @@ impl<'g> Search<'g> {
         if node.door == NONE {
             return NONE;
         }
-        let ends = self.graph.mesh.ends[node.door as usize];
+        let ends = self.turning.mesh.ends[node.door as usize];
         let segment = Segment::of(&self.graph.doors()[node.door as usize].crossing);
         match (ends, node.root.distance(segment.a) <= EPSILON) {
             ([end, _], true) | ([_, end], false) => end,
@@ -315,7 +319,7 @@ impl<'g> Search<'g> {
 
     /// Whether walking in an easier state, and changing at the point or close to it, costs less.
     fn is_cheaper_by_a_change(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
-        self.graph.mesh.changes_into.of(room).iter().any(|exit| {
+        self.graph.exits.changes_into.of(room).iter().any(|exit| {
             let from = exit.to as usize;
             let easier = self.graph.per_m(from);
             if easier > per_m || self.reached[from].is_empty() {
@@ -375,7 +379,7 @@ impl<'g> Search<'g> {
         let View::Through(gap) = node.view else { return };
         let per_m = self.graph.per_m(node.room as usize);
         for (end, root, left) in [(gap.left_end, gap.left, true), (gap.right_end, gap.right, false)] {
-            if end == NONE || !self.graph.bends[end as usize] {
+            if end == NONE || !self.turning.bends[end as usize] {
                 continue;
             }
             let cost = node.cost + per_m * node.root.distance(root);
@@ -411,9 +415,9 @@ impl<'g> Search<'g> {
                 self.push(next(node.root, 0.0, view));
             } else if node.view.sees(node.root, near) {
                 // along a wall, and about the near end
-                let ends = self.graph.mesh.ends[door];
+                let ends = self.turning.mesh.ends[door];
                 let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
-                if self.graph.bends[end as usize] || !is_same {
+                if self.turning.bends[end as usize] || !is_same {
                     self.push(next(near, way, View::All));
                 }
             }
@@ -422,7 +426,7 @@ impl<'g> Search<'g> {
         let Some(seen) = node.view.of(node.root, segment) else { return };
         if is_same {
             if seen.length() > EPSILON || segment.length() <= EPSILON {
-                let gap = Gap::new(node.root, segment, seen, self.graph.mesh.ends[door]);
+                let gap = Gap::new(node.root, segment, seen, self.turning.mesh.ends[door]);
                 self.push(next(node.root, 0.0, View::Through(gap)));
             }
             return;

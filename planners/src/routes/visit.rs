@@ -99,7 +99,7 @@ impl<'g> Iterator for OpenDoors<'g> {
 impl RouteGraph {
     /// The doors out of a room, open or not.
     pub(super) fn exits(&self, room: usize) -> std::iter::Chain<Iter<'_, Exit>, Iter<'_, Exit>> {
-        self.mesh.portals.of(room).iter().chain(self.mesh.changes.of(room))
+        self.exits.portals.of(room).iter().chain(self.exits.changes.of(room))
     }
 
     /// For each room the doors into it, with the rooms that they lead from; found when first asked for.
