@@ -1,5 +1,6 @@
 //! The command line `adit`: its verbs, and what they print.
 
+mod args;
 mod build;
 mod cell;
 mod curve;
@@ -73,9 +74,9 @@ pub enum Verb {
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
     /// The way of a part, a robot through corridors or over a floor plan, or of one that learns in a cell: a world of its own
-    Plan(plan::PlanArgs),
+    Plan(args::PlanArgs),
     /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
-    Simulate(simulate::SimulateArgs),
+    Simulate(args::SimulateArgs),
     /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
     Experiment(experiment::ExperimentArgs),
     /// Who changed what, when and why

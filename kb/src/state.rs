@@ -24,7 +24,6 @@ use crate::knowledge::KnowledgeBase;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
 use planned::Planned;
-pub(crate) use planned::content;
 pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
 pub(crate) use weighed::{Look, Weighed, Which, truth};

@@ -66,7 +66,7 @@ fn unfold(tree: &str) -> Vec<Vec<String>> {
     parts.flat_map(unfold).map(|path| [before.clone(), path].concat()).collect()
 }
 
-/// What a module imports, and what it exports of others: paths from the crate's root.
+/// What a module imports or names by its path, and what it exports of others: paths from the crate's root.
 fn uses(module: &Module, text: &str, modules: &BTreeMap<Module, String>) -> Vec<(bool, Vec<String>)> {
     let mut found = Vec::new();
     let mut statement: Option<(bool, String)> = None;
@@ -82,6 +82,15 @@ fn uses(module: &Module, text: &str, modules: &BTreeMap<Module, String>) -> Vec<
             statement = import.map(|rest| (is_public, rest.to_owned()));
         } else if let Some((_, so_far)) = &mut statement {
             so_far.push_str(line);
+        }
+        if statement.is_none() {
+            let words = line.split(|letter: char| !letter.is_alphanumeric() && !"_:".contains(letter));
+            let paths = words.filter(|word| word.contains("::") && !word.starts_with(':'));
+            let path =
+                |word: &str| word.trim_end_matches(':').split("::").map(str::to_owned).collect::<Vec<_>>();
+            found.extend(
+                paths.filter_map(|word| from_root(module, &path(word), modules)).map(|path| (false, path)),
+            );
         }
         if let Some((is_public, whole)) = statement.take_if(|(_, so_far)| so_far.ends_with(';')) {
             for path in unfold(whole.trim_end_matches(';')) {

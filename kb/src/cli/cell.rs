@@ -5,9 +5,9 @@ use std::sync::Arc;
 use adit_engine::RuleBase;
 use serde_json::json;
 
+use super::args::PlanArgs;
 use super::output::{json, line, remark, table};
 use super::picture;
-use super::plan::PlanArgs;
 use crate::adapt::{
     Beginning, Cell, Done, Session, change_json, change_line, drawn, strategy_of, task_json, taught,
 };

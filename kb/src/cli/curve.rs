@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use adit_engine::RuleBase;
 
+use super::args::SimulateArgs;
 use super::output::{either, table};
 use super::picture;
-use super::simulate::SimulateArgs;
 use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
 use crate::navigation::tours::{Driven, draw, drive};

@@ -13,8 +13,8 @@ use adit_planners::navigation::{Outfit, drive as drive_by};
 use adit_planners::pose::Pose;
 use serde_json::json;
 
+use super::args::{SimulateArgs, heading};
 use super::output::{either, json as print, line, remark, table};
-use super::simulate::{SimulateArgs, heading};
 use crate::error::{Code, Error, Result};
 use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;

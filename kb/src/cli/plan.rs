@@ -1,14 +1,14 @@
 //! `adit plan`: the planners of worlds of their own.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::plan::Plan;
 use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
 use adit_planners::geometry::Point;
-use clap::Args;
 
+use super::args::PlanArgs;
 use super::output::{json, line, remark};
 use super::picture;
 use crate::draw::{ChannelPanel, render_channels, render_floor};
@@ -20,67 +20,6 @@ use crate::plan::corridor::Corridor;
 use crate::plan::{Asked, Steps, Task, Turns, World};
 use crate::site::whole::Whole;
 use crate::words::number::number;
-
-#[derive(Args, Debug)]
-pub struct PlanArgs {
-    /// The world: a TOML file with `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`, or a scenario (.json)
-    pub world: PathBuf,
-    /// Where to start instead of where the world says, `x,y` in metres (corridors, floor plans); in a cell, the first goal
-    #[arg(allow_hyphen_values = true)]
-    pub start: Option<String>,
-    /// Where to go, likewise; in a cell, the second goal
-    #[arg(allow_hyphen_values = true)]
-    pub goal: Option<String>,
-    /// In a cell, the goals after that
-    #[arg(value_name = "GOAL")]
-    pub more: Vec<String>,
-    #[command(flatten)]
-    pub learning: LearningArgs,
-    /// The rule base instead of the world's: `corrected`, `printed` or a folder
-    #[arg(long, value_name = "RULES")]
-    pub rules: Option<String>,
-    /// The gap instead of the world's: metres, `x/z` for one an axis, `safest` or `rules`; several give a plan each
-    #[arg(long, value_name = "GAPS", value_delimiter = ',')]
-    pub gap: Vec<String>,
-    /// Say at each junction which rule spoke, and why the others did not
-    #[arg(long)]
-    pub explain: bool,
-    /// Keep facts, path and what rules said in this database
-    #[arg(long, value_name = "FILE")]
-    pub db: Option<PathBuf>,
-    /// Draw it: .svg or .png; several gaps stand side by side
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-    /// Print the result as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// What `adit plan` takes for a robot that learns in a cell.
-#[derive(Args, Debug)]
-pub struct LearningArgs {
-    /// After the goals, so many tasks with goals by chance (cells)
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
-    pub tasks: u32,
-    /// Of chance (cells); a database goes on with the seed that it was begun with
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// A path that is tried before any other is looked for, `[[a, b], ...]` (cells)
-    #[arg(long, value_name = "PATH.json")]
-    pub teach: Vec<PathBuf>,
-    /// Begin with a copy of the experience of another cell (cells)
-    #[arg(long, value_name = "CELL", requires = "db")]
-    pub from: Option<String>,
-    /// The database of that other cell, if not the same
-    #[arg(long, value_name = "FILE", requires = "from")]
-    pub from_db: Option<PathBuf>,
-    /// What becomes of experience after a change, whatever rules say (cells)
-    #[arg(long, value_parser = ["a0", "a1", "a2", "a3"])]
-    pub strategy: Option<String>,
-    /// Which scenario of a file with several (cells)
-    #[arg(long, value_name = "NAME")]
-    pub scenario: Option<String>,
-}
 
 /// Plans, and prints, keeps or draws what came of it; `false` where there is no path.
 pub fn run(args: &PlanArgs) -> Result<bool> {

@@ -1,14 +1,14 @@
 //! `adit simulate`: missions of a simulated robot on a floor plan.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::Store;
 use adit_engine::RuleBase;
 use adit_planners::navigation::Mission;
 use adit_planners::pose::Pose;
-use clap::Args;
 
+use super::args::{SimulateArgs, heading};
 use super::output::{either, line, remark, table};
 use super::picture::extension;
 use crate::error::{Code, Error, Result};
@@ -20,65 +20,6 @@ use crate::plan::{Task, World};
 use crate::site::whole::{self, Whole};
 use crate::words::number::number;
 use crate::words::progress::Bar;
-
-#[derive(Args, Debug)]
-pub struct SimulateArgs {
-    /// The world: a TOML file with `[floor_plan]`
-    pub world: PathBuf,
-    /// Where to start, a place or `x,y`; without START and GOAL missions with obstacles are drawn by chance
-    #[arg(allow_hyphen_values = true, requires = "goal")]
-    pub start: Option<String>,
-    /// Where to go, likewise
-    #[arg(allow_hyphen_values = true)]
-    pub goal: Option<String>,
-    /// Where the robot looks at first, in degrees
-    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
-    pub heading: f64,
-    /// How many missions
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
-    pub missions: u32,
-    /// Of chance; the same seed gives the same missions
-    #[arg(long, default_value_t = 1)]
-    pub seed: u64,
-    /// The rule base instead of the world's: `navigation` or a folder
-    #[arg(long, value_name = "RULES")]
-    pub rules: Option<String>,
-    /// Keep each mission with its journal in this database
-    #[arg(long, value_name = "FILE")]
-    pub db: Option<PathBuf>,
-    /// Instead of missions, learn the building, of which the robot knows nothing but where it starts, a place or `x,y`;
-    /// with --db what was learned is kept
-    #[arg(long, value_name = "START", allow_hyphen_values = true, conflicts_with_all = ["start", "curve", "learned", "drive"])]
-    pub learn: Option<String>,
-    /// The direction of exploration that the user points out: towards a place or `x,y`
-    #[arg(long, value_name = "WHERE", allow_hyphen_values = true, requires = "learn")]
-    pub towards: Option<String>,
-    /// The robot knows of the building what was learned of it and stands in --db
-    #[arg(long, requires = "db", conflicts_with = "curve")]
-    pub learned: bool,
-    /// Instead of missions, drive by hand in the learned building: a file of orders, or `-` for standard input
-    #[arg(long, value_name = "FILE", requires = "learned", conflicts_with_all = ["start", "film"])]
-    pub drive: Option<PathBuf>,
-    /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance, with the
-    /// walls known and with a model built on the way: .svg or .png; --missions says how many drives of each
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]
-    pub curve: Option<PathBuf>,
-    /// How far such a drive goes
-    #[arg(long, value_name = "METRES", default_value_t = 200.0)]
-    pub metres: f64,
-    /// Make a film of a mission: an animated SVG
-    #[arg(long, value_name = "FILE")]
-    pub film: Option<PathBuf>,
-    /// Which mission is filmed
-    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
-    pub mission: usize,
-    /// How many times as fast as time the film plays
-    #[arg(long, value_name = "TIMES", default_value_t = 8.0)]
-    pub speed: f64,
-    /// Print a row a mission as JSON
-    #[arg(long)]
-    pub json: bool,
-}
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs) -> Result<bool> {
@@ -227,15 +168,6 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
     let heading = heading(args)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
-}
-
-/// The heading at the start, radians.
-pub(super) fn heading(args: &SimulateArgs) -> Result<f64> {
-    if (-360.0..=360.0).contains(&args.heading) {
-        return Ok(args.heading.to_radians());
-    }
-    let message = format!("--heading {:?} is no heading; expected degrees from -360 to 360", args.heading);
-    Err(Error::said(Code::SimulateHeading, message, None))
 }
 
 fn show(rows: &[Row]) {

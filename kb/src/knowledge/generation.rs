@@ -8,9 +8,9 @@ use adit_planners::world::World;
 use siphasher::sip::SipHasher13;
 
 use crate::error::Result;
+use crate::knowledge::tables::content;
 use crate::knowledge::told::Told;
 use crate::site::Site;
-use crate::state::content;
 
 /// The number of the state that the database is in; 0 where it was never built.
 pub fn read(tx: &mut Tx<'_>) -> Result<u64> {

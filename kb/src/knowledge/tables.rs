@@ -1,10 +1,13 @@
 //! Tables of the database as classes, and planners' classes as tables.
 
+use std::hash::{Hash, Hasher};
+
 use adit_db::load::Load;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
 use adit_planners::facts::{Column, Facts, Table};
+use siphasher::sip::SipHasher13;
 
 use crate::error::{Code, Error, Result};
 
@@ -163,5 +166,26 @@ pub fn cell(column: &Column, row: usize) -> Cell {
         Column::Number(values) => values[row].map_or(Cell::Null, Cell::Real),
         Column::Text(values) => values[row].clone().map_or(Cell::Null, Cell::Text),
         Column::Truth(values) => values[row].map_or(Cell::Null, |truth| Cell::Integer(truth.into())),
+    }
+}
+
+/// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
+/// does in a database.
+pub fn content(tables: &[Table]) -> u64 {
+    let mut hasher = SipHasher13::new();
+    for table in tables {
+        hash_table(table, &mut hasher);
+    }
+    hasher.finish()
+}
+
+pub fn hash_table(table: &Table, hasher: &mut impl Hasher) {
+    for (property, column) in &table.columns {
+        property.hash(hasher);
+        match column {
+            Column::Number(values) => values.iter().for_each(|v| v.map(|v| (v + 0.0).to_bits()).hash(hasher)),
+            Column::Text(values) => values.hash(hasher),
+            Column::Truth(values) => values.hash(hasher),
+        }
     }
 }

@@ -17,12 +17,12 @@ use adit_planners::planner::Planner;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::knowledge::classes;
-use crate::knowledge::tables;
+use crate::knowledge::tables::{self, content};
 use crate::knowledge::told::{Attached, Told};
 use crate::state::before::Before;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
-use crate::state::{Look, Recall, State, Step, Which, content, truth};
+use crate::state::{Look, Recall, State, Step, Which, truth};
 
 /// What planners of rooms make: rooms, doors, and which room lies in which named area or door.
 const MADE: [&str; 4] = ["ROOMS", "DOORS", "AREA_ROOMS", "DOOR_ROOMS"];

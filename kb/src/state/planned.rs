@@ -5,13 +5,14 @@ use std::hash::{Hash, Hasher};
 
 use adit_db::schema::{Part, Row, Value as Lent};
 use adit_engine::Value;
-use adit_planners::facts::{Column, Facts, Table};
+use adit_planners::facts::{Column, Facts};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use siphasher::sip::SipHasher13;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
+use crate::knowledge::tables::hash_table;
 
 /// Facts of planners, by class, and the fingerprint of what each planner worked from.
 #[derive(Clone, Default)]
@@ -78,27 +79,6 @@ pub fn fingerprint(world: &World, known: &Facts) -> u64 {
         hash_table(table, &mut hasher);
     }
     hasher.finish()
-}
-
-/// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
-/// does in a database.
-pub fn content(tables: &[Table]) -> u64 {
-    let mut hasher = SipHasher13::new();
-    for table in tables {
-        hash_table(table, &mut hasher);
-    }
-    hasher.finish()
-}
-
-fn hash_table(table: &Table, hasher: &mut impl Hasher) {
-    for (property, column) in &table.columns {
-        property.hash(hasher);
-        match column {
-            Column::Number(values) => values.iter().for_each(|v| v.map(|v| (v + 0.0).to_bits()).hash(hasher)),
-            Column::Text(values) => values.hash(hasher),
-            Column::Truth(values) => values.hash(hasher),
-        }
-    }
 }
 
 /// What a planner gives for what it knows.

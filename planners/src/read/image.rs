@@ -10,7 +10,7 @@ use image::codecs::pnm::PnmDecoder;
 use image::{ColorType, ImageDecoder, ImageError, Limits};
 
 use super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::ros_map::{MapFile, Pixel};
+use super::ros_map::yaml::{MapFile, Pixel};
 
 /// The most pixels that a map's image may have: 500 m by 500 m at 5 cm. Checked on the header, before any memory
 /// is taken.

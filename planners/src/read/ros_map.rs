@@ -1,7 +1,7 @@
 //! Maps of ROS `map_server`: a YAML file that says how its image is meant. Semantics as in nav2's
 //! `nav2_map_server` (`map_io.cpp`).
 
-mod yaml;
+pub(crate) mod yaml;
 
 use std::path::Path;
 
@@ -12,8 +12,6 @@ use super::{MapReport, MapSettings};
 use crate::geometry::Point;
 use crate::pose::Pose;
 use crate::world::{Occupancy, World};
-
-pub(crate) use yaml::{MapFile, Pixel};
 
 /// Reads a map of ROS: the YAML file's text and the image that it names, relative to `folder`.
 ///
