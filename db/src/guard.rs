@@ -26,9 +26,6 @@ use sqlx::sqlite::LockedSqliteHandle;
 
 use crate::cell::Cell;
 
-/// Bytes of a value and of a row that is read, sorted or kept; a route's walk at a million rooms stays below. The time that
-/// one instruction takes, which nothing interrupts, grows with it.
-const LENGTH: c_int = 1_000_000;
 const SQL_LENGTH: c_int = 100_000;
 const COLUMNS: c_int = 200;
 
@@ -47,7 +44,7 @@ pub(crate) fn restrict(handle: &mut LockedSqliteHandle<'_>) {
     let database = handle.as_raw_handle().as_ptr();
     let limits = [
         (SQLITE_LIMIT_ATTACHED, 0),
-        (SQLITE_LIMIT_LENGTH, LENGTH),
+        (SQLITE_LIMIT_LENGTH, functions::LENGTH),
         (SQLITE_LIMIT_SQL_LENGTH, SQL_LENGTH),
         (SQLITE_LIMIT_COLUMN, COLUMNS),
         (SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 100),

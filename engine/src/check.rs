@@ -1,14 +1,17 @@
 //! Names and types of a rule base against a schema.
 
+mod kinds;
 mod told;
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
+use kinds::Declared;
+
 use crate::diagnostic::Diagnostic;
 use crate::order::Step;
-use crate::plan::{Key, Kind, Kinds, plan};
-use crate::rule::{Action, PropertyName, Rule};
+use crate::plan::plan;
+use crate::rule::{Action, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::schema::Schema;
 use crate::symbols::Symbols;
@@ -106,50 +109,4 @@ fn unknown_classes(rule: &Rule, base: &RuleBase, schema: &Schema, told: &NamesTo
             rule.file.unknown_class(clause.class_position, &clause.class, others)
         })
         .collect()
-}
-
-/// The properties of a schema, and those that rules conclude.
-struct Declared<'s> {
-    schema: &'s Schema,
-    concluded: BTreeMap<PropertyName, Option<Type>>,
-    told: BTreeMap<PropertyName, Option<Type>>,
-}
-
-impl Declared<'_> {
-    /// The types of what rules tell, as far as they can be seen.
-    fn tell_kinds(&mut self, base: &RuleBase, symbols: &RefCell<Symbols>) {
-        for rule in &base.rules {
-            let Some(action) = rule.reaction() else { continue };
-            for (name, kind, _) in crate::plan::reaction::told(rule, action, self, symbols) {
-                let known = self.told.entry(name).or_default();
-                *known = known.or(kind);
-            }
-        }
-    }
-}
-
-impl Kinds for Declared<'_> {
-    fn kind(&self, name: &PropertyName) -> Kind {
-        match (self.schema.kind(&name.class, &name.property), self.concluded.get(name)) {
-            (Some(kind), _) => Kind::Holds(Some(kind)),
-            (None, Some(kind)) => Kind::Holds(*kind),
-            (None, None) => self.told.get(name).map_or(Kind::Missing, |kind| Kind::Holds(*kind)),
-        }
-    }
-
-    /// What an earlier rule gives, a later one has to give too.
-    fn declared(&self, name: &PropertyName) -> Option<Type> {
-        let earlier = || self.concluded.get(name).or_else(|| self.told.get(name)).copied().flatten();
-        self.schema.kind(&name.class, &name.property).or_else(earlier)
-    }
-
-    fn key(&self, class: &str) -> Key {
-        self.schema.key_of(class).map_or(Key::Unsaid, |key| Key::Properties(key.to_vec()))
-    }
-
-    fn properties(&self, class: &str) -> Vec<String> {
-        let concluded = self.concluded.keys().chain(self.told.keys()).filter(|name| name.class == class);
-        let concluded = concluded.map(|name| name.property.clone());
-        self.schema.properties(class).map(str::to_owned).chain(concluded).collect()
-    }
 }

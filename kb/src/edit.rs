@@ -3,7 +3,6 @@
 use adit_db::Tx;
 use adit_db::cell::Cell;
 use adit_db::history::Author;
-use adit_db::relation::RelationColumn;
 use serde::Serialize;
 
 use adit_engine::RuleBase;
@@ -11,14 +10,15 @@ use adit_engine::RuleBase;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tunings;
-use crate::site::robots::ONLY_ROBOT;
-use crate::words::suggest::did_you_mean;
 
+mod cells;
 pub mod rehearse;
 mod tell;
 mod tuning;
 mod words;
 
+pub(crate) use cells::TUNABLE;
+use cells::{cell, cell_of, columns, explain, row};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
 pub(crate) use words::change;
@@ -164,142 +164,4 @@ fn conflict(tx: &mut Tx<'_>, (table, done, column): (&str, &Done, &str)) -> Resu
         message,
         Some("look at the present value, then set it again".to_owned()),
     ))
-}
-
-/// A number where the text is one; no value where there is no text.
-fn cell(text: &str) -> Cell {
-    if text.is_empty() {
-        return Cell::Null;
-    }
-    if let Ok(integer) = text.parse::<i64>() {
-        return Cell::Integer(integer);
-    }
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Cell::Real(number),
-        _ => Cell::Text(text.to_owned()),
-    }
-}
-
-pub(crate) const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
-const DERIVED: [&str; 17] = [
-    "rooms",
-    "doors",
-    "routes",
-    "route",
-    "action_sequence",
-    "conclusions",
-    "prime_areas",
-    "places",
-    "frames",
-    "strips",
-    "areas",
-    "named_doors",
-    "area_rooms",
-    "door_rooms",
-    "history",
-    "site_hours",
-    "opening_hours",
-];
-
-/// The columns of a table that may be edited, its key's first.
-fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
-    let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
-    if DERIVED.contains(&table) {
-        let message =
-            format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
-        let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
-        return Err(Error::said(Code::EditDerived, message, Some(help)));
-    }
-    if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {
-        let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
-        return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{table}`"), help));
-    }
-    Ok(tx.read_table(table)?.columns)
-}
-
-/// A value for a column, which must be there and hold such values.
-fn cell_of(table: &str, column: &str, value: &str, columns: &[RelationColumn]) -> Result<Cell> {
-    let Some(known) = columns.iter().find(|known| known.name == column) else {
-        let help = did_you_mean(column, columns.iter().map(|known| known.name.as_str()));
-        let message = format!("table `{table}` has no column `{column}`");
-        return Err(Error::said(Code::EditUnknownColumn, message, help));
-    };
-    let cell = cell(value);
-    let holds_numbers = ["REAL", "INTEGER"].contains(&known.declared.as_str());
-    if holds_numbers && matches!(cell, Cell::Text(_)) {
-        let message = format!("`{column}` of `{table}` holds numbers, and `{value}` is none");
-        return Err(Error::said(Code::EditNotANumber, message, None));
-    }
-    Ok(cell)
-}
-
-/// The cells of a new row: the key's parts, then the others. A robot that is left out is the only one there is.
-fn row(tx: &mut Tx<'_>, table: &str, key: &str, cells: &[(String, String)]) -> Result<Vec<(String, Cell)>> {
-    let columns = columns(tx, table)?;
-    let keys: Vec<&str> =
-        columns.iter().filter(|column| column.key > 0).map(|column| column.name.as_str()).collect();
-    let mut parts: Vec<String> = key.splitn(keys.len().max(1), '/').map(str::to_owned).collect();
-    if parts.len() + 1 == keys.len() && keys.first() == Some(&"robot") {
-        let robots = tx.states()?;
-        parts.insert(0, robots.first().map_or(ONLY_ROBOT.to_owned(), |state| state.robot.clone()));
-    }
-    if parts.len() != keys.len() {
-        let message = format!("the key of `{table}` is {}, and `{key}` is not that", keys.join("/"));
-        return Err(Error::said(Code::EditKey, message, None));
-    }
-    let mut row: Vec<(String, Cell)> = Vec::new();
-    for (name, part) in keys.iter().zip(parts) {
-        row.push(((*name).to_owned(), cell(&part)));
-    }
-    for (name, value) in cells {
-        let cell = cell_of(table, name, value, &columns)?;
-        if row.iter().any(|(known, _)| known == name) {
-            let message = format!("`{name}` is given twice: by {key} and by {name}={value}");
-            let twice = format!("`{name}` is given twice, the second time as {name}={value}");
-            let message = if keys.contains(&name.as_str()) { message } else { twice };
-            return Err(Error::said(Code::EditUsage, message, None));
-        }
-        row.push((name.clone(), cell));
-    }
-    if table == "robots" && !cells.iter().any(|(name, _)| name == "position") {
-        let last = tx.states()?.iter().map(|state| state.position).max().unwrap_or(0);
-        row.push(("position".to_owned(), Cell::Integer(last + 1)));
-    }
-    Ok(row)
-}
-
-/// The store's error, with the row that was probably meant, or the value that was refused.
-fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, value: &str) -> Error {
-    let help = match error {
-        adit_db::Error::UnknownKey { .. } => {
-            keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
-        }
-        adit_db::Error::Refused { reason, .. } if reason.starts_with("FOREIGN KEY") => Some(
-            "it names a row of another table that is not there: a state must stand in `robots` first"
-                .to_owned(),
-        ),
-        _ => None,
-    };
-    let found = if matches!(error, adit_db::Error::Refused { .. }) && !value.is_empty() {
-        format!(" (found {value})")
-    } else {
-        String::new()
-    };
-    Error::said(Code::EditRefused, format!("{error}{found}"), help)
-}
-
-/// The keys of a table's rows, whole and without the robot.
-fn keys(tx: &mut Tx<'_>, table: &str) -> Result<Vec<String>> {
-    let relation = tx.read_table(table)?;
-    let parts: Vec<_> = relation.columns.iter().filter(|column| column.key > 0).collect();
-    let rows = parts.first().map_or(0, |column| column.values.len());
-    let mut keys = Vec::new();
-    for row in 0..rows {
-        let key: Vec<String> = parts.iter().map(|column| column.values[row].to_string()).collect();
-        if parts.first().is_some_and(|column| column.name == "robot") && key.len() > 1 {
-            keys.push(key[1..].join("/"));
-        }
-        keys.push(key.join("/"));
-    }
-    Ok(keys)
 }

@@ -1,6 +1,6 @@
 //! Names that rules which react tell: new ones are allowed, but not those that look like a slip.
 
-use super::Declared;
+use super::kinds::Declared;
 use crate::diagnostic::Diagnostic;
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;

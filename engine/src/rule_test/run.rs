@@ -1,9 +1,9 @@
 //! One test on a knowledge base of its own.
 
+use super::outcome::{TestFailure, TestOutcome};
 use super::read::{Fact, Object, Objects, Step, Test, TestFile};
 use super::toml_text::Located;
 use super::vocabulary::Vocabulary;
-use super::{TestFailure, TestOutcome};
 use crate::conclusions::Conclusions;
 use crate::diagnostic::{Code, Diagnostic, Severity};
 use crate::knowledge::KnowledgeBase;

@@ -5,7 +5,7 @@ use adit_db::cell::Cell;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
 
-use super::{cell_of, columns, explain};
+use super::cells::{cell_of, columns, explain};
 use crate::error::{Code, Error, Result};
 use crate::words::suggest::did_you_mean;
 

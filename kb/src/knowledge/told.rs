@@ -154,7 +154,7 @@ impl Told {
     /// Adds to `attached` which objects the facts about some classes are about.
     pub fn attach(&self, knowledge: &Inference, is_meant: impl Fn(&str) -> bool, attached: &mut Attached) {
         for fact in self.facts.iter().filter(|fact| is_meant(&fact.class)) {
-            for row in attach::rows(knowledge, fact) {
+            for row in fact.rows(knowledge) {
                 attached.add(fact, row, knowledge.key(&fact.class, row));
             }
         }

@@ -1,27 +1,24 @@
 //! Which routes are kept, and their trees as rows: for each start the last step into each room and place.
 
+mod ends;
 mod measured;
 mod on_doors;
 
 use adit_db::Tx;
-use adit_db::tree::{End as EndRow, EndKind, Start as StartRow, TreeChange, TreeRow};
+use adit_db::tree::{Start as StartRow, TreeChange, TreeRow};
 use adit_planners::routes::Start;
+use ends::{ALL_STARTS_UP_TO, ends, keeps_rooms};
 use rayon::prelude::*;
 
 use super::report::{PlaceCosts, Routes};
 use crate::error::{Code, Error, Result};
 use crate::graph::gauge::Gauge;
-use crate::graph::{End, SiteGraph, place_node};
+use crate::graph::{End, SiteGraph};
 use crate::site::Starts;
 use crate::state::before::Before;
 use crate::state::{State, Step};
 use crate::words::progress::Progress;
 use crate::words::suggest::did_you_mean;
-
-/// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
-/// where rooms are by state, places are: a tree by state takes tens of milliseconds, and who asks names a place or a
-/// point, not a piece of a layer.
-const ALL_STARTS_UP_TO: usize = 2_000;
 
 /// The trees to be kept.
 #[derive(Clone, Debug, Default)]
@@ -105,51 +102,6 @@ fn known<'a>(graph: &SiteGraph, names: &'a [String]) -> Result<Vec<&'a str>> {
         }
     }
     Ok(names.iter().map(String::as_str).collect())
-}
-
-/// Whether routes are kept to rooms, not to places only.
-///
-/// Where rooms are by state and there are many, who asks names a place or a point, not a piece of a layer.
-fn keeps_rooms(graph: &SiteGraph) -> bool {
-    graph.graph().is_on_doors() || graph.rooms.len() <= ALL_STARTS_UP_TO
-}
-
-/// The names that routes may start and end at. A room's node is its key, a place's is negative.
-pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
-    let mut ends = Vec::with_capacity(graph.rooms.len() + graph.places.len());
-    for (index, place) in graph.places.iter().enumerate() {
-        let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
-        if place.place.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y)) {
-            return Err(Error::said(
-                Code::SitePlaceNamedLikeAPoint,
-                format!("place `{}` is named like a point, so it would mean two things", place.place),
-                Some("give the place a name that is not `x,y`".to_owned()),
-            ));
-        }
-        if graph.rooms.iter().any(|room| room.name == place.place) {
-            return Err(Error::said(
-                Code::SitePlaceNamedLikeARoom,
-                format!(
-                    "place `{}` is named like a room, so `{}` would mean two things",
-                    place.place, place.place
-                ),
-                Some("rooms are named a, b, ... z, aa, ...: give the place a longer name".to_owned()),
-            ));
-        }
-        ends.push(EndRow {
-            name: place.place.clone(),
-            node: place_node(index),
-            kind: EndKind::Place,
-            kept: true,
-        });
-    }
-    ends.extend(graph.rooms.iter().map(|room| EndRow {
-        name: room.name.clone(),
-        node: room.room,
-        kind: EndKind::Room,
-        kept: keeps_rooms(graph),
-    }));
-    Ok(ends)
 }
 
 /// The rows of some trees, computed side by side, each in the order of its nodes.

@@ -2,6 +2,7 @@
 //! from then on the database is what counts.
 
 mod loads;
+mod names;
 
 use std::fs;
 use std::path::Path;
@@ -9,13 +10,13 @@ use std::path::Path;
 use adit_db::Tx;
 use adit_db::load::Load;
 use adit_db::robot::{Change, State};
-use adit_planners::read::{Code, Document, Fields, Located, Problem};
+use adit_planners::read::{Code, Document, Fields, Problem};
+
+pub use names::ONLY_ROBOT;
+use names::{name, robot};
 
 use crate::error::{self, Error, Result};
 use crate::site::not_negative;
-
-/// The robot's name where a file names none.
-pub const ONLY_ROBOT: &str = "robot";
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotFile {
@@ -176,31 +177,4 @@ fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> 
 /// The row's key as people write it; names with a `/` may make two of them equal.
 fn key(change: &Change) -> String {
     format!("{}/{}/{}", change.robot, change.from_state, change.to_state)
-}
-
-fn robot(entry: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> String {
-    if entry.get("robot").is_none() {
-        return ONLY_ROBOT.to_owned();
-    }
-    let Some(robot) = name(entry, "robot", problems) else { return String::new() };
-    if robot.value.contains('/') {
-        let message = format!("`robot` is `{}`; a `/` parts robot and state in a row's key", robot.value);
-        problems.push(entry.text.problem(Code::WrongType, &robot.span, message));
-    }
-    robot.value
-}
-
-fn name(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<Located<String>> {
-    let text = entry.string(key, problems)?;
-    if text.value.trim().is_empty() {
-        let message = format!("`{key}` is empty");
-        problems.push(entry.text.problem(Code::EmptyName, &text.span, message));
-        return None;
-    }
-    if text.value.contains(char::is_control) {
-        let message = format!("`{key}` is {:?} and holds a control character", text.value);
-        problems.push(entry.text.problem(Code::EmptyName, &text.span, message));
-        return None;
-    }
-    Some(text)
 }

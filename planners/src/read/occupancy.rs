@@ -1,6 +1,7 @@
 //! From classified cells to walls: what is unknown, and which specks are noise.
 
-use super::{MapReport, Unknown};
+use super::report::MapReport;
+use super::settings::Unknown;
 use crate::geometry::tolerance::ROUNDING;
 use crate::search::grid::around;
 use crate::world::Occupancy;

@@ -46,17 +46,19 @@ impl Attached {
     }
 }
 
-/// The rows of the objects that a fact is about, ascending.
-///
-/// A name means the object with that key. A point means every object with a rectangle that holds the point; of those of
-/// one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
-pub fn rows(knowledge: &Inference, fact: &Fact) -> Vec<usize> {
-    match &fact.object {
-        Object::Key(key) => knowledge.row(&fact.class, key).into_iter().collect(),
-        Object::Point([x, y], Some(segment)) => {
-            doors_like(knowledge, &fact.class, Point::new(*x, *y), *segment)
+impl Fact {
+    /// The rows of the objects that a fact is about, ascending.
+    ///
+    /// A name means the object with that key. A point means every object with a rectangle that holds the point; of those of
+    /// one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
+    pub fn rows(&self, knowledge: &Inference) -> Vec<usize> {
+        match &self.object {
+            Object::Key(key) => knowledge.row(&self.class, key).into_iter().collect(),
+            Object::Point([x, y], Some(segment)) => {
+                doors_like(knowledge, &self.class, Point::new(*x, *y), *segment)
+            }
+            Object::Point([x, y], None) => holding(knowledge, &self.class, Point::new(*x, *y)),
         }
-        Object::Point([x, y], None) => holding(knowledge, &fact.class, Point::new(*x, *y)),
     }
 }
 

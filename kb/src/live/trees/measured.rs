@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use adit_db::tree::TreeRow;
 use adit_planners::routes::{Goal, Leg, Start, Way};
 
-use super::{keeps_rooms, place_node};
+use super::ends::keeps_rooms;
 use crate::graph::gauge::{Gauge, bends, headings};
-use crate::graph::{End, SiteGraph};
+use crate::graph::{End, SiteGraph, place_node};
 
 pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start), gauge: &Gauge) -> Vec<TreeRow> {
     let goal = |index: usize| Goal {

@@ -4,7 +4,7 @@ use adit_db::load::Load;
 use adit_db::robot::State;
 use adit_planners::read::{Code, Fields, Problem};
 
-use super::{name, robot};
+use super::names::{name, robot};
 use crate::site::not_negative;
 
 /// The loads of the file. One is carried from the start where the file says so.

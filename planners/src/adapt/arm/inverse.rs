@@ -1,4 +1,5 @@
-//! Which configuration brings the tool somewhere.
+//! Which configuration brings the tool somewhere. An arm answers by this, and this looks at the arm: a circle of two that
+//! belong together, apart for their length only.
 
 use std::f64::consts::TAU;
 

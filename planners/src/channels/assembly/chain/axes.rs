@@ -1,6 +1,6 @@
 //! Along which axis each channel leads.
 
-use super::AssemblyError;
+use super::error::AssemblyError;
 use crate::channels::assembly::Cuboid;
 
 /// One axis for each channel: z for the first, and for each other one along which it goes on from the junction
