@@ -38,6 +38,14 @@ pub enum Error {
         /// The version wanted.
         known: i64,
     },
+    /// A table of somebody's own has the name of one that a migration, or keeping worlds, makes.
+    #[error("{path} has a table `{table}` of its own, and one of that name is to be made: rename it")]
+    Taken {
+        /// The database.
+        path: PathBuf,
+        /// The table.
+        table: String,
+    },
     /// Another program held the database for longer than we waited.
     #[error("{0} is locked by another program")]
     Locked(PathBuf),

@@ -8,8 +8,6 @@ mod numbers;
 mod recall;
 mod records;
 
-use sqlx::SqliteConnection;
-
 use crate::error::Result;
 use crate::transaction::Tx;
 
@@ -246,18 +244,7 @@ pub struct Step {
     pub strategies: Vec<Strategy>,
 }
 
-/// Makes the tables where they are missing.
-async fn make(connection: &mut SqliteConnection) -> Result<()> {
-    sqlx::raw_sql(include_str!("../sql/plans/50-experience.sql")).execute(&mut *connection).await?;
-    Ok(())
-}
-
 impl Tx<'_> {
-    /// Makes the tables of experience where they are missing; once for all steps that follow.
-    pub fn make_experience(&mut self) -> Result<()> {
-        self.run(async |connection| make(connection).await)
-    }
-
     /// Reads the experience of a cell; `None` where there is none.
     pub fn experience(&mut self, cell: &str) -> Result<Option<Experience>> {
         self.run(async |connection| recall::read(connection, cell).await)
@@ -268,7 +255,7 @@ impl Tx<'_> {
         self.run(async |connection| recall::cells(connection).await)
     }
 
-    /// Keeps what a step changed. The tables must be there.
+    /// Keeps what a step changed.
     pub fn keep_step(&mut self, step: &Step) -> Result<()> {
         self.run(async |connection| keep::step(connection, step).await)
     }

@@ -235,9 +235,8 @@ fn rows<'r, T, const TABLE: usize>(
     (0..).zip(rest).map(|(number, rest)| Row { world, number, rest }).collect()
 }
 
-/// Makes the tables where they are missing, and keeps a floor plan in the stead of an earlier one of that world.
+/// Keeps a floor plan in the stead of an earlier one of that world.
 pub async fn keep(connection: &mut SqliteConnection, plan: &FloorPlan) -> Result<()> {
-    sqlx::raw_sql(include_str!("../sql/plans/30-floor-plans.sql")).execute(&mut *connection).await?;
     sqlx::query("DELETE FROM floor_plans WHERE world = ?")
         .bind(&plan.world)
         .execute(&mut *connection)

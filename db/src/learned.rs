@@ -6,6 +6,7 @@ use sqlx::{Row, SqliteConnection};
 use crate::bulk::{Record, Values, insert};
 use crate::error::Result;
 use crate::transaction::Tx;
+use crate::worlds;
 
 /// A learned building.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -88,14 +89,8 @@ fn numbered<'r, const TABLE: usize>(
     (0..).zip(boxes).map(move |(number, ends)| Numbered(world, number, *ends))
 }
 
-async fn make_tables(connection: &mut SqliteConnection) -> Result<()> {
-    sqlx::raw_sql(include_str!("../sql/plans/40-learned.sql")).execute(&mut *connection).await?;
-    Ok(())
-}
-
-/// Makes the tables where they are missing, and keeps a building in the stead of an earlier one of that world.
+/// Keeps a building in the stead of an earlier one of that world.
 pub async fn keep(connection: &mut SqliteConnection, learned: &Learned) -> Result<()> {
-    make_tables(connection).await?;
     sqlx::query("DELETE FROM learned_buildings WHERE world = ?")
         .bind(&learned.world)
         .execute(&mut *connection)
@@ -124,7 +119,9 @@ pub async fn keep(connection: &mut SqliteConnection, learned: &Learned) -> Resul
 
 /// The learned building of a world; `None` where none was learned.
 pub async fn learned(connection: &mut SqliteConnection, world: &str) -> Result<Option<Learned>> {
-    make_tables(connection).await?;
+    if !worlds::are_kept(connection).await? {
+        return Ok(None);
+    }
     let found = sqlx::query(
         "SELECT learned, rules, seed, radius, start_x, start_y, length, seconds FROM learned_buildings WHERE world = ?",
     )

@@ -45,6 +45,7 @@ pub mod traversal;
 pub mod tree;
 pub mod tuning;
 pub mod weight;
+mod worlds;
 
 pub use cell::Cell;
 pub use error::{Error, Result};

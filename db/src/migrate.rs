@@ -6,13 +6,32 @@ use sqlx::{AssertSqlSafe, Connection, SqliteConnection};
 
 use crate::backup;
 use crate::error::{Error, Result};
+use crate::relation::{self, Named};
+use crate::worlds;
 
 /// "Adit" in ASCII.
 pub(crate) const APPLICATION: i64 = 0x4164_6974;
 
+type Scripts = &'static [&'static str];
+
+/// What a version of the schema changes.
+#[derive(Clone, Copy)]
+pub(crate) struct Step {
+    /// In every database.
+    pub(crate) all: Scripts,
+    /// In those that keep worlds, after that.
+    pub(crate) worlds: Scripts,
+}
+
+impl Step {
+    pub(crate) const fn of_all(all: Scripts) -> Self {
+        Self { all, worlds: &[] }
+    }
+}
+
 /// What makes version n of version n - 1; the first makes a database of an empty file. Never edited once released.
-pub(crate) const STEPS: &[&[&str]] = &[
-    &[
+pub(crate) const STEPS: &[Step] = &[
+    Step::of_all(&[
         include_str!("../sql/v1/01-site.sql"),
         include_str!("../sql/v1/02-rules.sql"),
         include_str!("../sql/v1/03-areas.sql"),
@@ -23,8 +42,8 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v1/08-routes.sql"),
         include_str!("../sql/v1/09-action-sequence.sql"),
         include_str!("../sql/v1/10-history.sql"),
-    ],
-    &[
+    ]),
+    Step::of_all(&[
         include_str!("../sql/v2/01-anew.sql"),
         include_str!("../sql/v2/09-staleness.sql"),
         include_str!("../sql/v2/10-routes.sql"),
@@ -37,9 +56,22 @@ pub(crate) const STEPS: &[&[&str]] = &[
         include_str!("../sql/v2/33-tunings.sql"),
         include_str!("../sql/v2/40-fleet.sql"),
         include_str!("../sql/v2/50-in-force.sql"),
-    ],
-    &[include_str!("../sql/v3/10-traversals.sql"), include_str!("../sql/v3/20-saved-queries.sql")],
-    &[include_str!("../sql/v4/10-blocks.sql")],
+    ]),
+    Step::of_all(&[
+        include_str!("../sql/v3/10-traversals.sql"),
+        include_str!("../sql/v3/20-saved-queries.sql"),
+    ]),
+    Step::of_all(&[include_str!("../sql/v4/10-blocks.sql")]),
+    Step {
+        all: &[],
+        worlds: &[
+            include_str!("../sql/v5/10-plans.sql"),
+            include_str!("../sql/v5/20-missions.sql"),
+            include_str!("../sql/v5/30-floor-plans.sql"),
+            include_str!("../sql/v5/40-learned.sql"),
+            include_str!("../sql/v5/50-experience.sql"),
+        ],
+    },
 ];
 
 /// The newest schema version.
@@ -69,43 +101,103 @@ pub(crate) async fn kind(connection: &mut SqliteConnection) -> Result<Kind> {
 
 /// Brings the database up to the last of `steps`, each in a transaction of its own. One that holds data is copied
 /// beside itself first.
-pub(crate) async fn migrate(
-    connection: &mut SqliteConnection,
-    path: &Path,
-    steps: &[&[&'static str]],
-) -> Result<()> {
+pub(crate) async fn migrate(connection: &mut SqliteConnection, path: &Path, steps: &[Step]) -> Result<()> {
     let known = steps.len() as i64;
-    match kind(connection).await? {
+    let made = match kind(connection).await? {
         Kind::Other => return Err(Error::NotAdit(path.to_owned())),
         Kind::Adit(found) if found > known => {
             return Err(Error::Newer { path: path.to_owned(), found, known });
         }
         Kind::Adit(found) if found < known => {
             backup::copy(connection, &backup::before_migration(path, found)).await?;
+            made_by(steps).await?
         }
         Kind::Adit(_) => return Ok(()),
-        Kind::Empty => {}
-    }
-    for (index, scripts) in steps.iter().enumerate() {
-        step(connection, index as i64, scripts).await?;
+        Kind::Empty => vec![Made::default(); steps.len()],
+    };
+    for (index, (step, made)) in steps.iter().zip(&made).enumerate() {
+        take(connection, path, index as i64, step, made).await?;
     }
     Ok(())
 }
 
 /// Takes the step from version `from`, unless another program took it while we waited for the lock.
-async fn step(connection: &mut SqliteConnection, from: i64, scripts: &[&'static str]) -> Result<()> {
+async fn take(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    from: i64,
+    step: &Step,
+    made: &Made,
+) -> Result<()> {
     let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
     let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
     if version != from {
         return Ok(());
     }
-    for script in scripts {
-        sqlx::raw_sql(*script).execute(&mut *transaction).await?;
+    run(&mut transaction, path, step.all, &made.in_all).await?;
+    if worlds::are_kept(&mut transaction).await? {
+        run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
     }
     let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {}", from + 1);
     sqlx::raw_sql(AssertSqlSafe(mark)).execute(&mut *transaction).await?;
     transaction.commit().await?;
     Ok(())
+}
+
+/// Has a database of the newest version keep worlds from now on.
+pub(crate) async fn keep_worlds(connection: &mut SqliteConnection, path: &Path) -> Result<()> {
+    let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
+    if worlds::are_kept(&mut transaction).await? {
+        return Ok(());
+    }
+    for (step, made) in STEPS.iter().zip(made_by(STEPS).await?) {
+        run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
+    }
+    transaction.commit().await?;
+    Ok(())
+}
+
+/// Runs the scripts of a step that makes the tables `made`, unless somebody's own table has the name of one.
+async fn run(connection: &mut SqliteConnection, path: &Path, scripts: Scripts, made: &[Named]) -> Result<()> {
+    let there = if made.is_empty() { Vec::new() } else { relation::all(connection).await? };
+    for other in there {
+        let of_that_name = made.iter().find(|table| table.name.eq_ignore_ascii_case(&other.name));
+        if of_that_name.is_some_and(|table| table.columns != other.columns) {
+            return Err(Error::Taken { path: path.to_owned(), table: other.name });
+        }
+    }
+    for script in scripts {
+        sqlx::raw_sql(*script).execute(&mut *connection).await?;
+    }
+    Ok(())
+}
+
+/// The tables and views that a step makes.
+#[derive(Clone, Default)]
+struct Made {
+    in_all: Vec<Named>,
+    for_worlds: Vec<Named>,
+}
+
+/// What each step makes where nothing is.
+async fn made_by(steps: &[Step]) -> Result<Vec<Made>> {
+    let mut empty = SqliteConnection::connect("sqlite::memory:").await?;
+    let mut made = Vec::new();
+    for step in steps {
+        let in_all = made_in(&mut empty, step.all).await?;
+        made.push(Made { in_all, for_worlds: made_in(&mut empty, step.worlds).await? });
+    }
+    Ok(made)
+}
+
+async fn made_in(connection: &mut SqliteConnection, scripts: Scripts) -> Result<Vec<Named>> {
+    let before = relation::all(connection).await?;
+    for script in scripts {
+        sqlx::raw_sql(*script).execute(&mut *connection).await?;
+    }
+    let mut made = relation::all(connection).await?;
+    made.retain(|table| !before.iter().any(|there| there.name == table.name));
+    Ok(made)
 }
 
 #[cfg(test)]
@@ -114,9 +206,9 @@ mod tests {
 
     use super::*;
 
-    const ONE: &[&str] = &["CREATE TABLE door (id INTEGER); INSERT INTO door VALUES (7)"];
-    const TWO: &[&str] = &["ALTER TABLE door ADD COLUMN width REAL"];
-    const BROKEN: &[&str] = &["DROP TABLE door", "SELECT nonsense"];
+    const ONE: Step = Step::of_all(&["CREATE TABLE door (id INTEGER); INSERT INTO door VALUES (7)"]);
+    const TWO: Step = Step::of_all(&["ALTER TABLE door ADD COLUMN width REAL"]);
+    const BROKEN: Step = Step::of_all(&["DROP TABLE door", "SELECT nonsense"]);
 
     async fn open(path: &Path) -> SqliteConnection {
         let url = format!("sqlite://{}?mode=rwc", path.display());

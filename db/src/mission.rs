@@ -70,9 +70,8 @@ pub struct Decided {
     pub line: i64,
 }
 
-/// Makes the tables where they are missing, and keeps a mission in the stead of an earlier one of that world and number.
+/// Keeps a mission in the stead of an earlier one of that world and number.
 pub async fn keep(connection: &mut SqliteConnection, mission: &Mission) -> Result<()> {
-    sqlx::raw_sql(include_str!("../sql/plans/20-missions.sql")).execute(&mut *connection).await?;
     sqlx::query("DELETE FROM missions WHERE world = ? AND mission = ?")
         .bind(&mission.world)
         .bind(mission.mission)

@@ -128,9 +128,8 @@ pub struct Considered {
     pub because: Option<String>,
 }
 
-/// Makes the tables where they are missing, and keeps a plan in the stead of an earlier one of that name.
+/// Keeps a plan in the stead of an earlier one of that name.
 pub async fn keep(connection: &mut SqliteConnection, plan: &Plan) -> Result<()> {
-    sqlx::raw_sql(include_str!("../sql/plans/10-plans.sql")).execute(&mut *connection).await?;
     sqlx::query("DELETE FROM plans WHERE plan = ?").bind(&plan.plan).execute(&mut *connection).await?;
     sqlx::query(
         "INSERT INTO plans (plan, kind, rules, status, reason, length, min_clearance) VALUES (?, ?, ?, ?, ?, ?, ?)",

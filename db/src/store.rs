@@ -56,6 +56,14 @@ impl Store {
         Self::writable(path.as_ref(), true, PATIENCE)
     }
 
+    /// As [`Store::open_or_create`], and the database keeps worlds of their own from now on.
+    pub fn open_for_worlds(path: impl AsRef<Path>) -> Result<Self> {
+        let path = path.as_ref();
+        let mut store = Self::writable(path, true, PATIENCE)?;
+        store.run(async |connection| migrate::keep_worlds(connection, path).await)?;
+        Ok(store)
+    }
+
     /// Opens a database for reading: works in a read-only folder, and refuses every write.
     pub fn open_read_only(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();

@@ -86,6 +86,9 @@ impl From<adit_db::Error> for Error {
             adit_db::Error::NotAdit(_) => {
                 Some("build the site first, then make tables of your own in its site.db; or name another file with --db".to_owned())
             }
+            adit_db::Error::Taken { table, .. } => Some(format!(
+                "`ALTER TABLE {table} RENAME TO ...` and its class in the rules with it; or keep plans elsewhere: --db"
+            )),
             _ => None,
         };
         Self::said(Code::from(&error), error.to_string(), help)

@@ -56,7 +56,6 @@ fn forget_graph(batch: &mut Batch, cell: &str, task: i64) {
 }
 
 pub(super) async fn whole(connection: &mut SqliteConnection, experience: &Experience) -> Result<()> {
-    super::make(connection).await?;
     let cell = &experience.cell.cell;
     forget(connection, cell).await?;
     let all = Step {

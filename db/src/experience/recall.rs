@@ -6,16 +6,17 @@ use sqlx::{Row, SqliteConnection};
 use super::numbers::{read as read_numbers, read_rows};
 use super::{Cell, Clearance, Edge, Experience, Object, Pair, Subgoal, Tag};
 use crate::error::{Error, Result};
+use crate::worlds;
 
 pub(super) async fn cells(connection: &mut SqliteConnection) -> Result<Vec<String>> {
-    if !has_tables(connection).await? {
+    if !worlds::are_kept(connection).await? {
         return Ok(Vec::new());
     }
     Ok(sqlx::query_scalar("SELECT cell FROM cells ORDER BY cell").fetch_all(connection).await?)
 }
 
 pub(super) async fn read(connection: &mut SqliteConnection, cell: &str) -> Result<Option<Experience>> {
-    if !has_tables(connection).await? {
+    if !worlds::are_kept(connection).await? {
         return Ok(None);
     }
     let found = sqlx::query(
@@ -46,11 +47,6 @@ pub(super) async fn read(connection: &mut SqliteConnection, cell: &str) -> Resul
         subgoal_pairs: subgoal_pairs(connection, cell).await?,
         clearances: clearances(connection, cell).await?,
     }))
-}
-
-async fn has_tables(connection: &mut SqliteConnection) -> Result<bool> {
-    let sql = "SELECT 1 FROM sqlite_schema WHERE name = 'cells'";
-    Ok(sqlx::query_scalar::<_, i64>(sql).fetch_optional(connection).await?.is_some())
 }
 
 async fn objects(connection: &mut SqliteConnection, cell: &str) -> Result<Vec<Object>> {

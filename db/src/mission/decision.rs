@@ -4,6 +4,7 @@ use sqlx::SqliteConnection;
 
 use crate::error::Result;
 use crate::transaction::Tx;
+use crate::worlds::are_kept;
 
 /// A change of state of a robot, as its journal has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,13 +29,9 @@ pub struct Decision {
     pub detail: Option<String>,
 }
 
-/// The worlds that have missions, sorted; none where there are no such tables.
+/// The worlds that have missions, sorted.
 pub async fn worlds(connection: &mut SqliteConnection) -> Result<Vec<String>> {
-    let tables: i64 =
-        sqlx::query_scalar("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'missions'")
-            .fetch_one(&mut *connection)
-            .await?;
-    if tables == 0 {
+    if !are_kept(connection).await? {
         return Ok(Vec::new());
     }
     let worlds = sqlx::query_scalar("SELECT DISTINCT world FROM missions ORDER BY world");

@@ -6,8 +6,7 @@ use tempfile::TempDir;
 
 fn store() -> (TempDir, Store) {
     let folder = tempfile::tempdir().unwrap();
-    let mut store = Store::create(folder.path().join("cell.db")).unwrap();
-    store.transaction(|tx| tx.make_experience()).unwrap();
+    let store = Store::open_for_worlds(folder.path().join("cell.db")).unwrap();
     (folder, store)
 }
 

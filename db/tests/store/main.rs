@@ -21,3 +21,4 @@ mod relations;
 mod routes;
 mod schema;
 mod stale;
+mod worlds;

@@ -219,10 +219,9 @@ impl Session {
 
 /// A database to which each task is written: others may read meanwhile, and no task waits for the disk.
 fn open(db: &Path) -> Result<Store> {
-    let mut store = Store::open_or_create(db)?;
+    let mut store = Store::open_for_worlds(db)?;
     store.share()?;
     store.sync_each(false)?;
-    store.transaction(|tx| tx.make_experience())?;
     Ok(store)
 }
 

@@ -45,7 +45,7 @@ pub fn run(
     if let Some(db) = &args.db {
         let mut made = Whole::default();
         made.database(db);
-        let named = Store::open_or_create(db)?.snapshot(|tx| tx.learned(world))?;
+        let named = Store::open_for_worlds(db)?.snapshot(|tx| tx.learned(world))?;
         if let Some(named) = named.filter(|learned| !learned.places.is_empty()) {
             let names: Vec<&str> = named.places.iter().map(|(name, _)| name.as_str()).collect();
             let message = "places that were named in what was learned before are gone";
@@ -67,7 +67,7 @@ fn keep_learned(db: &Path, record: &Record, floor: &Floor, rules: &Arc<RuleBase>
     let walked = known.plan(start, start, &mut judge)?;
     let network = keep::record(&record.learned, &record.rules, &known, &mut judge, &walked);
     refuse(judge.trouble())?;
-    Store::open_or_create(db)?.transaction(|tx| {
+    Store::open_for_worlds(db)?.transaction(|tx| {
         tx.keep_learned(record)?;
         tx.keep_floor_plan(&network)
     })?;

@@ -193,7 +193,7 @@ fn gaps<W: Clone, const N: usize>(
 fn keep(path: &Path, work: impl FnOnce(&mut Tx<'_>) -> adit_db::Result<()>) -> Result<()> {
     let mut made = Whole::default();
     made.database(path);
-    Store::open_or_create(path)?.transaction(work)?;
+    Store::open_for_worlds(path)?.transaction(work)?;
     made.keep();
     Ok(())
 }

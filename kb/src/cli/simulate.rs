@@ -109,7 +109,7 @@ fn kept(
 ) -> Result<Vec<Row>> {
     let mut made = Whole::default();
     made.database(db);
-    let mut store = Store::open_or_create(db)?;
+    let mut store = Store::open_for_worlds(db)?;
     let written_anew = store.snapshot(|tx| -> Result<i64> {
         let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
         Ok(if is_there { tx.numbers_of_missions(world)?.2.min(missions.len() as i64) } else { 0 })

@@ -312,7 +312,7 @@ codes! {
 
     /// A column of the site's own table holds numbers and texts; a rule needs one or the other.
     TableMixed = "table/mixed", BAD_REQUEST;
-    /// The site's own table has the name of a class that a planner gives; rename it.
+    /// A table of one's own has the name of a class that a planner gives, or of a table that a newer version or a plan makes; rename it.
     TableTaken = "table/taken", BAD_REQUEST;
 
     /// A change of shape cannot be found again after a build; tell about a room or a state.
@@ -469,6 +469,7 @@ impl From<&adit_db::Error> for Code {
             | Error::NotANumber { .. } => Self::DatabaseRefused,
             Error::Query(_) | Error::Deadline(_) => Self::SqlRefused,
             Error::Locked(_) => Self::DatabaseLocked,
+            Error::Taken { .. } => Self::TableTaken,
             _ => Self::Database,
         }
     }

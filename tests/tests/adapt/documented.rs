@@ -18,7 +18,7 @@ fn every_property_that_rules_are_told() {
 #[test]
 fn every_table_and_column_of_experience() {
     let schema =
-        std::fs::read_to_string(repository().join("db/sql/plans/50-experience.sql")).expect("the schema");
+        std::fs::read_to_string(repository().join("db/sql/v5/50-experience.sql")).expect("the schema");
     let page = page();
     let mut row = "";
     for line in schema.lines() {

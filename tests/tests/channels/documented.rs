@@ -27,8 +27,8 @@ fn every_property_that_rules_are_told() {
 
 #[test]
 fn every_table_that_keeps_plans() {
-    let schema = std::fs::read_to_string(adit_tests::repository().join("db/sql/plans/10-plans.sql"))
-        .expect("the schema");
+    let schema =
+        std::fs::read_to_string(adit_tests::repository().join("db/sql/v5/10-plans.sql")).expect("the schema");
     let page = documented();
     for line in schema.lines() {
         if let Some(table) =

@@ -1,5 +1,4 @@
--- Missions of robots on floor plans (`adit simulate`), each under the name of its world and its number. Made where
--- a mission is kept for the first time.
+-- Missions of robots on floor plans (`adit simulate`), each under the name of its world and its number.
 CREATE TABLE IF NOT EXISTS missions (
   world     TEXT NOT NULL,
   mission   INTEGER NOT NULL,

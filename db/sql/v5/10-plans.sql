@@ -1,6 +1,6 @@
--- What the planners of worlds of their own (`adit plan`) found, each under the name of its world. Made where a plan is
--- kept for the first time: a site without plans has none of these tables, and in one that has them they are classes for
--- its rules, like any table.
+-- What the planners of worlds of their own (`adit plan`) found, each under the name of its world. Programs before version
+-- 5 made these tables, and those of the scripts beside this one, where they first kept something in them: hence what is
+-- there stays.
 CREATE TABLE IF NOT EXISTS plans (
   plan          TEXT PRIMARY KEY,
   kind          TEXT NOT NULL CHECK (kind IN ('assembly', 'corridor')),

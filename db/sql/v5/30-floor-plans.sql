@@ -1,6 +1,6 @@
 -- Floor plans of worlds (`adit plan`), each under the name of its world: convex regions, doorways between them, adits on
 -- either side, ways between adits and what rules said that they weigh, and the last path. Metres; numbers from 0, as
--- rules see them. Made where a floor plan is kept for the first time.
+-- rules see them.
 CREATE TABLE IF NOT EXISTS floor_plans (
   world   TEXT PRIMARY KEY,
   rules   TEXT NOT NULL,

@@ -1,6 +1,5 @@
 -- Buildings that robots have learned (`adit simulate --learn`), each under the name of its world, in the frame of the pose
 -- where the robot began. Metres. The network of places over them stands in the tables of floor plans, under `learned`.
--- Made where a building is learned for the first time.
 CREATE TABLE IF NOT EXISTS learned_buildings (
   world   TEXT PRIMARY KEY,
   learned TEXT NOT NULL UNIQUE,

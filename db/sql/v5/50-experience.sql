@@ -1,6 +1,6 @@
--- What a robot has learned in a cell (`adit plan CELL --db`), each cell under its name. Made where experience is kept for
--- the first time. Lengths in metres, angles in radians, as exact as the planner has them; configurations and paths are
--- JSON. What broke or was taken out stays, with the task in which it did.
+-- What a robot has learned in a cell (`adit plan CELL --db`), each cell under its name. Lengths in metres, angles in
+-- radians, as exact as the planner has them; configurations and paths are JSON. What broke or was taken out stays, with
+-- the task in which it did.
 CREATE TABLE IF NOT EXISTS cells (
   cell         TEXT PRIMARY KEY,
   robot        TEXT NOT NULL,

@@ -1,0 +1,18 @@
+//! Whether a database keeps worlds of their own, as `adit plan` and `adit simulate` do: plans, missions, floor plans,
+//! learned buildings and experience. It has all their tables or none, so that a site without worlds is 65 pages smaller
+//! and may have `tasks`, `edges` or `cells` of its own.
+
+use sqlx::SqliteConnection;
+
+use crate::error::Result;
+
+/// Whether the tables of worlds are there; one is known by a column that nobody else's table of that name has. Programs
+/// before version 5 made them one kind at a time.
+pub(crate) async fn are_kept(connection: &mut SqliteConnection) -> Result<bool> {
+    let sql = "SELECT EXISTS (
+        SELECT 1 FROM sqlite_schema AS s, pragma_table_info(s.name) AS c
+        WHERE s.type = 'table' AND (s.name, c.name) IN (VALUES
+            ('plans', 'min_clearance'), ('missions', 'optimum'), ('floor_plans', 'margin'),
+            ('learned_buildings', 'learned'), ('cells', 'next_subgoal')))";
+    Ok(sqlx::query_scalar(sql).fetch_one(connection).await?)
+}
