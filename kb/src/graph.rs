@@ -1,4 +1,4 @@
-//! The graph of a site, for searches: rooms and doors by index, and where points and names lie in it.
+//! The graph of a site, for searches: which rooms and doors there are, and where points and names lie in it.
 
 pub(crate) mod gauge;
 pub(crate) mod pairs;
@@ -6,6 +6,7 @@ mod texts;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops;
 use std::sync::Arc;
 
 use adit_db::door::{Door, DoorKind};
@@ -15,22 +16,24 @@ use adit_db::schema::Row;
 use adit_db::weight::Weight;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;
-use adit_planners::routes::{Closed, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+use adit_planners::routes::{
+    Closed, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking,
+};
 
 pub use texts::{Texts, word};
 
 /// Rooms, doors and places as they stand in the tables, ready to be searched.
 #[derive(Clone)]
 pub struct SiteGraph {
-    /// Rows of `rooms`, by index.
+    /// Rows of `rooms`, by [`RoomIndex`].
     pub rooms: Vec<Room>,
-    /// Rows of `doors`, by index.
+    /// Rows of `doors`, by [`DoorIndex`].
     pub doors: Vec<Door>,
     /// Rows of `places`, by index.
     pub places: Vec<Place>,
     graph: RouteGraph,
-    /// The doors that are told to let nobody through, by index.
-    closed: BTreeSet<usize>,
+    /// The doors that are told to let nobody through.
+    closed: BTreeSet<DoorIndex>,
     index: Arc<Index>,
     texts: Option<Texts>,
 }
@@ -38,8 +41,8 @@ pub struct SiteGraph {
 /// Where to find what; the same for all copies, however they are weighed.
 struct Index {
     /// Only looked up in: no order of theirs can reach an answer.
-    room_by_key: HashMap<i64, usize>,
-    room_by_name: HashMap<String, usize>,
+    room_by_key: HashMap<i64, RoomIndex>,
+    room_by_name: HashMap<String, RoomIndex>,
     place_by_name: HashMap<String, usize>,
     rooms: RectIndex,
 }
@@ -50,8 +53,7 @@ pub type Rules = BTreeMap<i64, String>;
 /// Something that a route starts from or leads to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum End {
-    /// A room, by index.
-    Room(usize),
+    Room(RoomIndex),
     /// A place, by index.
     Place(usize),
     /// A point that has no name.
@@ -61,12 +63,13 @@ pub enum End {
 impl SiteGraph {
     /// Indexes the tables.
     pub fn new(rooms: Vec<Room>, doors: Vec<Door>, places: Vec<Place>) -> Self {
-        let room_by_key = rooms.iter().enumerate().map(|(index, room)| (room.room, index)).collect();
+        let room_by_key =
+            rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
         let route_rooms =
             rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking_in(room) }).collect();
         let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
         let graph = RouteGraph::new(route_rooms, route_doors);
-        let named = |(index, room): (usize, &Room)| (room.name.clone(), index);
+        let named = |(index, room): (usize, &Room)| (room.name.clone(), RoomIndex::new(index));
         // of places of one name the first counts
         let placed = |(index, place): (usize, &Place)| (place.place.clone(), index);
         let index = Index {
@@ -75,8 +78,8 @@ impl SiteGraph {
             place_by_name: places.iter().enumerate().rev().map(placed).collect(),
             rooms: RectIndex::new(rooms.iter().map(rect_of)),
         };
-        let closed = doors.iter().enumerate().filter(|(_, door)| is_told_closed(door)).map(|(row, _)| row);
-        let closed = closed.collect();
+        let closed =
+            (0..doors.len()).filter(|&door| is_told_closed(&doors[door])).map(DoorIndex::new).collect();
         let mut all = Self { rooms, doors, places, graph, closed, index: Arc::new(index), texts: None };
         all.graph.close(all.boundaries());
         all
@@ -84,8 +87,8 @@ impl SiteGraph {
 
     /// Where doors are told to let nobody through: that holds for every state and robot.
     fn boundaries(&self) -> Vec<Closed> {
-        let boundary = |&row: &usize| {
-            let door = self.graph.doors()[row];
+        let boundary = |&door: &DoorIndex| {
+            let door = self.graph[door];
             Closed { door: door.door, segment: door.crossing }
         };
         self.closed.iter().map(boundary).collect()
@@ -108,72 +111,72 @@ impl SiteGraph {
         &self.graph
     }
 
-    /// Gives rooms and doors other weights, by index.
-    pub fn write(&mut self, rooms: &[(usize, Weight)], doors: &[(usize, Weight)]) {
+    /// Gives rooms and doors other weights.
+    pub fn write(&mut self, rooms: &[(RoomIndex, Weight)], doors: &[(DoorIndex, Weight)]) {
         self.put(rooms, doors);
-        self.weigh(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _)| *row));
+        self.weigh(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _)| *door));
     }
 
-    /// Takes over the weights of some rooms and doors of another copy, and gives some other weights, by index.
+    /// Takes over the weights of some rooms and doors of another copy, and gives some other weights.
     pub fn follow(
         &mut self,
         from: &Self,
-        (late_rooms, late_doors): (&[usize], &[usize]),
-        rooms: &[(usize, Weight)],
-        doors: &[(usize, Weight)],
+        (late_rooms, late_doors): (&[RoomIndex], &[DoorIndex]),
+        rooms: &[(RoomIndex, Weight)],
+        doors: &[(DoorIndex, Weight)],
     ) {
-        for &row in late_rooms {
-            self.rooms[row].clone_from(&from.rooms[row]);
+        for &room in late_rooms {
+            self.rooms[room.index()].clone_from(&from[room]);
         }
-        for &row in late_doors {
-            self.doors[row].clone_from(&from.doors[row]);
+        for &door in late_doors {
+            self.doors[door.index()].clone_from(&from[door]);
         }
         self.put(rooms, doors);
-        let rooms = late_rooms.iter().copied().chain(rooms.iter().map(|(row, _)| *row));
-        let doors = late_doors.iter().copied().chain(doors.iter().map(|(row, _)| *row));
+        let rooms = late_rooms.iter().copied().chain(rooms.iter().map(|(room, _)| *room));
+        let doors = late_doors.iter().copied().chain(doors.iter().map(|(door, _)| *door));
         self.weigh(rooms, doors);
     }
 
-    fn put(&mut self, rooms: &[(usize, Weight)], doors: &[(usize, Weight)]) {
-        for (row, weight) in rooms {
-            self.rooms[*row].weigh(weight.clone());
+    fn put(&mut self, rooms: &[(RoomIndex, Weight)], doors: &[(DoorIndex, Weight)]) {
+        for (room, weight) in rooms {
+            self.rooms[room.index()].weigh(weight.clone());
         }
-        for (row, weight) in doors {
-            self.doors[*row].weigh(weight.clone());
+        for (door, weight) in doors {
+            self.doors[door.index()].weigh(weight.clone());
         }
     }
 
     /// Lets searches see the weights of these rows.
-    fn weigh(&mut self, rooms: impl Iterator<Item = usize>, doors: impl Iterator<Item = usize>) {
-        let rows = (&self.rooms, &self.doors);
-        let rooms = rooms.map(|row| (row, walking_in(&rows.0[row])));
-        let doors = doors.map(|row| {
-            let door = &rows.1[row];
-            (row, door.hardness.value, door.passable.value.unwrap_or(false))
-        });
-        let (rooms, doors): (Vec<_>, Vec<_>) = (rooms.collect(), doors.collect());
+    fn weigh(&mut self, rooms: impl Iterator<Item = RoomIndex>, doors: impl Iterator<Item = DoorIndex>) {
+        let rooms: Vec<_> = rooms.map(|room| (room, walking_in(&self[room]))).collect();
+        let weighed = |index: DoorIndex| {
+            let door = &self[index];
+            (index, door.hardness.value, door.passable.value.unwrap_or(false))
+        };
+        let doors: Vec<_> = doors.map(weighed).collect();
         let mut is_closed_otherwise = false;
-        for (row, _, _) in &doors {
-            let is_closed = is_told_closed(&self.doors[*row]);
-            is_closed_otherwise |= if is_closed { self.closed.insert(*row) } else { self.closed.remove(row) };
+        for (door, _, _) in &doors {
+            let is_closed = is_told_closed(&self[*door]);
+            is_closed_otherwise |=
+                if is_closed { self.closed.insert(*door) } else { self.closed.remove(door) };
         }
         if is_closed_otherwise {
             self.graph.close(self.boundaries());
         }
         if let Some(texts) = &mut self.texts {
-            texts.forget(rooms.iter().map(|(row, _)| *row), doors.iter().map(|(row, _, _)| *row));
+            texts.forget(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _, _)| *door));
         }
         self.graph.reweigh(rooms, doors);
     }
 
-    /// Index of the room with this key.
-    pub fn room(&self, key: i64) -> Option<usize> {
+    /// The room with this key.
+    pub fn room(&self, key: i64) -> Option<RoomIndex> {
         self.index.room_by_key.get(&key).copied()
     }
 
     /// The door with this key.
-    pub fn door(&self, key: i64) -> Option<&Door> {
-        self.doors.binary_search_by_key(&key, |door| door.door).ok().map(|index| &self.doors[index])
+    pub fn door(&self, key: i64) -> Option<DoorIndex> {
+        self.doors.binary_search_by_key(&key, |door| door.door).ok().map(DoorIndex::new)
     }
 
     /// The place whose node this is.
@@ -218,22 +221,22 @@ impl SiteGraph {
     /// Where an end is: a room stands for its centre.
     pub fn point(&self, end: &End) -> Point {
         match end {
-            End::Room(index) => rect_of(&self.rooms[*index]).centre(),
+            End::Room(index) => rect_of(&self[*index]).centre(),
             End::Place(index) => Point::new(self.places[*index].x, self.places[*index].y),
             End::Point(point) => *point,
         }
     }
 
     /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state and facing.
-    pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<usize> {
+    pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<RoomIndex> {
         if let End::Room(index) = end {
-            return if is_weighed(&self.rooms[*index]) { vec![*index] } else { Vec::new() };
+            return if is_weighed(&self[*index]) { vec![*index] } else { Vec::new() };
         }
         let at = self.point(end);
         let mut layers = Vec::new();
         let mut found = Vec::new();
-        for index in self.index.rooms.at(at) {
-            let room = &self.rooms[index];
+        for index in self.index.rooms.at(at).into_iter().map(RoomIndex::new) {
+            let room = &self[index];
             let of_robot = match (&room.layer, robot) {
                 (Some((of, _)), Some(robot)) => of == robot,
                 _ => true,
@@ -250,7 +253,7 @@ impl SiteGraph {
     /// Whether a room is this end, or holds it.
     pub fn holds(&self, room: &Room, end: &End) -> bool {
         match end {
-            End::Room(index) => self.rooms[*index].room == room.room,
+            End::Room(index) => self[*index].room == room.room,
             _ => rect_of(room).contains(self.point(end)),
         }
     }
@@ -264,6 +267,22 @@ impl SiteGraph {
     /// Where a search from this end begins.
     pub fn start(&self, end: &End, robot: Option<&str>) -> Start {
         Start { rooms: self.rooms_of(end, robot), at: self.point(end) }
+    }
+}
+
+impl ops::Index<RoomIndex> for SiteGraph {
+    type Output = Room;
+
+    fn index(&self, room: RoomIndex) -> &Room {
+        &self.rooms[room.index()]
+    }
+}
+
+impl ops::Index<DoorIndex> for SiteGraph {
+    type Output = Door;
+
+    fn index(&self, door: DoorIndex) -> &Door {
+        &self.doors[door.index()]
     }
 }
 
@@ -300,7 +319,7 @@ fn walking_in(room: &Room) -> Walking {
     walking(room.hardness.value, room.passable.value, room.layer.is_some())
 }
 
-fn route_door(door: &Door, rooms: &HashMap<i64, usize>) -> Option<RouteDoor> {
+fn route_door(door: &Door, rooms: &HashMap<i64, RoomIndex>) -> Option<RouteDoor> {
     let [x0, y0, x1, y1] = door.segment;
     Some(RouteDoor {
         door: u32::try_from(door.door).ok()?,

@@ -161,10 +161,12 @@ fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Cha
         action: room.action.value.clone(),
         passable: room.passable.value,
     };
-    let list =
-        to.rooms.iter().map(|(row, _)| (&before.rooms[*row], &after.rooms[*row])).map(|(old, new)| {
-            RoomChange { room: old.room, name: old.name.clone(), old: of(old), new: of(new) }
-        });
+    let list = to.rooms.iter().map(|(row, _)| (&before[*row], &after[*row])).map(|(old, new)| RoomChange {
+        room: old.room,
+        name: old.name.clone(),
+        old: of(old),
+        new: of(new),
+    });
     listed(total, list.filter(|change| change.old != change.new))
 }
 
@@ -178,7 +180,7 @@ fn doors(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Cha
         action: door.action.value.clone(),
         passable: door.passable.value,
     };
-    let list = to.doors.iter().map(|(row, _)| (&before.doors[*row], &after.doors[*row]));
+    let list = to.doors.iter().map(|(row, _)| (&before[*row], &after[*row]));
     let list = list.map(|(old, new)| DoorChange { door: old.door, old: of(old), new: of(new) });
     listed(total, list.filter(|change| change.old != change.new))
 }

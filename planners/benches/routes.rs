@@ -6,7 +6,7 @@
 mod building;
 
 use adit_planners::geometry::Point;
-use adit_planners::routes::{Goal, RouteGraph, Start, Walking};
+use adit_planners::routes::{DoorIndex, Goal, RoomIndex, RouteGraph, Start, Walking};
 use building::building;
 use cch::graph::Graph;
 use divan::Bencher;
@@ -19,7 +19,7 @@ fn main() {
 }
 
 fn start() -> Start {
-    Start { rooms: vec![0], at: Point::new(2.0, 2.0) }
+    Start { rooms: vec![RoomIndex::new(0)], at: Point::new(2.0, 2.0) }
 }
 
 #[divan::bench(args = [32, 100])]
@@ -59,7 +59,9 @@ fn hierarchy_clone(bencher: Bencher, side: usize) {
 fn reweigh(bencher: Bencher, side: usize, changed: usize) {
     let mut graph = prepared(side);
     let (count, mut draw) = (graph.doors().len(), drawn());
-    let doors = move || (0..changed).map(|_| (draw(count), Some(1.0 + draw(256) as f64), true)).collect();
+    let doors = move || {
+        (0..changed).map(|_| (DoorIndex::new(draw(count)), Some(1.0 + draw(256) as f64), true)).collect()
+    };
     bencher.with_inputs(doors).bench_local_values(|doors: Vec<_>| graph.reweigh([], doors));
 }
 
@@ -87,8 +89,8 @@ fn hierarchy_weigh_10_000(bencher: Bencher, side: usize) {
 fn ways(bencher: Bencher, graph: &RouteGraph) {
     let (count, mut draw) = (graph.rooms().len(), drawn());
     let ends = move || {
-        let start = Start { rooms: vec![draw(count)], at: Point::new(2.0, 2.0) };
-        (start, Goal { rooms: vec![draw(count)], at: None })
+        let start = Start { rooms: vec![RoomIndex::new(draw(count))], at: Point::new(2.0, 2.0) };
+        (start, Goal { rooms: vec![RoomIndex::new(draw(count))], at: None })
     };
     bencher.with_inputs(ends).bench_local_values(|(start, goal)| graph.way(&start, &[goal]));
 }
@@ -108,7 +110,8 @@ fn as_whole_numbers(side: usize) -> (Graph, Vec<u32>) {
     let graph = building(side, Walking::OnDoors);
     let mut arcs: Vec<(u32, u32, u32)> = Vec::new();
     for door in graph.doors() {
-        let (one, two, weight) = (door.room1 as u32, door.room2 as u32, door.hardness.unwrap_or(0.0) as u32);
+        let [one, two] = [door.room1, door.room2].map(|room| room.index() as u32);
+        let weight = door.hardness.unwrap_or(0.0) as u32;
         arcs.extend([(one, two, weight), (two, one, weight)]);
     }
     arcs.sort_unstable();

@@ -32,7 +32,7 @@ const ROOMS: [usize; 2] = [32, 100];
 #[divan::bench(args = ROOMS)]
 fn rooms_ours(bencher: Bencher, side: usize) {
     let graph = building(side, Walking::OnDoors);
-    let start = Start { rooms: vec![0], at: Point::new(2.0, 2.0) };
+    let start = Start { rooms: vec![NodeIndex::new(0)], at: Point::new(2.0, 2.0) };
     bencher.bench(|| graph.tree(&start));
 }
 
@@ -40,7 +40,7 @@ fn rooms_ours(bencher: Bencher, side: usize) {
 #[divan::bench(args = ROOMS)]
 fn rooms_petgraph(bencher: Bencher, side: usize) {
     let graph = building(side, Walking::OnDoors);
-    bencher.bench(|| dijkstra(&graph, 0, None, |passage| *passage.weight()));
+    bencher.bench(|| dijkstra(&graph, NodeIndex::new(0), None, |passage| *passage.weight()));
 }
 
 /// A grid of so many cells a side, with posts on it.

@@ -35,10 +35,10 @@ use taut::{Outcome, Search, Wanted};
 use trace::trace;
 
 pub use blocked::{Blockage, blockage};
-pub use compact::{CompactGraph, CompactTree, NONE};
+pub use compact::{CompactGraph, CompactTree};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};
-pub use parts::{Goal, RouteDoor, RouteRoom, Start, Walking};
+pub use parts::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
 
@@ -101,7 +101,7 @@ impl RouteGraph {
     }
 
     /// The rooms that open doors join with one of these.
-    fn joined_with(&self, rooms: &[usize]) -> FixedBitSet {
+    fn joined_with(&self, rooms: &[RoomIndex]) -> FixedBitSet {
         let rooms = rooms.iter().copied().filter(|&room| self.is_entered(room)).collect();
         let mut search = Dfs::from_parts(rooms, self.visit_map());
         while search.next(self).is_some() {}

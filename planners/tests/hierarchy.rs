@@ -2,7 +2,9 @@
 #![allow(clippy::float_cmp, clippy::unwrap_used)] // sums of the same numbers in the same order; helpers of tests
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
+use adit_planners::routes::{
+    DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+};
 use petgraph::algo::dijkstra;
 use petgraph::visit::EdgeRef;
 use proptest::prelude::*;
@@ -24,8 +26,8 @@ fn door(door: u32, room1: usize, room2: usize, hardness: Option<f64>) -> RouteDo
     let at = Point::new(f64::from(door), 0.5);
     RouteDoor {
         door,
-        room1,
-        room2,
+        room1: RoomIndex::new(room1),
+        room2: RoomIndex::new(room2),
         crossing: Rect::new(at.x, 0.0, at.x, 1.0),
         at,
         hardness,
@@ -78,35 +80,43 @@ fn edit(graph: &mut RouteGraph, (doors, room): &Edit) {
     let weighed: Vec<_> = doors
         .iter()
         .filter(|_| count > 0)
-        .map(|(door, hardness, passable)| (door.index(count), *hardness, *passable))
+        .map(|(door, hardness, passable)| (DoorIndex::new(door.index(count)), *hardness, *passable))
         .collect();
     let walking = |is_entered: bool| if is_entered { Walking::OnDoors } else { Walking::Unknown };
-    graph.reweigh(room.map(|(room, is_entered)| (room, walking(is_entered))), weighed);
+    graph.reweigh(room.map(|(room, is_entered)| (RoomIndex::new(room), walking(is_entered))), weighed);
+}
+
+fn start<const N: usize>(rooms: [usize; N]) -> Start {
+    Start { rooms: rooms.map(RoomIndex::new).to_vec(), at: Point::default() }
+}
+
+fn goal(room: usize) -> Goal {
+    Goal { rooms: vec![RoomIndex::new(room)], at: None }
 }
 
 fn way(graph: &RouteGraph, from: usize, to: usize) -> Option<Way> {
-    let start = Start { rooms: vec![from], at: Point::default() };
-    graph.way(&start, &[Goal { rooms: vec![to], at: None }]).map(|(_, way)| way)
+    graph.way(&start([from]), &[goal(to)]).map(|(_, way)| way)
 }
 
-/// The doors that a way passes, by index.
-fn doors_of(way: &Way) -> Vec<usize> {
+fn doors_of(way: &Way) -> Vec<DoorIndex> {
     way.legs.iter().filter_map(|leg| leg.door).collect()
 }
 
 /// Whether each leg's door leads from its room into the next one's, for a robot that passes it.
 fn is_driven(graph: &RouteGraph, way: &Way, to: usize) -> bool {
-    let rooms: Vec<usize> = way.legs.iter().map(|leg| leg.room).collect();
+    let rooms: Vec<RoomIndex> = way.legs.iter().map(|leg| leg.room).collect();
     let mut seen = rooms.clone();
     seen.sort_unstable();
     seen.dedup();
-    let follows = |(leg, next): (usize, &usize)| {
-        let door = graph.doors()[way.legs[leg].door.unwrap()];
+    let follows = |(leg, next): (usize, &RoomIndex)| {
+        let door = graph[way.legs[leg].door.unwrap()];
         let (one, two) = (door.room1, door.room2);
         let leads = (one, two) == (rooms[leg], *next) || !door.one_way && (two, one) == (rooms[leg], *next);
         leads && door.weight().is_some()
     };
-    seen.len() == rooms.len() && rooms.last() == Some(&to) && rooms[1..].iter().enumerate().all(follows)
+    seen.len() == rooms.len()
+        && rooms.last() == Some(&RoomIndex::new(to))
+        && rooms[1..].iter().enumerate().all(follows)
 }
 
 /// Whether two sums of the same size are the same but for their rounding.
@@ -116,20 +126,20 @@ fn is_same(one: f64, two: f64) -> bool {
 
 fn check(graph: &RouteGraph) -> Result<(), TestCaseError> {
     for from in (0..ROOMS).step_by(5) {
-        let start = Start { rooms: vec![from], at: Point::default() };
+        let start = start([from]);
         let tree = graph.tree(&start);
-        let reference = dijkstra(graph, from, None, |passage| *passage.weight());
-        for to in 0..ROOMS {
+        let reference = dijkstra(graph, RoomIndex::new(from), None, |passage| *passage.weight());
+        for (to, room) in graph.room_indices().enumerate() {
             let Some(way) = way(graph, from, to) else {
                 prop_assert!(tree.rooms[to].is_none(), "{from} to {to}");
                 continue;
             };
             let arrival = tree.rooms[to].unwrap();
             prop_assert!(is_same(way.cost, arrival.cost), "{from} to {to}: {} {}", way.cost, arrival.cost);
-            prop_assert!(is_same(way.cost, reference[&to]));
+            prop_assert!(is_same(way.cost, reference[&room]));
             prop_assert!(is_driven(graph, &way, to), "{from} to {to}: {way:?}");
-            let (mut room, mut doors) = (to, Vec::new());
-            while let Some((before, door)) = tree.rooms[room].unwrap().from {
+            let (mut room, mut doors) = (room, Vec::new());
+            while let Some((before, door)) = tree.rooms[room.index()].unwrap().from {
                 doors.push(door);
                 room = before;
             }
@@ -215,13 +225,15 @@ fn on_a_large_floor_every_way_costs_least_after_small_and_large_edits() {
     let (rooms, doors) = (graph.rooms().len(), graph.doors().len());
     for changed in [0, 1, 1, 3, 30, 1, doors, 2] {
         let weighed: Vec<_> = (0..changed)
-            .map(|_| (draw(doors as u64) as usize, Some(draw(1000) as f64 / 3.0), draw(5) > 0))
+            .map(|_| {
+                (DoorIndex::new(draw(doors as u64) as usize), Some(draw(1000) as f64 / 3.0), draw(5) > 0)
+            })
             .collect();
         graph.reweigh([], weighed);
         let anew = prepared(graph.rooms().to_vec(), graph.doors().to_vec());
         for _ in 0..5 {
             let from = draw(rooms as u64) as usize;
-            let tree = graph.tree(&Start { rooms: vec![from], at: Point::default() });
+            let tree = graph.tree(&start([from]));
             for to in (0..rooms).step_by(37) {
                 let found = way(&graph, from, to);
                 assert_eq!(found, way(&anew, from, to));
@@ -240,7 +252,7 @@ fn on_a_large_floor_every_way_costs_least_after_small_and_large_edits() {
 #[test]
 fn of_two_equal_doors_the_lower_number_is_passed() {
     let graph = prepared(rooms(&[true; ROOMS]), vec![door(9, 0, 1, Some(3.0)), door(4, 1, 0, Some(3.0))]);
-    assert_eq!(doors_of(&way(&graph, 0, 1).unwrap()), [1]);
+    assert_eq!(doors_of(&way(&graph, 0, 1).unwrap()), [DoorIndex::new(1)]);
 }
 
 #[test]
@@ -255,9 +267,7 @@ fn rooms_that_no_doors_join_have_no_way() {
 fn of_several_goals_the_cheapest_is_chosen_and_of_equal_ones_the_first() {
     let doors = vec![door(1, 0, 1, Some(3.0)), door(2, 0, 2, Some(2.0)), door(3, 0, 3, Some(2.0))];
     let graph = prepared(rooms(&[true; ROOMS]), doors);
-    let goal = |room: usize| Goal { rooms: vec![room], at: None };
-    let start = Start { rooms: vec![0], at: Point::default() };
-    let (chosen, way) = graph.way(&start, &[goal(1), goal(2), goal(3)]).unwrap();
+    let (chosen, way) = graph.way(&start([0]), &[goal(1), goal(2), goal(3)]).unwrap();
     assert_eq!((chosen, way.cost), (1, 2.0));
 }
 
@@ -265,7 +275,6 @@ fn of_several_goals_the_cheapest_is_chosen_and_of_equal_ones_the_first() {
 fn a_start_in_several_rooms_leaves_from_the_best_one() {
     let doors = vec![door(1, 0, 2, Some(3.0)), door(2, 1, 2, Some(2.0))];
     let graph = prepared(rooms(&[true; ROOMS]), doors);
-    let start = Start { rooms: vec![0, 1], at: Point::default() };
-    let (_, way) = graph.way(&start, &[Goal { rooms: vec![2], at: None }]).unwrap();
-    assert_eq!((way.legs[0].room, way.cost), (1, 2.0));
+    let (_, way) = graph.way(&start([0, 1]), &[goal(2)]).unwrap();
+    assert_eq!((way.legs[0].room, way.cost), (RoomIndex::new(1), 2.0));
 }

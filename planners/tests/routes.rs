@@ -2,7 +2,9 @@
 #![allow(clippy::float_cmp)] // sums of small whole numbers are exact
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Blockage, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage};
+use adit_planners::routes::{
+    Blockage, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage,
+};
 use petgraph::algo::{bellman_ford, dijkstra, kosaraju_scc, tarjan_scc};
 use petgraph::visit::{EdgeCount, EdgeRef, IntoEdgeReferences, IntoEdgesDirected};
 use petgraph::{Direction, Graph};
@@ -11,8 +13,8 @@ use proptest::prelude::*;
 fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
     RouteDoor {
         door,
-        room1,
-        room2,
+        room1: RoomIndex::new(room1),
+        room2: RoomIndex::new(room2),
         crossing: Rect::new(0.0, 0.0, 0.0, 0.0),
         at: Point::default(),
         hardness: Some(hardness),
@@ -26,11 +28,11 @@ fn rooms(count: usize) -> Vec<RouteRoom> {
 }
 
 fn start(room: usize) -> Start {
-    Start { rooms: vec![room], at: Point::default() }
+    Start { rooms: vec![RoomIndex::new(room)], at: Point::default() }
 }
 
 fn goal(room: usize) -> Goal {
-    Goal { rooms: vec![room], at: None }
+    Goal { rooms: vec![RoomIndex::new(room)], at: None }
 }
 
 fn any_doors(rooms: usize) -> impl Strategy<Value = Vec<RouteDoor>> {
@@ -48,11 +50,11 @@ proptest! {
     fn the_cost_of_every_room_is_the_least(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors);
         let tree = graph.tree(&start(0));
-        let reference = dijkstra(&graph, 0, None, |passage| *passage.weight());
-        let other = bellman_ford(&graph, 0).unwrap();
+        let reference = dijkstra(&graph, RoomIndex::new(0), None, |passage| *passage.weight());
+        let other = bellman_ford(&graph, RoomIndex::new(0)).unwrap();
         for room in 0..12 {
             let ours = tree.rooms[room].map(|arrival| arrival.cost);
-            prop_assert_eq!(ours, reference.get(&room).copied());
+            prop_assert_eq!(ours, reference.get(&RoomIndex::new(room)).copied());
             prop_assert_eq!(ours.unwrap_or(f64::INFINITY), other.distances[room]);
         }
     }
@@ -63,20 +65,20 @@ proptest! {
         let mut own = Graph::<(), u32>::new();
         let nodes: Vec<_> = (0..12).map(|_| own.add_node(())).collect();
         for door in doors.iter().filter(|door| door.passable) {
-            own.add_edge(nodes[door.room1], nodes[door.room2], door.door);
+            own.add_edge(nodes[door.room1.index()], nodes[door.room2.index()], door.door);
             if !door.one_way {
-                own.add_edge(nodes[door.room2], nodes[door.room1], door.door);
+                own.add_edge(nodes[door.room2.index()], nodes[door.room1.index()], door.door);
             }
         }
         prop_assert_eq!(graph.edge_count(), own.edge_count());
-        let key = |passage: usize| graph.doors()[passage].door;
-        for (room, &node) in nodes.iter().enumerate() {
+        let key = |passage: DoorIndex| graph[passage].door;
+        for &room in &nodes {
             for direction in [Direction::Outgoing, Direction::Incoming] {
                 let ours = graph.edges_directed(room, direction);
                 let mut ours: Vec<_> = ours.map(|at| (at.source(), at.target(), key(at.id()))).collect();
-                let theirs = own.edges_directed(node, direction);
+                let theirs = own.edges_directed(room, direction);
                 let mut theirs: Vec<_> =
-                    theirs.map(|at| (at.source().index(), at.target().index(), *at.weight())).collect();
+                    theirs.map(|at| (at.source(), at.target(), *at.weight())).collect();
                 ours.sort_unstable();
                 theirs.sort_unstable();
                 prop_assert_eq!(ours, theirs);
@@ -85,15 +87,14 @@ proptest! {
         let passed: f64 = graph.edge_references().map(|passage| *passage.weight()).sum();
         let weight = |door: &u32| doors[*door as usize - 1].hardness.unwrap();
         prop_assert_eq!(passed, own.edge_weights().map(weight).sum::<f64>());
-        let sorted = |mut parts: Vec<Vec<usize>>| {
+        let sorted = |mut parts: Vec<Vec<RoomIndex>>| {
             for part in &mut parts {
                 part.sort_unstable();
             }
             parts.sort_unstable();
             parts
         };
-        let theirs = tarjan_scc(&own).into_iter().map(|part| part.into_iter().map(|n| n.index()).collect());
-        let theirs = sorted(theirs.collect());
+        let theirs = sorted(tarjan_scc(&own));
         prop_assert_eq!(&sorted(tarjan_scc(&graph)), &theirs);
         prop_assert_eq!(&sorted(kosaraju_scc(&graph)), &theirs, "which goes against the doors, too");
     }
@@ -104,7 +105,7 @@ proptest! {
         let tree = graph.tree(&start(3));
         for arrival in tree.rooms.iter().flatten() {
             let Some((before, door)) = arrival.from else { continue };
-            let (before, through) = (tree.rooms[before].unwrap(), graph.doors()[door]);
+            let (before, through) = (tree.rooms[before.index()].unwrap(), graph[door]);
             prop_assert!(through.passable);
             prop_assert_eq!(arrival.cost, before.cost + through.hardness.unwrap());
             prop_assert_eq!(arrival.hops, before.hops + 1);
@@ -129,13 +130,13 @@ proptest! {
 #[test]
 fn of_two_parallel_doors_the_easier_one_is_passed() {
     let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 5.0), door(2, 0, 1, 3.0)]);
-    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((0, 1)));
+    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((RoomIndex::new(0), DoorIndex::new(1))));
 }
 
 #[test]
 fn of_two_equal_doors_the_lower_number_is_passed() {
     let graph = RouteGraph::new(rooms(2), vec![door(1, 0, 1, 3.0), door(2, 0, 1, 3.0)]);
-    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((0, 0)));
+    assert_eq!(graph.tree(&start(0)).rooms[1].unwrap().from, Some((RoomIndex::new(0), DoorIndex::new(0))));
 }
 
 #[test]
@@ -163,10 +164,11 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
     let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
-    let start = Start { rooms: vec![0], at: Point::new(7.0, 4.0) };
-    let goal = Goal { rooms: vec![1], at: Some(Point::new(13.0, 8.0)) };
+    let start = Start { rooms: vec![RoomIndex::new(0)], at: Point::new(7.0, 4.0) };
+    let goal = Goal { rooms: vec![RoomIndex::new(1)], at: Some(Point::new(13.0, 8.0)) };
     let (_, way) = graph.way(&start, &[goal]).unwrap();
-    let legs: Vec<_> = way.legs.iter().map(|leg| (leg.room, leg.to, leg.hardness, leg.cost)).collect();
+    let legs: Vec<_> =
+        way.legs.iter().map(|leg| (leg.room.index(), leg.to, leg.hardness, leg.cost)).collect();
     let bend = Point::new(10.0, 8.0);
     assert_eq!(legs, [(0, bend, 5.0, 5.5), (1, Point::new(13.0, 8.0), 6.0, 11.5)]);
 }
@@ -186,8 +188,8 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     };
     let doors = vec![change(1, 0, 2, 0.0, 9.0), change(2, 2, 1, 10.0, 20.0)];
     let graph = RouteGraph::new(rooms, doors);
-    let start = Start { rooms: vec![0], at: Point::new(1.0, 1.0) };
-    let goal = Goal { rooms: vec![1], at: Some(Point::new(19.0, 1.0)) };
+    let start = Start { rooms: vec![RoomIndex::new(0)], at: Point::new(1.0, 1.0) };
+    let goal = Goal { rooms: vec![RoomIndex::new(1)], at: Some(Point::new(19.0, 1.0)) };
     let (_, way) = graph.way(&start, &[goal]).unwrap();
     assert!((way.cost - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
     let at: Vec<Point> = way.legs.iter().map(|leg| leg.to).collect();

@@ -5,7 +5,8 @@
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Kind, State, cut_layers};
 use adit_planners::routes::{
-    Blockage, Closed, Goal, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way, blockage,
+    Blockage, Closed, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+    blockage,
 };
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use proptest::prelude::*;
@@ -46,8 +47,8 @@ fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
     };
     let door = |(index, crossing): (usize, &adit_planners::layers::Crossing)| RouteDoor {
         door: index as u32 + 1,
-        room1: crossing.room1,
-        room2: crossing.room2,
+        room1: RoomIndex::new(crossing.room1),
+        room2: RoomIndex::new(crossing.room2),
         crossing: crossing.rect,
         at: crossing.rect.centre(),
         hardness: Some(if crossing.kind == Kind::Change { change } else { 0.0 }),
@@ -73,13 +74,13 @@ fn two_halls() -> World {
     world
 }
 
-/// The doors, by index, in the doorway's right mouth: where each shape has come through it.
-fn right_mouth(graph: &RouteGraph) -> Vec<usize> {
+/// The doors in the doorway's right mouth: where each shape has come through it.
+fn right_mouth(graph: &RouteGraph) -> Vec<DoorIndex> {
     let is_there = |door: &RouteDoor| {
         let Rect { x0, y0, x1, y1 } = door.crossing;
         !door.is_change() && x0 == x1 && (6.2..6.6).contains(&x0) && y0 > 3.1 && y1 < 3.9
     };
-    (0..graph.doors().len()).filter(|&door| is_there(&graph.doors()[door])).collect()
+    graph.door_indices().filter(|&door| is_there(&graph[door])).collect()
 }
 
 #[test]
@@ -101,8 +102,8 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
     let before = way(&graph, home, window).unwrap();
     let mouth = right_mouth(&graph);
-    let close = |doors: &[usize]| -> Vec<Closed> {
-        let closed = |&door: &usize| graph.doors()[door];
+    let close = |doors: &[DoorIndex]| -> Vec<Closed> {
+        let closed = |&door: &DoorIndex| graph[door];
         doors.iter().map(closed).map(|door| Closed { door: door.door, segment: door.crossing }).collect()
     };
     let all = close(&mouth);
@@ -115,8 +116,8 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
 }
 
-fn holding(graph: &RouteGraph, p: Point) -> Vec<usize> {
-    (0..graph.rooms().len()).filter(|&room| graph.rooms()[room].rect.contains(p)).collect()
+fn holding(graph: &RouteGraph, p: Point) -> Vec<RoomIndex> {
+    graph.room_indices().filter(|&room| graph[room].rect.contains(p)).collect()
 }
 
 fn way(graph: &RouteGraph, from: Point, to: Point) -> Option<Way> {
@@ -222,11 +223,11 @@ fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Result<(
     let (mut at, mut cost) = (from, 0.0);
     for leg in &way.legs {
         prop_assert!(leg.from.distance(at) < 1e-9, "{leg:?} begins elsewhere than {at:?}");
-        let rect = graph.rooms()[leg.room].rect;
+        let rect = graph[leg.room].rect;
         for p in [leg.from, leg.to] {
             prop_assert!(rect.nearest_to(p).distance(p) < 1e-6, "{leg:?} leaves its room {rect:?}");
         }
-        cost += leg.hardness + leg.door.map_or(0.0, |door| graph.doors()[door].hardness.unwrap());
+        cost += leg.hardness + leg.door.map_or(0.0, |door| graph[door].hardness.unwrap());
         prop_assert!((leg.cost - cost).abs() < 1e-9);
         at = leg.to;
     }
@@ -300,8 +301,8 @@ proptest! {
         shut in prop::collection::vec(any::<prop::sample::Index>(), 0..12)
     ) {
         let mut graph = graph_of(&with_pipes(&blocks, &pipes), &three_shapes(), change);
-        let shut: Vec<usize> = shut.iter().map(|door| door.index(graph.doors().len())).collect();
-        let shut: Vec<_> = shut.into_iter().filter(|&door| !graph.doors()[door].is_change()).collect();
+        let shut = shut.iter().map(|door| DoorIndex::new(door.index(graph.doors().len())));
+        let shut: Vec<_> = shut.filter(|&door| !graph[door].is_change()).collect();
         graph.reweigh([], shut.into_iter().map(|door| (door, Some(0.0), false)));
         let (there, back) = (way(&graph, from, to), way(&graph, to, from));
         prop_assert_eq!(there.is_some(), back.is_some());
@@ -321,7 +322,7 @@ proptest! {
         prop_assume!(free.is_some());
         let free = free.unwrap();
         // doors on the way, as long as there are any
-        let passed: Vec<RouteDoor> = free.legs.iter().filter_map(|leg| leg.door).map(|door| graph.doors()[door])
+        let passed: Vec<RouteDoor> = free.legs.iter().filter_map(|leg| leg.door).map(|door| graph[door])
             .filter(|door| !door.is_change()).collect();
         prop_assume!(!passed.is_empty());
         let closed: Vec<Closed> = closed.iter().map(|door| door.get(&passed))
@@ -381,7 +382,7 @@ fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Rect) -> Result<(),
             let at = Point::new(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
             prop_assert!(!is_within(at), "{leg:?} crosses {boundary:?}");
         }
-        let is_change = leg.door.is_some_and(|door| graph.doors()[door].is_change());
+        let is_change = leg.door.is_some_and(|door| graph[door].is_change());
         prop_assert!(!(is_change && is_on(leg.to)), "a shape is changed on {boundary:?}: {leg:?}");
     }
     Ok(())

@@ -4,7 +4,7 @@
 
 use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile};
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{CompactGraph, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+use adit_planners::routes::{CompactGraph, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 use petgraph::algo::dijkstra;
 use petgraph::visit::{EdgeRef, IntoEdges};
 
@@ -48,8 +48,8 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
         let rooms = vec![RouteRoom { rect, walking: Walking::OnDoors }; SIDE * SIDE];
         let door = |(door, &(room1, room2)): (usize, &(usize, usize))| RouteDoor {
             door: door as u32 + 1,
-            room1,
-            room2,
+            room1: RoomIndex::new(room1),
+            room2: RoomIndex::new(room2),
             crossing: Rect::new(0.0, 0.0, 0.0, 1.0),
             at: Point::new(0.0, 0.0),
             hardness: hardness[door],
@@ -58,17 +58,19 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
         };
         RouteGraph::new(rooms, pairs.iter().enumerate().map(door).collect())
     };
-    let (start, goal) = (SIDE * 100 + 100, SIDE * 130 + 120);
+    let (start, goal) = (RoomIndex::new(SIDE * 100 + 100), RoomIndex::new(SIDE * 130 + 120));
 
     let mut knowledge = inference(&width, &distance);
     let unweighed = graph(&vec![Some(0.0); pairs.len()]);
     let mut weights: Vec<Option<f64>> = vec![None; pairs.len()];
     let found = dijkstra(&unweighed, start, Some(goal), |passage| {
-        if weights[passage.id()].is_none() {
+        if weights[passage.id().index()].is_none() {
             // whoever comes to a room asks for all of its doors at once
             let doors = unweighed.edges(passage.source()).map(|passage| passage.id());
-            let doors: Vec<u32> =
-                doors.filter(|&door| weights[door].is_none()).map(|door| door as u32).collect();
+            let doors: Vec<u32> = doors
+                .filter(|door| weights[door.index()].is_none())
+                .map(|door| door.index() as u32)
+                .collect();
             knowledge.ask_rows(&rules, "DOORS", &doors, &["hardness"]);
             for door in doors {
                 let hardness = knowledge.value_at("DOORS", door as usize, "hardness");
@@ -76,7 +78,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
                 weights[door as usize] = Some(hardness);
             }
         }
-        weights[passage.id()].unwrap()
+        weights[passage.id().index()].unwrap()
     });
     let weighed = weights.iter().flatten().count();
     eprintln!("weighed {weighed} of {} doors", pairs.len());
@@ -88,7 +90,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     whole.conclude(&rules);
     let all = graph(&whole.numbers("DOORS", "hardness").unwrap());
     let tree = all.tree(&Start { rooms: vec![start], at: Point::new(0.0, 0.0) });
-    let cost = tree.rooms[goal].unwrap().cost;
+    let cost = tree.rooms[goal.index()].unwrap().cost;
     assert_eq!(found[&goal], cost);
     // of rooms that cost as much as the goal, some are settled before it
     let doors_of = |is_settled: &dyn Fn(usize) -> bool| {
@@ -96,7 +98,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     };
     let costs = |room: usize| tree.rooms[room].map_or(f64::INFINITY, |arrival| arrival.cost);
     let least = doors_of(&|room| costs(room) < cost);
-    let most = doors_of(&|room| costs(room) <= cost && room != goal);
+    let most = doors_of(&|room| costs(room) <= cost && room != goal.index());
     assert!(
         (least..=most).contains(&weighed),
         "the doors of the rooms settled before the goal: {least} to {most}"
@@ -104,9 +106,9 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     assert!(weighed * 4 < pairs.len());
 
     let compact = CompactGraph::new(&all).unwrap().tree(&[start]);
-    for room in 0..SIDE * SIDE {
-        let best = tree.rooms[room].unwrap();
-        assert_eq!(compact.costs[room].to_bits(), best.cost.to_bits());
-        assert_eq!(compact.hops[room], best.hops);
+    for room in all.room_indices() {
+        let best = tree.rooms[room.index()].unwrap();
+        assert_eq!(compact.cost(room).to_bits(), best.cost.to_bits());
+        assert_eq!(compact.hops(room), best.hops);
     }
 }

@@ -39,7 +39,7 @@ pub fn no_route(
                 .iter()
                 .take(DESCRIBED)
                 .filter_map(|door| graph.door(i64::from(*door)))
-                .map(|door| shut(graph, door, rules))
+                .map(|door| shut(graph, &graph[door], rules))
                 .collect();
             shut.dedup();
             let more = doors.len().saturating_sub(DESCRIBED);
@@ -82,7 +82,7 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
         format!("a state narrower than {} m would be needed", number(width))
     };
     let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
-    if let Some(room) = sides.map(|index| &graph.rooms[index]).find(|room| !is_weighed(room)) {
+    if let Some(room) = sides.map(|room| &graph[room]).find(|room| !is_weighed(room)) {
         return not_entered(room, rules);
     }
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));

@@ -23,7 +23,7 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
         let heading = heading(leg.from, leg.to).filter(|_| !is_goal || to_point);
         steps.push(Step { heading, ..room_step(graph, rules, leg, before + leg.hardness) });
         before = leg.cost;
-        let Some(door) = leg.door.map(|door| &graph.doors[door]) else { continue };
+        let Some(door) = leg.door.map(|door| &graph[door]) else { continue };
         let layer_of = match door.kind {
             DoorKind::Door => leg.room,
             DoorKind::Change => way.legs.get(index + 1).map_or(leg.room, |next| next.room),
@@ -32,7 +32,7 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
             step: 0,
             kind: word(door.kind).to_owned(),
             place: door.door.to_string(),
-            state: graph.rooms[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
+            state: graph[layer_of].layer.as_ref().map(|(_, state)| state.clone()),
             action: door.action.value.clone(),
             hardness: door.hardness.value,
             cost: leg.cost,
@@ -49,7 +49,7 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
 }
 
 fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
-    let room = &graph.rooms[leg.room];
+    let room = &graph[leg.room];
     Step {
         step: 0,
         kind: "room".to_owned(),
@@ -74,7 +74,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> 
     let mut points: Vec<Waypoint> = Vec::new();
     let mut distance = 0.0;
     for (index, leg) in way.legs.iter().enumerate() {
-        let room = &graph.rooms[leg.room];
+        let room = &graph[leg.room];
         let here = Waypoint {
             waypoint: 1,
             x: leg.from.x,

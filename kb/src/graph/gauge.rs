@@ -8,7 +8,7 @@ use adit_engine::KnowledgeBase as Inference;
 use adit_planners::clearance::Solids;
 use adit_planners::geometry::Point;
 use adit_planners::rect_index::RectIndex;
-use adit_planners::routes::Way;
+use adit_planners::routes::{RoomIndex, Way};
 use adit_planners::world::World;
 
 use crate::graph::SiteGraph;
@@ -85,8 +85,8 @@ impl Gauge {
         all
     }
 
-    fn clearance(&self, graph: &SiteGraph, room: usize, from: Point, to: Point) -> Option<f64> {
-        let (half, height) = self.sizes.get(graph.rooms[room].layer.as_ref()?)?;
+    fn clearance(&self, graph: &SiteGraph, room: RoomIndex, from: Point, to: Point) -> Option<f64> {
+        let (half, height) = self.sizes.get(graph[room].layer.as_ref()?)?;
         Some((self.solids.gap(from, to, *height) - half).max(0.0))
     }
 }
@@ -112,7 +112,7 @@ pub fn bends(graph: &SiteGraph, way: &Way) -> Vec<bool> {
             last = None;
         }
         last = heading.or(last);
-        changes = leg.door.is_some_and(|door| graph.graph().doors()[door].is_change());
+        changes = leg.door.is_some_and(|door| graph.graph()[door].is_change());
     }
     bends
 }

@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Mutex;
 use std::time::Instant;
 
-use adit_planners::routes::{CompactGraph, CompactTree, Goal, NONE};
+use adit_planners::routes::{CompactGraph, CompactTree, Goal, RoomIndex};
 use rayon::prelude::*;
 
 use crate::graph::{End, SiteGraph};
@@ -73,8 +73,8 @@ fn row(graph: &SiteGraph, compact: Option<&CompactGraph>, robot: &str, place: us
     if let Some(compact) = compact {
         let tree = compact.tree(&start.rooms);
         let best = |goal: &Goal| {
-            let reached = goal.rooms.iter().filter(|room| tree.costs[**room].is_finite());
-            reached.min_by(|one, two| tree.costs[**one].total_cmp(&tree.costs[**two])).copied()
+            let reached = goal.rooms.iter().filter(|room| tree.cost(**room).is_finite());
+            reached.min_by(|one, two| tree.cost(**one).total_cmp(&tree.cost(**two))).copied()
         };
         return goals.iter().map(|goal| best(goal).map(|room| of_tree(&tree, room))).collect();
     }
@@ -87,12 +87,12 @@ fn row(graph: &SiteGraph, compact: Option<&CompactGraph>, robot: &str, place: us
     ways.into_iter().map(|way| way.map(of_way)).collect()
 }
 
-fn of_tree(tree: &CompactTree, room: usize) -> Found {
+fn of_tree(tree: &CompactTree, room: RoomIndex) -> Found {
     let mut hasher = DefaultHasher::new();
     let mut at = room;
-    while tree.before[at] != NONE {
-        tree.doors[at].hash(&mut hasher);
-        at = tree.before[at] as usize;
+    while let Some((before, door)) = tree.before(at) {
+        door.hash(&mut hasher);
+        at = before;
     }
-    Found { cost: tree.costs[room], doors: hasher.finish() }
+    Found { cost: tree.cost(room), doors: hasher.finish() }
 }

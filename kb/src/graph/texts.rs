@@ -4,11 +4,12 @@ use std::sync::{Arc, OnceLock};
 
 use adit_db::Derived;
 use adit_db::door::DoorKind;
+use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde_json::{Result, to_string};
 
 use super::{Rules, SiteGraph};
 
-/// Texts of rooms and doors, by index; each is written when it is first asked for.
+/// Texts of rooms and doors; each is written when it is first asked for.
 #[derive(Clone)]
 pub struct Texts {
     rooms: Vec<OnceLock<Arc<Text>>>,
@@ -50,24 +51,24 @@ impl Texts {
         Self { rooms: vec![OnceLock::new(); rooms], doors: vec![OnceLock::new(); doors] }
     }
 
-    /// Forgets what was written of rooms and doors, by index.
-    pub fn forget(&mut self, rooms: impl Iterator<Item = usize>, doors: impl Iterator<Item = usize>) {
-        for row in rooms {
-            self.rooms[row].take();
+    /// Forgets what was written of rooms and doors.
+    pub fn forget(&mut self, rooms: impl Iterator<Item = RoomIndex>, doors: impl Iterator<Item = DoorIndex>) {
+        for room in rooms {
+            self.rooms[room.index()].take();
         }
-        for row in doors {
-            self.doors[row].take();
+        for door in doors {
+            self.doors[door.index()].take();
         }
     }
 
     /// What is said of a room in which no metre weighs anything.
-    pub fn room(&self, graph: &SiteGraph, rules: &Rules, row: usize) -> Result<&Text> {
-        kept(&self.rooms[row], || room_text(graph, rules, row))
+    pub fn room(&self, graph: &SiteGraph, rules: &Rules, room: RoomIndex) -> Result<&Text> {
+        kept(&self.rooms[room.index()], || room_text(graph, rules, room))
     }
 
     /// What is said of a door between such rooms.
-    pub fn door(&self, graph: &SiteGraph, rules: &Rules, row: usize) -> Result<&Text> {
-        kept(&self.doors[row], || door_text(graph, rules, row))
+    pub fn door(&self, graph: &SiteGraph, rules: &Rules, door: DoorIndex) -> Result<&Text> {
+        kept(&self.doors[door.index()], || door_text(graph, rules, door))
     }
 }
 
@@ -83,8 +84,8 @@ fn rule_of<T>(value: &Derived<T>, rules: &Rules) -> Result<String> {
     Ok(format!(r#","rule":{}}}"#, to_string(&value.rule.and_then(|rule| rules.get(&rule)))?))
 }
 
-fn room_text(graph: &SiteGraph, rules: &Rules, row: usize) -> Result<Arc<Text>> {
-    let room = &graph.rooms[row];
+fn room_text(graph: &SiteGraph, rules: &Rules, room: RoomIndex) -> Result<Arc<Text>> {
+    let room = &graph[room];
     let (name, action) = (to_string(&room.name)?, to_string(&room.action.value)?);
     let facing = to_string(&room.facing)?;
     let step =
@@ -95,8 +96,8 @@ fn room_text(graph: &SiteGraph, rules: &Rules, row: usize) -> Result<Arc<Text>> 
     Ok(Text::new(&step, &rule_of(&room.action, rules)?, &waypoint))
 }
 
-fn door_text(graph: &SiteGraph, rules: &Rules, row: usize) -> Result<Arc<Text>> {
-    let (door, at) = (&graph.doors[row], graph.graph().doors()[row].at);
+fn door_text(graph: &SiteGraph, rules: &Rules, door: DoorIndex) -> Result<Arc<Text>> {
+    let (door, at) = (&graph[door], graph.graph()[door].at);
     let (action, hardness) = (to_string(&door.action.value)?, to_string(&door.hardness.value)?);
     let (kind, number) = (word(door.kind), door.door);
     let step = format!(

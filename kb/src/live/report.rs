@@ -8,6 +8,7 @@ use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
 use adit_engine::{Conclusions, Dominated};
 use adit_planners::read::MapReport;
+use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
 
 use crate::graph::SiteGraph;
@@ -90,7 +91,7 @@ impl Routes {
         graph: &SiteGraph,
     ) {
         let now = |row: &TreeRow| {
-            row.reach + row.door.and_then(|key| graph.door(key)?.hardness.value).unwrap_or(0.0)
+            row.reach + row.door.and_then(|key| graph[graph.door(key)?].hardness.value).unwrap_or(0.0)
         };
         let then = |row: &TreeRow| {
             row.reach + row.door.and_then(|key| before.door(key)?.hardness.value).unwrap_or(0.0)
@@ -248,12 +249,12 @@ impl Report {
         let (mut rooms, mut doors) = (Counts::all(graph.rooms.len()), Counts::all(graph.doors.len()));
         let mut changes = Vec::new();
         if let Some(weighed) = weighed {
-            let room = |(row, weight): &(usize, Weight)| {
-                let old = &before.rooms[*row];
+            let room = |(room, weight): &(RoomIndex, Weight)| {
+                let old = &before.rooms[room.index()];
                 Change::between(format!("room {}", old.name), old.weight(), weight)
             };
-            let door = |(row, weight): &(usize, Weight)| {
-                let old = &before.doors[*row];
+            let door = |(door, weight): &(DoorIndex, Weight)| {
+                let old = &before.doors[door.index()];
                 Change::between(format!("door {}", old.door), old.weight(), weight)
             };
             changes.extend(weighed.rooms.iter().filter_map(room));

@@ -4,7 +4,7 @@ use adit_db::Tx;
 use adit_db::tree::{TreeChange, TreeRow};
 use adit_db::weight::Weight;
 use adit_planners::geometry::Point;
-use adit_planners::routes::{CompactGraph, CompactTree, NONE};
+use adit_planners::routes::{CompactGraph, CompactTree, RoomIndex};
 
 use crate::error::Result;
 use crate::graph::{End, SiteGraph, heading, place_node};
@@ -24,7 +24,7 @@ const AT_ONCE: usize = 400_000;
 enum Trees {
     /// Where all hardness lies on the doors, and trees are few: each edit brings them up to date. Arrays, and for each
     /// tree the rooms that hold the places.
-    Now { graph: CompactGraph, trees: Vec<CompactTree>, places: Vec<Vec<Option<usize>>> },
+    Now { graph: CompactGraph, trees: Vec<CompactTree>, places: Vec<Vec<Option<RoomIndex>>> },
     /// They follow later: see [`Renewal`](super::Renewal).
     Later,
 }
@@ -87,8 +87,9 @@ impl KeptRoutes {
         if weighed.is_empty() {
             return Some(Renewed { changes: Vec::new(), trees: None, is_due: false });
         }
-        let is_on_doors =
-            |(_, room): &(usize, Weight)| room.hardness.value.is_none() && room.passable.value == Some(true);
+        let is_on_doors = |(_, room): &(RoomIndex, Weight)| {
+            room.hardness.value.is_none() && room.passable.value == Some(true)
+        };
         match &mut self.trees {
             Trees::Now { graph, trees, places } if weighed.rooms.iter().all(is_on_doors) => {
                 for (door, weight) in &weighed.doors {
@@ -127,8 +128,8 @@ impl KeptRoutes {
     /// Forgets an edit that was not committed, over the graph that still counts.
     pub fn take_back(&mut self, shown: &SiteGraph) {
         if let Trees::Now { graph, .. } = &mut self.trees {
-            for (row, door) in shown.doors.iter().enumerate() {
-                graph.reweigh(row, weight_of(door.hardness.value, door.passable.value));
+            for (index, door) in shown.graph().door_indices().zip(&shown.doors) {
+                graph.reweigh(index, weight_of(door.hardness.value, door.passable.value));
             }
         }
     }
@@ -144,20 +145,20 @@ fn differences(
     graph: &SiteGraph,
     (before, now): (&CompactTree, &CompactTree),
     start: Point,
-    places: &[Option<usize>],
+    places: &[Option<RoomIndex>],
 ) -> TreeChange {
     let mut change = TreeChange::default();
     for (index, room) in places.iter().enumerate().rev() {
         let Some(room) = *room else { continue };
         let row = |tree: &CompactTree| {
             let goal = graph.point(&End::Place(index));
-            tree.costs[room].is_finite().then(|| TreeRow {
+            tree.cost(room).is_finite().then(|| TreeRow {
                 node: place_node(index),
-                prev: Some(graph.rooms[room].room),
+                prev: Some(graph[room].room),
                 from_room: None,
                 door: None,
-                hops: i64::from(tree.hops[room]),
-                reach: tree.costs[room],
+                hops: i64::from(tree.hops(room)),
+                reach: tree.cost(room),
                 leg: 0.0,
                 at: Some([goal.x, goal.y]),
                 heading: heading(arrival(graph, tree, room, start), goal),
@@ -168,20 +169,20 @@ fn differences(
         };
         change.note(row(before).as_ref(), row(now).as_ref());
     }
-    for room in 0..graph.rooms.len() {
-        let last = before.before[room];
-        let is_same = last == now.before[room]
-            && before.doors[room] == now.doors[room]
-            && before.hops[room] == now.hops[room]
-            && before.costs[room].is_finite() == now.costs[room].is_finite()
-            && (last == NONE || before.doors[last as usize] == now.doors[last as usize]);
+    for room in graph.graph().room_indices() {
+        let last = before.before(room);
+        let entered_by = |tree: &CompactTree, room| tree.before(room).map(|(_, door)| door);
+        let is_same = last == now.before(room)
+            && before.hops(room) == now.hops(room)
+            && before.cost(room).is_finite() == now.cost(room).is_finite()
+            && last.is_none_or(|(last, _)| entered_by(before, last) == entered_by(now, last));
         if !is_same {
             let row = |tree: &CompactTree| room_row(graph, tree, room, start);
             change.note(row(before).as_ref(), row(now).as_ref());
-        } else if last != NONE {
-            let (old, new) = (before.costs[last as usize], now.costs[last as usize]);
+        } else if let Some((last, _)) = last {
+            let (old, new) = (before.cost(last), now.cost(last));
             if old.to_bits() != new.to_bits() {
-                change.further.push((graph.rooms[room].room, new));
+                change.further.push((graph[room].room, new));
             }
         }
     }
@@ -189,25 +190,22 @@ fn differences(
 }
 
 /// Where a room is entered.
-fn arrival(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) -> Point {
-    match tree.doors[room] {
-        NONE => start,
-        door => graph.graph().doors()[door as usize].at,
-    }
+fn arrival(graph: &SiteGraph, tree: &CompactTree, room: RoomIndex, start: Point) -> Point {
+    tree.before(room).map_or(start, |(_, door)| graph.graph()[door].at)
 }
 
-fn room_row(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) -> Option<TreeRow> {
-    if !tree.costs[room].is_finite() {
+fn room_row(graph: &SiteGraph, tree: &CompactTree, room: RoomIndex, start: Point) -> Option<TreeRow> {
+    if !tree.cost(room).is_finite() {
         return None;
     }
-    let node = graph.rooms[room].room;
+    let node = graph[room].room;
     let at = arrival(graph, tree, room, start);
     let row = TreeRow {
         node,
         prev: None,
         from_room: None,
         door: None,
-        hops: i64::from(tree.hops[room]),
+        hops: i64::from(tree.hops(room)),
         reach: 0.0,
         leg: 0.0,
         at: None,
@@ -216,14 +214,13 @@ fn room_row(graph: &SiteGraph, tree: &CompactTree, room: usize, start: Point) ->
         clearance: None,
         bend: true,
     };
-    if tree.before[room] == NONE {
+    let Some((last, door)) = tree.before(room) else {
         return Some(TreeRow { at: Some([at.x, at.y]), ..row });
-    }
-    let last = tree.before[room] as usize;
+    };
     Some(TreeRow {
-        prev: Some(graph.rooms[last].room),
-        door: Some(i64::from(graph.graph().doors()[tree.doors[room] as usize].door)),
-        reach: tree.costs[last],
+        prev: Some(graph[last].room),
+        door: Some(graph[door].door),
+        reach: tree.cost(last),
         heading: heading(arrival(graph, tree, last, start), at),
         ..row
     })

@@ -62,7 +62,7 @@ pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Re
         for name in &names {
             let Some(end) = graph.end(name) else { continue };
             if let End::Room(index) = end
-                && graph.rooms[index].layer.as_ref().is_some_and(|(of, _)| of != robot)
+                && graph[index].layer.as_ref().is_some_and(|(of, _)| of != robot)
             {
                 continue;
             }

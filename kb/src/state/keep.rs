@@ -193,10 +193,10 @@ impl Kept {
         }
         let graph = state.graph();
         for (row, weight) in &step.weighed.rooms {
-            uses.change_all(&graph.rooms[*row].weight(), weight);
+            uses.change_all(&graph[*row].weight(), weight);
         }
         for (row, weight) in &step.weighed.doors {
-            uses.change_all(&graph.doors[*row].weight(), weight);
+            uses.change_all(&graph[*row].weight(), weight);
         }
         if let Some(now) = self.derivations_now(&mut look) {
             written.gone = self.derivations.iter().filter(|old| !now.contains(old)).cloned().collect();
@@ -275,9 +275,9 @@ impl Written {
         }
         tx.put_open_areas(self.areas.iter().map(|(_, area)| area))?;
         let rooms = step.weighed.rooms.iter();
-        tx.put_weights::<Room>(rooms.map(|(row, weight)| (graph.rooms[*row].room, weight)))?;
+        tx.put_weights::<Room>(rooms.map(|(row, weight)| (graph[*row].room, weight)))?;
         let doors = step.weighed.doors.iter();
-        tx.put_weights::<Door>(doors.map(|(row, weight)| (graph.doors[*row].door, weight)))?;
+        tx.put_weights::<Door>(doors.map(|(row, weight)| (graph[*row].door, weight)))?;
         tx.restore_blocks(&graph.rooms)?;
         tx.restore_blocks(&graph.doors)?;
         let gone: Vec<&Derivation> = self.gone.iter().collect();

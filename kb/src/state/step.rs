@@ -87,8 +87,8 @@ impl State {
             let mut doors = given.rows("DOORS", &before.doors)?;
             weights::check(knowledge, (&rooms, &doors), None)?;
             let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
-            look.rooms().into_iter().for_each(|(row, weight)| rooms[row].weigh(weight));
-            look.doors().into_iter().for_each(|(row, weight)| doors[row].weigh(weight));
+            look.rooms().into_iter().for_each(|(room, weight)| rooms[room.index()].weigh(weight));
+            look.doors().into_iter().for_each(|(door, weight)| doors[door.index()].weigh(weight));
             let (old, new) = ((&*before.rooms, &*before.doors), (&*rooms, &*doors));
             is_cut_anew = !is_same_cut(old, new);
             if !is_cut_anew {

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use adit_planners::routes::{DoorIndex, RoomIndex};
+
 use crate::graph::SiteGraph;
 
 use super::weighed::Weighed;
@@ -14,17 +16,16 @@ pub struct Twin {
     lag: Lag,
 }
 
-/// Rooms and doors by index.
 #[derive(Default)]
 struct Lag {
-    rooms: Vec<usize>,
-    doors: Vec<usize>,
+    rooms: Vec<RoomIndex>,
+    doors: Vec<DoorIndex>,
 }
 
 impl Lag {
     fn note(&mut self, weighed: &Weighed) {
-        self.rooms.extend(weighed.rooms.iter().map(|(row, _)| *row));
-        self.doors.extend(weighed.doors.iter().map(|(row, _)| *row));
+        self.rooms.extend(weighed.rooms.iter().map(|(room, _)| *room));
+        self.doors.extend(weighed.doors.iter().map(|(door, _)| *door));
     }
 }
 

@@ -6,16 +6,15 @@ use adit_db::room::Room;
 use adit_db::schema::{Part, Row};
 use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
+use adit_planners::routes::{DoorIndex, RoomIndex};
 
 use crate::state::grounds::{Reason, Reasons};
 
-/// Rooms and doors by index, with what rules now say of them: those that differ from what they said, ascending.
+/// Rooms and doors with what rules now say of them: those that differ from what they said, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weighed {
-    /// Rooms.
-    pub rooms: Vec<(usize, Weight)>,
-    /// Doors.
-    pub doors: Vec<(usize, Weight)>,
+    pub rooms: Vec<(RoomIndex, Weight)>,
+    pub doors: Vec<(DoorIndex, Weight)>,
 }
 
 impl Weighed {
@@ -26,10 +25,10 @@ impl Weighed {
 
     /// In what rooms and doors differ, row by row.
     pub fn between(before: (&[Room], &[Door]), after: (&[Room], &[Door])) -> Self {
-        fn differing<R: Row>(before: &[R], after: &[R]) -> Vec<(usize, Weight)> {
+        fn differing<R: Row, I: From<u32>>(before: &[R], after: &[R]) -> Vec<(I, Weight)> {
             let rows = (0..before.len().min(after.len()))
                 .filter(|&row| !is_alike(&before[row], &after[row], Part::Weight));
-            rows.map(|row| (row, after[row].weight())).collect()
+            rows.map(|row| (I::from(row as u32), after[row].weight())).collect()
         }
         Self { rooms: differing(before.0, after.0), doors: differing(before.1, after.1) }
     }
@@ -79,8 +78,8 @@ pub struct Look<'a, 'r> {
 }
 
 impl Look<'_, '_> {
-    /// What rules say of rooms: of those that are looked at, by row.
-    pub fn rooms(&mut self) -> Vec<(usize, Weight)> {
+    /// What rules say of rooms: of those that are looked at.
+    pub fn rooms(&mut self) -> Vec<(RoomIndex, Weight)> {
         let mut rooms = self.weights("ROOMS");
         if !decides_rooms(self.rules) {
             for (_, weight) in &mut rooms {
@@ -90,20 +89,20 @@ impl Look<'_, '_> {
         rooms
     }
 
-    /// What rules say of doors: of those that are looked at, by row.
-    pub fn doors(&mut self) -> Vec<(usize, Weight)> {
+    /// What rules say of doors: of those that are looked at.
+    pub fn doors(&mut self) -> Vec<(DoorIndex, Weight)> {
         self.weights("DOORS")
     }
 
     /// In what rules say something else of these rooms and doors than they did.
     pub fn weighed(&mut self, rooms: &[Room], doors: &[Door]) -> Weighed {
         let mut weighed = Weighed { rooms: self.rooms(), doors: self.doors() };
-        weighed.rooms.retain(|(row, weight)| *weight != rooms[*row].weight());
-        weighed.doors.retain(|(row, weight)| *weight != doors[*row].weight());
+        weighed.rooms.retain(|(room, weight)| *weight != rooms[room.index()].weight());
+        weighed.doors.retain(|(door, weight)| *weight != doors[door.index()].weight());
         weighed
     }
 
-    fn weights(&mut self, class: &str) -> Vec<(usize, Weight)> {
+    fn weights<I: From<u32>>(&mut self, class: &str) -> Vec<(I, Weight)> {
         let mut rows: Vec<u32> = ["hardness", "action", "passable"]
             .iter()
             .flat_map(|property| self.rows(class, property))
@@ -115,7 +114,7 @@ impl Look<'_, '_> {
         let passable = self.values((class, "passable"), &rows, truth);
         let weights = hardness.into_iter().zip(action).zip(passable);
         let weights = weights.map(|((hardness, action), passable)| Weight { hardness, action, passable });
-        rows.into_iter().map(|row| row as usize).zip(weights).collect()
+        rows.into_iter().map(I::from).zip(weights).collect()
     }
 
     /// One property of the objects that are looked at, by row.

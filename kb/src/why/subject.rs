@@ -46,7 +46,8 @@ impl Subject {
                 Some(found(room.room.to_string(), format!("room {}", room.name)))
             }
             "doors" => {
-                let door = fork.graph().door(key.parse().ok()?)?;
+                let graph = fork.graph();
+                let door = &graph[graph.door(key.parse().ok()?)?];
                 Some(found(door.door.to_string(), format!("door {}", door.door)))
             }
             _ => {

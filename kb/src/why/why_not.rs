@@ -94,7 +94,7 @@ impl State {
         let key = subject.key.parse().unwrap_or_default();
         let via = match subject.class.as_str() {
             "rooms" => self.graph().room(key).map(Via::Room),
-            "doors" => self.graph().doors.binary_search_by_key(&key, |door| door.door).ok().map(Via::Door),
+            "doors" => self.graph().door(key).map(Via::Door),
             _ => {
                 let message = format!("a route leads through rooms and doors, not {}", subject.name);
                 return Err(Error::said(Code::WhyThrough, message, None));
@@ -108,8 +108,9 @@ impl State {
         let (rejected, truncated) = self.rejected(&subject);
         let named = Subject { property: None, ..subject.clone() };
         let (conclusions, _) = self.conclusions(&named)?;
+        let door = self.graph().door(key).map(|door| &self.graph()[door]);
         let costs = (best.as_ref().map(|best| best.cost), way.as_ref().map(|way| way.cost));
-        let reason = contrast::reason(&subject, self.graph().door(key), (start, goal), costs);
+        let reason = contrast::reason(&subject, door, (start, goal), costs);
         let answer = |way: &Way| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
             self.basis().along(way, is_to_point, &mut answer)?;

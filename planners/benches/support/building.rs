@@ -1,7 +1,7 @@
 //! A building of square rooms.
 
 use adit_planners::geometry::Rect;
-use adit_planners::routes::{RouteDoor, RouteGraph, RouteRoom, Walking};
+use adit_planners::routes::{RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
 
 /// Rooms of 4 m in a square of `side` by `side`, each joined to its right and its upper neighbour.
 pub fn building(side: usize, walking: Walking) -> RouteGraph {
@@ -22,8 +22,8 @@ pub fn building(side: usize, walking: Walking) -> RouteGraph {
             let at = crossing.centre();
             doors.push(RouteDoor {
                 door,
-                room1: room,
-                room2,
+                room1: RoomIndex::new(room),
+                room2: RoomIndex::new(room2),
                 crossing,
                 at,
                 hardness,

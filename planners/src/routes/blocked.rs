@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::graph::RouteGraph;
-use super::parts::{Goal, Start};
+use super::parts::{DoorIndex, Goal, RoomIndex, Start};
 
 /// What stands between a start and a goal that no route joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,30 +23,30 @@ pub fn blockage(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
 }
 
 fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
-    let mut leaving: Vec<Vec<(usize, usize)>> = vec![Vec::new(); graph.rooms.len()];
-    for (index, door) in graph.doors.iter().enumerate() {
-        leaving[door.room1].push((door.room2, index));
+    let mut leaving: Vec<Vec<(RoomIndex, DoorIndex)>> = vec![Vec::new(); graph.rooms.len()];
+    for (index, door) in graph.door_indices().zip(&graph.doors) {
+        leaving[door.room1.index()].push((door.room2, index));
         if !door.one_way {
-            leaving[door.room2].push((door.room1, index));
+            leaving[door.room2.index()].push((door.room1, index));
         }
     }
     // 0-1 breadth-first search: an open door costs nothing, a shut one costs one
     let mut least: Vec<Option<usize>> = vec![None; graph.rooms.len()];
-    let mut from: Vec<Option<(usize, usize)>> = vec![None; graph.rooms.len()];
-    let mut queue: VecDeque<(usize, usize)> = start.rooms.iter().map(|&room| (room, 0)).collect();
+    let mut from: Vec<Option<(RoomIndex, DoorIndex)>> = vec![None; graph.rooms.len()];
+    let mut queue: VecDeque<(RoomIndex, usize)> = start.rooms.iter().map(|&room| (room, 0)).collect();
     for &room in &start.rooms {
-        least[room] = Some(0);
+        least[room.index()] = Some(0);
     }
     while let Some((room, shut)) = queue.pop_front() {
-        if least[room].is_some_and(|known| known < shut) {
+        if least[room.index()].is_some_and(|known| known < shut) {
             continue;
         }
-        for &(next, door) in &leaving[room] {
+        for &(next, door) in &leaving[room.index()] {
             let open = graph.is_open(door);
             let total = shut + usize::from(!open);
-            if least[next].is_none_or(|known| total < known) {
-                least[next] = Some(total);
-                from[next] = Some((room, door));
+            if least[next.index()].is_none_or(|known| total < known) {
+                least[next.index()] = Some(total);
+                from[next.index()] = Some((room, door));
                 if open {
                     queue.push_front((next, total));
                 } else {
@@ -55,12 +55,12 @@ fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
             }
         }
     }
-    let nearest = goal.rooms.iter().filter_map(|&goal| least[goal].map(|shut| (shut, goal))).min();
+    let nearest = goal.rooms.iter().filter_map(|&goal| least[goal.index()].map(|shut| (shut, goal))).min();
     let Some((_, mut room)) = nearest else { return Blockage::Apart };
     let mut doors = Vec::new();
-    while let Some((before, door)) = from[room] {
+    while let Some((before, door)) = from[room.index()] {
         if !graph.is_open(door) {
-            doors.push(graph.doors[door].door);
+            doors.push(graph[door].door);
         }
         room = before;
     }

@@ -2,12 +2,12 @@
 
 use super::graph::RouteGraph;
 use super::hierarchy::{Hierarchy, Passed};
-use super::parts::{Goal, Start};
+use super::parts::{Goal, RoomIndex, Start};
 use super::way::{Leg, Way};
 use crate::geometry::Point;
 
 struct Found {
-    start: usize,
+    start: RoomIndex,
     goal: usize,
     doors: Vec<Passed>,
     cost: f64,
@@ -42,10 +42,10 @@ impl RouteGraph {
         let mut legs = Vec::with_capacity(found.doors.len() + 1);
         let (mut room, mut from, mut cost) = (found.start, start.at, 0.0);
         for passed in &found.doors {
-            let to = self.doors[passed.door as usize].at;
+            let to = self[passed.door].at;
             cost += passed.weight;
-            legs.push(Leg { room, from, to, hardness: 0.0, door: Some(passed.door as usize), cost });
-            (room, from) = (passed.room as usize, to);
+            legs.push(Leg { room, from, to, hardness: 0.0, door: Some(passed.door), cost });
+            (room, from) = (passed.room, to);
         }
         legs.push(Leg { room, from, to: goal.unwrap_or(from), hardness: 0.0, door: None, cost });
         Way { legs, cost }

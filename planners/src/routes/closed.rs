@@ -4,10 +4,13 @@
 use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
-use super::mesh::{EPSILON, NONE};
-use super::parts::{Goal, RouteDoor, RouteRoom, Start, Walking};
+use super::mesh::EPSILON;
+use super::parts::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 use super::way::{Leg, Way, Ways};
 use crate::geometry::{Point, Rect};
+
+/// The key of an opening between two parts of a room.
+const NO_DOOR: u32 = u32::MAX;
 
 /// So near to a closed boundary no shape is changed, metres.
 const CLEAR_M: f64 = 0.01;
@@ -66,14 +69,20 @@ impl RouteGraph {
     }
 
     /// Weighs what is cut anew, too.
-    pub(super) fn reweigh_cut(&mut self, rooms: &[(usize, Walking)], doors: &[(usize, Option<f64>, bool)]) {
+    pub(super) fn reweigh_cut(
+        &mut self,
+        rooms: &[(RoomIndex, Walking)],
+        doors: &[(DoorIndex, Option<f64>, bool)],
+    ) {
         let Some(cut) = self.cut.get_mut() else { return };
         let Cut { graph, parts, pieces, .. } = cut.as_mut();
         let (parts, pieces) = (&*parts, &*pieces);
         graph.reweigh(
-            rooms.iter().flat_map(|&(room, walking)| parts[room].iter().map(move |&part| (part, walking))),
+            rooms
+                .iter()
+                .flat_map(|&(room, walking)| parts[room.index()].iter().map(move |&part| (part, walking))),
             doors.iter().flat_map(|&(door, hardness, passable)| {
-                pieces[door].iter().map(move |&piece| (piece, hardness, passable))
+                pieces[door.index()].iter().map(move |&piece| (piece, hardness, passable))
             }),
         );
     }
@@ -101,26 +110,26 @@ impl RouteGraph {
 impl Cut {
     fn new(of: &RouteGraph) -> Self {
         let (mut rects, mut rooms, mut parts) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, room) in of.rooms.iter().enumerate() {
+        for (index, room) in of.room_indices().zip(&of.rooms) {
             let first = rects.len();
             rects.extend(parts_of(room.rect, &of.closed));
             rooms.resize(rects.len(), index);
-            parts.push((first..rects.len()).collect());
+            parts.push((first..rects.len()).map(RoomIndex::new).collect());
         }
         let graph = RouteGraph::new(Vec::new(), Vec::new());
         let mut all = Self { graph, rooms, doors: Vec::new(), parts, pieces: Vec::new() };
         let (mut doors, mut shut) = (Vec::new(), Vec::new());
         let cut = (rects.as_slice(), of.closed.as_slice());
-        for (index, door) in of.doors.iter().enumerate() {
+        for (index, door) in of.door_indices().zip(&of.doors) {
             let first = doors.len();
             all.add_pieces(cut, door, (&mut doors, &mut shut));
-            all.pieces.push((first..doors.len()).collect());
+            all.pieces.push((first..doors.len()).map(DoorIndex::new).collect());
             all.doors.resize(doors.len(), Some(index));
         }
         all.add_openings(cut, (&mut doors, &mut shut));
         doors.append(&mut shut);
         all.doors.resize(doors.len(), None);
-        let walking = |(&rect, &room): (&Rect, &usize)| RouteRoom { rect, walking: of.rooms[room].walking };
+        let walking = |(&rect, &room): (&Rect, &RoomIndex)| RouteRoom { rect, walking: of[room].walking };
         all.graph = RouteGraph::new(rects.iter().zip(&all.rooms).map(walking).collect(), doors);
         all.graph.walls = of.closed.iter().map(|closed| closed.segment).collect();
         all
@@ -134,9 +143,9 @@ impl Cut {
         door: &RouteDoor,
         (doors, shut): (&mut Vec<RouteDoor>, &mut Vec<RouteDoor>),
     ) {
-        for &room1 in &self.parts[door.room1] {
-            for &room2 in &self.parts[door.room2] {
-                let crossing = common(&common(&door.crossing, &rects[room1]), &rects[room2]);
+        for &room1 in &self.parts[door.room1.index()] {
+            for &room2 in &self.parts[door.room2.index()] {
+                let crossing = common(&common(&door.crossing, &rects[room1.index()]), &rects[room2.index()]);
                 let piece = RouteDoor { room1, room2, crossing, ..*door };
                 if door.is_change() {
                     doors.extend((crossing.smaller_side() > EPSILON).then_some(piece));
@@ -156,11 +165,11 @@ impl Cut {
         for parts in &self.parts {
             for (index, &room1) in parts.iter().enumerate() {
                 for &room2 in &parts[index + 1..] {
-                    let crossing = common(&rects[room1], &rects[room2]);
+                    let crossing = common(&rects[room1.index()], &rects[room2.index()]);
                     if is_segment(&crossing) {
                         let (at, hardness) = (crossing.centre(), Some(0.0));
                         let opening = RouteDoor {
-                            door: NONE,
+                            door: NO_DOOR,
                             room1,
                             room2,
                             crossing,
@@ -185,8 +194,8 @@ impl Cut {
     pub fn ways(&self, start: &Start, goals: &[Goal], rooms: bool) -> Ways {
         let goals: Vec<Goal> = goals.iter().map(|goal| self.goal(goal)).collect();
         let found = self.graph.ways(&self.start(start), &goals, rooms);
-        let nearest = |parts: &Vec<usize>| {
-            let ways = parts.iter().filter_map(|&part| found.rooms[part].as_ref());
+        let nearest = |parts: &Vec<RoomIndex>| {
+            let ways = parts.iter().filter_map(|&part| found.rooms[part.index()].as_ref());
             ways.min_by(|one, two| one.cost.total_cmp(&two.cost)).map(|way| self.whole(way))
         };
         Ways {
@@ -209,9 +218,9 @@ impl Cut {
     }
 
     /// The parts of rooms, as far as they hold a point.
-    fn parts_at(&self, rooms: &[usize], at: Option<Point>) -> Vec<usize> {
-        let holds = |part: &usize| at.is_none_or(|at| self.graph.rooms[*part].rect.contains(at));
-        let of = |room: &usize| match self.parts[*room].as_slice() {
+    fn parts_at(&self, rooms: &[RoomIndex], at: Option<Point>) -> Vec<RoomIndex> {
+        let holds = |part: &RoomIndex| at.is_none_or(|at| self.graph[*part].rect.contains(at));
+        let of = |room: &RoomIndex| match self.parts[room.index()].as_slice() {
             [whole] => vec![*whole],
             parts => parts.iter().copied().filter(holds).collect(),
         };
@@ -222,8 +231,8 @@ impl Cut {
     fn whole(&self, way: &Way) -> Way {
         let mut legs: Vec<Leg> = Vec::with_capacity(way.legs.len());
         for leg in &way.legs {
-            let door = leg.door.and_then(|door| self.doors[door]);
-            let leg = Leg { room: self.rooms[leg.room], door, ..*leg };
+            let door = leg.door.and_then(|door| self.doors[door.index()]);
+            let leg = Leg { room: self.rooms[leg.room.index()], door, ..*leg };
             match legs.last_mut() {
                 Some(last) if last.door.is_none() && is_straight(last, &leg) => {
                     *last = Leg { from: last.from, hardness: last.hardness + leg.hardness, ..leg };

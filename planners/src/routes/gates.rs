@@ -2,7 +2,8 @@
 
 use super::cone::Segment;
 use super::graph::RouteGraph;
-use super::mesh::EPSILON;
+use super::mesh::{EPSILON, Exit};
+use super::parts::{DoorIndex, RoomIndex};
 use super::turning::Gate;
 use crate::geometry::{Point, Rect};
 
@@ -28,13 +29,13 @@ impl RouteGraph {
     /// As long as the easier state has room, nobody leaves it, and as soon as it has, everybody takes it: so a shape
     /// is changed where the easier of the two rooms ends and none like it follows; and where the change gets
     /// another price.
-    pub(super) fn gates(&self, door: usize, from: usize) -> &[Gate] {
+    pub(super) fn gates(&self, door: DoorIndex, from: RoomIndex) -> &[Gate] {
         let (to, side) = self.beyond(door, from);
-        self.turning().gates[door][side].get_or_init(|| {
+        self.turning().gates[door.index()][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
-            let area = self.doors()[door].crossing;
-            let common = self.rooms()[from].rect.intersection(&self.rooms()[to].rect);
+            let area = self[door].crossing;
+            let common = self[from].rect.intersection(&self[to].rect);
             let deep = |segment: Segment| Gate { segment, is_deep: true };
             if common.is_none_or(|common| !is_same(&common, &area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
@@ -83,13 +84,13 @@ impl RouteGraph {
     /// The parts of a segment from which a room and those behind it go on for so many metres, away from a point.
     fn deep(
         &self,
-        room: usize,
+        room: RoomIndex,
         segment: Segment,
         away_from: Point,
         metres: f64,
         by: Further,
     ) -> Vec<Segment> {
-        let rect = &self.rooms()[room].rect;
+        let rect = &self[room].rect;
         let upright = (segment.a.x - segment.b.x).abs() <= EPSILON;
         let (at, from) = if upright { (segment.a.x, away_from.x) } else { (segment.a.y, away_from.y) };
         let (low, high) = if upright { (rect.x0, rect.x1) } else { (rect.y0, rect.y1) };
@@ -102,14 +103,12 @@ impl RouteGraph {
         let beyond = Segment { a: line(segment.a), b: line(segment.b) };
         let back = |p: Point| if upright { Point::new(at, p.y) } else { Point::new(p.x, at) };
         let mut parts = Vec::new();
-        for exit in
-            self.exits.portals.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
-        {
-            let door = Segment::of(&self.doors()[exit.door as usize].crossing);
+        for exit in self.exits.portals(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
+            let door = Segment::of(&self[exit.door].crossing);
             let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
             let on = |p: Point| beyond.nearest_to(p).distance(p) <= EPSILON;
             if on(a) && on(b) && a.distance(b) > EPSILON {
-                let further = self.deep(exit.to as usize, Segment { a, b }, away_from, metres - depth, by);
+                let further = self.deep(exit.to, Segment { a, b }, away_from, metres - depth, by);
                 parts.extend(further.into_iter().map(|part| Segment { a: back(part.a), b: back(part.b) }));
             }
         }
@@ -120,17 +119,15 @@ impl RouteGraph {
                 segment.b.x.max(beyond.b.x),
                 segment.b.y.max(beyond.b.y),
             );
-            for exit in
-                self.exits.changes.of(room).iter().filter(|exit| self.passage(exit.door as usize).is_some())
-            {
-                let other = self.rooms()[exit.to as usize].rect;
+            for exit in self.exits.changes(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
+                let other = self[exit.to].rect;
                 let (low, high) = if upright { (other.x0, other.x1) } else { (other.y0, other.y1) };
                 let is_further = if at > from { high > far + EPSILON } else { low < far - EPSILON };
-                let shared = self.doors()[exit.door as usize].crossing.intersection(&strip);
+                let shared = self[exit.door].crossing.intersection(&strip);
                 if let Some(shared) = shared.filter(|_| is_further) {
                     let (a, b) = (shared.nearest_to(segment.a), shared.nearest_to(segment.b));
                     let part = Segment { a: back(a), b: back(b) };
-                    parts.extend(self.deep(exit.to as usize, part, away_from, metres, by));
+                    parts.extend(self.deep(exit.to, part, away_from, metres, by));
                 }
             }
         }
@@ -138,9 +135,9 @@ impl RouteGraph {
     }
 
     /// Whether the shallow strip beyond a rim goes on along the rim, where the easier room and those behind it do not.
-    fn leads_on_along(&self, easier: usize, harder: usize, rim: Segment, inside: Point) -> bool {
+    fn leads_on_along(&self, easier: RoomIndex, harder: RoomIndex, rim: Segment, inside: Point) -> bool {
         let upright = (rim.a.x - rim.b.x).abs() <= EPSILON;
-        let (rect, at) = (&self.rooms()[harder].rect, if upright { rim.a.x } else { rim.a.y });
+        let (rect, at) = (&self[harder].rect, if upright { rim.a.x } else { rim.a.y });
         let is_beyond_high = at > if upright { inside.x } else { inside.y };
         let far = match (upright, is_beyond_high) {
             (true, true) => rect.x1,
@@ -169,19 +166,24 @@ impl RouteGraph {
 
     /// The parts of a side of a change's area beyond which the same change is possible; and those beyond which it has
     /// another price, or is shut.
-    fn beside(&self, door: usize, (from, to): (usize, usize), side: Segment) -> (Vec<Segment>, Vec<Segment>) {
-        let area = self.doors()[door].crossing;
+    fn beside(
+        &self,
+        door: DoorIndex,
+        (from, to): (RoomIndex, RoomIndex),
+        side: Segment,
+    ) -> (Vec<Segment>, Vec<Segment>) {
+        let area = self[door].crossing;
         let weight = self.passage(door);
-        let free = self.exits.portals.of(from).iter().filter(|exit| self.is_free(exit.door as usize));
-        let rooms = std::iter::once(from).chain(free.map(|exit| exit.to as usize));
+        let free = self.exits.portals(from).iter().filter(|exit| self.is_free(exit.door));
+        let rooms = std::iter::once(from).chain(free.map(|exit| exit.to));
         let (mut alike, mut otherwise) = (Vec::new(), Vec::new());
-        for exit in rooms.flat_map(|room| self.exits.changes.of(room)) {
-            let (other, room) = (exit.door as usize, exit.to as usize);
+        for exit in rooms.flat_map(|room| self.exits.changes(room)) {
+            let Exit { door: other, to: room } = *exit;
             let is_of_layer =
-                other != door && self.turning().mesh.layer[room] == self.turning().mesh.layer[to];
+                other != door && self.turning().mesh.layer(room) == self.turning().mesh.layer(to);
             let is_like =
                 self.per_m(room).to_bits() == self.per_m(to).to_bits() && self.passage(other) == weight;
-            let beside = &self.doors()[other].crossing;
+            let beside = &self[other].crossing;
             // a change back and forth may lie in the same area
             if is_of_layer && beside != &area {
                 let (a, b) = (beside.nearest_to(side.a), beside.nearest_to(side.b));
@@ -196,14 +198,14 @@ impl RouteGraph {
     }
 
     /// The room behind a door, and which of the door's directions leads there.
-    fn beyond(&self, door: usize, from: usize) -> (usize, usize) {
-        let door = &self.doors()[door];
+    fn beyond(&self, door: DoorIndex, from: RoomIndex) -> (RoomIndex, usize) {
+        let door = &self[door];
         if door.room1 == from { (door.room2, 0) } else { (door.room1, 1) }
     }
 
     /// The parts of a segment on a room's outline beyond which none like it follows.
-    fn rim(&self, room: usize, side: Segment) -> Vec<Segment> {
-        let rect = &self.rooms()[room].rect;
+    fn rim(&self, room: RoomIndex, side: Segment) -> Vec<Segment> {
+        let rect = &self[room].rect;
         let upright = (side.a.x - side.b.x).abs() <= EPSILON;
         let on = |at: f64, limits: [f64; 2]| limits.iter().any(|limit| (at - limit).abs() <= EPSILON);
         let is_outline =
@@ -213,9 +215,9 @@ impl RouteGraph {
         }
         let across = |p: Point| if upright { p.x } else { p.y };
         let mut open: Vec<Segment> = Vec::new();
-        for exit in self.exits.portals.of(room) {
-            let door = exit.door as usize;
-            let segment = Segment::of(&self.doors()[door].crossing);
+        for exit in self.exits.portals(room) {
+            let door = exit.door;
+            let segment = Segment::of(&self[door].crossing);
             let is_beside = (across(segment.a) - across(side.a)).abs() <= EPSILON
                 && (across(segment.b) - across(side.a)).abs() <= EPSILON;
             if is_beside && self.is_free(door) {

@@ -1,11 +1,12 @@
 //! The graph of routes: rooms joined by doors, what they weigh, and what is kept of both for searches.
 
 use std::cmp::Ordering;
+use std::ops::Index;
 use std::sync::OnceLock;
 
 use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
-use super::parts::{Passing, RouteDoor, RouteRoom, Walking};
+use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
 use super::turning::Turning;
 use crate::geometry::Rect;
 use crate::search::Csr;
@@ -52,7 +53,7 @@ impl RouteGraph {
     /// Where ways that weigh metres may turn.
     pub(super) fn turning(&self) -> &Turning {
         self.turning.get_or_init(|| {
-            let passing = (0..self.doors.len()).map(|door| self.passing_of(door)).collect();
+            let passing = self.door_indices().map(|door| self.passing_of(door)).collect();
             Box::new(Turning::new(&self.rooms, &self.doors, passing))
         })
     }
@@ -63,47 +64,48 @@ impl RouteGraph {
     /// It takes about half a second for 100,000 doors.
     pub fn prepare(&mut self) {
         if self.hierarchy.is_none() && self.is_on_doors() {
-            let passing = (0..self.doors.len()).map(|door| self.passing_both_ways(door)).collect();
+            let passing = self.door_indices().map(|door| self.passing_both_ways(door)).collect();
             self.hierarchy = Some(Hierarchy::new(&self.rooms, &self.doors, passing));
         }
     }
 
     /// What passing a door weighs from its first room and from its second; infinite where it is not passed.
-    fn passing_both_ways(&self, door: usize) -> [f64; 2] {
+    fn passing_both_ways(&self, door: DoorIndex) -> [f64; 2] {
         let weight = self.passage(door).unwrap_or(f64::INFINITY);
-        [weight, if self.doors[door].one_way { f64::INFINITY } else { weight }]
+        [weight, if self[door].one_way { f64::INFINITY } else { weight }]
     }
 
-    /// Weighs rooms and doors anew, by index; what is not named stays as it is.
+    /// Weighs rooms and doors anew; what is not named stays as it is.
     ///
     /// Where all hardness lies on the doors, and no room comes to weigh or to be entered otherwise, it takes as long as
     /// there are doors named, and ways that lead through them.
     pub fn reweigh(
         &mut self,
-        rooms: impl IntoIterator<Item = (usize, Walking)>,
-        doors: impl IntoIterator<Item = (usize, Option<f64>, bool)>,
+        rooms: impl IntoIterator<Item = (RoomIndex, Walking)>,
+        doors: impl IntoIterator<Item = (DoorIndex, Option<f64>, bool)>,
     ) {
         let (rooms, doors) = (rooms.into_iter().collect::<Vec<_>>(), doors.into_iter().collect::<Vec<_>>());
         self.reweigh_cut(&rooms, &doors);
         let was_on_doors = self.is_on_doors();
         let (mut touched, mut orders, mut is_other_price) = (Vec::new(), Vec::new(), false);
-        let rooms: Vec<(usize, Walking)> =
-            rooms.into_iter().filter(|(room, walking)| self.rooms[*room].walking != *walking).collect();
+        let rooms: Vec<(RoomIndex, Walking)> =
+            rooms.into_iter().filter(|(room, walking)| self[*room].walking != *walking).collect();
         if !rooms.is_empty() {
-            touched = (0..self.doors.len()).collect();
+            touched = self.door_indices().collect();
             orders = touched.iter().map(|&door| self.order(door)).collect();
         }
         for (room, walking) in rooms {
-            let room = &mut self.rooms[room];
+            let room = &mut self.rooms[room.index()];
             self.measured -= usize::from(room.is_measured());
             room.walking = walking;
             self.measured += usize::from(room.is_measured());
         }
         let is_all = !touched.is_empty();
         for (door, hardness, passable) in doors {
-            let before = self.doors[door].weight();
-            (self.doors[door].hardness, self.doors[door].passable) = (hardness, passable);
-            is_other_price |= self.doors[door].is_change() && self.doors[door].weight() != before;
+            let of = &mut self.doors[door.index()];
+            let before = of.weight();
+            (of.hardness, of.passable) = (hardness, passable);
+            is_other_price |= of.is_change() && of.weight() != before;
             if !is_all {
                 touched.push(door);
             }
@@ -114,7 +116,8 @@ impl RouteGraph {
             None => return,
         };
         let is_on_doors = was_on_doors && self.is_on_doors();
-        let orders_now: Vec<Ordering> = (0..orders.len()).map(|door| self.order(door)).collect();
+        let orders_now: Vec<Ordering> =
+            touched[..orders.len()].iter().map(|&door| self.order(door)).collect();
         let Some(turning) = self.turning.get_mut() else { return };
         let is_passed_otherwise = turning.pass((&self.rooms, &self.doors), &passing);
         if is_on_doors {
@@ -132,14 +135,14 @@ impl RouteGraph {
         }
     }
 
-    /// Weighs these doors, by index, anew where ways between any two rooms are prepared.
-    fn reweigh_hierarchy(&mut self, doors: &[usize]) {
+    /// Weighs these doors anew where ways between any two rooms are prepared.
+    fn reweigh_hierarchy(&mut self, doors: &[DoorIndex]) {
         let Some(mut hierarchy) = self.hierarchy.take() else { return };
-        hierarchy.reweigh(doors.iter().map(|&door| (door as u32, self.passing_both_ways(door))));
+        hierarchy.reweigh(doors.iter().map(|&door| (door, self.passing_both_ways(door))));
         self.hierarchy = Some(hierarchy);
     }
 
-    pub(super) fn passing_of(&self, door: usize) -> Passing {
+    pub(super) fn passing_of(&self, door: DoorIndex) -> Passing {
         if self.is_free(door) {
             Passing::Free
         } else if self.passage(door).is_some() {
@@ -150,8 +153,8 @@ impl RouteGraph {
     }
 
     /// Which of a door's rooms is easier.
-    fn order(&self, door: usize) -> Ordering {
-        self.per_m(self.doors[door].room2).total_cmp(&self.per_m(self.doors[door].room1))
+    fn order(&self, door: DoorIndex) -> Ordering {
+        self.per_m(self[door].room2).total_cmp(&self.per_m(self[door].room1))
     }
 
     /// Whether no room weighs its metres.
@@ -159,9 +162,16 @@ impl RouteGraph {
         self.measured == 0
     }
 
-    /// Whether a route may pass the door, by index.
-    pub(super) fn is_open(&self, door: usize) -> bool {
+    pub(super) fn is_open(&self, door: DoorIndex) -> bool {
         self.passage(door).is_some()
+    }
+
+    pub fn room_indices(&self) -> impl Iterator<Item = RoomIndex> + use<> {
+        (0..self.rooms.len()).map(RoomIndex::new)
+    }
+
+    pub fn door_indices(&self) -> impl Iterator<Item = DoorIndex> + use<> {
+        (0..self.doors.len()).map(DoorIndex::new)
     }
 
     pub fn rooms(&self) -> &[RouteRoom] {
@@ -174,37 +184,53 @@ impl RouteGraph {
     }
 
     /// Whether a door can be passed for nothing, between rooms of equal hardness.
-    pub(super) fn is_free(&self, door: usize) -> bool {
-        let (one, two) = (self.doors()[door].room1, self.doors()[door].room2);
-        !self.doors()[door].one_way
+    pub(super) fn is_free(&self, door: DoorIndex) -> bool {
+        let (one, two) = (self[door].room1, self[door].room2);
+        !self[door].one_way
             && self.passage(door) == Some(0.0)
             && self.per_m(one).to_bits() == self.per_m(two).to_bits()
     }
 
     /// Hardness of a metre; 0 where all hardness lies on the doors, infinite where no route enters.
-    pub(super) fn per_m(&self, room: usize) -> f64 {
-        match self.rooms()[room].walking {
+    pub(super) fn per_m(&self, room: RoomIndex) -> f64 {
+        match self[room].walking {
             Walking::OnDoors => 0.0,
             Walking::PerMetre(hardness) => hardness,
             Walking::Unknown => f64::INFINITY,
         }
     }
 
-    pub(super) fn is_entered(&self, room: usize) -> bool {
-        self.rooms()[room].walking != Walking::Unknown
+    pub(super) fn is_entered(&self, room: RoomIndex) -> bool {
+        self[room].walking != Walking::Unknown
     }
 
     /// What passing a door weighs, where it can be passed.
-    pub(super) fn passage(&self, door: usize) -> Option<f64> {
-        let of = &self.doors()[door];
+    pub(super) fn passage(&self, door: DoorIndex) -> Option<f64> {
+        let of = &self[door];
         of.weight().filter(|_| self.is_entered(of.room1) && self.is_entered(of.room2))
     }
 
     /// The least hardness of a metre in a room that may be entered.
     pub(super) fn least_per_m(&self) -> f64 {
-        let all = (0..self.rooms().len()).map(|room| self.per_m(room));
+        let all = self.room_indices().map(|room| self.per_m(room));
         let least = all.fold(f64::INFINITY, f64::min);
         if least.is_finite() { least } else { 0.0 }
+    }
+}
+
+impl Index<RoomIndex> for RouteGraph {
+    type Output = RouteRoom;
+
+    fn index(&self, room: RoomIndex) -> &RouteRoom {
+        &self.rooms[room.index()]
+    }
+}
+
+impl Index<DoorIndex> for RouteGraph {
+    type Output = RouteDoor;
+
+    fn index(&self, door: DoorIndex) -> &RouteDoor {
+        &self.doors[door.index()]
     }
 }
 
@@ -221,11 +247,11 @@ pub struct Closed {
 pub(super) struct Cut {
     pub graph: RouteGraph,
     /// Of each part its room.
-    pub rooms: Vec<usize>,
+    pub rooms: Vec<RoomIndex>,
     /// Of each door of the graph the site's; `None` for one between two parts of a room.
-    pub doors: Vec<Option<usize>>,
+    pub doors: Vec<Option<DoorIndex>>,
     /// Of each room its parts.
-    pub parts: Vec<Vec<usize>>,
+    pub parts: Vec<Vec<RoomIndex>>,
     /// Of each door of the site the graph's.
-    pub pieces: Vec<Vec<usize>>,
+    pub pieces: Vec<Vec<DoorIndex>>,
 }

@@ -17,7 +17,7 @@ use metric::Metric;
 pub(super) use query::Passed;
 use topology::Topology;
 
-use super::parts::{RouteDoor, RouteRoom};
+use super::parts::{DoorIndex, RouteDoor, RouteRoom};
 
 /// Rooms and doors, ready for ways between any two rooms.
 #[derive(Clone, Debug)]
@@ -40,11 +40,12 @@ impl Hierarchy {
         Self { topology, metric }
     }
 
-    pub fn reweigh(&mut self, doors: impl Iterator<Item = (u32, [f64; 2])>) {
-        let is_other = |(door, passing): &(u32, [f64; 2])| {
-            self.metric.passing[*door as usize].map(f64::to_bits) != passing.map(f64::to_bits)
+    pub fn reweigh(&mut self, doors: impl Iterator<Item = (DoorIndex, [f64; 2])>) {
+        let is_other = |(door, passing): &(DoorIndex, [f64; 2])| {
+            self.metric.passing[door.index()].map(f64::to_bits) != passing.map(f64::to_bits)
         };
-        let doors: Vec<_> = doors.filter(is_other).collect();
+        let doors: Vec<_> =
+            doors.filter(is_other).map(|(door, passing)| (door.index() as u32, passing)).collect();
         if !self.metric.reweigh(&self.topology, &doors) {
             self.metric.customize(&self.topology);
         }

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use petgraph::unionfind::UnionFind;
 
-use super::parts::{Passing, RouteDoor, RouteRoom};
+use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom};
 use crate::geometry::Point;
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::search::Csr;
 
-/// No room, door or end.
+/// No end of a door.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Two points closer than this are one, metres.
@@ -18,32 +18,31 @@ pub(super) const EPSILON: f64 = ROUNDING_M;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exit {
-    /// The door, by index.
-    pub door: u32,
+    pub door: DoorIndex,
     /// The room that it leads to.
-    pub to: u32,
+    pub to: RoomIndex,
 }
 
 /// Which doors lead out of which room, whatever they weigh.
 #[derive(Clone, Debug)]
 pub(super) struct Exits {
     /// For each room its doors to pass.
-    pub portals: Csr<Exit>,
+    portals: Csr<Exit>,
     /// For each room the changes of shape that begin in it.
-    pub changes: Csr<Exit>,
+    changes: Csr<Exit>,
     /// For each room the changes that lead into it; `to` is the room where they begin.
-    pub changes_into: Csr<Exit>,
+    changes_into: Csr<Exit>,
 }
 
 /// Where doors end, whatever they weigh.
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     /// For each room its layer: rooms that doors to pass both ways join are of one.
-    pub layer: Vec<u32>,
+    layer: Vec<u32>,
     /// For each door the ends of its segment, by number; [`NONE`] for a change.
-    pub ends: Vec<[u32; 2]>,
+    ends: Vec<[u32; 2]>,
     /// The doors that end at each end.
-    at_end: Vec<Vec<u32>>,
+    at_end: Vec<Vec<DoorIndex>>,
     /// Where each end lies.
     points: Vec<Point>,
 }
@@ -52,22 +51,34 @@ impl Exits {
     pub fn new(rooms: usize, doors: &[RouteDoor]) -> Self {
         let (mut portals, mut changes, mut changes_into) = (Vec::new(), Vec::new(), Vec::new());
         for (index, door) in doors.iter().enumerate() {
-            let index = index as u32;
-            let there = Exit { door: index, to: door.room2 as u32 };
-            let back = Exit { door: index, to: door.room1 as u32 };
+            let index = DoorIndex::new(index);
+            let there = Exit { door: index, to: door.room2 };
+            let back = Exit { door: index, to: door.room1 };
             let both = [(door.room1, there, door.room2, back), (door.room2, back, door.room1, there)];
             for (from, exit, to, entry) in &both[..if door.one_way { 1 } else { 2 }] {
                 if door.is_change() {
-                    changes.push((*from, *exit));
-                    changes_into.push((*to, *entry));
+                    changes.push((from.index(), *exit));
+                    changes_into.push((to.index(), *entry));
                 } else {
-                    portals.push((*from, *exit));
+                    portals.push((from.index(), *exit));
                 }
             }
         }
         let [portals, changes, changes_into] =
             [portals, changes, changes_into].map(|items: Vec<(usize, Exit)>| Csr::new(rooms, items));
         Self { portals, changes, changes_into }
+    }
+
+    pub fn portals(&self, room: RoomIndex) -> &[Exit] {
+        self.portals.of(room.index())
+    }
+
+    pub fn changes(&self, room: RoomIndex) -> &[Exit] {
+        self.changes.of(room.index())
+    }
+
+    pub fn changes_into(&self, room: RoomIndex) -> &[Exit] {
+        self.changes_into.of(room.index())
     }
 }
 
@@ -76,6 +87,14 @@ impl Mesh {
         let layer = layers(rooms, doors);
         let (ends, at_end, points) = number_ends(&layer, doors);
         Self { layer, ends, at_end, points }
+    }
+
+    pub fn layer(&self, room: RoomIndex) -> u32 {
+        self.layer[room.index()]
+    }
+
+    pub fn ends(&self, door: DoorIndex) -> [u32; 2] {
+        self.ends[door.index()]
     }
 
     pub fn ends_count(&self) -> usize {
@@ -91,36 +110,36 @@ impl Mesh {
         rooms: &[RouteRoom],
         doors: &[RouteDoor],
         end: u32,
-        passing: impl Fn(usize) -> Passing,
+        passing: impl Fn(DoorIndex) -> Passing,
     ) -> bool {
         let all = &self.at_end[end as usize];
         let bends = |counts: &dyn Fn(Passing) -> bool| {
-            let passed = || all.iter().filter(|&&door| counts(passing(door as usize)));
-            let mut around: Vec<usize> =
-                passed().flat_map(|&door| [doors[door as usize].room1, doors[door as usize].room2]).collect();
+            let passed = || all.iter().filter(|&&door| counts(passing(door)));
+            let mut around: Vec<RoomIndex> =
+                passed().flat_map(|&door| [doors[door.index()].room1, doors[door.index()].room2]).collect();
             around.sort_unstable();
             around.dedup();
             let at = self.points[end as usize];
-            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room], at)).sum();
+            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room.index()], at)).sum();
             // free ground all around, joined all around: there is nothing to bend about
             let is_whole = quarters == 4 && passed().count() >= around.len() && around.len() > 2;
             quarters > 2 && !is_whole
         };
         bends(&|passing| passing == Passing::Free)
-            || all.iter().any(|&door| passing(door as usize) == Passing::Open)
+            || all.iter().any(|&door| passing(door) == Passing::Open)
                 && bends(&|passing| passing != Passing::Shut)
     }
 }
 
-type Ends = (Vec<[u32; 2]>, Vec<Vec<u32>>, Vec<Point>);
+type Ends = (Vec<[u32; 2]>, Vec<Vec<DoorIndex>>, Vec<Point>);
 
 /// Numbers the ends of doors; doors of different layers that end at the same point have different ends.
 fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
     let mut numbers: BTreeMap<(u32, i64, i64), u32> = BTreeMap::new();
-    let (mut at_end, mut points): (Vec<Vec<u32>>, Vec<Point>) = (Vec::new(), Vec::new());
+    let (mut at_end, mut points): (Vec<Vec<DoorIndex>>, Vec<Point>) = (Vec::new(), Vec::new());
     let mut ends = vec![[NONE; 2]; doors.len()];
     for (index, door) in doors.iter().enumerate().filter(|(_, door)| !door.is_change()) {
-        let of = layer[door.room1];
+        let of = layer[door.room1.index()];
         let crossing = door.crossing;
         let both = [Point::new(crossing.x0, crossing.y0), Point::new(crossing.x1, crossing.y1)];
         for (end, point) in ends[index].iter_mut().zip(both) {
@@ -132,8 +151,9 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
                 points.len() as u32 - 1
             });
             *end = number;
-            if at_end[number as usize].last() != Some(&(index as u32)) {
-                at_end[number as usize].push(index as u32);
+            let (at, index) = (&mut at_end[number as usize], DoorIndex::new(index));
+            if at.last() != Some(&index) {
+                at.push(index);
             }
         }
     }
@@ -142,9 +162,9 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
 
 /// For each room a number that is the same for all rooms that doors to pass, both ways, join with it.
 fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
-    let mut layers = UnionFind::new(rooms);
+    let mut layers = UnionFind::<u32>::new(rooms);
     for door in doors.iter().filter(|door| !door.is_change() && !door.one_way) {
-        layers.union(door.room1 as u32, door.room2 as u32);
+        layers.union(door.room1.index() as u32, door.room2.index() as u32);
     }
     layers.into_labeling()
 }

@@ -1,16 +1,16 @@
 //! The least-cost ways from one start where all hardness lies on the doors.
 
-use super::compact::{NONE, search};
+use super::compact::search;
 use super::graph::RouteGraph;
-use super::parts::{Goal, Start};
+use super::parts::{DoorIndex, Goal, RoomIndex, Start};
 use super::way::{Way, Ways};
 use crate::geometry::Point;
 
 /// The best way into a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
-    /// The room before and the door passed, both by index; `None` where the search began.
-    pub from: Option<(usize, usize)>,
+    /// The room before and the door passed; `None` where the search began.
+    pub from: Option<(RoomIndex, DoorIndex)>,
     pub cost: f64,
     pub hops: u32,
 }
@@ -29,16 +29,14 @@ impl RouteGraph {
     /// Equal costs: the room, then the door, of lower number. O((rooms + doors) log rooms).
     pub fn tree(&self, start: &Start) -> Tree {
         let starts = start.rooms.iter().copied().filter(|&room| self.is_entered(room));
-        let leaving = |room: usize| self.exits(room).map(|exit| (exit.to, exit.door));
-        let weight = |door: usize| self.passage(door).unwrap_or(f64::INFINITY);
-        let found = search(self.rooms().len(), starts, leaving, weight, |door| self.doors()[door].door);
-        let arrival = |room: usize| {
-            let from = (found.before[room] != NONE)
-                .then(|| (found.before[room] as usize, found.doors[room] as usize));
-            let (cost, hops) = (found.costs[room], found.hops[room]);
-            cost.is_finite().then_some(Arrival { from, cost, hops })
+        let leaving = |room: RoomIndex| self.exits(room).map(|exit| (exit.to, exit.door));
+        let weight = |door: DoorIndex| self.passage(door).unwrap_or(f64::INFINITY);
+        let found = search(self.rooms().len(), starts, leaving, weight, |door| self[door].door);
+        let arrival = |room: RoomIndex| {
+            let (cost, hops) = (found.cost(room), found.hops(room));
+            cost.is_finite().then(|| Arrival { from: found.before(room), cost, hops })
         };
-        Tree { rooms: (0..self.rooms().len()).map(arrival).collect() }
+        Tree { rooms: self.room_indices().map(arrival).collect() }
     }
 }
 
@@ -46,19 +44,19 @@ impl Tree {
     /// The ways to goals, and to all rooms where asked for: from door to door.
     pub(super) fn ways(&self, graph: &RouteGraph, start: &Start, goals: &[Goal], rooms: bool) -> Ways {
         let goals = goals.iter().map(|goal| {
-            let reached = goal.rooms.iter().filter_map(|&room| Some((room, self.rooms[room]?)));
+            let reached = goal.rooms.iter().filter_map(|&room| Some((room, self.rooms[room.index()]?)));
             let best = reached.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
             best.map(|(room, _)| self.way(graph, start, room, goal.at))
         });
-        let way = |room: usize| self.rooms[room].map(|_| self.way(graph, start, room, None));
+        let way = |room: RoomIndex| self.rooms[room.index()].map(|_| self.way(graph, start, room, None));
         let count = if rooms { self.rooms.len() } else { 0 };
-        Ways { goals: goals.collect(), rooms: (0..count).map(way).collect() }
+        Ways { goals: goals.collect(), rooms: graph.room_indices().take(count).map(way).collect() }
     }
 
-    fn way(&self, graph: &RouteGraph, start: &Start, to: usize, goal: Option<Point>) -> Way {
+    fn way(&self, graph: &RouteGraph, start: &Start, to: RoomIndex, goal: Option<Point>) -> Way {
         let (mut room, mut doors) = (to, Vec::new());
-        while let Some((before, door)) = self.rooms[room].and_then(|arrival| arrival.from) {
-            doors.push((door, graph.doors()[door].at, room));
+        while let Some((before, door)) = self.rooms[room.index()].and_then(|arrival| arrival.from) {
+            doors.push((door, graph[door].at, room));
             room = before;
         }
         doors.reverse();

@@ -1,6 +1,14 @@
 //! Rooms and doors as a search sees them, and where it begins and ends.
 
+use petgraph::graph::{EdgeIndex, NodeIndex};
+
 use crate::geometry::{Point, Rect};
+
+/// Which of a graph's rooms, from 0.
+pub type RoomIndex = NodeIndex;
+
+/// Which of a graph's doors, from 0: not its key.
+pub type DoorIndex = EdgeIndex;
 
 /// A room as the search sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +39,8 @@ pub enum Walking {
 pub struct RouteDoor {
     /// Its key, unique.
     pub door: u32,
-    /// Index of the first room.
-    pub room1: usize,
-    /// Index of the second room.
-    pub room2: usize,
+    pub room1: RoomIndex,
+    pub room2: RoomIndex,
     /// Where it is crossed: a segment shared by both rooms, or the area in which a change of shape is possible.
     pub crossing: Rect,
     /// The point that stands for it where no distance in its rooms is weighed.
@@ -63,7 +69,7 @@ impl RouteDoor {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Rooms that hold the start: one in the paper's modes, one for each state that fits there otherwise.
-    pub rooms: Vec<usize>,
+    pub rooms: Vec<RoomIndex>,
     /// The start point, metres.
     pub at: Point,
 }
@@ -72,7 +78,7 @@ pub struct Start {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
     /// Rooms that hold it.
-    pub rooms: Vec<usize>,
+    pub rooms: Vec<RoomIndex>,
     /// The point; `None`: anywhere in one of the rooms.
     pub at: Option<Point>,
 }

@@ -3,7 +3,8 @@
 
 use super::cone::{Gap, Segment, View, cross};
 use super::graph::RouteGraph;
-use super::mesh::{EPSILON, NONE};
+use super::mesh::{EPSILON, Exit, NONE};
+use super::parts::{DoorIndex, RoomIndex};
 use super::turning::Gate;
 use super::way::Way;
 use crate::geometry::Point;
@@ -21,21 +22,20 @@ const FINE_M: f64 = 0.1 * SNAP_M;
 /// A door on a way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
-    /// By index.
-    pub door: usize,
+    pub door: DoorIndex,
     /// Where it may be passed.
     pub segment: Segment,
     /// Where it is passed.
     pub at: Point,
     /// The room behind it.
-    pub room: usize,
+    pub room: RoomIndex,
     /// Whether the way goes straight on through it, or stops to be refracted or to change shape.
     pub is_straight: bool,
 }
 
 impl Link {
-    pub fn new(graph: &RouteGraph, door: usize, at: Point, room: usize) -> Self {
-        let of = &graph.doors()[door];
+    pub fn new(graph: &RouteGraph, door: DoorIndex, at: Point, room: RoomIndex) -> Self {
+        let of = &graph[door];
         let before = if of.room1 == room { of.room2 } else { of.room1 };
         if of.is_change() {
             let mut gates = graph.gates(door, before).iter().map(|gate| gate.segment);
@@ -51,7 +51,7 @@ impl Link {
 /// The doors on a way from a start to a goal.
 pub(super) struct Chain<'g> {
     pub graph: &'g RouteGraph,
-    pub start: (usize, Point),
+    pub start: (RoomIndex, Point),
     pub links: Vec<Link>,
     pub goal: Point,
 }
@@ -84,7 +84,7 @@ impl Chain<'_> {
         cost + from.distance(self.goal) * self.graph.per_m(room)
     }
 
-    fn room_before(&self, link: usize) -> usize {
+    fn room_before(&self, link: usize) -> RoomIndex {
         if link == 0 { self.start.0 } else { self.links[link - 1].room }
     }
 
@@ -107,8 +107,8 @@ impl Chain<'_> {
 
     /// The door of a link, as one comes to it.
     fn opening(&self, link: usize) -> Opening {
-        let rooms = self.graph.rooms();
-        let (before, after) = (&rooms[self.room_before(link)].rect, &rooms[self.links[link].room].rect);
+        let graph = self.graph;
+        let (before, after) = (&graph[self.room_before(link)].rect, &graph[self.links[link].room].rect);
         let (one, two) = (before.centre(), after.centre());
         let segment = self.links[link].segment;
         let Segment { a, b } = segment;
@@ -155,13 +155,13 @@ impl Chain<'_> {
     }
 
     /// The doors on the straight line between two points; `None` where they do not see each other.
-    fn walk(&self, room: usize, from: Point, into: usize, to: Point) -> Option<Vec<Link>> {
+    fn walk(&self, room: RoomIndex, from: Point, into: RoomIndex, to: Point) -> Option<Vec<Link>> {
         let graph = self.graph;
         let (mut links, mut room, mut at) = (Vec::new(), room, 0.0);
         let length = from.distance(to);
         let mut passed = vec![room];
         while room != into {
-            let rect = &graph.rooms()[room].rect;
+            let rect = &graph[room].rect;
             // the share of the line at which it leaves the room
             let leaves = |from: f64, to: f64, low: f64, high: f64| {
                 if to > from {
@@ -176,20 +176,19 @@ impl Chain<'_> {
             let share = share.max(at).min(1.0);
             let on = Segment { a: from, b: to };
             let (here, beyond) = (on.at(share), on.at((share + SNAP_M / length.max(SNAP_M)).min(1.0)));
-            let near = |p: Point, room: usize| {
-                let rect = &graph.rooms()[room].rect;
+            let near = |p: Point, room: RoomIndex| {
+                let rect = &graph[room].rect;
                 rect.nearest_to(p).distance(p)
             };
-            let exits = graph.exits.portals.of(room).iter().filter(|exit| {
-                let segment = Segment::of(&graph.doors()[exit.door as usize].crossing);
-                graph.is_free(exit.door as usize)
+            let exits = graph.exits.portals(room).iter().filter(|exit| {
+                let segment = Segment::of(&graph[exit.door].crossing);
+                graph.is_free(exit.door)
                     && segment.nearest_to(here).distance(here) <= EPSILON
-                    && !passed.contains(&(exit.to as usize))
+                    && !passed.contains(&exit.to)
             });
-            let next = exits
-                .min_by(|one, two| near(beyond, one.to as usize).total_cmp(&near(beyond, two.to as usize)))?;
-            links.push(Link::new(graph, next.door as usize, here, next.to as usize));
-            room = next.to as usize;
+            let next = exits.min_by(|one, two| near(beyond, one.to).total_cmp(&near(beyond, two.to)))?;
+            links.push(Link::new(graph, next.door, here, next.to));
+            room = next.to;
             passed.push(room);
             at = share;
         }
@@ -212,13 +211,13 @@ impl Chain<'_> {
                 if to == from {
                     return Some((count, None));
                 }
-                let exit = graph.exits.changes.of(from).iter().find(|exit| {
-                    let area = &graph.doors()[exit.door as usize].crossing;
-                    exit.to as usize == to
+                let exit = graph.exits.changes(from).iter().find(|exit| {
+                    let area = &graph[exit.door].crossing;
+                    exit.to == to
                         && area.nearest_to(at).distance(at) <= SNAP_M
-                        && graph.passage(exit.door as usize).is_some_and(|weight| weight <= price + EPSILON)
+                        && graph.passage(exit.door).is_some_and(|weight| weight <= price + EPSILON)
                 })?;
-                Some((count, Some(Link::new(graph, exit.door as usize, at, to))))
+                Some((count, Some(Link::new(graph, exit.door, at, to))))
             });
             if let Some((count, link)) = joined {
                 self.links.splice(first..first + count, link);
@@ -282,7 +281,7 @@ impl Chain<'_> {
             if gain <= GAIN * cost(here.at) || best.as_ref().is_some_and(|(most, _)| gain <= *most) {
                 continue;
             }
-            let of = &graph.doors()[link.door];
+            let of = &graph[link.door];
             let outside = if of.room1 == link.room { of.room2 } else { of.room1 };
             if let (Some(mut links), Some(rest)) =
                 (self.walk(room, from, outside, at), self.walk(link.room, at, into, to))
@@ -298,20 +297,19 @@ impl Chain<'_> {
     }
 
     /// Other doors between the same two layers, weighed the same, that can be passed where a stop is.
-    fn stops_beside(&self, before: usize, stop: &Link) -> Vec<Link> {
+    fn stops_beside(&self, before: RoomIndex, stop: &Link) -> Vec<Link> {
         let graph = self.graph;
-        let is_change = graph.doors()[stop.door].is_change();
+        let is_change = graph[stop.door].is_change();
         let weight = graph.passage(stop.door);
         let mut rooms = vec![before];
-        let free = graph.exits.portals.of(before).iter().filter(|exit| graph.is_free(exit.door as usize));
-        rooms.extend(free.map(|exit| exit.to as usize));
-        rooms.retain(|&room| graph.rooms()[room].rect.nearest_to(stop.at).distance(stop.at) <= SNAP_M);
+        let free = graph.exits.portals(before).iter().filter(|exit| graph.is_free(exit.door));
+        rooms.extend(free.map(|exit| exit.to));
+        rooms.retain(|&room| graph[room].rect.nearest_to(stop.at).distance(stop.at) <= SNAP_M);
         let mut found = Vec::new();
         for room in rooms {
-            let exits = if is_change { &graph.exits.changes } else { &graph.exits.portals };
-            for exit in exits.of(room) {
-                let (door, to) = (exit.door as usize, exit.to as usize);
-                let is_like = graph.turning().mesh.layer[to] == graph.turning().mesh.layer[stop.room]
+            let exits = if is_change { graph.exits.changes(room) } else { graph.exits.portals(room) };
+            for &Exit { door, to } in exits {
+                let is_like = graph.turning().mesh.layer(to) == graph.turning().mesh.layer(stop.room)
                     && graph.per_m(to).to_bits() == graph.per_m(stop.room).to_bits()
                     && graph.passage(door) == weight;
                 if !is_like {
@@ -322,12 +320,7 @@ impl Chain<'_> {
                     let link = |gate: &Gate| Link { door, segment: gate.segment, room: to, ..*stop };
                     found.extend(gates.map(link));
                 } else {
-                    found.push(Link {
-                        door,
-                        segment: Segment::of(&graph.doors()[door].crossing),
-                        room: to,
-                        ..*stop
-                    });
+                    found.push(Link { door, segment: Segment::of(&graph[door].crossing), room: to, ..*stop });
                 }
             }
         }

@@ -13,7 +13,7 @@ use super::cone::{Gap, Segment, View};
 use super::gates::sides;
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
-use super::parts::{Goal, Start};
+use super::parts::{DoorIndex, Goal, RoomIndex, Start};
 use super::turning::{Gate, Turning};
 use crate::geometry::Point;
 
@@ -33,6 +33,9 @@ const SLACK: f64 = 0.03;
 /// So many ways to a goal are pulled tight.
 const MOST_WAYS: usize = 16;
 
+/// No node, before the first.
+pub(super) const NO_NODE: u32 = u32::MAX;
+
 /// A way into a room, up to what is seen of the door.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
@@ -40,12 +43,11 @@ pub(super) struct Node {
     pub root: Point,
     /// Hardness up to the root, with what doors passed since then weigh.
     pub cost: f64,
-    /// The node from which this one was found; [`NONE`] at the start.
+    /// The node from which this one was found; [`NO_NODE`] at the start.
     pub before: u32,
-    /// The room, by index.
-    pub room: u32,
-    /// The door by which it was entered, by index; [`NONE`] at the start.
-    pub door: u32,
+    pub room: RoomIndex,
+    /// The door by which it was entered; [`DoorIndex::end`] at the start.
+    pub door: DoorIndex,
     /// Whether the way bent at the root without passing a door.
     pub bent: bool,
     /// What of the room is seen.
@@ -57,7 +59,7 @@ pub(super) struct Found {
     pub node: u32,
     pub at: Point,
     pub cost: f64,
-    /// A change of shape at the goal itself: the door and the room, by index.
+    /// A change of shape at the goal itself.
     pub change: Option<Exit>,
 }
 
@@ -100,7 +102,7 @@ pub(super) struct Search<'g> {
     goals: &'g [Goal],
     wanted: Wanted,
     /// For each room the goals in it.
-    targets: Vec<(u32, Target)>,
+    targets: Vec<(RoomIndex, Target)>,
     /// The least hardness of a metre anywhere.
     least_per_m: f64,
     nodes: Vec<Node>,
@@ -113,7 +115,7 @@ pub(super) struct Search<'g> {
     /// For each end of a door the least cost of a way that bends there.
     bent: Vec<f64>,
     /// Roots from which a room was looked at already: the room, the point, and to which side.
-    looked: HashSet<(u32, u64, u64, u8)>,
+    looked: HashSet<(RoomIndex, u64, u64, u8)>,
     outcome: Outcome,
     care: Care,
 }
@@ -127,7 +129,8 @@ impl<'g> Search<'g> {
             return outcome;
         }
         let joined = graph.joined_with(&start.rooms);
-        let is_missed = |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|&room| joined[room]);
+        let is_missed =
+            |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|room| joined[room.index()]);
         if !(0..goals.len()).any(is_missed) {
             return outcome;
         }
@@ -138,14 +141,14 @@ impl<'g> Search<'g> {
         let mut targets = Vec::new();
         for (index, goal) in goals.iter().enumerate() {
             for &room in &goal.rooms {
-                targets.push((room as u32, Target { goal: index, at: goal.at, change: None }));
+                targets.push((room, Target { goal: index, at: goal.at, change: None }));
                 let Some(at) = goal.at else { continue };
-                for exit in graph.exits.changes_into.of(room) {
-                    let door = &graph.doors()[exit.door as usize];
-                    if let Some(weight) = graph.passage(exit.door as usize)
+                for exit in graph.exits.changes_into(room) {
+                    let door = &graph[exit.door];
+                    if let Some(weight) = graph.passage(exit.door)
                         && door.crossing.contains(at)
                     {
-                        let change = Some((Exit { door: exit.door, to: room as u32 }, weight));
+                        let change = Some((Exit { door: exit.door, to: room }, weight));
                         targets.push((exit.to, Target { goal: index, at: goal.at, change }));
                     }
                 }
@@ -181,9 +184,9 @@ impl<'g> Search<'g> {
             self.push(Node {
                 root,
                 cost: 0.0,
-                before: NONE,
-                room: room as u32,
-                door: NONE,
+                before: NO_NODE,
+                room,
+                door: DoorIndex::end(),
                 bent: false,
                 view: View::All,
             });
@@ -224,7 +227,7 @@ impl<'g> Search<'g> {
     }
 
     fn push(&mut self, node: Node) {
-        let per_m = self.graph.per_m(node.room as usize);
+        let per_m = self.graph.per_m(node.room);
         let (near, remaining) = match &node.view {
             View::Through(gap) => {
                 let segment = gap.segment();
@@ -263,23 +266,23 @@ impl<'g> Search<'g> {
         self.remember(index, &node);
         self.arrive(index, &node);
         self.bend(index, &node);
-        for exit in self.graph.exits.portals.of(node.room as usize) {
+        for exit in self.graph.exits.portals(node.room) {
             if exit.door != node.door {
                 self.pass(index, &node, *exit);
             }
         }
-        for exit in self.graph.exits.changes.of(node.room as usize) {
+        for exit in self.graph.exits.changes(node.room) {
             self.change(index, &node, *exit);
         }
     }
 
     /// The end of a door at which a bent node bends: that of the door by which its room was entered.
     fn end_at(&self, node: &Node) -> u32 {
-        if node.door == NONE {
+        if node.door == DoorIndex::end() {
             return NONE;
         }
-        let ends = self.turning.mesh.ends[node.door as usize];
-        let segment = Segment::of(&self.graph.doors()[node.door as usize].crossing);
+        let ends = self.turning.mesh.ends(node.door);
+        let segment = Segment::of(&self.graph[node.door].crossing);
         match (ends, node.root.distance(segment.a) <= EPSILON) {
             ([end, _], true) | ([_, end], false) => end,
         }
@@ -298,11 +301,11 @@ impl<'g> Search<'g> {
 
     /// Whether every point that the node sees of its door is reached at less cost.
     fn is_superfluous(&self, node: &Node) -> bool {
-        let room = node.room as usize;
+        let room = node.room;
         let per_m = self.graph.per_m(room);
         let (samples, count) = Self::samples(node);
         // what looks in all directions is needed once; what looks in some must give way to nothing that costs the same
-        let slack = if node.view == View::All && node.before != NONE { EPSILON } else { -EPSILON };
+        let slack = if node.view == View::All && node.before != NO_NODE { EPSILON } else { -EPSILON };
         samples[..count].iter().all(|&p| {
             let cost = node.cost + per_m * node.root.distance(p);
             self.is_cheaper_in(room, p, cost + slack, per_m)
@@ -310,40 +313,40 @@ impl<'g> Search<'g> {
         })
     }
 
-    fn is_cheaper_in(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
-        self.reached[room].iter().any(|&(q, cost)| {
+    fn is_cheaper_in(&self, room: RoomIndex, p: Point, limit: f64, per_m: f64) -> bool {
+        self.reached[room.index()].iter().any(|&(q, cost)| {
             let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
             cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
         })
     }
 
     /// Whether walking in an easier state, and changing at the point or close to it, costs less.
-    fn is_cheaper_by_a_change(&self, room: usize, p: Point, limit: f64, per_m: f64) -> bool {
-        self.graph.exits.changes_into.of(room).iter().any(|exit| {
-            let from = exit.to as usize;
+    fn is_cheaper_by_a_change(&self, room: RoomIndex, p: Point, limit: f64, per_m: f64) -> bool {
+        self.graph.exits.changes_into(room).iter().any(|exit| {
+            let from = exit.to;
             let easier = self.graph.per_m(from);
-            if easier > per_m || self.reached[from].is_empty() {
+            if easier > per_m || self.reached[from.index()].is_empty() {
                 return false;
             }
-            let near = self.graph.doors()[exit.door as usize].crossing.nearest_to(p);
+            let near = self.graph[exit.door].crossing.nearest_to(p);
             let aside = near.distance(p);
-            let weight = self.graph.passage(exit.door as usize).filter(|_| aside <= CLOSE_M);
+            let weight = self.graph.passage(exit.door).filter(|_| aside <= CLOSE_M);
             weight
                 .is_some_and(|weight| self.is_cheaper_in(from, near, limit - weight - aside * per_m, easier))
         })
     }
 
     fn remember(&mut self, index: u32, node: &Node) {
-        let room = node.room as usize;
+        let room = node.room;
         let per_m = self.graph.per_m(room);
         let (samples, count) = Self::samples(node);
         for &p in &samples[..count] {
             let cost = node.cost + per_m * node.root.distance(p);
             if !self.is_cheaper_in(room, p, cost + EPSILON, per_m) {
-                self.reached[room].push((p, cost));
+                self.reached[room.index()].push((p, cost));
             }
         }
-        if let Some(known) = self.outcome.rooms.get_mut(room)
+        if let Some(known) = self.outcome.rooms.get_mut(room.index())
             && known.is_none()
         {
             let at = samples[0];
@@ -355,7 +358,7 @@ impl<'g> Search<'g> {
     /// The goals in the room.
     fn arrive(&mut self, index: u32, node: &Node) {
         let first = self.targets.partition_point(|(room, _)| *room < node.room);
-        let per_m = self.graph.per_m(node.room as usize);
+        let per_m = self.graph.per_m(node.room);
         for place in first..self.targets.len() {
             let (room, target) = self.targets[place];
             if room != node.room {
@@ -377,7 +380,7 @@ impl<'g> Search<'g> {
     /// The bends about the ends of the door through which the node sees.
     fn bend(&mut self, index: u32, node: &Node) {
         let View::Through(gap) = node.view else { return };
-        let per_m = self.graph.per_m(node.room as usize);
+        let per_m = self.graph.per_m(node.room);
         for (end, root, left) in [(gap.left_end, gap.left, true), (gap.right_end, gap.right, false)] {
             if end == NONE || !self.turning.bends[end as usize] {
                 continue;
@@ -392,16 +395,16 @@ impl<'g> Search<'g> {
 
     /// Through a door, as far as it is seen.
     fn pass(&mut self, index: u32, node: &Node, exit: Exit) {
-        let (door, room) = (exit.door as usize, exit.to as usize);
+        let Exit { door, to: room } = exit;
         let Some(weight) = self.graph.passage(door) else { return };
-        let here = self.graph.per_m(node.room as usize);
-        let segment = Segment::of(&self.graph.doors()[door].crossing);
+        let here = self.graph.per_m(node.room);
+        let segment = Segment::of(&self.graph[door].crossing);
         let next = |root: Point, way: f64, view: View| Node {
             root,
             cost: node.cost + way * here + weight,
             before: index,
-            room: exit.to,
-            door: exit.door,
+            room,
+            door,
             bent: false,
             view,
         };
@@ -415,7 +418,7 @@ impl<'g> Search<'g> {
                 self.push(next(node.root, 0.0, view));
             } else if node.view.sees(node.root, near) {
                 // along a wall, and about the near end
-                let ends = self.turning.mesh.ends[door];
+                let ends = self.turning.mesh.ends(door);
                 let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
                 if self.turning.bends[end as usize] || !is_same {
                     self.push(next(near, way, View::All));
@@ -426,7 +429,7 @@ impl<'g> Search<'g> {
         let Some(seen) = node.view.of(node.root, segment) else { return };
         if is_same {
             if seen.length() > EPSILON || segment.length() <= EPSILON {
-                let gap = Gap::new(node.root, segment, seen, self.turning.mesh.ends[door]);
+                let gap = Gap::new(node.root, segment, seen, self.turning.mesh.ends(door));
                 self.push(next(node.root, 0.0, View::Through(gap)));
             }
             return;
@@ -443,10 +446,10 @@ impl<'g> Search<'g> {
 
     /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
     /// goals in the room, the ends, and some between.
-    fn points(&self, room: usize, seen: Segment, root: Point) -> Vec<Point> {
+    fn points(&self, room: RoomIndex, seen: Segment, root: Point) -> Vec<Point> {
         let pieces = (seen.length() / APART_M).ceil().clamp(1.0, 64.0) as u32;
-        let first = self.targets.partition_point(|(of, _)| (*of as usize) < room);
-        let goals = self.targets[first..].iter().take_while(|(of, _)| *of as usize == room);
+        let first = self.targets.partition_point(|(of, _)| *of < room);
+        let goals = self.targets[first..].iter().take_while(|(of, _)| *of == room);
         let feet = goals.filter_map(|(_, target)| target.at.map(|at| seen.nearest_to(at)));
         let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
         let mut points: Vec<Point> = Vec::new();
@@ -460,25 +463,24 @@ impl<'g> Search<'g> {
 
     /// Into another state.
     fn change(&mut self, index: u32, node: &Node, exit: Exit) {
-        let door = exit.door as usize;
+        let Exit { door, to: room } = exit;
         let Some(weight) = self.graph.passage(door) else { return };
-        let room = exit.to as usize;
-        let (here, there) = (self.graph.per_m(node.room as usize), self.graph.per_m(room));
+        let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
         let reach = |search: &mut Self, p: Point| {
             if search.graph.is_on_wall(p) {
                 return;
             }
             let cost = node.cost + node.root.distance(p) * here;
             // reached at less cost otherwise, here or there
-            let is_vain = search.is_cheaper_in(node.room as usize, p, cost - EPSILON, here)
+            let is_vain = search.is_cheaper_in(node.room, p, cost - EPSILON, here)
                 || search.is_cheaper_in(room, p, cost + weight + EPSILON, there);
             if !is_vain {
                 search.push(Node {
                     root: p,
                     cost: cost + weight,
                     before: index,
-                    room: exit.to,
-                    door: exit.door,
+                    room,
+                    door,
                     bent: false,
                     view: View::All,
                 });
@@ -486,14 +488,13 @@ impl<'g> Search<'g> {
         };
         let graph = self.graph;
         // at the start, and where the body goes on turning
-        let is_turning =
-            || graph.doors()[node.door as usize].is_change() && here.to_bits() == there.to_bits();
-        let is_at_once = node.before == NONE || is_turning();
-        if is_at_once && graph.doors()[door].crossing.contains(node.root) {
+        let is_turning = || graph[node.door].is_change() && here.to_bits() == there.to_bits();
+        let is_at_once = node.before == NO_NODE || is_turning();
+        if is_at_once && graph[door].crossing.contains(node.root) {
             reach(self, node.root);
         }
         if self.care == Care::Full {
-            let sides = sides(&graph.doors()[door].crossing).into_iter();
+            let sides = sides(&graph[door].crossing).into_iter();
             for side in sides.flat_map(|side| graph.clear_of_walls(side)) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {
@@ -502,7 +503,7 @@ impl<'g> Search<'g> {
             }
             return;
         }
-        for Gate { segment: gate, is_deep } in graph.gates(exit.door as usize, node.room as usize) {
+        for Gate { segment: gate, is_deep } in graph.gates(door, node.room) {
             if !is_deep && !self.is_near_a_goal(gate) {
                 continue;
             }

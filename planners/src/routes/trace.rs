@@ -2,10 +2,10 @@
 
 use super::cone::Segment;
 use super::graph::RouteGraph;
-use super::mesh::{EPSILON, NONE};
-use super::parts::Start;
+use super::mesh::EPSILON;
+use super::parts::{RoomIndex, Start};
 use super::pull::{Chain, Link};
-use super::taut::{Found, Node};
+use super::taut::{Found, NO_NODE, Node};
 use super::way::Way;
 
 pub(super) fn trace(graph: &RouteGraph, nodes: &[Node], start: &Start, found: &Found) -> Way {
@@ -14,26 +14,26 @@ pub(super) fn trace(graph: &RouteGraph, nodes: &[Node], start: &Start, found: &F
 }
 
 /// The room in which a way starts, and the doors that it passes.
-fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> (usize, Vec<Link>) {
+fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> (RoomIndex, Vec<Link>) {
     let mut links = Vec::new();
     if let Some(exit) = found.change {
-        links.push(Link::new(graph, exit.door as usize, found.at, exit.to as usize));
+        links.push(Link::new(graph, exit.door, found.at, exit.to));
     }
     let (mut index, mut to) = (found.node, found.at);
     loop {
         let node = &nodes[index as usize];
-        let before = (node.before != NONE).then(|| &nodes[node.before as usize]);
+        let before = (node.before != NO_NODE).then(|| &nodes[node.before as usize]);
         let is_new = before.is_some_and(|before| before.root.distance(node.root) > EPSILON);
         if before.is_some() && !node.bent {
-            let door = node.door as usize;
-            let segment = Segment::of(&graph.doors()[door].crossing);
-            let is_here = is_new || graph.doors()[door].is_change();
+            let door = node.door;
+            let segment = Segment::of(&graph[door].crossing);
+            let is_here = is_new || graph[door].is_change();
             let at = if is_here { node.root } else { segment.passed_at(node.root, to) };
-            links.push(Link::new(graph, door, at, node.room as usize));
+            links.push(Link::new(graph, door, at, node.room));
         }
         if before.is_none() {
             links.reverse();
-            return (node.room as usize, links);
+            return (node.room, links);
         }
         if is_new {
             to = node.root;

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::cone::Segment;
 use super::mesh::{Mesh, NONE};
-use super::parts::{Passing, RouteDoor, RouteRoom};
+use super::parts::{DoorIndex, Passing, RouteDoor, RouteRoom};
 
 /// Where a change may pay.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ impl Turning {
         let mesh = Mesh::new(rooms.len(), doors);
         let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
         let mut all = Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates };
-        all.find_bends(rooms, doors, &(0..doors.len()).collect::<Vec<_>>());
+        all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
     }
 
@@ -39,25 +39,28 @@ impl Turning {
     pub fn pass(
         &mut self,
         (rooms, doors): (&[RouteRoom], &[RouteDoor]),
-        passing: &[(usize, Passing)],
+        passing: &[(DoorIndex, Passing)],
     ) -> bool {
-        let changed: Vec<usize> =
-            passing.iter().filter(|(door, now)| self.passing[*door] != *now).map(|(door, _)| *door).collect();
+        let changed: Vec<DoorIndex> = passing
+            .iter()
+            .filter(|(door, now)| self.passing[door.index()] != *now)
+            .map(|(door, _)| *door)
+            .collect();
         for (door, now) in passing {
-            self.passing[*door] = *now;
+            self.passing[door.index()] = *now;
         }
         self.find_bends(rooms, doors, &changed);
         !changed.is_empty()
     }
 
     /// Finds about which ends of these doors a way may bend.
-    fn find_bends(&mut self, rooms: &[RouteRoom], doors: &[RouteDoor], which: &[usize]) {
-        let ends = which.iter().flat_map(|&door| self.mesh.ends[door]).filter(|&end| end != NONE);
+    fn find_bends(&mut self, rooms: &[RouteRoom], doors: &[RouteDoor], which: &[DoorIndex]) {
+        let ends = which.iter().flat_map(|&door| self.mesh.ends(door)).filter(|&end| end != NONE);
         let mut ends: Vec<u32> = ends.collect();
         ends.sort_unstable();
         ends.dedup();
         for end in ends {
-            self.bends[end as usize] = self.mesh.bends(rooms, doors, end, |door| self.passing[door]);
+            self.bends[end as usize] = self.mesh.bends(rooms, doors, end, |door| self.passing[door.index()]);
         }
     }
 }

@@ -1,10 +1,9 @@
 //! The graph of routes as [petgraph](https://docs.rs/petgraph) asks for one: any of its algorithms can be handed it.
 //!
-//! Nodes are rooms and edges are passages of doors that are open, both ways where a door is not one-way; rooms and doors go
-//! by their indices. An edge weighs the hardness of its door: what walking in a room weighs is not in it, nor is a
+//! Nodes are rooms and edges are passages of doors that are open, both ways where a door is not one-way. An edge weighs the hardness of its door: what walking in a room weighs is not in it, nor is a
 //! [closed](RouteGraph::close) boundary.
 
-use std::iter::{Enumerate, Map};
+use std::iter::{Map, Zip};
 use std::ops::Range;
 use std::slice::Iter;
 
@@ -18,28 +17,34 @@ use petgraph::{Directed, Direction};
 
 use super::graph::RouteGraph;
 use super::mesh::Exit;
-use super::parts::RouteRoom;
+use super::parts::{DoorIndex, RoomIndex, RouteRoom};
 use crate::search::Csr;
+
+type Rooms = Map<Range<usize>, fn(usize) -> RoomIndex>;
+
+fn all(rooms: usize) -> Rooms {
+    (0..rooms).map(RoomIndex::new)
+}
 
 /// A door that is open, passed one way.
 #[derive(Clone, Copy, Debug)]
 pub struct OpenDoor<'g> {
-    from: usize,
-    to: usize,
-    door: usize,
+    from: RoomIndex,
+    to: RoomIndex,
+    door: DoorIndex,
     hardness: &'g f64,
 }
 
 impl EdgeRef for OpenDoor<'_> {
-    type NodeId = usize;
-    type EdgeId = usize;
+    type NodeId = RoomIndex;
+    type EdgeId = DoorIndex;
     type Weight = f64;
 
-    fn source(&self) -> usize {
+    fn source(&self) -> RoomIndex {
         self.from
     }
 
-    fn target(&self) -> usize {
+    fn target(&self) -> RoomIndex {
         self.to
     }
 
@@ -47,7 +52,7 @@ impl EdgeRef for OpenDoor<'_> {
         self.hardness
     }
 
-    fn id(&self) -> usize {
+    fn id(&self) -> DoorIndex {
         self.door
     }
 }
@@ -56,20 +61,20 @@ impl EdgeRef for OpenDoor<'_> {
 #[derive(Clone, Debug)]
 pub struct OpenDoors<'g> {
     graph: &'g RouteGraph,
-    room: usize,
+    room: RoomIndex,
     direction: Direction,
     exits: std::iter::Chain<Iter<'g, Exit>, Iter<'g, Exit>>,
     /// Those whose turn comes next.
-    rooms: Range<usize>,
+    rooms: Rooms,
 }
 
 impl<'g> OpenDoors<'g> {
-    fn of(graph: &'g RouteGraph, room: usize, direction: Direction) -> Self {
+    fn of(graph: &'g RouteGraph, room: RoomIndex, direction: Direction) -> Self {
         let exits = match direction {
             Direction::Outgoing => graph.exits(room),
-            Direction::Incoming => graph.entries().of(room).iter().chain(&[]),
+            Direction::Incoming => graph.entries().of(room.index()).iter().chain(&[]),
         };
-        Self { graph, room, direction, exits, rooms: 0..0 }
+        Self { graph, room, direction, exits, rooms: all(0) }
     }
 }
 
@@ -79,8 +84,8 @@ impl<'g> Iterator for OpenDoors<'g> {
     fn next(&mut self) -> Option<OpenDoor<'g>> {
         loop {
             for exit in self.exits.by_ref() {
-                let (door, other) = (exit.door as usize, exit.to as usize);
-                let Some(hardness) = self.graph.doors[door].hardness.as_ref() else { continue };
+                let Exit { door, to: other } = *exit;
+                let Some(hardness) = self.graph[door].hardness.as_ref() else { continue };
                 if !self.graph.is_open(door) {
                     continue;
                 }
@@ -98,24 +103,24 @@ impl<'g> Iterator for OpenDoors<'g> {
 
 impl RouteGraph {
     /// The doors out of a room, open or not.
-    pub(super) fn exits(&self, room: usize) -> std::iter::Chain<Iter<'_, Exit>, Iter<'_, Exit>> {
-        self.exits.portals.of(room).iter().chain(self.exits.changes.of(room))
+    pub(super) fn exits(&self, room: RoomIndex) -> std::iter::Chain<Iter<'_, Exit>, Iter<'_, Exit>> {
+        self.exits.portals(room).iter().chain(self.exits.changes(room))
     }
 
     /// For each room the doors into it, with the rooms that they lead from; found when first asked for.
     fn entries(&self) -> &Csr<Exit> {
         self.entries.get_or_init(|| {
-            let into = |room: usize| {
-                self.exits(room).map(move |exit| (exit.to as usize, Exit { to: room as u32, ..*exit }))
+            let into = |room: RoomIndex| {
+                self.exits(room).map(move |exit| (exit.to.index(), Exit { to: room, ..*exit }))
             };
-            Csr::new(self.rooms.len(), (0..self.rooms.len()).flat_map(into))
+            Csr::new(self.rooms.len(), self.room_indices().flat_map(into))
         })
     }
 }
 
 impl GraphBase for RouteGraph {
-    type NodeId = usize;
-    type EdgeId = usize;
+    type NodeId = RoomIndex;
+    type EdgeId = DoorIndex;
 }
 
 impl GraphProp for RouteGraph {
@@ -138,12 +143,12 @@ impl NodeIndexable for RouteGraph {
         self.rooms.len()
     }
 
-    fn to_index(&self, room: usize) -> usize {
-        room
+    fn to_index(&self, room: RoomIndex) -> usize {
+        room.index()
     }
 
-    fn from_index(&self, room: usize) -> usize {
-        room
+    fn from_index(&self, room: usize) -> RoomIndex {
+        RoomIndex::new(room)
     }
 }
 
@@ -160,12 +165,12 @@ impl EdgeIndexable for RouteGraph {
         self.doors.len()
     }
 
-    fn to_index(&self, door: usize) -> usize {
-        door
+    fn to_index(&self, door: DoorIndex) -> usize {
+        door.index()
     }
 
-    fn from_index(&self, door: usize) -> usize {
-        door
+    fn from_index(&self, door: usize) -> DoorIndex {
+        DoorIndex::new(door)
     }
 }
 
@@ -183,19 +188,19 @@ impl Visitable for RouteGraph {
 }
 
 impl IntoNodeIdentifiers for &RouteGraph {
-    type NodeIdentifiers = Range<usize>;
+    type NodeIdentifiers = Rooms;
 
-    fn node_identifiers(self) -> Range<usize> {
-        0..self.rooms.len()
+    fn node_identifiers(self) -> Rooms {
+        all(self.rooms.len())
     }
 }
 
 impl<'g> IntoNodeReferences for &'g RouteGraph {
-    type NodeRef = (usize, &'g RouteRoom);
-    type NodeReferences = Enumerate<Iter<'g, RouteRoom>>;
+    type NodeRef = (RoomIndex, &'g RouteRoom);
+    type NodeReferences = Zip<Rooms, Iter<'g, RouteRoom>>;
 
     fn node_references(self) -> Self::NodeReferences {
-        self.rooms.iter().enumerate()
+        self.node_identifiers().zip(&self.rooms)
     }
 }
 
@@ -205,14 +210,15 @@ impl<'g> IntoEdgeReferences for &'g RouteGraph {
 
     fn edge_references(self) -> OpenDoors<'g> {
         let exits = [].iter().chain(&[]);
-        OpenDoors { graph: self, room: 0, direction: Direction::Outgoing, exits, rooms: 0..self.rooms.len() }
+        let (room, direction, rooms) = (RoomIndex::end(), Direction::Outgoing, self.node_identifiers());
+        OpenDoors { graph: self, room, direction, exits, rooms }
     }
 }
 
 impl<'g> IntoEdges for &'g RouteGraph {
     type Edges = OpenDoors<'g>;
 
-    fn edges(self, room: usize) -> OpenDoors<'g> {
+    fn edges(self, room: RoomIndex) -> OpenDoors<'g> {
         OpenDoors::of(self, room, Direction::Outgoing)
     }
 }
@@ -220,17 +226,17 @@ impl<'g> IntoEdges for &'g RouteGraph {
 impl<'g> IntoEdgesDirected for &'g RouteGraph {
     type EdgesDirected = OpenDoors<'g>;
 
-    fn edges_directed(self, room: usize, direction: Direction) -> OpenDoors<'g> {
+    fn edges_directed(self, room: RoomIndex, direction: Direction) -> OpenDoors<'g> {
         OpenDoors::of(self, room, direction)
     }
 }
 
-type Neighbours<'g> = Map<OpenDoors<'g>, fn(OpenDoor<'g>) -> usize>;
+type Neighbours<'g> = Map<OpenDoors<'g>, fn(OpenDoor<'g>) -> RoomIndex>;
 
 impl<'g> IntoNeighbors for &'g RouteGraph {
     type Neighbors = Neighbours<'g>;
 
-    fn neighbors(self, room: usize) -> Neighbours<'g> {
+    fn neighbors(self, room: RoomIndex) -> Neighbours<'g> {
         self.edges(room).map(|door| door.to)
     }
 }
@@ -238,8 +244,8 @@ impl<'g> IntoNeighbors for &'g RouteGraph {
 impl<'g> IntoNeighborsDirected for &'g RouteGraph {
     type NeighborsDirected = Neighbours<'g>;
 
-    fn neighbors_directed(self, room: usize, direction: Direction) -> Neighbours<'g> {
-        let neighbour: fn(OpenDoor<'g>) -> usize = match direction {
+    fn neighbors_directed(self, room: RoomIndex, direction: Direction) -> Neighbours<'g> {
+        let neighbour: fn(OpenDoor<'g>) -> RoomIndex = match direction {
             Direction::Outgoing => |door| door.to,
             Direction::Incoming => |door| door.from,
         };

@@ -1,19 +1,19 @@
 //! A way from a start to a goal, leg by leg.
 
 use super::graph::RouteGraph;
+use super::parts::{DoorIndex, RoomIndex};
 use crate::geometry::Point;
 
 /// The straight way through one room, up to the door that is passed then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// The room, by index.
-    pub room: usize,
+    pub room: RoomIndex,
     pub from: Point,
     pub to: Point,
     /// Hardness of the way: metres times the room's hardness.
     pub hardness: f64,
-    /// The door passed at its end, by index; `None` for the last leg.
-    pub door: Option<usize>,
+    /// The door passed at its end; `None` for the last leg.
+    pub door: Option<DoorIndex>,
     /// Total hardness at its end, with the door's.
     pub cost: f64,
 }
@@ -42,11 +42,11 @@ pub struct Way {
 }
 
 impl Way {
-    /// The way through these doors, by index, each with where it is passed and the room behind it.
+    /// The way through these doors, each with where it is passed and the room behind it.
     pub(super) fn through(
         graph: &RouteGraph,
-        (room, start): (usize, Point),
-        doors: impl IntoIterator<Item = (usize, Point, usize)>,
+        (room, start): (RoomIndex, Point),
+        doors: impl IntoIterator<Item = (DoorIndex, Point, RoomIndex)>,
         goal: Point,
     ) -> Self {
         let mut legs: Vec<Leg> = Vec::new();
@@ -69,7 +69,7 @@ impl Way {
     }
 }
 
-fn walked(graph: &RouteGraph, room: usize, from: Point, to: Point) -> f64 {
+fn walked(graph: &RouteGraph, room: RoomIndex, from: Point, to: Point) -> f64 {
     let per_m = graph.per_m(room);
     if per_m > 0.0 { per_m * from.distance(to) } else { 0.0 }
 }

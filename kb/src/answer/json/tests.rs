@@ -106,11 +106,10 @@ fn what_is_put_together_is_what_serde_writes() {
             }
         }
         // texts follow what is weighed anew
-        let weighed = (0..graph.doors.len()).step_by(2).map(|row| {
-            let door = &graph.doors[row];
-            let hardness = Derived::by(1, None, hardness(row + round + 1));
-            let (action, passable) = (Derived::by(1, None, "crawl".to_owned()), door.passable.clone());
-            (row, Weight { hardness, action, passable })
+        let weighed = graph.graph().door_indices().step_by(2).map(|door| {
+            let hardness = Derived::by(1, None, hardness(door.index() + round + 1));
+            let (action, passable) = (Derived::by(1, None, "crawl".to_owned()), graph[door].passable.clone());
+            (door, Weight { hardness, action, passable })
         });
         let weighed: Vec<_> = weighed.collect();
         graph.write(&[], &weighed);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_db::tree::TreeRow;
-use adit_planners::routes::{Goal, Leg, Start, Way};
+use adit_planners::routes::{DoorIndex, Goal, Leg, RoomIndex, Start, Way};
 
 use super::ends::keeps_rooms;
 use crate::graph::gauge::{Gauge, bends, headings};
@@ -18,11 +18,15 @@ pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start), gauge: &
     let ways = graph.graph().ways(start, &goals, keeps_rooms(graph));
     let mut chains = Chains::new(graph, place_node(graph.places.len()));
     // the cheapest first: a way leads through rooms that are reached at less cost
-    let mut rooms: Vec<(usize, &Way)> =
-        ways.rooms.iter().enumerate().filter_map(|(room, way)| Some((room, way.as_ref()?))).collect();
+    let mut rooms: Vec<(i64, &Way)> = graph
+        .rooms
+        .iter()
+        .zip(&ways.rooms)
+        .filter_map(|(room, way)| Some((room.room, way.as_ref()?)))
+        .collect();
     rooms.sort_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
     for (room, way) in rooms {
-        chains.add(way, Some(graph.rooms[room].room), None);
+        chains.add(way, Some(room), None);
     }
     for (index, way) in ways.goals.iter().enumerate() {
         let Some(way) = way else { continue };
@@ -33,7 +37,7 @@ pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start), gauge: &
 }
 
 /// A node by what leads there: the node before, the room walked, the door passed and where.
-type Step = (i64, usize, Option<usize>, [u64; 2]);
+type Step = (i64, RoomIndex, Option<DoorIndex>, [u64; 2]);
 
 /// Ways from one start, with equal beginnings told once.
 struct Chains<'g> {
@@ -139,14 +143,14 @@ impl<'g> Chains<'g> {
     }
 
     fn row(&self, leg: &Leg, before: Option<i64>, walked: Walked) -> TreeRow {
-        let room = self.graph.rooms[leg.room].room;
-        let weight = leg.door.and_then(|door| self.graph.graph().doors()[door].weight()).unwrap_or(0.0);
+        let room = self.graph[leg.room].room;
+        let weight = leg.door.and_then(|door| self.graph.graph()[door].weight()).unwrap_or(0.0);
         let is_start = before.is_none();
         TreeRow {
             node: NOTHING,
             prev: before,
             from_room: (before != Some(room)).then_some(room),
-            door: leg.door.filter(|_| !is_start).map(|door| i64::from(self.graph.graph().doors()[door].door)),
+            door: leg.door.filter(|_| !is_start).map(|door| self.graph[door].door),
             hops: walked.doors,
             reach: if is_start { 0.0 } else { leg.cost - weight },
             leg: if is_start { 0.0 } else { walked.hardness },
@@ -162,7 +166,7 @@ impl<'g> Chains<'g> {
     ///
     /// # Arguments
     /// `room` is the room in which it lies; `wanted` the number that it gets, if no other node has it.
-    fn node(&mut self, step: Step, room: usize, wanted: Option<i64>, row: TreeRow) -> i64 {
+    fn node(&mut self, step: Step, room: RoomIndex, wanted: Option<i64>, row: TreeRow) -> i64 {
         if let Some(&node) = self.nodes.get(&step) {
             if let Some(known) = self.rows.get_mut(&node) {
                 known.clearance = known.clearance.or(row.clearance);
@@ -173,7 +177,7 @@ impl<'g> Chains<'g> {
             self.next -= 1;
             self.next + 1
         });
-        let key = self.graph.rooms[room].room;
+        let key = self.graph[room].room;
         // at the start the room that it lies in is told unless the node is that room's
         let from_room = if row.prev.is_none() { (node != key).then_some(key) } else { row.from_room };
         self.nodes.insert(step, node);

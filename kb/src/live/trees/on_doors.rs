@@ -2,7 +2,7 @@
 
 use adit_db::tree::TreeRow;
 use adit_planners::geometry::Point;
-use adit_planners::routes::{Start, Tree};
+use adit_planners::routes::{RoomIndex, Start, Tree};
 
 use crate::graph::{End, SiteGraph};
 use crate::graph::{heading, place_node};
@@ -10,16 +10,17 @@ use crate::graph::{heading, place_node};
 pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start)) -> Vec<TreeRow> {
     let tree = graph.graph().tree(start);
     let mut rows: Vec<TreeRow> =
-        (0..graph.rooms.len()).filter_map(|room| room_row(graph, &tree, room, start.at)).collect();
+        graph.graph().room_indices().filter_map(|room| room_row(graph, &tree, room, start.at)).collect();
     for index in 0..graph.places.len() {
         let rooms = graph.rooms_of(&End::Place(index), Some(robot));
-        let Some((room, arrival)) = rooms.first().and_then(|&room| Some((room, tree.rooms[room]?))) else {
+        let Some((room, arrival)) = rooms.first().and_then(|&room| Some((room, tree.rooms[room.index()]?)))
+        else {
             continue;
         };
         let goal = graph.point(&End::Place(index));
         rows.push(TreeRow {
             node: place_node(index),
-            prev: Some(graph.rooms[room].room),
+            prev: Some(graph[room].room),
             hops: i64::from(arrival.hops),
             reach: arrival.cost,
             at: Some([goal.x, goal.y]),
@@ -32,22 +33,22 @@ pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start)) -> Vec<T
 }
 
 /// Where a room is entered.
-fn entry(graph: &SiteGraph, tree: &Tree, room: usize, start: Point) -> Point {
-    let from = tree.rooms[room].and_then(|arrival| arrival.from);
-    from.map_or(start, |(_, door)| graph.graph().doors()[door].at)
+fn entry(graph: &SiteGraph, tree: &Tree, room: RoomIndex, start: Point) -> Point {
+    let from = tree.rooms[room.index()].and_then(|arrival| arrival.from);
+    from.map_or(start, |(_, door)| graph.graph()[door].at)
 }
 
-fn room_row(graph: &SiteGraph, tree: &Tree, room: usize, start: Point) -> Option<TreeRow> {
-    let arrival = tree.rooms[room]?;
-    let row = blank(graph.rooms[room].room);
+fn room_row(graph: &SiteGraph, tree: &Tree, room: RoomIndex, start: Point) -> Option<TreeRow> {
+    let arrival = tree.rooms[room.index()]?;
+    let row = blank(graph[room].room);
     let Some((before, door)) = arrival.from else {
         return Some(TreeRow { at: Some([start.x, start.y]), ..row });
     };
     Some(TreeRow {
-        prev: Some(graph.rooms[before].room),
-        door: Some(i64::from(graph.graph().doors()[door].door)),
+        prev: Some(graph[before].room),
+        door: Some(graph[door].door),
         hops: i64::from(arrival.hops),
-        reach: tree.rooms[before]?.cost,
+        reach: tree.rooms[before.index()]?.cost,
         heading: heading(entry(graph, tree, before, start), entry(graph, tree, room, start)),
         ..row
     })

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use adit_planners::routes::{Goal, RouteDoor, RouteGraph, RouteRoom, Start};
+use adit_planners::routes::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start};
 
 use super::path::reweigh;
 use super::{Path, Prober, Routes, Weights};
@@ -23,8 +23,8 @@ struct Corridor {
     start: Start,
     goal: Goal,
     /// The site's rooms and doors, by those of the corridor.
-    rooms: Vec<usize>,
-    doors: Vec<usize>,
+    rooms: Vec<RoomIndex>,
+    doors: Vec<DoorIndex>,
 }
 
 impl SameWay {
@@ -60,15 +60,15 @@ impl SameWay {
 /// What tells runs apart: the layer, its facing and the action.
 type Kind<'g> = (Option<&'g (String, String)>, Option<f64>, Option<&'g str>);
 
-fn kind(graph: &SiteGraph, room: usize) -> Kind<'_> {
-    let room = &graph.rooms[room];
+fn kind(graph: &SiteGraph, room: RoomIndex) -> Kind<'_> {
+    let room = &graph[room];
     (room.layer.as_ref(), room.facing, room.action.value.as_deref())
 }
 
 impl Corridor {
     fn new(graph: &SiteGraph, routes: &Routes, path: &Path) -> Self {
         let beside = beside(graph, path);
-        let mut runs: Vec<BTreeSet<usize>> = Vec::new();
+        let mut runs: Vec<BTreeSet<RoomIndex>> = Vec::new();
         let mut last = None;
         for &(room, _) in &path.metres {
             if last.is_none_or(|last| kind(graph, last) != kind(graph, room)) {
@@ -84,13 +84,13 @@ impl Corridor {
         let mut rooms = Vec::new();
         for (run, members) in runs.iter().enumerate() {
             for &room in members {
-                index.insert((run, room), rooms.len());
+                index.insert((run, room), RoomIndex::new(rooms.len()));
                 rooms.push(room);
             }
         }
         let (mut doors, mut copies) = (Vec::new(), Vec::new());
-        for (door, of) in graph.graph().doors().iter().enumerate() {
-            let mut join = |from: usize, to: usize, one_way: bool| {
+        for (door, of) in graph.graph().door_indices().zip(graph.graph().doors()) {
+            let mut join = |from: RoomIndex, to: RoomIndex, one_way: bool| {
                 copies.push(RouteDoor {
                     door: copies.len() as u32 + 1,
                     room1: from,
@@ -102,7 +102,7 @@ impl Corridor {
             };
             let is_within = kind(graph, of.room1) == kind(graph, of.room2);
             for run in 0..runs.len() {
-                let at = |run: usize, room: usize| index.get(&(run, room)).copied();
+                let at = |run: usize, room: RoomIndex| index.get(&(run, room)).copied();
                 if is_within && !of.is_change() {
                     if let (Some(from), Some(to)) = (at(run, of.room1), at(run, of.room2)) {
                         join(from, to, of.one_way);
@@ -118,9 +118,8 @@ impl Corridor {
                 }
             }
         }
-        let all = graph.graph().rooms();
-        let copied = rooms.iter().map(|&room| RouteRoom { ..all[room] }).collect();
-        let of_run = |run: usize, wanted: &[usize]| -> Vec<usize> {
+        let copied: Vec<RouteRoom> = rooms.iter().map(|&room| graph.graph()[room]).collect();
+        let of_run = |run: usize, wanted: &[RoomIndex]| -> Vec<RoomIndex> {
             wanted.iter().filter_map(|&room| index.get(&(run, room)).copied()).collect()
         };
         let start = Start { rooms: of_run(0, &routes.start.rooms), at: routes.start.at };
@@ -134,8 +133,8 @@ impl Corridor {
     fn cost(&self, weights: &Weights) -> Option<f64> {
         let mut graph = self.graph.borrow_mut();
         let own = Weights {
-            rooms: self.rooms.iter().map(|&room| weights.rooms[room]).collect(),
-            doors: self.doors.iter().map(|&door| weights.doors[door]).collect(),
+            rooms: self.rooms.iter().map(|&room| weights[room]).collect(),
+            doors: self.doors.iter().map(|&door| weights[door]).collect(),
         };
         reweigh(&mut graph, &own);
         graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
@@ -143,9 +142,9 @@ impl Corridor {
 }
 
 /// For each room of a way the ones of its kind behind a door of it.
-fn beside(graph: &SiteGraph, path: &Path) -> BTreeMap<usize, Vec<usize>> {
-    let own: BTreeSet<usize> = path.metres.iter().map(|(room, _)| *room).collect();
-    let mut beside: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+fn beside(graph: &SiteGraph, path: &Path) -> BTreeMap<RoomIndex, Vec<RoomIndex>> {
+    let own: BTreeSet<RoomIndex> = path.metres.iter().map(|(room, _)| *room).collect();
+    let mut beside: BTreeMap<RoomIndex, Vec<RoomIndex>> = BTreeMap::new();
     for door in graph.graph().doors().iter().filter(|door| !door.is_change()) {
         for (room, other) in [(door.room1, door.room2), (door.room2, door.room1)] {
             if own.contains(&room) && kind(graph, room) == kind(graph, other) {

@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 
-use adit_planners::routes::{CompactGraph, CompactTree, Goal, NONE, RouteGraph, Start, Walking, Way};
+use adit_planners::routes::{
+    CompactGraph, CompactTree, DoorIndex, Goal, RoomIndex, RouteGraph, Start, Walking, Way,
+};
 
 use super::Weights;
 use crate::error::Result;
@@ -11,10 +13,10 @@ use crate::state::State;
 /// A way: what it costs is a sum over the metres in its rooms and over its doors.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Path {
-    /// Rooms, in the order driven, by index, each with the metres walked in it; none where rooms weigh nothing.
-    pub metres: Vec<(usize, f64)>,
-    /// Doors, in the order passed, by index.
-    pub doors: Vec<usize>,
+    /// Rooms, in the order driven, each with the metres walked in it; none where rooms weigh nothing.
+    pub metres: Vec<(RoomIndex, f64)>,
+    /// Doors, in the order passed.
+    pub doors: Vec<DoorIndex>,
 }
 
 impl Path {
@@ -28,7 +30,7 @@ impl Path {
 
     /// What it costs; infinite where it is not passed.
     pub fn cost(&self, weights: &Weights) -> f64 {
-        let walked = self.metres.iter().map(|&(room, metres)| match weights.rooms[room] {
+        let walked = self.metres.iter().map(|&(room, metres)| match weights[room] {
             Walking::OnDoors => 0.0,
             // a corner that is only touched costs nothing, whatever the room weighs
             Walking::PerMetre(hardness) => {
@@ -40,7 +42,7 @@ impl Path {
             }
             Walking::Unknown => f64::INFINITY,
         });
-        walked.sum::<f64>() + self.doors.iter().map(|&door| weights.doors[door]).sum::<f64>()
+        walked.sum::<f64>() + self.doors.iter().map(|&door| weights[door]).sum::<f64>()
     }
 }
 
@@ -103,19 +105,19 @@ pub fn is_least(routes: &Routes, cost: f64, best: f64) -> bool {
 
 /// Gives the doors of a graph these weights.
 fn weigh(graph: &mut CompactGraph, weights: &Weights) {
-    for (door, &weight) in weights.doors.iter().enumerate() {
+    for (door, &weight) in (0..).map(DoorIndex::new).zip(&weights.doors) {
         graph.reweigh(door, Some(weight).filter(|weight| weight.is_finite()));
     }
 }
 
 /// The way to the goal that costs least.
-fn best_of(tree: &CompactTree, goals: &[usize]) -> Option<Path> {
-    let reached = goals.iter().copied().filter(|&room| tree.costs[room].is_finite());
-    let mut at = reached.min_by(|&one, &two| tree.costs[one].total_cmp(&tree.costs[two]))?;
+fn best_of(tree: &CompactTree, goals: &[RoomIndex]) -> Option<Path> {
+    let reached = goals.iter().copied().filter(|&room| tree.cost(room).is_finite());
+    let mut at = reached.min_by(|&one, &two| tree.cost(one).total_cmp(&tree.cost(two)))?;
     let mut doors = Vec::new();
-    while tree.before[at] != NONE {
-        doors.push(tree.doors[at] as usize);
-        at = tree.before[at] as usize;
+    while let Some((before, door)) = tree.before(at) {
+        doors.push(door);
+        at = before;
     }
     doors.reverse();
     Some(Path { metres: Vec::new(), doors })
@@ -123,8 +125,8 @@ fn best_of(tree: &CompactTree, goals: &[usize]) -> Option<Path> {
 
 /// Gives the rooms and doors of a graph these weights.
 pub fn reweigh(graph: &mut RouteGraph, weights: &Weights) {
-    let doors = weights.doors.iter().copied().enumerate();
+    let doors = (0..).map(DoorIndex::new).zip(weights.doors.iter().copied());
     let doors =
         doors.map(|(door, weight)| (door, Some(weight).filter(|w| w.is_finite()), weight.is_finite()));
-    graph.reweigh(weights.rooms.iter().copied().enumerate(), doors);
+    graph.reweigh((0..).map(RoomIndex::new).zip(weights.rooms.iter().copied()), doors);
 }

@@ -6,9 +6,11 @@
 //! writes a second graph, and has planners cut rooms anew where a probe only says that they would. A cell is tried some
 //! hundred times for one answer, so the probe leaves that out; what it shares with the step stands once.
 
+use std::ops;
+
 use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
-use adit_planners::routes::Walking;
+use adit_planners::routes::{DoorIndex, RoomIndex, Walking};
 
 use crate::error::{Code, Error, Result};
 use crate::graph::{SiteGraph, walking};
@@ -34,6 +36,22 @@ pub struct Weights {
     pub rooms: Vec<Walking>,
     /// What passing a door weighs; infinite where it is not passed.
     pub doors: Vec<f64>,
+}
+
+impl ops::Index<RoomIndex> for Weights {
+    type Output = Walking;
+
+    fn index(&self, room: RoomIndex) -> &Walking {
+        &self.rooms[room.index()]
+    }
+}
+
+impl ops::Index<DoorIndex> for Weights {
+    type Output = f64;
+
+    fn index(&self, door: DoorIndex) -> &f64 {
+        &self.doors[door.index()]
+    }
 }
 
 impl Weights {
@@ -108,13 +126,13 @@ impl Prober {
         let (knowledge, graph) = (&fork.knowledge, fork.graph());
         let (rules, which) = (&fork.inputs.rules, Which::Touched(&changes));
         let mut look = Look { knowledge, rules, which, reasons: None };
-        for (row, weight) in look.rooms() {
-            let of_state = graph.rooms[row].layer.is_some();
-            self.now.rooms[row] = walking(weight.hardness.value, weight.passable.value, of_state);
+        for (room, weight) in look.rooms() {
+            let of_state = graph[room].layer.is_some();
+            self.now.rooms[room.index()] = walking(weight.hardness.value, weight.passable.value, of_state);
         }
-        for (row, weight) in look.doors() {
+        for (door, weight) in look.doors() {
             let hardness = weight.hardness.value.filter(|_| weight.passable.value == Some(true));
-            self.now.doors[row] = hardness.unwrap_or(f64::INFINITY);
+            self.now.doors[door.index()] = hardness.unwrap_or(f64::INFINITY);
         }
         let failed = knowledge.problems(&fork.inputs.rules);
         let is_bad = |number: f64| number < 0.0 || number.is_nan();

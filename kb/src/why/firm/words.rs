@@ -1,5 +1,7 @@
 //! Another way in words: what is done on it instead of what, and where it begins to differ.
 
+use adit_planners::routes::DoorIndex;
+
 use super::corridor::SameWay;
 use super::probe::Probe;
 use super::{Beyond, Lever, Path, Prober};
@@ -53,9 +55,9 @@ pub fn actions(prober: &Prober, path: &Path) -> Vec<String> {
         _ => "move".to_owned(),
     };
     if path.metres.is_empty() {
-        return path.doors.iter().map(|&door| text("DOORS", door)).collect();
+        return path.doors.iter().map(|door| text("DOORS", door.index())).collect();
     }
-    path.metres.iter().map(|(room, _)| text("ROOMS", *room)).collect()
+    path.metres.iter().map(|(room, _)| text("ROOMS", room.index())).collect()
 }
 
 /// What is done on the other way instead of on the present one, and where it leaves it.
@@ -71,8 +73,8 @@ pub fn instead(
         mine.iter().rev().zip(theirs.iter().rev()).take(rest).take_while(|(one, two)| one == two).count();
     let first = theirs.get(shared).filter(|_| shared < theirs.len() - ending).or(mine.get(shared));
     let at = first.map(|&door| {
-        let [x, y] = graph.doors[door].at;
-        format!("door {} at ({x:.2}, {y:.2})", graph.doors[door].door)
+        let [x, y] = graph[door].at;
+        format!("door {} at ({x:.2}, {y:.2})", graph[door].door)
     });
     if !present.0.metres.is_empty() || !other.0.metres.is_empty() {
         return (format!("{} instead of {}", by_metres(other), by_metres(present)), at);
@@ -103,10 +105,10 @@ fn by_metres((path, actions): (&Path, &[String])) -> String {
 }
 
 /// `side-walk through door 12, then walk through doors 3 and 4`.
-fn by_doors(graph: &SiteGraph, doors: &[usize], actions: &[String]) -> String {
+fn by_doors(graph: &SiteGraph, doors: &[DoorIndex], actions: &[String]) -> String {
     let mut runs: Vec<(&str, Vec<String>)> = Vec::new();
     for (&door, action) in doors.iter().zip(actions) {
-        let name = graph.doors[door].door.to_string();
+        let name = graph[door].door.to_string();
         match runs.last_mut() {
             Some((known, names)) if known == action => names.push(name),
             _ => runs.push((action, vec![name])),

@@ -60,30 +60,29 @@ pub(super) fn deciding(prober: &Prober, best: &Path, way: &Path) -> Vec<String> 
     let by_doors = actions(prober, &Path { metres: Vec::new(), doors: way.doors.clone() });
     let doors = way.doors.iter().zip(&by_doors).filter(|(door, _)| !best.doors.contains(door));
     let doors = doors.map(|(&door, action)| {
-        let [x, y] = graph.doors[door].at;
+        let [x, y] = graph[door].at;
         (
-            weights.doors[door],
+            weights[door],
             format!(
                 "door {} at ({x:.2}, {y:.2}) alone costs {}, by {action}",
-                graph.doors[door].door,
-                number(weights.doors[door])
+                graph[door].door,
+                number(weights[door])
             ),
         )
     });
-    let rooms =
-        way.metres.iter().zip(&theirs).filter_map(|((room, metres), action)| match weights.rooms[*room] {
-            Walking::PerMetre(hardness) if *metres > 0.0 => {
-                let cost = hardness * metres;
-                let place = format!(
-                    "{} m in room {} cost {}, by {action}",
-                    number(*metres),
-                    graph.rooms[*room].name,
-                    number(cost)
-                );
-                Some((cost, place))
-            }
-            _ => None,
-        });
+    let rooms = way.metres.iter().zip(&theirs).filter_map(|((room, metres), action)| match weights[*room] {
+        Walking::PerMetre(hardness) if *metres > 0.0 => {
+            let cost = hardness * metres;
+            let place = format!(
+                "{} m in room {} cost {}, by {action}",
+                number(*metres),
+                graph[*room].name,
+                number(cost)
+            );
+            Some((cost, place))
+        }
+        _ => None,
+    });
     let in_rooms = rooms.filter(|_| !way.metres.is_empty());
     // by metres, a door only counts where it costs something itself
     let dearest =

@@ -1,18 +1,18 @@
 //! The best way through a room or a door: a search in two copies of the graph, one for what lies before it and one for
 //! what comes after. Who is in the second copy has passed it.
 
-use adit_planners::routes::{Goal, Leg, RouteDoor, RouteGraph, Start, Way};
+use adit_planners::routes::{DoorIndex, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way};
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::state::State;
 use crate::why::firm::{self, Path, Routes, Weights};
 
-/// What a way is asked to lead through, by index.
+/// What a way is asked to lead through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Via {
-    Room(usize),
-    Door(usize),
+    Room(RoomIndex),
+    Door(DoorIndex),
 }
 
 /// Ways from a start to a goal.
@@ -25,10 +25,10 @@ pub(super) struct Question<'g> {
 /// Ways through a room or a door.
 pub(super) struct Passing {
     via: Via,
-    /// Rooms and doors of the site.
+    /// How many rooms the site has.
     rooms: usize,
-    /// Of each door of the two copies the site's, by index.
-    doors: Vec<usize>,
+    /// Of each door of the two copies the site's.
+    doors: Vec<DoorIndex>,
     /// The doors by which a way is through.
     entries: Vec<bool>,
     routes: Routes,
@@ -55,42 +55,46 @@ impl<'g> Question<'g> {
     pub(super) fn passing(&self, via: Via) -> (Option<Way>, Passing) {
         let graph = self.graph.graph();
         let count = graph.rooms().len();
-        let is_entry = |door: &RouteDoor, index: usize| match via {
+        let is_entry = |door: &RouteDoor, index: DoorIndex| match via {
             Via::Room(room) => door.room1 == room || door.room2 == room,
             Via::Door(door) => door == index,
         };
         let (mut copies, mut doors) = (Vec::new(), Vec::new());
-        let mut add = |index: usize, copy: RouteDoor| {
+        let mut add = |index: DoorIndex, copy: RouteDoor| {
             copies.push(copy);
             doors.push(index);
         };
-        for (index, door) in graph.doors().iter().enumerate() {
+        let second = |room: RoomIndex| RoomIndex::new(room.index() + count);
+        for (index, door) in graph.door_indices().zip(graph.doors()) {
             let (room1, room2) = (door.room1, door.room2);
             if is_entry(door, index) {
-                let leads_in = |to: usize| matches!(via, Via::Door(_)) || via == Via::Room(to);
+                let leads_in = |to: RoomIndex| matches!(via, Via::Door(_)) || via == Via::Room(to);
                 if leads_in(room2) {
-                    add(index, RouteDoor { room2: room2 + count, one_way: true, ..*door });
+                    add(index, RouteDoor { room2: second(room2), one_way: true, ..*door });
                 }
                 if !door.one_way && leads_in(room1) {
-                    add(index, RouteDoor { room1: room2, room2: room1 + count, one_way: true, ..*door });
+                    add(index, RouteDoor { room1: room2, room2: second(room1), one_way: true, ..*door });
                 }
             } else {
                 add(index, *door);
             }
-            add(index, RouteDoor { room1: room1 + count, room2: room2 + count, ..*door });
+            add(index, RouteDoor { room1: second(room1), room2: second(room2), ..*door });
         }
         let rooms = graph.rooms().iter().chain(graph.rooms()).copied().collect();
         let mut both = RouteGraph::new(rooms, copies);
         both.close(graph.closed().to_vec());
-        let begin = |&room: &usize| if via == Via::Room(room) { room + count } else { room };
+        let begin = |&room: &RoomIndex| if via == Via::Room(room) { second(room) } else { room };
         let start = Start { rooms: self.start.rooms.iter().map(begin).collect(), at: self.start.at };
-        let goal = Goal { rooms: self.goal.rooms.iter().map(|room| room + count).collect(), ..self.goal };
+        let goal = Goal { rooms: self.goal.rooms.iter().copied().map(second).collect(), ..self.goal };
         let way = both.way(&start, std::slice::from_ref(&goal)).map(|(_, way)| {
-            let leg =
-                |leg: &Leg| Leg { room: leg.room % count, door: leg.door.map(|door| doors[door]), ..*leg };
+            let leg = |leg: &Leg| {
+                let door = leg.door.map(|door| doors[door.index()]);
+                Leg { room: RoomIndex::new(leg.room.index() % count), door, ..*leg }
+            };
             Way { legs: way.legs.iter().map(leg).collect(), cost: way.cost }
         });
-        let entries = graph.doors().iter().enumerate().map(|(index, door)| is_entry(door, index)).collect();
+        let entries = graph.doors().iter().zip(graph.door_indices());
+        let entries = entries.map(|(door, index)| is_entry(door, index)).collect();
         let routes = Routes::between(&both, start, goal);
         (way, Passing { via, rooms: count, doors, entries, routes })
     }
@@ -106,17 +110,18 @@ impl firm::Through for Passing {
     fn best(&self, weights: &Weights) -> Option<Path> {
         let twice = Weights {
             rooms: weights.rooms.iter().chain(&weights.rooms).copied().collect(),
-            doors: self.doors.iter().map(|&door| weights.doors[door]).collect(),
+            doors: self.doors.iter().map(|&door| weights[door]).collect(),
         };
         let path = self.routes.best(&twice)?;
+        let of_site = |room: RoomIndex| RoomIndex::new(room.index() % self.rooms);
         Some(Path {
-            metres: path.metres.into_iter().map(|(room, metres)| (room % self.rooms, metres)).collect(),
-            doors: path.doors.into_iter().map(|door| self.doors[door]).collect(),
+            metres: path.metres.into_iter().map(|(room, metres)| (of_site(room), metres)).collect(),
+            doors: path.doors.into_iter().map(|door| self.doors[door.index()]).collect(),
         })
     }
 
     fn holds(&self, path: &Path) -> bool {
-        let is_in = |&(room, _): &(usize, f64)| self.via == Via::Room(room);
-        path.metres.iter().any(is_in) || path.doors.iter().any(|&door| self.entries[door])
+        let is_in = |&(room, _): &(RoomIndex, f64)| self.via == Via::Room(room);
+        path.metres.iter().any(is_in) || path.doors.iter().any(|door| self.entries[door.index()])
     }
 }

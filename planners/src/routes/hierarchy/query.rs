@@ -5,6 +5,7 @@ use std::cell::RefCell;
 use super::Hierarchy;
 use super::customize::take;
 use super::metric::BY_DOOR;
+use crate::routes::parts::{DoorIndex, RoomIndex};
 
 /// What a search leaves behind for the next one on the same thread.
 #[derive(Default)]
@@ -22,10 +23,9 @@ struct Buffers {
 /// A door on a way.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::routes) struct Passed {
-    /// By index.
-    pub door: u32,
-    /// The room behind it, by index.
-    pub room: u32,
+    pub door: DoorIndex,
+    /// The room behind it.
+    pub room: RoomIndex,
     pub weight: f64,
 }
 
@@ -35,7 +35,8 @@ thread_local! {
 
 impl Hierarchy {
     /// The doors of a way of least weight between two rooms; `None` where no way leads there.
-    pub(in crate::routes) fn doors(&self, start: usize, goal: usize) -> Option<Vec<Passed>> {
+    pub(in crate::routes) fn doors(&self, start: RoomIndex, goal: RoomIndex) -> Option<Vec<Passed>> {
+        let [start, goal] = [start, goal].map(RoomIndex::index);
         BUFFERS.with_borrow_mut(|buffers| {
             let meeting = self.meet(start, goal, buffers);
             let doors = meeting.map(|meeting| {
@@ -149,18 +150,19 @@ impl Hierarchy {
             let room = topology.room[to as usize];
             let visit = &mut visits[room as usize];
             if *visit == 0 {
-                doors.push(Passed { door, room, weight: metric.passed(topology, door, is_up) });
+                let weight = metric.passed(topology, door, is_up);
+                doors.push(Passed { door: door.into(), room: room.into(), weight });
                 *visit = doors.len() as u32 + 1;
             } else {
                 let kept = *visit as usize - 1;
                 for left in doors.drain(kept..) {
-                    visits[left.room as usize] = 0;
+                    visits[left.room.index()] = 0;
                 }
             }
         }
         visits[start] = 0;
         for passed in &doors {
-            visits[passed.room as usize] = 0;
+            visits[passed.room.index()] = 0;
         }
         doors
     }

@@ -49,7 +49,7 @@ impl Topology {
     pub fn new(at: Vec<Point>, doors: &[RouteDoor]) -> Self {
         let mut joined: Vec<(u32, u32)> = doors
             .iter()
-            .map(|door| [door.room1 as u32, door.room2 as u32])
+            .map(|door| [door.room1, door.room2].map(|room| room.index() as u32))
             .filter(|[one, two]| one != two)
             .map(|[one, two]| (one.min(two), one.max(two)))
             .collect();
@@ -104,7 +104,7 @@ impl Topology {
         by_key.sort_unstable_by_key(|&door| std::cmp::Reverse(doors[door as usize].door));
         for door in by_key {
             let RouteDoor { room1, room2, .. } = doors[door as usize];
-            let (one, two) = (self.rank[room1], self.rank[room2]);
+            let (one, two) = (self.rank[room1.index()], self.rank[room2.index()]);
             if let Some(arc) = self.arc(one.min(two), one.max(two)) {
                 self.arc_of[door as usize] = arc;
                 self.is_up[door as usize] = one < two;
