@@ -3,8 +3,7 @@
 
 mod codec;
 
-use std::collections::BTreeMap;
-
+use futures_util::TryStreamExt;
 use sqlx::{Row as _, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
@@ -61,40 +60,38 @@ impl Record for Rewritten {
 
 /// All rows, by number: from blocks where they are whole, else row by row.
 pub(crate) async fn read<R: Row>(connection: &mut SqliteConnection) -> Result<Vec<R>> {
-    let sql = "SELECT part, at, bytes FROM blocks WHERE class = ? ORDER BY part, first";
-    let blocks = sqlx::query(sql).bind(R::TABLE).fetch_all(&mut *connection).await?;
-    let mut parts: BTreeMap<&str, Vec<(i64, &[u8])>> = BTreeMap::new();
-    for block in &blocks {
-        parts.entry(block.try_get(0)?).or_default().push((block.try_get(1)?, block.try_get(2)?));
-    }
-    match whole(&parts) {
+    match whole(connection).await? {
         Some(rows) => Ok(rows),
         None => select(connection, "ORDER BY 1", &[]).await,
     }
 }
 
-/// The rows that blocks hold; `None` where one is missing or cannot be read, or there is none.
-fn whole<R: Row>(parts: &BTreeMap<&str, Vec<(i64, &[u8])>>) -> Option<Vec<R>> {
-    let mut lengths = PARTS.iter().map(|(_, name, _)| {
-        let (at, bytes) = parts.get(name)?.last()?;
-        usize::try_from(*at).ok()?.checked_add(codec::len(bytes)?)
-    });
-    let length = lengths.next()??;
-    if lengths.any(|other| other != Some(length)) || length > u32::MAX as usize {
-        return None;
-    }
-    let mut rows = vec![R::default(); length];
-    for (part, name, _) in PARTS {
+/// The rows that blocks hold; `None` where one is missing or cannot be read, or there is none. Each block becomes rows
+/// while SQLite reads the next.
+async fn whole<R: Row>(connection: &mut SqliteConnection) -> Result<Option<Vec<R>>> {
+    let mut rows = Vec::new();
+    for (part, name, size) in PARTS {
+        let sql = "SELECT at, bytes FROM blocks WHERE class = ? AND part = ? ORDER BY first";
+        let mut blocks = sqlx::query(sql).bind(R::TABLE).bind(name).fetch(&mut *connection);
         let mut end = 0;
-        for (at, bytes) in parts.get(name)? {
-            let is_next = usize::try_from(*at) == Ok(end);
-            end += codec::decode(R::columns_of(part), bytes, rows.get_mut(end..).filter(|_| is_next)?)?;
+        while let Some(block) = blocks.try_next().await? {
+            let (at, bytes): (i64, &[u8]) = (block.try_get(0)?, block.try_get(1)?);
+            let length = codec::len(bytes).filter(|rows| *rows <= size && usize::try_from(at) == Ok(end));
+            let Some(length) = length else { return Ok(None) };
+            if part == Part::Cut {
+                rows.resize(end + length, R::default());
+            }
+            let of_block = rows.get_mut(end..end + length);
+            if of_block.and_then(|rows| codec::decode(R::columns_of(part), bytes, rows)).is_none() {
+                return Ok(None);
+            }
+            end += length;
         }
-        if end != length {
-            return None;
+        if end != rows.len() || rows.is_empty() {
+            return Ok(None);
         }
     }
-    Some(rows)
+    Ok(Some(rows))
 }
 
 /// Replaces all rows by these, blocks and all.

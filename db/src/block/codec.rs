@@ -181,9 +181,14 @@ impl<'b> Bytes<'b> {
         Some(self.take(count.checked_mul(width)?)?.chunks_exact(width).map(value))
     }
 
-    fn placed<'v>(&mut self, count: usize, different: &[Value<'v>]) -> Option<Vec<Value<'v>>> {
+    /// The values that stand as their place among the different ones.
+    fn placed<'v>(
+        &mut self,
+        count: usize,
+        different: &'v [Value<'b>],
+    ) -> Option<impl Iterator<Item = Option<Value<'b>>> + use<'b, 'v>> {
         let at = |place| different.get(usize::try_from(place).ok()?).copied();
-        self.integers(count)?.map(|place| place.map_or(Some(Value::Null), at)).collect()
+        Some(self.integers(count)?.map(move |place| place.map_or(Some(Value::Null), at)))
     }
 }
 
@@ -195,7 +200,7 @@ fn take_column<R: Row>(bytes: &mut Bytes<'_>, column: &Column<R>, rows: &mut [R]
         Kind::Real => {
             let reals = bytes.take(count.checked_mul(8)?)?.chunks_exact(8).map(|real| {
                 let real = f64::from_le_bytes(real.try_into().unwrap_or_default());
-                if real.is_nan() { Value::Null } else { Value::Real(real) }
+                Some(if real.is_nan() { Value::Null } else { Value::Real(real) })
             });
             fill(column, rows, is_alike, reals)
         }
@@ -204,15 +209,16 @@ fn take_column<R: Row>(bytes: &mut Bytes<'_>, column: &Column<R>, rows: &mut [R]
             for _ in 0..bytes.u32()? {
                 different.push(Value::Integer(i64::from_le_bytes(bytes.array()?)));
             }
-            let values = bytes.placed(count, &different)?;
-            fill(column, rows, is_alike, values.into_iter())
+            fill(column, rows, is_alike, bytes.placed(count, &different)?)
         }
         Kind::Integer => {
             let integers = bytes.integers(count)?;
-            fill(column, rows, is_alike, integers.map(|value| value.map_or(Value::Null, Value::Integer)))
+            let integer = |value: Option<i64>| Some(value.map_or(Value::Null, Value::Integer));
+            fill(column, rows, is_alike, integers.map(integer))
         }
         Kind::Truth => {
-            let truth = |value: Option<i64>| value.map_or(Value::Null, |value| Value::Truth(value != 0));
+            let truth =
+                |value: Option<i64>| Some(value.map_or(Value::Null, |value| Value::Truth(value != 0)));
             let integers = bytes.integers(count)?;
             fill(column, rows, is_alike, integers.map(truth))
         }
@@ -222,8 +228,7 @@ fn take_column<R: Row>(bytes: &mut Bytes<'_>, column: &Column<R>, rows: &mut [R]
                 let length = bytes.u32()? as usize;
                 texts.push(Value::Text(std::str::from_utf8(bytes.take(length)?).ok()?));
             }
-            let values = bytes.placed(count, &texts)?;
-            fill(column, rows, is_alike, values.into_iter())
+            fill(column, rows, is_alike, bytes.placed(count, &texts)?)
         }
     }
 }
@@ -232,11 +237,11 @@ fn fill<'v, R: Row>(
     column: &Column<R>,
     rows: &mut [R],
     is_alike: bool,
-    mut values: impl Iterator<Item = Value<'v>>,
+    mut values: impl Iterator<Item = Option<Value<'v>>>,
 ) -> Option<()> {
-    let alike = if is_alike { Some(values.next()?) } else { None };
+    let alike = if is_alike { Some(values.next()??) } else { None };
     for row in rows {
-        let value = alike.or_else(|| values.next())?;
+        let value = alike.or_else(|| values.next()?)?;
         if !(column.put)(row, value) {
             return None;
         }
