@@ -44,15 +44,22 @@ use crate::words::progress::Progress;
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
 
-/// [`Overlays`] of a site, whose map is read for it when somebody asks what it gives.
+/// [`Overlays`] of a site, whose map is read for it when somebody asks what it gives before anybody has read it.
 struct OverlaysOf {
     site: Site,
     read: OnceLock<Overlays>,
 }
 
 impl OverlaysOf {
+    /// Of a map that cannot be read nothing is said.
     fn overlays(&self) -> &Overlays {
-        self.read.get_or_init(|| Overlays::new(self.site.further_properties()))
+        self.read.get_or_init(|| {
+            self.site.world().map_or_else(|_| Overlays::default(), |world| Overlays::of(&world))
+        })
+    }
+
+    fn know(&self, world: &World) {
+        self.read.get_or_init(|| Overlays::of(world));
     }
 }
 
@@ -83,6 +90,7 @@ pub struct Tested {
 pub struct KnowledgeBase {
     site: Site,
     planners: Vec<Arc<dyn Planner>>,
+    overlays: Arc<OverlaysOf>,
     database: PathBuf,
     pub(crate) rules: Option<PathBuf>,
     pub(crate) reseed: bool,
@@ -95,9 +103,9 @@ impl KnowledgeBase {
         let site = Site::open(folder)?;
         let database = site.database();
         let mode = site.rooms;
-        let mut knowledge =
-            Self { site, planners: Vec::new(), database, rules: None, reseed: false, at: None };
-        knowledge.register(Box::new(OverlaysOf { site: knowledge.site.clone(), read: OnceLock::new() }));
+        let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
+        let planners: Vec<Arc<dyn Planner>> = vec![overlays.clone()];
+        let mut knowledge = Self { site, planners, overlays, database, rules: None, reseed: false, at: None };
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
@@ -213,7 +221,8 @@ impl KnowledgeBase {
 
     pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
         progress.stage("map");
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners)?))
+        let know = |world: &World| self.overlays.know(world);
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, know)?))
     }
 
     /// For what holds on to it while others go on.

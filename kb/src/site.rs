@@ -14,7 +14,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map,
+    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map, read_world,
 };
 use adit_planners::world::World;
 use jiff::tz::TimeZone;
@@ -174,22 +174,6 @@ impl Site {
         hasher.finish()
     }
 
-    /// What is said of named areas and doors besides what every one has, here and in a vector map, as planners write
-    /// it in their signatures. Of a map that cannot be read nothing is said.
-    pub fn further_properties(&self) -> Vec<String> {
-        let mut further = self.overlay.further_properties();
-        if self.map.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
-            && self.map.is_file()
-            && let Ok(text) = fs::read_to_string(&self.map)
-            && let Ok(drawn) = Overlay::from_toml("the map", &text)
-        {
-            further.extend(drawn.further_properties());
-        }
-        further.sort_unstable();
-        further.dedup();
-        further
-    }
-
     /// The site that a map is the map of: the one in its folder, if it names it.
     pub fn of_map(map: &Path) -> Result<Option<Self>> {
         let folder = map.parent().unwrap_or(Path::new(""));
@@ -207,10 +191,15 @@ impl Site {
     }
 
     /// Reads the map and lays over it what `site.toml` says.
-    ///
-    /// # Returns
-    /// The world, what it cost or gave of free space to read it so, and notes.
-    pub fn world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
+    pub fn world(&self) -> Result<World> {
+        let read = read_world(&self.map, &self.settings);
+        let (mut world, _) = read.map_err(|errors| Error::all(errors.problems))?;
+        self.lay_over(&mut world)?;
+        Ok(world)
+    }
+
+    /// As [`world`](Self::world), with what it cost or gave of free space to read it so, and notes.
+    pub fn measured_world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
         let (mut world, report) =
             read_map(&self.map, &self.settings).map_err(|errors| Error::all(errors.problems))?;
         let mut notes = report.notes.clone();

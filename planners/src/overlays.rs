@@ -36,11 +36,23 @@ pub struct Overlays {
 }
 
 impl Overlays {
-    /// A planner for worlds in which this is said besides what every area and door has, as
-    /// [`Overlay::further_properties`](crate::read::Overlay::further_properties) writes it.
-    pub fn new(further: Vec<String>) -> Self {
+    /// A planner for a world, and for all of which no more is said.
+    pub fn of(world: &World) -> Self {
+        let write = |(class, (property, value)): (_, &(String, Property))| {
+            format!("{class}.{property}: {}", value.kind())
+        };
+        let mut further: Vec<String> = further(world).map(write).collect();
+        further.sort_unstable();
+        further.dedup();
         Self { further }
     }
+}
+
+/// What is said of areas and doors besides what every one has, by class.
+pub(crate) fn further(world: &World) -> impl Iterator<Item = (&'static str, &(String, Property))> {
+    let areas = world.areas.iter().map(|area| (AREAS, &area.further));
+    let doors = world.named_doors.iter().map(|door| (NAMED_DOORS, &door.further));
+    areas.chain(doors).flat_map(|(class, further)| further.iter().map(move |one| (class, one)))
 }
 
 impl Planner for Overlays {

@@ -28,6 +28,17 @@ pub use suggest::nearest;
 /// # Returns
 /// The world, and a report of the free space that each step cost or gave, with notes.
 pub fn read_map(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapErrors> {
+    let (world, mut report) = read(path, settings)?;
+    report.measure(&world)?;
+    Ok((world, report))
+}
+
+/// As [`read_map`], for whom nothing but the world and the notes matters: the free space is not measured.
+pub fn read_world(path: &Path, settings: &MapSettings) -> Result<(World, Vec<Problem>), MapErrors> {
+    read(path, settings).map(|(world, report)| (world, report.notes))
+}
+
+fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapErrors> {
     settings.check()?;
     let name = path.display().to_string();
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
@@ -40,11 +51,10 @@ pub fn read_map(path: &Path, settings: &MapSettings) -> Result<(World, MapReport
             Problem::of_file(Code::Unreadable, format!("the map `{name}` cannot be read: {error}"))
         })
     };
-    let (mut world, mut report) = match extension.as_str() {
+    let (mut world, report) = match extension.as_str() {
         "toml" => {
             let (world, notes) = toml_map::read_toml_map(&name, &text()?)?;
-            let free_in_file = report::drawn_free_area(&world);
-            (world, MapReport { free_in_file, notes, ..MapReport::default() })
+            (world, MapReport { notes, ..MapReport::default() })
         }
         "yaml" | "yml" => {
             let folder = path.parent().unwrap_or(Path::new(""));
@@ -58,6 +68,5 @@ pub fn read_map(path: &Path, settings: &MapSettings) -> Result<(World, MapReport
     };
     world.grid = settings.grid;
     world.clearance = settings.clearance;
-    report.add_grid_and_clearance(&world)?;
     Ok((world, report))
 }

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use adit_planners::geometry::{Point, Rect};
+use adit_planners::overlays::Overlays;
+use adit_planners::planner::Planner as _;
 use adit_planners::read::Overlay;
 use adit_planners::read::diagnostic::{MapErrors, Problem};
 use adit_planners::read::toml_map::read_toml_map;
@@ -279,7 +281,12 @@ fn what_else_is_said_of_areas_has_a_name_for_rules_and_one_kind() {
     let (mut world, _) =
         read_toml_map("map.toml", &format!("width = 10.0\ndepth = 8.0\n{}", area("a", "floor = 1"))).unwrap();
     let overlay = Overlay::from_toml("site.toml", &area("b", "floor = true\nwet = true")).unwrap();
-    assert_eq!(overlay.further_properties(), ["AREAS.floor: truth", "AREAS.wet: truth"]);
+    let mut empty = World::empty(world.bounds);
+    overlay.clone().lay_over(&mut empty).unwrap();
+    let gives = Overlays::of(&empty).signature().gives;
+    let further: Vec<_> =
+        gives.iter().filter(|given| !Overlays::default().signature().gives.contains(given)).collect();
+    assert_eq!(further, ["AREAS.floor: truth", "AREAS.wet: truth"]);
     let problems = overlay.lay_over(&mut world).unwrap_err().problems;
     assert!(problems[0].message.contains("`floor` is a truth here and a number in the map"), "{problems:?}");
 }

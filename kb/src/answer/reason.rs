@@ -51,7 +51,7 @@ pub fn no_route(
             Ok(format!("{}{more}", shut.join("; ")))
         }
         Blockage::Apart => {
-            let (world, _, _) = knowledge.site().world()?;
+            let world = knowledge.site().world()?;
             apart(&world, graph, ends, robot, knowledge)
         }
     }

@@ -38,7 +38,7 @@ impl Ground<'_> {
             Self::Known(world, gauge) => Ok((world, gauge)),
             Self::Later(site, sizes, read) => {
                 if read.get().is_none() {
-                    let (world, _, _) = site.world()?;
+                    let world = site.world()?;
                     let gauge = Gauge::new(&world, sizes.clone());
                     read.get_or_init(|| Box::new((world, gauge)));
                 }

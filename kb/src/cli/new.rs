@@ -51,7 +51,7 @@ pub fn run(args: &NewArgs) -> Result<()> {
     shipped::make::<Rules>(&format!("{}/{TESTS}", mode.rule_base()), &rules.join(TESTS), &mut made)?;
     starter(&args.dir, "robots.toml", &mut made)?;
     made.file(&args.dir.join("site.toml"), site_text(&args.dir, &map, mode))?;
-    Site::open(&args.dir)?.world()?;
+    Site::open(&args.dir)?.measured_world()?;
     made.keep();
     if args.json {
         return json(&serde_json::json!({"site": args.dir, "map": map, "rooms": mode.name()}));

@@ -38,11 +38,17 @@ impl Inputs {
     /// Reads them.
     ///
     /// # Arguments
-    /// `rule_folder` stands instead of the site's own rules.
-    pub fn read(site: &Site, rule_folder: Option<&Path>, planners: &[Arc<dyn Planner>]) -> Result<Self> {
+    /// `rule_folder` stands instead of the site's own rules; `know` is shown the world before planners are asked anything.
+    pub fn read(
+        site: &Site,
+        rule_folder: Option<&Path>,
+        planners: &[Arc<dyn Planner>],
+        know: impl FnOnce(&World),
+    ) -> Result<Self> {
         let began = Instant::now();
         let rules::Rules { base: rules, tests } = rules::load(site, rule_folder)?;
-        let (world, map_report, notes) = site.world()?;
+        let (world, map_report, notes) = site.measured_world()?;
+        know(&world);
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
         let ignored = lint::ignored(site, rule_folder, &rules, planners).into_iter();
         let ignored = ignored.map(|problem| problem.to_string()).chain(lint::unheard(&rules, &world));

@@ -63,19 +63,6 @@ impl Overlay {
         drawn && self.places.is_empty() && self.areas.is_empty() && self.doors.is_empty()
     }
 
-    /// What is said of areas and doors besides what every one has, as planners write it in their signatures:
-    /// `AREAS.floor: number`. Each property once, in the order of their names.
-    pub fn further_properties(&self) -> Vec<String> {
-        let write = |given: &Located<Given>| {
-            let Given { class, property, kind } = &given.value;
-            format!("{class}.{property}: {kind}")
-        };
-        let mut further: Vec<String> = self.given.iter().map(write).collect();
-        further.sort_unstable();
-        further.dedup();
-        further
-    }
-
     /// Lays the items over a world. Items partly outside are cut at the edge; places are checked against
     /// everything solid, old and new; names and properties against those of the world.
     ///

@@ -29,8 +29,12 @@ pub struct MapReport {
 }
 
 impl MapReport {
-    /// Fills in [`grid`](Self::grid), [`clearance`](Self::clearance) and [`free`](Self::free).
-    pub(super) fn add_grid_and_clearance(&mut self, world: &World) -> Result<(), MapErrors> {
+    /// Fills in what was not counted cell by cell: the free space of a vector map, [`grid`](Self::grid),
+    /// [`clearance`](Self::clearance) and [`free`](Self::free).
+    pub(super) fn measure(&mut self, world: &World) -> Result<(), MapErrors> {
+        if world.occupancy.is_none() {
+            self.free_in_file = drawn_free_area(world);
+        }
         self.free = self.free_in_file + self.unknown + self.specks;
         let native = world.occupancy.as_ref().map(|cells| cells.resolution);
         let Some(side) = world.grid.or(native) else { return Ok(()) };
@@ -50,7 +54,7 @@ impl MapReport {
 }
 
 /// Area of a vector map that no obstacle covers, square metres.
-pub(super) fn drawn_free_area(world: &World) -> f64 {
+fn drawn_free_area(world: &World) -> f64 {
     let edge = crate::world::Shape::Rect(world.bounds).to_geo();
     let obstacles: Vec<_> = world.obstacles.iter().map(|obstacle| obstacle.shape.to_geo()).collect();
     world.bounds.area() - unary_union(&obstacles).intersection(&edge).unsigned_area()

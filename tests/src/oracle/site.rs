@@ -55,7 +55,7 @@ impl Built {
             .with("site.toml", &format!("name = \"a test\"\nrobots = \"robots.toml\"\n{settings}"));
         let knowledge = KnowledgeBase::open(folder.path()).expect("a site");
         knowledge.build(&Silent).unwrap_or_else(|error| panic!("{error:?}\n{}", folder.path().display()));
-        let (world, _, _) = knowledge.site().world().expect("the map is readable");
+        let world = knowledge.site().world().expect("the map is readable");
         Self { folder, knowledge, body: body.clone(), world, areas: Vec::new() }
     }
 

@@ -64,10 +64,7 @@ pub(super) fn add_door(world: &mut World, text: &Text, door: &Located<NamedDoor>
 
 /// Properties of this text against those of the world: each holds values of one kind.
 pub(super) fn one_kind_each(world: &World, text: &Text, given: &[Located<Given>], found: &mut Vec<Problem>) {
-    let areas = world.areas.iter().map(|area| (crate::overlays::AREAS, &area.further));
-    let doors = world.named_doors.iter().map(|door| (crate::overlays::NAMED_DOORS, &door.further));
-    let known: Vec<(&str, &(String, Property))> =
-        areas.chain(doors).flat_map(|(class, further)| further.iter().map(move |one| (class, one))).collect();
+    let known: Vec<(&str, &(String, Property))> = crate::overlays::further(world).collect();
     for Located { value: Given { class, property, kind }, span } in given {
         let same = |(of, (name, _)): &&(&str, &(String, Property))| of == class && name == property;
         if let Some((_, (_, value))) = known.iter().find(same)
