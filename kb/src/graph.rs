@@ -62,22 +62,30 @@ pub enum End {
 
 impl SiteGraph {
     /// Indexes the tables.
-    pub fn new(rooms: Vec<Room>, doors: Vec<Door>, places: Vec<Place>) -> Self {
+    pub fn new(rooms: Vec<Room>, mut doors: Vec<Door>, places: Vec<Place>) -> Self {
         let room_by_key =
             rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
         let route_rooms =
             rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking_in(room) }).collect();
-        let route_doors = doors.iter().filter_map(|door| route_door(door, &room_by_key)).collect();
-        let graph = RouteGraph::new(route_rooms, route_doors);
+        let mut route_doors = Vec::with_capacity(doors.len());
+        // a door whose rooms somebody else took away leads nowhere
+        doors.retain(|door| {
+            let door = route_door(door, &room_by_key);
+            route_doors.extend(door);
+            door.is_some()
+        });
         let named = |(index, room): (usize, &Room)| (room.name.clone(), RoomIndex::new(index));
         // of places of one name the first counts
         let placed = |(index, place): (usize, &Place)| (place.place.clone(), index);
-        let index = Index {
-            room_by_key,
-            room_by_name: rooms.iter().enumerate().map(named).collect(),
-            place_by_name: places.iter().enumerate().rev().map(placed).collect(),
-            rooms: RectIndex::new(rooms.iter().map(rect_of)),
-        };
+        let (graph, index) = rayon::join(
+            || RouteGraph::new(route_rooms, route_doors),
+            || Index {
+                room_by_key,
+                room_by_name: rooms.iter().enumerate().map(named).collect(),
+                place_by_name: places.iter().enumerate().rev().map(placed).collect(),
+                rooms: RectIndex::new(rooms.iter().map(rect_of)),
+            },
+        );
         let closed =
             (0..doors.len()).filter(|&door| is_told_closed(&doors[door])).map(DoorIndex::new).collect();
         let mut all = Self { rooms, doors, places, graph, closed, index: Arc::new(index), texts: None };
