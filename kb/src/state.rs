@@ -15,6 +15,8 @@ pub(crate) mod weights;
 use std::sync::Arc;
 use std::time::Duration;
 
+use adit_db::door::Door;
+use adit_db::room::Room;
 use adit_engine::KnowledgeBase as Inference;
 
 use crate::graph::SiteGraph;
@@ -62,9 +64,13 @@ pub struct State {
 }
 
 impl State {
-    /// Of a site of which nothing is known yet but its files.
-    pub(crate) fn empty(site: Arc<KnowledgeBase>, inputs: Arc<Inputs>) -> Self {
-        let graph = SiteGraph::new(Vec::new(), Vec::new(), rows::places(&inputs.world));
+    /// Of a site of which nothing is known yet but its files, and the rooms and doors that the last build made.
+    pub(crate) fn new(
+        site: Arc<KnowledgeBase>,
+        inputs: Arc<Inputs>,
+        (rooms, doors): (Vec<Room>, Vec<Door>),
+    ) -> Self {
+        let graph = SiteGraph::new(rooms, doors, rows::places(&inputs.world));
         let knowledge = Inference::new();
         let gauge = Arc::new(Gauge::new(&inputs.world, Sizes::new()));
         Self {

@@ -35,10 +35,18 @@ pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()
             Column::Truth(values) => class.truths(property, values.iter().copied()),
         };
     }
-    for (_, property) in UNLIMITED.iter().filter(|(class, _)| *class == name) {
-        if table.column(property).is_some() {
-            class = class.null_means(*property, Value::Number(f64::INFINITY));
-        }
+    hold(knowledge, name, class, |property| table.column(property).is_some())
+}
+
+/// Asserts a class that is made ready, but for what NULL means in it.
+pub fn hold(
+    knowledge: &mut Inference,
+    name: &str,
+    mut class: Class,
+    has: impl Fn(&str) -> bool,
+) -> Result<()> {
+    for (_, property) in UNLIMITED.iter().filter(|(class, property)| *class == name && has(property)) {
+        class = class.null_means(*property, Value::Number(f64::INFINITY));
     }
     knowledge.assert(class).map_err(Error::of(Code::FactsClass))
 }

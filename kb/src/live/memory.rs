@@ -16,7 +16,7 @@ use crate::graph::layout;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::generation::{self, Basis};
 use crate::knowledge::inputs::Inputs;
-use crate::state::before::{Before, Rows};
+use crate::state::before::Before;
 use crate::state::keep::{Kept, LastBuild, Written, keep_standings};
 use crate::state::{Nothing, State, Step, Weighed};
 use crate::words::progress::{Progress, Silent, Stage, Stopwatch};
@@ -95,18 +95,17 @@ impl Memory {
         if tx.site_value("basis")?.as_deref() != Some(&basis.with(&told)) {
             return Ok(None);
         }
-        let rows = Rows::read(tx)?;
-        let before = rows.before();
-        let mut state = State::empty(Arc::clone(site), Arc::clone(inputs));
-        let step = state.step(told, &mut LastBuild::new(tx, before), &Silent)?;
-        let graph = state.graph_after(&step);
-        if graph.rooms != before.rooms || graph.doors != before.doors {
+        let starts = tx.starts()?;
+        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), (tx.rooms()?, tx.doors()?));
+        let step = state.step(told, &mut LastBuild(tx), &Silent)?;
+        if step.is_cut_anew || !step.weighed.is_empty() {
             return Ok(None);
         }
         let kept = Kept::of_opened(&state, &step)?;
         state.accept(step);
         state.generation = generation;
         let plan = trees::plan(state.graph(), &site.robots(tx)?, site.site().starts.as_ref())?;
+        let before = Before { graph: state.graph(), starts: &starts };
         Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
     }
 
@@ -117,16 +116,17 @@ impl Memory {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
-        let rows = Rows::read(tx)?;
-        let before = rows.before();
+        let starts = tx.starts()?;
         let told = site.told(tx, &inputs.rules)?;
-        let mut state = State::empty(Arc::clone(site), Arc::clone(inputs));
-        let step = state.step(told, &mut LastBuild::new(tx, before), progress)?;
+        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), (tx.rooms()?, tx.doors()?));
+        let graph = Arc::clone(state.graph());
+        let before = Before { graph: &graph, starts: &starts };
+        let step = state.step(told, &mut LastBuild(tx), progress)?;
         let mut clock = Stopwatch::new();
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
         let (kept, plan, routes, generation) =
             write_all(tx, &state, &step, (before, &basis), progress, &mut clock)?;
-        let weighed = before.weighed(state.graph_after(&step));
+        let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
         let mut stages = vec![inputs.stage.clone()];
         stages.extend(step.stages.iter().cloned().chain(clock.stages));
         state.accept(step);
@@ -151,7 +151,7 @@ impl Memory {
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
         let Accepted { weighed, routes, mut stages, .. } = memory.accept(followed);
         stages.insert(0, inputs.stage.clone());
-        let before = Before { rooms: &graph.rooms, doors: &graph.doors, starts: &starts };
+        let before = Before { graph: &graph, starts: &starts };
         let routes = routes.unwrap_or_default();
         let report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
         // nobody waits until all of it is given back
@@ -191,14 +191,12 @@ impl Memory {
         clock.skip();
         clock.stages.extend(step.stages.iter().cloned());
         let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));
-        let renewed = match (&step.cut, promptness) {
-            (None, Promptness::Later) => self.routes.renew(&graph, &step.weighed),
+        let renewed = match (step.is_anew, promptness) {
+            (false, Promptness::Later) => self.routes.renew(&graph, &step.weighed),
             _ => None,
         };
-        let before = state.graph();
-        let starts = self.routes.plan().starts.clone();
-        let before = Before { rooms: &before.rooms, doors: &before.doors, starts: &starts };
-        if step.cut.is_some() {
+        let before = Before { graph: state.graph(), starts: &self.routes.plan().starts };
+        if step.is_anew {
             let (kept, plan, routes, generation) =
                 write_all(tx, state, &step, (before, &self.basis), progress, &mut clock)?;
             let (kept, routes) = (KeptNow::All(kept), RoutesNow::All(plan, routes));
@@ -237,7 +235,7 @@ impl Memory {
     /// Makes a committed edit part of what is known.
     pub fn accept(&mut self, followed: Followed) -> Accepted {
         let Followed { done, step, kept, routes, generation, clock } = followed;
-        let anew = step.cut.is_some();
+        let anew = step.is_anew;
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
         self.state.accept(step);
         self.state.generation = generation;
@@ -288,11 +286,10 @@ fn write_all(
     keep_standings(tx, &step.told, &step.attached)?;
     clock.lap("database");
     progress.stage("routes");
-    let weighed = before.weighed(state.graph_after(step));
-    let so_far = if weighed.is_some() { KeptSoFar::Stored } else { KeptSoFar::OfAnotherCut };
+    let so_far = if step.is_cut_anew { KeptSoFar::OfAnotherCut } else { KeptSoFar::Stored };
     let (plan, routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
     clock.lap("routes");
-    let is_same = weighed.is_some_and(|weighed| weighed.is_empty()) && routes.changed == Some(0);
+    let is_same = !step.is_cut_anew && step.weighed.is_empty() && routes.changed == Some(0);
     let generation = generation::renew(tx, is_same, &basis.with(&step.told))?;
     site.sign(tx, &state.inputs.rules)?;
     step.told.sign(tx)?;

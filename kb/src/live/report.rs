@@ -250,11 +250,11 @@ impl Report {
         let mut changes = Vec::new();
         if let Some(weighed) = weighed {
             let room = |(room, weight): &(RoomIndex, Weight)| {
-                let old = &before.rooms[room.index()];
+                let old = &before.graph.rooms[room.index()];
                 Change::between(format!("room {}", old.name), old.weight(), weight)
             };
             let door = |(door, weight): &(DoorIndex, Weight)| {
-                let old = &before.doors[door.index()];
+                let old = &before.graph.doors[door.index()];
                 Change::between(format!("door {}", old.door), old.weight(), weight)
             };
             changes.extend(weighed.rooms.iter().filter_map(room));

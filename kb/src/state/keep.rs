@@ -19,13 +19,12 @@ use crate::graph::SiteGraph;
 use crate::knowledge::classes;
 use crate::knowledge::tables::{self, content};
 use crate::knowledge::told::{Attached, Told};
-use crate::state::before::Before;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
 use crate::state::{Look, Recall, State, Step, Which, truth};
 
-/// What planners of rooms make: rooms, doors, and which room lies in which named area or door.
-const MADE: [&str; 4] = ["ROOMS", "DOORS", "AREA_ROOMS", "DOOR_ROOMS"];
+/// What planners of rooms make besides rooms and doors: which room lies in which named area or door.
+const MEMBERS: [&str; 2] = ["AREA_ROOMS", "DOOR_ROOMS"];
 
 /// Classes that have tables of ours, or are kept with them.
 const OURS: [&str; 5] = ["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"];
@@ -41,37 +40,27 @@ const TABLED: [(&str, &str); 7] = [
     ("DOORS", "passable"),
 ];
 
-/// Rooms and doors of the last build, recalled while the inputs of their planner stay the same.
-pub struct LastBuild<'a, 's> {
-    tx: &'a mut Tx<'s>,
-    before: Before<'a>,
-}
-
-impl<'a, 's> LastBuild<'a, 's> {
-    /// What was read of the last build in this transaction.
-    pub fn new(tx: &'a mut Tx<'s>, before: Before<'a>) -> Self {
-        Self { tx, before }
-    }
-}
+/// Rooms and doors of the last build hold while the inputs of their planner stay the same.
+pub struct LastBuild<'a, 's>(pub &'a mut Tx<'s>);
 
 impl Recall for LastBuild<'_, '_> {
     fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
-        let gives = planner.signature().gives;
-        let gives = |class: &str| gives.iter().any(|given| classes::split(given).0 == class);
-        let others = |given: &String| !MADE.contains(&classes::split(given).0);
-        if !(gives("ROOMS") && gives("DOORS")) || planner.signature().gives.iter().any(others) {
+        let given = planner.signature().gives;
+        let gives = |class: &str| given.iter().any(|given| classes::split(given).0 == class);
+        let is_made = |class: &str| ["ROOMS", "DOORS"].contains(&class) || MEMBERS.contains(&class);
+        if !(gives("ROOMS") && gives("DOORS")) || !given.iter().all(|given| is_made(classes::split(given).0))
+        {
             return Ok(None);
         }
-        let stored = self.tx.site_value(&fingerprint_key(planner.name()))?;
-        let members = [tables::kept(self.tx, "area_rooms")?, tables::kept(self.tx, "door_rooms")?];
+        let stored = self.0.site_value(&fingerprint_key(planner.name()))?;
+        let members = [tables::kept(self.0, "area_rooms")?, tables::kept(self.0, "door_rooms")?];
         // another program may have edited or deleted rows since: then they are made anew
-        let is_edited = self.tx.stale_marks()?.iter().any(|mark| ["rooms", "doors"].contains(&&*mark.table));
+        let is_edited = self.0.stale_marks()?.iter().any(|mark| ["rooms", "doors"].contains(&&*mark.table));
         if is_edited || stored.as_deref() != Some(&signature(fingerprint, &members)) {
             return Ok(None);
         }
-        let cut = [rows::table(self.before.rooms), rows::table(self.before.doors)];
-        let made = MADE.into_iter().zip(cut.into_iter().chain(members)).filter(|(class, _)| gives(class));
-        Ok(Some(made.map(|(class, table)| (class.to_owned(), table)).collect()))
+        let members = MEMBERS.into_iter().zip(members).filter(|(class, _)| gives(class));
+        Ok(Some(members.map(|(class, table)| (class.to_owned(), table)).collect()))
     }
 }
 

@@ -57,7 +57,8 @@ fn value_of(column: &Column, row: usize) -> Option<Value> {
 
 /// What planners made earlier, if it still holds.
 pub trait Recall {
-    /// The facts that a planner gave, if what it worked from had this fingerprint.
+    /// The facts that a planner of rooms and doors gave besides these, which are those of the state, if what it worked
+    /// from had this fingerprint.
     fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>>;
 }
 

@@ -4,7 +4,8 @@ use adit_db::Derived;
 use adit_db::area::Area;
 use adit_db::place::Place;
 use adit_db::schema::{Column, Kind, Part, Row, Value};
-use adit_planners::facts::{self, Table};
+use adit_engine::Class;
+use adit_planners::facts::Table;
 use adit_planners::world::World;
 
 use crate::error::{Code, Error, Result};
@@ -49,25 +50,24 @@ fn key(value: Option<f64>) -> i64 {
     value.unwrap_or(0.0) as i64
 }
 
-/// Rooms or doors as planners assert them.
-pub fn table<R: Row>(rows: &[R]) -> Table {
+/// Rooms or doors as the inference holds them, without what rules say.
+pub fn class<R: Row>(name: &str, rows: &[R]) -> Class {
     let number = |value| match value {
         Value::Integer(integer) => Some(integer as f64),
         Value::Real(real) => Some(real),
         _ => None,
     };
-    let text = |value: Value<'_>| if let Value::Text(text) = value { Some(text.to_owned()) } else { None };
+    let text = |value| if let Value::Text(text) = value { Some(text) } else { None };
     let truth = |value| if let Value::Truth(truth) = value { Some(truth) } else { None };
-    let columns = R::columns_of(Part::Cut).map(|column| {
+    let with = |class: Class, column: &Column<R>| {
         let values = rows.iter().map(column.get);
-        let values = match column.kind {
-            Kind::Integer | Kind::Real => facts::Column::Number(values.map(number).collect()),
-            Kind::Text => facts::Column::Text(values.map(text).collect()),
-            Kind::Truth => facts::Column::Truth(values.map(truth).collect()),
-        };
-        (column.name.to_owned(), values)
-    });
-    Table { columns: columns.collect() }
+        match column.kind {
+            Kind::Integer | Kind::Real => class.numbers(column.name, values.map(number)),
+            Kind::Text => class.texts(column.name, values.map(text)),
+            Kind::Truth => class.truths(column.name, values.map(truth)),
+        }
+    };
+    R::columns_of(Part::Cut).fold(Class::new(name, &[R::COLUMNS[0].name]), with)
 }
 
 /// Rooms or doors as rows, without what rules say.

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use adit_db::schema::Row;
+use adit_db::door::Door;
+use adit_db::room::Room;
+use adit_db::schema::Row as _;
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
@@ -31,7 +33,9 @@ pub struct Step {
     pub attached: Attached,
     /// What planners gave, and from what.
     pub planned: Planned,
-    /// All rooms and doors, where planners gave facts anew.
+    /// Whether planners gave facts anew.
+    pub is_anew: bool,
+    /// All rooms and doors, where planners made them anew.
     pub cut: Option<Arc<SiteGraph>>,
     /// Whether rooms or doors are cut otherwise than before: then their numbers mean others.
     pub is_cut_anew: bool,
@@ -82,13 +86,14 @@ impl State {
         let (knowledge, rules) = (&self.knowledge, &inputs.rules);
         let before = self.twin.shown();
         let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
-        if given.is_any {
-            let mut rooms = given.rows("ROOMS", &before.rooms)?;
-            let mut doors = given.rows("DOORS", &before.doors)?;
+        let which = if given.is_any { Which::All } else { Which::Touched(&changes) };
+        let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
+        if given.rooms.is_some() || given.doors.is_some() {
+            let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
+            let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());
             weights::check(knowledge, (&rooms, &doors), None)?;
-            let mut look = Look { knowledge, rules, which: Which::All, reasons: Some(&mut reasons) };
-            look.rooms().into_iter().for_each(|(room, weight)| rooms[room.index()].weigh(weight));
-            look.doors().into_iter().for_each(|(door, weight)| doors[door.index()].weigh(weight));
+            look.rooms().for_each(|(room, weight)| rooms[room.index()].weigh(weight));
+            look.doors().for_each(|(door, weight)| doors[door.index()].weigh(weight));
             let (old, new) = ((&*before.rooms, &*before.doors), (&*rooms, &*doors));
             is_cut_anew = !is_same_cut(old, new);
             if !is_cut_anew {
@@ -96,9 +101,8 @@ impl State {
             }
             cut = Some(Arc::new(SiteGraph::new(rooms, doors, before.places.clone())));
         } else {
-            weights::check(knowledge, (&before.rooms, &before.doors), Some(&changes))?;
-            let which = Which::Touched(&changes);
-            let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
+            let changes = (!given.is_any).then_some(&changes);
+            weights::check(knowledge, (&before.rooms, &before.doors), changes)?;
             weighed = look.weighed(&before.rooms, &before.doors);
         }
         let facts = reasons.into_facts();
@@ -109,8 +113,20 @@ impl State {
         let is_resized = needs_changed(&needed, &changes);
         let gauge = is_resized.then(|| Arc::new(self.gauge.resized(sizes(&self.knowledge))));
         clock.lap("graph");
-        let (planned, stages) = (given.planned, clock.stages);
-        Ok(Step { told, attached, planned, cut, is_cut_anew, weighed, changes, facts, stages, gauge })
+        let (planned, is_anew, stages) = (given.planned, given.is_any, clock.stages);
+        Ok(Step {
+            told,
+            attached,
+            planned,
+            is_anew,
+            cut,
+            is_cut_anew,
+            weighed,
+            changes,
+            facts,
+            stages,
+            gauge,
+        })
     }
 
     /// Makes what a step changed what is known.
@@ -214,7 +230,7 @@ impl State {
     ) -> Result<Given> {
         let (site, inputs) = (Arc::clone(&self.site), Arc::clone(&self.inputs));
         let planners = site.planners();
-        let mut given = Given { planned: self.planned.clone(), made: Facts::new(), is_any: false };
+        let mut given = Given { planned: self.planned.clone(), rooms: None, doors: None, is_any: false };
         let is_new = |planner: &dyn Planner| !self.planned.fingerprints.contains_key(planner.name());
         let mut waiting: Vec<usize> = (0..planners.len())
             .filter(|&at| {
@@ -241,16 +257,19 @@ impl State {
             }
             let recalled = recall.recall(planner, fingerprint)?;
             let is_kept = recalled.is_some();
-            let facts = match recalled {
-                Some(facts) => facts,
-                None => planned::facts(planner, &inputs.world, &known)?,
-            };
             self.save_inference();
+            let facts = if let Some(facts) = recalled {
+                self.tell_graph(told)?;
+                facts
+            } else {
+                planned::facts(planner, &inputs.world, &known)?
+            };
             for (class, table) in facts {
                 classes::assert(&mut self.knowledge, &class, &table)?;
                 told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
-                given.take(class, table);
+                given.take(class, table)?;
             }
+            given.is_any = true;
             clock.lap_of(name, is_kept);
             progress.stage("rules");
             let more = self.conclude()?;
@@ -267,6 +286,18 @@ impl State {
             Some(&at) => Err(stuck(planners[at].as_ref(), &self.missing(planners[at].as_ref()))),
             None => Ok(given),
         }
+    }
+
+    /// Tells of the rooms and doors that there are.
+    fn tell_graph(&mut self, told: &Told) -> Result<()> {
+        let graph = self.twin.shown();
+        let classes =
+            [("ROOMS", rows::class("ROOMS", &graph.rooms)), ("DOORS", rows::class("DOORS", &graph.doors))];
+        for (name, class) in classes {
+            classes::hold(&mut self.knowledge, name, class, |_| true)?;
+            told.tell(&mut self.knowledge, name, &mut Attached::default())?;
+        }
+        Ok(())
     }
 
     fn save_inference(&mut self) {
@@ -292,23 +323,20 @@ impl State {
 /// What planners gave in a step.
 struct Given {
     planned: Planned,
-    /// Rooms and doors.
-    made: Facts,
+    rooms: Option<Vec<Room>>,
+    doors: Option<Vec<Door>>,
     /// Whether any planner gave anything.
     is_any: bool,
 }
 
 impl Given {
-    /// Rooms or doors, as they were where no planner gave any.
-    fn rows<R: Row>(&self, class: &'static str, before: &[R]) -> Result<Vec<R>> {
-        self.made.get(class).map_or_else(|| Ok(before.to_vec()), |table| rows::of_table(class, table))
-    }
-
-    fn take(&mut self, class: String, table: Table) {
-        let is_of_graph = ["ROOMS", "DOORS"].contains(&class.as_str());
-        let facts = if is_of_graph { &mut self.made } else { &mut self.planned.facts };
-        facts.insert(class, table);
-        self.is_any = true;
+    fn take(&mut self, class: String, table: Table) -> Result<()> {
+        match class.as_str() {
+            "ROOMS" => self.rooms = Some(rows::of_table("ROOMS", &table)?),
+            "DOORS" => self.doors = Some(rows::of_table("DOORS", &table)?),
+            _ => drop(self.planned.facts.insert(class, table)),
+        }
+        Ok(())
     }
 }
 

@@ -79,42 +79,41 @@ pub struct Look<'a, 'r> {
 
 impl Look<'_, '_> {
     /// What rules say of rooms: of those that are looked at.
-    pub fn rooms(&mut self) -> Vec<(RoomIndex, Weight)> {
-        let mut rooms = self.weights("ROOMS");
-        if !decides_rooms(self.rules) {
-            for (_, weight) in &mut rooms {
-                weight.passable.value = weight.passable.value.or(Some(true));
-            }
-        }
-        rooms
+    pub fn rooms(&mut self) -> impl Iterator<Item = (RoomIndex, Weight)> + use<> {
+        let otherwise = (!decides_rooms(self.rules)).then_some(true);
+        self.weights("ROOMS").map(move |(room, mut weight)| {
+            weight.passable.value = weight.passable.value.or(otherwise);
+            (room, weight)
+        })
     }
 
     /// What rules say of doors: of those that are looked at.
-    pub fn doors(&mut self) -> Vec<(DoorIndex, Weight)> {
+    pub fn doors(&mut self) -> impl Iterator<Item = (DoorIndex, Weight)> + use<> {
         self.weights("DOORS")
     }
 
     /// In what rules say something else of these rooms and doors than they did.
     pub fn weighed(&mut self, rooms: &[Room], doors: &[Door]) -> Weighed {
-        let mut weighed = Weighed { rooms: self.rooms(), doors: self.doors() };
-        weighed.rooms.retain(|(room, weight)| *weight != rooms[room.index()].weight());
-        weighed.doors.retain(|(door, weight)| *weight != doors[door.index()].weight());
-        weighed
+        Weighed {
+            rooms: self.rooms().filter(|(room, weight)| *weight != rooms[room.index()].weight()).collect(),
+            doors: self.doors().filter(|(door, weight)| *weight != doors[door.index()].weight()).collect(),
+        }
     }
 
-    fn weights<I: From<u32>>(&mut self, class: &str) -> Vec<(I, Weight)> {
+    fn weights<I: From<u32>>(&mut self, class: &str) -> impl Iterator<Item = (I, Weight)> + use<I> {
         let mut rows: Vec<u32> = ["hardness", "action", "passable"]
             .iter()
             .flat_map(|property| self.rows(class, property))
             .collect();
         rows.sort_unstable();
         rows.dedup();
+        // made one by one: what rules say of all doors at once is more than the doors
         let hardness = self.values((class, "hardness"), &rows, number);
         let action = self.values((class, "action"), &rows, text);
         let passable = self.values((class, "passable"), &rows, truth);
-        let weights = hardness.into_iter().zip(action).zip(passable);
+        let weights = hardness.zip(action).zip(passable);
         let weights = weights.map(|((hardness, action), passable)| Weight { hardness, action, passable });
-        rows.into_iter().map(I::from).zip(weights).collect()
+        rows.into_iter().map(I::from).zip(weights)
     }
 
     /// One property of the objects that are looked at, by row.
@@ -133,18 +132,18 @@ impl Look<'_, '_> {
         (class, property): (&str, &str),
         rows: &[u32],
         value: fn(&Value) -> Option<T>,
-    ) -> Vec<Derived<T>> {
+    ) -> impl Iterator<Item = Derived<T>> + use<T> {
         let reasons = match &mut self.reasons {
             Some(reasons) => reasons.of_rows(class, property, rows),
             None => vec![(None, None); rows.len()],
         };
         let values = self.knowledge.values_at(class, rows, property);
-        let derived = |(given, (rule, witness)): (Option<Value>, Reason)| Derived {
+        let derived = move |(given, (rule, witness)): (Option<Value>, Reason)| Derived {
             value: given.as_ref().and_then(value),
             rule,
             witness,
         };
-        values.into_iter().zip(reasons).map(derived).collect()
+        values.into_iter().zip(reasons).map(derived)
     }
 
     /// The rows of a property whose value or reason may differ, ascending.
