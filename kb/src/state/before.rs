@@ -15,7 +15,7 @@ pub struct Before<'a> {
 
 impl Before<'_> {
     pub fn door(&self, key: i64) -> Option<&Door> {
-        self.graph.door(key)
+        self.graph.door(key).map(|door| &self.graph[door])
     }
 
     /// Whether routes were kept from these starts, in whatever order, each as the same tree.
