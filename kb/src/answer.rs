@@ -1,5 +1,7 @@
 //! Answers to "how do I get from here to there": from the kept routes, or computed where none is kept.
 
+mod basis;
+mod ends;
 mod json;
 pub(crate) mod reason;
 pub(crate) mod scene;
@@ -10,11 +12,11 @@ use adit_db::Tx;
 use adit_db::route::{Step, Waypoint};
 use serde::Serialize;
 
-use crate::error::{Code, Error, Result};
+use crate::error::{Code, Error, Nearest, Result};
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
 
-pub(crate) use search::{Basis, Ground};
+pub(crate) use basis::{Basis, Ground};
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
@@ -65,6 +67,12 @@ pub struct Answer {
     /// Why there is no route, or which name is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Beside a start or goal that was refused, the nearest point from which ways lead on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<Nearest>,
+    /// The points that were taken instead of a start or goal that would have been refused.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub taken: Vec<Nearest>,
     /// The rows of `action_sequence`.
     pub steps: Vec<Step>,
     /// The rows of `waypoints`: where the way bends, changes shape, starts and ends.
@@ -85,6 +93,7 @@ impl State {
             graph: self.graph(),
             rules: &self.inputs.rule_names,
             ground: Ground::Known(&self.inputs.world, &self.gauge),
+            within: self.within,
         }
     }
 }
@@ -101,6 +110,8 @@ impl Answer {
             cost: None,
             distance: None,
             reason: None,
+            nearest: None,
+            taken: Vec::new(),
             steps: Vec::new(),
             waypoints: Vec::new(),
         }

@@ -2,6 +2,7 @@
 
 pub(crate) mod code;
 pub(crate) mod finding;
+mod nearest;
 pub(crate) mod problem;
 
 use std::fmt;
@@ -9,6 +10,7 @@ use std::path::Path;
 
 pub use code::Code;
 pub use finding::Finding;
+pub use nearest::Nearest;
 use problem::Problem;
 
 /// One or more problems, none of them half-done work: whatever failed has left the site as it was.

@@ -1,6 +1,8 @@
 //! The graph of a site, for searches: which rooms and doors there are, and where points and names lie in it.
 
+mod ends;
 pub(crate) mod gauge;
+mod layers;
 pub(crate) mod pairs;
 mod texts;
 
@@ -15,10 +17,9 @@ use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::weight::Weight;
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::rect_index::RectIndex;
-use adit_planners::routes::{
-    Closed, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking,
-};
+use adit_planners::routes::{Closed, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
+
+use layers::{Layer, rect_of};
 
 pub use texts::{Texts, word};
 
@@ -44,7 +45,7 @@ struct Index {
     room_by_key: HashMap<i64, RoomIndex>,
     room_by_name: HashMap<String, RoomIndex>,
     place_by_name: HashMap<String, usize>,
-    rooms: RectIndex,
+    layers: Vec<Layer>,
 }
 
 /// Names of the rules by their number.
@@ -83,7 +84,7 @@ impl SiteGraph {
                 room_by_key,
                 room_by_name: rooms.iter().enumerate().map(named).collect(),
                 place_by_name: places.iter().enumerate().rev().map(placed).collect(),
-                rooms: RectIndex::new(rooms.iter().map(rect_of)),
+                layers: Layer::all(&rooms),
             },
         );
         let closed =
@@ -235,46 +236,12 @@ impl SiteGraph {
         }
     }
 
-    /// The rooms of a robot that hold an end: a room itself, or for a point one room of each state and facing.
-    pub fn rooms_of(&self, end: &End, robot: Option<&str>) -> Vec<RoomIndex> {
-        if let End::Room(index) = end {
-            return if is_weighed(&self[*index]) { vec![*index] } else { Vec::new() };
-        }
-        let at = self.point(end);
-        let mut layers = Vec::new();
-        let mut found = Vec::new();
-        for index in self.index.rooms.at(at).into_iter().map(RoomIndex::new) {
-            let room = &self[index];
-            let of_robot = match (&room.layer, robot) {
-                (Some((of, _)), Some(robot)) => of == robot,
-                _ => true,
-            };
-            let layer = (&room.layer, room.facing);
-            if of_robot && is_weighed(room) && !layers.contains(&layer) {
-                layers.push(layer);
-                found.push(index);
-            }
-        }
-        found
-    }
-
     /// Whether a room is this end, or holds it.
     pub fn holds(&self, room: &Room, end: &End) -> bool {
         match end {
             End::Room(index) => self[*index].room == room.room,
             _ => rect_of(room).contains(self.point(end)),
         }
-    }
-
-    /// Where a search for this end leads: for a room, to anywhere in it.
-    pub fn goal(&self, end: &End, robot: Option<&str>) -> Goal {
-        let at = (!matches!(end, End::Room(_))).then(|| self.point(end));
-        Goal { rooms: self.rooms_of(end, robot), at }
-    }
-
-    /// Where a search from this end begins.
-    pub fn start(&self, end: &End, robot: Option<&str>) -> Start {
-        Start { rooms: self.rooms_of(end, robot), at: self.point(end) }
     }
 }
 
@@ -303,11 +270,6 @@ pub fn is_weighed(room: &Room) -> bool {
 /// layer's door, what is told of the place.
 fn is_told_closed(door: &Door) -> bool {
     door.kind == DoorKind::Door && door.passable.value == Some(false) && door.passable.rule.is_none()
-}
-
-fn rect_of(room: &Room) -> Rect {
-    let [x0, y0, x1, y1] = room.rect;
-    Rect::new(x0, y0, x1, y1)
 }
 
 /// Rooms of a state weigh their metres; of unknown hardness they are not entered. Rooms of the paper's modes weigh

@@ -38,11 +38,15 @@ use crate::site::rules;
 use crate::site::rules::Rules;
 use crate::site::states;
 use crate::site::{Rooms, Site};
+use crate::words::number::number;
 use crate::words::progress::Progress;
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
+
+/// A start or goal is moved by at most so many metres: who allows more does not mean the point.
+const MOST_M: f64 = 100.0;
 
 /// [`Overlays`] of a site, whose map is read for it when somebody asks what it gives before anybody has read it.
 struct OverlaysOf {
@@ -95,6 +99,7 @@ pub struct KnowledgeBase {
     pub(crate) rules: Option<PathBuf>,
     pub(crate) reseed: bool,
     at: Option<Timestamp>,
+    pub(crate) within: Option<f64>,
 }
 
 impl KnowledgeBase {
@@ -105,7 +110,8 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
         let planners: Vec<Arc<dyn Planner>> = vec![overlays.clone()];
-        let mut knowledge = Self { site, planners, overlays, database, rules: None, reseed: false, at: None };
+        let mut knowledge =
+            Self { site, planners, overlays, database, rules: None, reseed: false, at: None, within: None };
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
@@ -151,6 +157,12 @@ impl KnowledgeBase {
     /// `time` is written as [`moment`](Self::moment) reads it.
     pub fn at(mut self, time: Option<&str>) -> Result<Self> {
         self.at = time.map(|time| self.moment(time)).transpose()?;
+        Ok(self)
+    }
+
+    /// Moves a start or goal at which nothing fits by up to so many metres, to the nearest point.
+    pub fn within(mut self, metres: Option<f64>) -> Result<Self> {
+        self.within = tolerance(metres)?;
         Ok(self)
     }
 
@@ -406,5 +418,20 @@ impl KnowledgeBase {
         tx.watch_tables(&watched)?;
         tx.mark_fresh()?;
         Ok(())
+    }
+}
+
+/// How far a start or goal may be moved to where something fits, metres.
+pub(crate) fn tolerance(metres: Option<f64>) -> Result<Option<f64>> {
+    match metres {
+        Some(metres) if !(0.0..=MOST_M).contains(&metres) => {
+            let metres = number(metres);
+            let message = format!(
+                "a start or goal may be moved within 0 to {} metres, and not within {metres}",
+                number(MOST_M)
+            );
+            Err(Error::said(Code::RouteWithin, message, None))
+        }
+        _ => Ok(metres),
     }
 }

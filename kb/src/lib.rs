@@ -40,7 +40,7 @@ pub use preview::compare::Compared;
 
 pub use edit::Tell;
 pub use error::problem::Problem;
-pub use error::{Code, Error, Finding, Result};
+pub use error::{Code, Error, Finding, Nearest, Result};
 pub use knowledge::{KnowledgeBase, Tested};
 pub use live::report::{Change, Counts, Report, Routes};
 pub use live::{Live, Outcome, Renewal, View};

@@ -127,6 +127,7 @@ impl State {
         };
         let before_route = answer(&self)?;
         let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
+        let gauge = Arc::clone(&self.gauge);
         let robots = self.robots();
         let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
@@ -136,7 +137,8 @@ impl State {
         let routes = if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
-            routes::compare((&before, &known), &after, &robots, layout_changed, self.patience)
+            let (before, after) = ((&*before, &*gauge), (&*after, &*self.gauge));
+            routes::compare((before, &known), after, &robots, layout_changed, self.patience)
         };
         Ok(Preview {
             generation: self.generation,

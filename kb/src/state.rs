@@ -19,12 +19,13 @@ use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_engine::KnowledgeBase as Inference;
 
+use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::pairs::Known;
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
+use crate::knowledge::{KnowledgeBase, tolerance};
 use planned::Planned;
 pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
@@ -61,6 +62,8 @@ pub struct State {
     /// Routes between places, as far as previews asked for them.
     pub(crate) known: Arc<Known>,
     pub(crate) patience: Duration,
+    /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
+    pub(crate) within: Option<f64>,
 }
 
 impl State {
@@ -86,6 +89,7 @@ impl State {
             generation: 0,
             known: Arc::default(),
             patience: PATIENCE,
+            within: None,
         }
     }
 
@@ -105,6 +109,7 @@ impl State {
             generation: self.generation,
             known: Arc::clone(&self.known),
             patience: self.patience,
+            within: self.within,
         }
     }
 
@@ -113,6 +118,12 @@ impl State {
     pub fn with_patience(mut self, patience: Duration) -> Self {
         self.patience = patience;
         self
+    }
+
+    /// Moves a start or goal at which nothing fits by up to so many metres, to the nearest point.
+    pub fn within(mut self, metres: Option<f64>) -> Result<Self> {
+        self.within = tolerance(metres)?;
+        Ok(self)
     }
 
     /// Rooms, doors and places, with what rules say of them.

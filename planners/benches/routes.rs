@@ -19,7 +19,7 @@ fn main() {
 }
 
 fn start() -> Start {
-    Start { rooms: vec![RoomIndex::new(0)], at: Point::new(2.0, 2.0) }
+    Start::within([RoomIndex::new(0)], Point::new(2.0, 2.0))
 }
 
 #[divan::bench(args = [32, 100])]
@@ -89,8 +89,8 @@ fn hierarchy_weigh_10_000(bencher: Bencher, side: usize) {
 fn ways(bencher: Bencher, graph: &RouteGraph) {
     let (count, mut draw) = (graph.rooms().len(), drawn());
     let ends = move || {
-        let start = Start { rooms: vec![RoomIndex::new(draw(count))], at: Point::new(2.0, 2.0) };
-        (start, Goal { rooms: vec![RoomIndex::new(draw(count))], at: None })
+        let start = Start::within([RoomIndex::new(draw(count))], Point::new(2.0, 2.0));
+        (start, Goal::within([RoomIndex::new(draw(count))], None))
     };
     bencher.with_inputs(ends).bench_local_values(|(start, goal)| graph.way(&start, &[goal]));
 }

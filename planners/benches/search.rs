@@ -32,7 +32,7 @@ const ROOMS: [usize; 2] = [32, 100];
 #[divan::bench(args = ROOMS)]
 fn rooms_ours(bencher: Bencher, side: usize) {
     let graph = building(side, Walking::OnDoors);
-    let start = Start { rooms: vec![NodeIndex::new(0)], at: Point::new(2.0, 2.0) };
+    let start = Start::within([NodeIndex::new(0)], Point::new(2.0, 2.0));
     bencher.bench(|| graph.tree(&start));
 }
 

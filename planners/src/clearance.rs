@@ -1,10 +1,15 @@
-//! How near to anything solid a straight way comes.
+//! How near to anything solid a straight way comes, and where a body fits.
+
+mod footprint;
+mod nearest;
 
 use geo::{Distance, Euclidean, Line, Polygon};
 use rstar::{AABB, RTree, RTreeObject};
 
 use crate::geometry::{Point, Rect, Segment};
 use crate::world::{Shape, World};
+
+pub use footprint::Footprint;
 
 /// Walls, obstacles and bridges of a world, found by where they are.
 pub struct Solids {
@@ -48,6 +53,14 @@ impl Solid {
             Outline::Polygon(polygon) => Euclidean.distance(line, polygon),
         }
     }
+
+    fn sides(&self) -> Vec<Segment> {
+        let side = |line: Line<f64>| Segment::new(line.start.into(), line.end.into());
+        match &self.outline {
+            Outline::Rect(rect) => geo::Rect::from(*rect).to_lines().map(side).into(),
+            Outline::Polygon(polygon) => polygon.exterior().lines().map(side).collect(),
+        }
+    }
 }
 
 impl Solids {
@@ -69,18 +82,23 @@ impl Solids {
         });
         let edge = edge.fold(f64::INFINITY, f64::min).max(0.0);
         let line = Line::from(Segment::new(a, b));
-        let (low, high) = ([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]);
+        let about = Segment::new(a, b).bounds();
         // what is nearer than the reach is certainly found; farther than the edge nothing needs to be looked for
         let mut reach = edge.min(1.0);
         loop {
-            let around = AABB::from_corners(low.map(|low| low - reach), high.map(|high| high + reach));
-            let near = self.tree.locate_in_envelope_intersecting(around);
-            let solid = near.filter(|solid| solid.height.is_none_or(|clear| clear <= height));
+            let solid = self.within(about.grown(reach), height);
             let gap = solid.map(|solid| solid.distance(&line)).fold(edge, f64::min);
             if gap <= reach || reach >= edge {
                 return gap;
             }
             reach = (reach * 2.0).min(edge);
         }
+    }
+
+    /// What a robot of a height does not pass under, as far as its envelope meets a rectangle.
+    fn within(&self, rect: Rect, height: f64) -> impl Iterator<Item = &Solid> {
+        let around = AABB::from_corners([rect.x0, rect.y0], [rect.x1, rect.y1]);
+        let near = self.tree.locate_in_envelope_intersecting(around);
+        near.filter(move |solid| solid.height.is_none_or(|clear| clear <= height))
     }
 }

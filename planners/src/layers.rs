@@ -25,7 +25,7 @@ mod transform;
 
 use crate::strips::Block;
 use changes::changes;
-use footprint::{FACINGS, STEP_DEGREES};
+use footprint::FACINGS;
 use labels::{Label, Labels};
 use layer::{Placed, Size};
 use rayon::prelude::*;
@@ -33,6 +33,7 @@ use rayon::prelude::*;
 use crate::geometry::Rect;
 use crate::world::World;
 
+pub(crate) use footprint::{STEP_DEGREES, body};
 pub(crate) use free_space::Solid;
 pub use headroom::{Headroom, headroom};
 pub use lattice::{Lattice, MAX_CELLS};

@@ -19,10 +19,21 @@ impl RectIndex {
         Self { tree: RTree::bulk_load((0..).zip(rects).map(item).collect()) }
     }
 
+    /// The rectangles with their metres from a point, the nearest first.
+    pub fn nearest(&self, point: Point) -> impl Iterator<Item = (usize, f64)> {
+        let all = self.tree.nearest_neighbor_iter_with_distance_2([point.x, point.y]);
+        all.map(|(rect, squared)| (rect.data as usize, squared.sqrt()))
+    }
+
+    /// The rectangles that meet another one.
+    pub fn meeting(&self, rect: Rect) -> impl Iterator<Item = usize> {
+        let about = AABB::from_corners([rect.x0, rect.y0], [rect.x1, rect.y1]);
+        self.tree.locate_in_envelope_intersecting(about).map(|rect| rect.data as usize)
+    }
+
     /// The rectangles that hold a point, on their outline or inside, in the order of their numbers.
     pub fn at(&self, point: Point) -> Vec<usize> {
-        let near = self.tree.locate_in_envelope_intersecting(AABB::from_point([point.x, point.y]));
-        let mut numbers: Vec<usize> = near.map(|rect| rect.data as usize).collect();
+        let mut numbers: Vec<usize> = self.meeting(Rect::new(point.x, point.y, point.x, point.y)).collect();
         numbers.sort_unstable();
         numbers
     }

@@ -30,6 +30,7 @@ mod way;
 use fixedbitset::FixedBitSet;
 use petgraph::visit::{Dfs, Visitable};
 
+use crate::geometry::Point;
 use crate::geometry::tolerance::ROUNDING;
 use taut::{Outcome, Search, Wanted};
 use trace::trace;
@@ -38,7 +39,7 @@ pub use blocked::{Blockage, blockage};
 pub use compact::{CompactGraph, CompactTree};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};
-pub use parts::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
+pub use parts::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
 
@@ -65,13 +66,14 @@ impl RouteGraph {
             return cut.way(start, goals);
         }
         let outcome = Search::find(self, start, goals, Wanted::One);
-        let ways = (0..goals.len()).filter_map(|goal| Some((goal, self.best(&outcome, start, goal)?)));
+        let ways = (0..goals.len())
+            .filter_map(|goal| Some((goal, self.best(&outcome, start, (goal, goals[goal].at))?)));
         ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))
     }
 
     /// The best of the ways to a goal that were found, pulled tight.
-    fn best(&self, outcome: &Outcome, start: &Start, goal: usize) -> Option<Way> {
-        let ways = outcome.goals[goal].iter().map(|found| trace(self, &outcome.nodes, start, found));
+    fn best(&self, outcome: &Outcome, start: &Start, (goal, at): (usize, Option<Point>)) -> Option<Way> {
+        let ways = outcome.goals[goal].iter().map(|found| trace(self, &outcome.nodes, (start, at), found));
         ways.reduce(|best, way| {
             // of ways that cost the same to a rounding, the one that passes fewer doors
             let rounding = ROUNDING * best.cost;
@@ -92,17 +94,17 @@ impl RouteGraph {
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
         let outcome = Search::find(self, start, goals, wanted);
         let way = |found: &Option<taut::Found>| {
-            found.as_ref().map(|found| trace(self, &outcome.nodes, start, found))
+            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found))
         };
         Ways {
-            goals: (0..goals.len()).map(|goal| self.best(&outcome, start, goal)).collect(),
+            goals: (0..goals.len()).map(|goal| self.best(&outcome, start, (goal, goals[goal].at))).collect(),
             rooms: outcome.rooms.iter().map(way).collect(),
         }
     }
 
     /// The rooms that open doors join with one of these.
-    fn joined_with(&self, rooms: &[RoomIndex]) -> FixedBitSet {
-        let rooms = rooms.iter().copied().filter(|&room| self.is_entered(room)).collect();
+    fn joined_with(&self, rooms: &[Entry]) -> FixedBitSet {
+        let rooms = rooms.iter().map(|entry| entry.room).filter(|&room| self.is_entered(room)).collect();
         let mut search = Dfs::from_parts(rooms, self.visit_map());
         while search.next(self).is_some() {}
         search.discovered

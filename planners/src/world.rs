@@ -11,7 +11,7 @@ use siphasher::sip::SipHasher13;
 pub use named::{Area, NamedDoor, Property};
 pub use occupancy::Occupancy;
 
-use crate::geometry::{Point, Rect, polygon};
+use crate::geometry::{Point, Rect, Segment, polygon};
 use crate::pose::Pose;
 
 /// Everything a geometric planner may look at. Metres, in the map's frame; the edge of `bounds` is a wall.
@@ -140,6 +140,13 @@ impl Shape {
         match self {
             Self::Rect(r) => r.x0 < p.x && p.x < r.x1 && r.y0 < p.y && p.y < r.y1,
             Self::Polygon(corners) => polygon::to_geo(corners).contains(&Coord::from(p)),
+        }
+    }
+
+    pub fn sides(&self) -> Vec<Segment> {
+        match self {
+            Self::Rect(rect) => polygon::sides(&rect.corners()).collect(),
+            Self::Polygon(corners) => polygon::sides(corners).collect(),
         }
     }
 

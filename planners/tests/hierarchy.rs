@@ -87,11 +87,11 @@ fn edit(graph: &mut RouteGraph, (doors, room): &Edit) {
 }
 
 fn start<const N: usize>(rooms: [usize; N]) -> Start {
-    Start { rooms: rooms.map(RoomIndex::new).to_vec(), at: Point::default() }
+    Start::within(rooms.map(RoomIndex::new), Point::default())
 }
 
 fn goal(room: usize) -> Goal {
-    Goal { rooms: vec![RoomIndex::new(room)], at: None }
+    Goal::within([RoomIndex::new(room)], None)
 }
 
 fn way(graph: &RouteGraph, from: usize, to: usize) -> Option<Way> {

@@ -28,11 +28,11 @@ fn rooms(count: usize) -> Vec<RouteRoom> {
 }
 
 fn start(room: usize) -> Start {
-    Start { rooms: vec![RoomIndex::new(room)], at: Point::default() }
+    Start::within([RoomIndex::new(room)], Point::default())
 }
 
 fn goal(room: usize) -> Goal {
-    Goal { rooms: vec![RoomIndex::new(room)], at: None }
+    Goal::within([RoomIndex::new(room)], None)
 }
 
 fn any_doors(rooms: usize) -> impl Strategy<Value = Vec<RouteDoor>> {
@@ -164,8 +164,8 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
     let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
-    let start = Start { rooms: vec![RoomIndex::new(0)], at: Point::new(7.0, 4.0) };
-    let goal = Goal { rooms: vec![RoomIndex::new(1)], at: Some(Point::new(13.0, 8.0)) };
+    let start = Start::within([RoomIndex::new(0)], Point::new(7.0, 4.0));
+    let goal = Goal::within([RoomIndex::new(1)], Some(Point::new(13.0, 8.0)));
     let (_, way) = graph.way(&start, &[goal]).unwrap();
     let legs: Vec<_> =
         way.legs.iter().map(|leg| (leg.room.index(), leg.to, leg.hardness, leg.cost)).collect();
@@ -188,8 +188,8 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     };
     let doors = vec![change(1, 0, 2, 0.0, 9.0), change(2, 2, 1, 10.0, 20.0)];
     let graph = RouteGraph::new(rooms, doors);
-    let start = Start { rooms: vec![RoomIndex::new(0)], at: Point::new(1.0, 1.0) };
-    let goal = Goal { rooms: vec![RoomIndex::new(1)], at: Some(Point::new(19.0, 1.0)) };
+    let start = Start::within([RoomIndex::new(0)], Point::new(1.0, 1.0));
+    let goal = Goal::within([RoomIndex::new(1)], Some(Point::new(19.0, 1.0)));
     let (_, way) = graph.way(&start, &[goal]).unwrap();
     assert!((way.cost - (8.0 + 0.5 + 4.0 + 0.5 + 9.0)).abs() < 1e-9);
     let at: Vec<Point> = way.legs.iter().map(|leg| leg.to).collect();

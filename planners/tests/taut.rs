@@ -109,8 +109,8 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     let all = close(&mouth);
     graph.close(all);
     assert!(way(&graph, home, window).is_none() && way(&graph, window, home).is_none());
-    let goal = Goal { rooms: holding(&graph, window), at: Some(window) };
-    let start = Start { rooms: holding(&graph, home), at: home };
+    let goal = Goal::within(holding(&graph, window), Some(window));
+    let start = Start::within(holding(&graph, home), home);
     assert!(matches!(blockage(&graph, &start, &goal), Blockage::Doors(doors) if !doors.is_empty()));
     graph.close(Vec::new());
     assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
@@ -121,8 +121,8 @@ fn holding(graph: &RouteGraph, p: Point) -> Vec<RoomIndex> {
 }
 
 fn way(graph: &RouteGraph, from: Point, to: Point) -> Option<Way> {
-    let start = Start { rooms: holding(graph, from), at: from };
-    let goal = Goal { rooms: holding(graph, to), at: Some(to) };
+    let start = Start::within(holding(graph, from), from);
+    let goal = Goal::within(holding(graph, to), Some(to));
     graph.way(&start, &[goal]).map(|(_, way)| way)
 }
 
@@ -278,9 +278,9 @@ proptest! {
         blocks in blocks(), from in point(), goals in prop::collection::vec(point(), 1..5)
     ) {
         let graph = graph(&hall(&blocks), &[(1.3, 1.0), (0.6, 2.5)], 0.5);
-        let start = Start { rooms: holding(&graph, from), at: from };
+        let start = Start::within(holding(&graph, from), from);
         let ends: Vec<Goal> =
-            goals.iter().map(|&p| Goal { rooms: holding(&graph, p), at: Some(p) }).collect();
+            goals.iter().map(|&p| Goal::within(holding(&graph, p), Some(p))).collect();
         let all = graph.ways(&start, &ends, false).goals;
         let costs: Vec<Option<f64>> = all.iter().map(|way| way.as_ref().map(|way| way.cost)).collect();
         for (to, cost) in goals.iter().zip(&costs) {

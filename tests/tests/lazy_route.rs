@@ -89,7 +89,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     let mut whole = inference(&width, &distance);
     whole.conclude(&rules);
     let all = graph(&whole.numbers("DOORS", "hardness").unwrap());
-    let tree = all.tree(&Start { rooms: vec![start], at: Point::new(0.0, 0.0) });
+    let tree = all.tree(&Start::within([start], Point::new(0.0, 0.0)));
     let cost = tree.rooms[goal.index()].unwrap().cost;
     assert_eq!(found[&goal], cost);
     // of rooms that cost as much as the goal, some are settled before it
@@ -105,7 +105,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     );
     assert!(weighed * 4 < pairs.len());
 
-    let compact = CompactGraph::new(&all).unwrap().tree(&[start]);
+    let compact = CompactGraph::new(&all).unwrap().tree(&Start::within([start], Point::new(0.0, 0.0)));
     for room in all.room_indices() {
         let best = tree.rooms[room.index()].unwrap();
         assert_eq!(compact.cost(room).to_bits(), best.cost.to_bits());

@@ -2,11 +2,15 @@
 
 use adit_db::door::Door;
 use adit_db::room::Room;
+use adit_planners::geometry::Point;
 use adit_planners::layers::{Headroom, headroom, narrowest};
-use adit_planners::routes::{Blockage, Start, blockage};
+use adit_planners::routes::{Blockage, blockage};
 use adit_planners::world::World;
 
-use crate::error::{Code, Error, Result};
+use super::Answer;
+use super::basis::Basis;
+use super::ends::Ends;
+use crate::error::{Code, Error, Nearest, Result};
 use crate::graph::{End, Rules, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
 use crate::words::number::number;
@@ -14,46 +18,66 @@ use crate::words::number::number;
 /// How many shut doors are described.
 const DESCRIBED: usize = 3;
 
-/// Why no route joins the ends.
-pub fn no_route(
-    knowledge: &KnowledgeBase,
-    graph: &SiteGraph,
-    rules: &Rules,
-    start: &Start,
-    ends: &[End],
-    robot: &str,
-) -> Result<String> {
-    let goal = graph.goal(&ends[1], Some(robot));
-    for (what, end, rooms) in [("start", &ends[0], &start.rooms), ("goal", &ends[1], &goal.rooms)] {
-        if rooms.is_empty() {
-            let at = graph.point(end);
-            if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
-                return Ok(format!("the {what}: {}", not_entered(room, rules)));
+impl Basis<'_> {
+    /// Why no route joins the ends.
+    pub(super) fn no_route(&self, ends: &Ends, answer: &Answer) -> Result<String> {
+        let (graph, robot) = (self.graph, answer.robot.as_str());
+        let [start, goal] = [&ends.start.rooms, &ends.goals[0].rooms];
+        for (what, end, rooms) in [("start", &ends.named[0], start), ("goal", &ends.named[1], goal)] {
+            if rooms.is_empty() {
+                let nearest = answer.nearest.as_ref().filter(|nearest| nearest.end == what);
+                return self.not_entered(what, end, robot, nearest);
             }
-            return Ok(format!("no state of the robot fits at the {what} ({:.2}, {:.2})", at.x, at.y));
+        }
+        match blockage(graph.graph(), &ends.start, &ends.goals[0]) {
+            Blockage::Doors(doors) => {
+                let mut shut: Vec<String> = doors
+                    .iter()
+                    .take(DESCRIBED)
+                    .filter_map(|door| graph.door(i64::from(*door)))
+                    .map(|door| shut(graph, &graph[door], self.rules))
+                    .collect();
+                shut.dedup();
+                let more = doors.len().saturating_sub(DESCRIBED);
+                let more = if more > 0 {
+                    format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
+                } else {
+                    String::new()
+                };
+                Ok(format!("{}{more}", shut.join("; ")))
+            }
+            Blockage::Apart => {
+                let world = self.knowledge.site().world()?;
+                let to = ends.goals[0].at.unwrap_or_else(|| graph.point(&ends.named[1]));
+                apart(&world, (ends.start.at, to), robot, self.knowledge)
+            }
         }
     }
-    match blockage(graph.graph(), start, &goal) {
-        Blockage::Doors(doors) => {
-            let mut shut: Vec<String> = doors
-                .iter()
-                .take(DESCRIBED)
-                .filter_map(|door| graph.door(i64::from(*door)))
-                .map(|door| shut(graph, &graph[door], rules))
-                .collect();
-            shut.dedup();
-            let more = doors.len().saturating_sub(DESCRIBED);
-            let more = if more > 0 {
-                format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
-            } else {
-                String::new()
-            };
-            Ok(format!("{}{more}", shut.join("; ")))
+
+    /// Why no way leads from or to an end, whatever its other end is.
+    fn not_entered(&self, what: &str, end: &End, robot: &str, nearest: Option<&Nearest>) -> Result<String> {
+        let (graph, at) = (self.graph, self.graph.point(end));
+        let beside = |words: &str| {
+            nearest.map_or_else(String::new, |nearest| format!("; the nearest point {words} is {nearest}"))
+        };
+        if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
+            let why = not_entered(room, self.rules);
+            return Ok(format!("the {what}: {why}{}", beside("from which ways lead on")));
         }
-        Blockage::Apart => {
-            let world = knowledge.site().world()?;
-            apart(&world, graph, ends, robot, knowledge)
-        }
+        let place = format!("the {what} ({:.2}, {:.2})", at.x, at.y);
+        let states = self.gauge()?.map_or_else(Vec::new, |gauge| graph.states_at(gauge, at, Some(robot)));
+        Ok(match states.as_slice() {
+            [] => {
+                let beside = beside("at which one fits");
+                format!("no state of the robot fits at {place}{beside}")
+            }
+            states => {
+                let (states, beside) = (states.join(", "), beside("from which ways lead on"));
+                format!(
+                    "{states} fits at {place}, but is shut in there: no straight way as wide as the robot leads to its rooms{beside}"
+                )
+            }
+        })
     }
 }
 
@@ -100,12 +124,10 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
 /// Two points that no doors join: how wide and how high the best way is.
 fn apart(
     world: &World,
-    graph: &SiteGraph,
-    ends: &[End],
+    (from, to): (Point, Point),
     robot: &str,
     knowledge: &KnowledgeBase,
 ) -> Result<String> {
-    let (from, to) = (graph.point(&ends[0]), graph.point(&ends[1]));
     let states = knowledge.states(robot)?;
     let widths: Vec<f64> = states.iter().map(|state| state.width).filter(|width| *width > 0.0).collect();
     let slimmest = widths.iter().copied().fold(f64::INFINITY, f64::min);

@@ -18,6 +18,9 @@ pub struct RouteArgs {
     /// Print every step, not only where the action changes
     #[arg(long)]
     pub steps: bool,
+    /// Move a start or goal at which the robot fits in no state by up to so many metres, to the nearest point
+    #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
+    pub within: Option<f64>,
     /// The route as it would be at this time: `2026-11-21T18:00`, `18:00`, `2h`
     #[arg(long, value_name = "TIME")]
     pub at: Option<String>,
@@ -26,7 +29,7 @@ pub struct RouteArgs {
 /// Prints the route, and gives the exit status.
 pub fn run(args: &RouteArgs) -> Result<u8> {
     let goals: Vec<String> = std::iter::once(&args.way.goal).chain(&args.others).cloned().collect();
-    let knowledge = open(&args.way.site)?.at(args.at.as_deref())?;
+    let knowledge = open(&args.way.site)?.at(args.at.as_deref())?.within(args.within)?;
     let answer = knowledge.route_to_nearest(&args.way.start, &goals, args.way.robot.as_deref())?;
     for lost in knowledge.lost()? {
         remark(&format!("note: {lost}"));
@@ -47,6 +50,10 @@ pub fn run(args: &RouteArgs) -> Result<u8> {
 /// Prints an answer for people; whether there are steps to print.
 fn head(answer: &Answer) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
+    for instead in &answer.taken {
+        let name = if instead.end == "start" { start } else { goal };
+        line(&format!("the {} is not at {name}, but at {instead}", instead.end));
+    }
     match answer.status {
         Status::Ok => {
             let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));

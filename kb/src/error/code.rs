@@ -190,6 +190,8 @@ codes! {
     RouteUnknownStart = "route/unknown-start", NOT_FOUND;
     /// The site has several robots; say which one is meant.
     RouteWhichRobot = "route/which-robot", BAD_REQUEST;
+    /// How far a start or goal may be moved is a number of metres from 0 to 100.
+    RouteWithin = "route/within", BAD_REQUEST;
 
     /// Rules must give hardness as numbers.
     RuleHardness = "rule/hardness", UNPROCESSABLE_ENTITY;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode, SourceSpan};
 
-use super::Code;
+use super::{Code, Nearest};
 
 /// One thing that is wrong, or that one should know.
 #[derive(Debug)]
@@ -26,18 +26,20 @@ struct Said {
     message: String,
     help: Option<String>,
     place: Option<(NamedSource<String>, SourceSpan)>,
+    nearest: Option<Nearest>,
 }
 
 impl Finding {
     /// Something that is wrong, and what to do about it.
     pub fn said(code: Code, message: impl Into<String>, help: Option<String>) -> Self {
         let (code, severity, message) = (Some(code), Severity::Error, message.into());
-        Self(Kind::Said(Said { code, severity, message, help, place: None }))
+        Self(Kind::Said(Said { code, severity, message, help, place: None, nearest: None }))
     }
 
     /// Something that the expert should know, though nothing is wrong.
     pub fn note(message: String) -> Self {
-        Self(Kind::Said(Said { code: None, severity: Severity::Advice, message, help: None, place: None }))
+        let (code, severity) = (None, Severity::Advice);
+        Self(Kind::Said(Said { code, severity, message, help: None, place: None, nearest: None }))
     }
 
     /// As [`said`](Self::said), and nothing that keeps a site from being built.
@@ -49,6 +51,19 @@ impl Finding {
     #[must_use]
     pub fn at(self, text: NamedSource<String>, span: impl Into<SourceSpan>) -> Self {
         self.with(|said| said.place = Some((text, span.into())))
+    }
+
+    /// Says which point could be taken instead of the one that is refused.
+    #[must_use]
+    pub fn instead(self, nearest: Option<Nearest>) -> Self {
+        self.with(|said| said.nearest = nearest)
+    }
+
+    pub fn nearest(&self) -> Option<&Nearest> {
+        match &self.0 {
+            Kind::Said(said) => said.nearest.as_ref(),
+            Kind::Rule(_) | Kind::Map(_) => None,
+        }
     }
 
     fn with(mut self, change: impl FnOnce(&mut Said)) -> Self {

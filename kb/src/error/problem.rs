@@ -6,7 +6,7 @@ use miette::Severity;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::{Code, Finding};
+use super::{Code, Finding, Nearest};
 
 /// One thing that is wrong, or that one should know, with its place where it has one.
 #[derive(Clone, Debug, PartialEq, Serialize, ToSchema)]
@@ -28,6 +28,9 @@ pub struct Problem {
     pub end_column: Option<usize>,
     /// What to do about it.
     pub help: Option<String>,
+    /// What could be taken instead of the point of a route that is refused.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<Nearest>,
 }
 
 impl fmt::Display for Problem {
@@ -65,6 +68,7 @@ impl Problem {
             end_line: None,
             end_column: None,
             help: diagnostic.help().map(|help| help.to_string()),
+            nearest: found.nearest().cloned(),
         };
         let label = diagnostic.labels().and_then(|mut labels| labels.next());
         let place = diagnostic.source_code().zip(label);

@@ -5,64 +5,125 @@ use std::sync::Arc;
 
 use adit_db::robot::State;
 use adit_engine::KnowledgeBase as Inference;
-use adit_planners::clearance::Solids;
-use adit_planners::geometry::Point;
+use adit_planners::clearance::{Footprint, Solids};
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::{RoomIndex, Way};
-use adit_planners::world::World;
+use adit_planners::world::{self, World};
 
 use crate::graph::SiteGraph;
 use crate::graph::heading;
+use crate::graph::layers::Shape;
 
 /// Everything solid of a map, and the sizes of the states.
 pub struct Gauge {
-    solids: Arc<Solids>,
-    /// What encloses the obstacles of the map, by index.
-    obstacles: Arc<RectIndex>,
+    floor: Arc<Floor>,
     sizes: Sizes,
 }
 
-/// Half the width and the height of each state of each robot, metres.
-pub type Sizes = BTreeMap<(String, String), (f64, f64)>;
+/// What of a map does not hang on states.
+struct Floor {
+    solids: Solids,
+    /// What encloses the obstacles of the map, by index.
+    obstacles: RectIndex,
+    areas: Vec<world::Shape>,
+    doors: Vec<Segment>,
+    /// Kept free around every state besides its own width, metres.
+    clearance: f64,
+}
+
+/// The sizes of each state of each robot.
+pub type Sizes = BTreeMap<(String, String), Size>;
+
+/// Metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    width: f64,
+    height: f64,
+    /// `None` for a disc of its width.
+    length: Option<f64>,
+}
 
 /// The sizes that are told or concluded.
 pub fn sizes(knowledge: &Inference) -> Sizes {
     let numbers = |property| knowledge.numbers("ROBOTS", property).unwrap_or_default();
     let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
     let (robots, states) = (texts("robot"), texts("state"));
-    let (widths, heights) = (numbers("width"), numbers("height"));
+    let (widths, heights, lengths) = (numbers("width"), numbers("height"), numbers("length"));
     let size = |row: usize| {
         let (robot, state) = (robots.get(row)?.as_ref()?, states.get(row)?.as_ref()?);
-        let size = ((*widths.get(row)?)? / 2.0, (*heights.get(row)?)?);
-        Some(((robot.to_string(), state.to_string()), size))
+        let (width, height) = ((*widths.get(row)?)?, (*heights.get(row)?)?);
+        let length = lengths.get(row).copied().flatten();
+        Some(((robot.to_string(), state.to_string()), Size { width, height, length }))
     };
     (0..robots.len()).filter_map(size).collect()
 }
 
 /// The sizes of states as the database has them.
 pub fn sizes_of(states: &[State]) -> Sizes {
-    let size =
-        |state: &State| ((state.robot.clone(), state.state.clone()), (state.width / 2.0, state.height));
+    let size = |state: &State| {
+        let &State { width, height, length, .. } = state;
+        ((state.robot.clone(), state.state.clone()), Size { width, height, length })
+    };
     states.iter().map(size).collect()
 }
 
 impl Gauge {
     /// What is solid in the world, for robots of these sizes.
     pub fn new(world: &World, sizes: Sizes) -> Self {
-        let obstacles =
-            RectIndex::new(world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect()));
-        Self { solids: Arc::new(Solids::new(world)), obstacles: Arc::new(obstacles), sizes }
+        let obstacles = world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect());
+        let doors = world.named_doors.iter().map(|door| Segment::new(door.from, door.to));
+        let floor = Floor {
+            solids: Solids::new(world),
+            obstacles: RectIndex::new(obstacles),
+            areas: world.areas.iter().map(|area| area.shape.clone()).collect(),
+            doors: doors.collect(),
+            clearance: world.clearance,
+        };
+        Self { floor: Arc::new(floor), sizes }
     }
 
     /// The same for robots of other sizes.
     #[must_use]
     pub fn resized(&self, sizes: Sizes) -> Self {
-        Self { solids: Arc::clone(&self.solids), obstacles: Arc::clone(&self.obstacles), sizes }
+        Self { floor: Arc::clone(&self.floor), sizes }
+    }
+
+    /// Whether a state at a facing fits all along a straight way; what is no state's does not.
+    pub fn fits(&self, of: Shape<'_>, a: Point, b: Point) -> bool {
+        self.footprint(of).is_some_and(|footprint| self.floor.solids.fits(&footprint, a, b))
+    }
+
+    /// The nearest point at which a state at a facing fits, as [`Solids::nearest_fit`] has it.
+    pub fn nearest_fit(
+        &self,
+        of: Shape<'_>,
+        at: Point,
+        within: f64,
+        is_accepted: impl Fn(Point) -> bool,
+    ) -> Option<Point> {
+        self.floor.solids.nearest_fit(&self.footprint(of)?, at, within, is_accepted)
+    }
+
+    fn footprint(&self, (of, facing): Shape<'_>) -> Option<Footprint> {
+        let Size { width, height, length } = *self.sizes.get(of?)?;
+        Some(Footprint::new((width, height), self.floor.clearance, length.zip(facing)))
+    }
+
+    /// The outlines of the named areas.
+    pub fn areas(&self) -> &[world::Shape] {
+        &self.floor.areas
+    }
+
+    /// The named doors, across their openings.
+    pub fn doors(&self) -> &[Segment] {
+        &self.floor.doors
     }
 
     /// Whether a point of the world lies inside something solid, as [`World::is_solid`] says.
     pub fn is_solid(&self, world: &World, at: Point) -> bool {
-        let drawn = self.obstacles.at(at).into_iter().any(|index| world.obstacles[index].shape.contains(at));
+        let drawn =
+            self.floor.obstacles.at(at).into_iter().any(|index| world.obstacles[index].shape.contains(at));
         drawn || world.occupancy.as_ref().is_some_and(|cells| cells.is_blocked_at(at))
     }
 
@@ -86,8 +147,8 @@ impl Gauge {
     }
 
     fn clearance(&self, graph: &SiteGraph, room: RoomIndex, from: Point, to: Point) -> Option<f64> {
-        let (half, height) = self.sizes.get(graph[room].layer.as_ref()?)?;
-        Some((self.solids.gap(from, to, *height) - half).max(0.0))
+        let size = self.sizes.get(graph[room].layer.as_ref()?)?;
+        Some((self.floor.solids.gap(from, to, size.height) - size.width / 2.0).max(0.0))
     }
 }
 

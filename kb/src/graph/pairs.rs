@@ -8,6 +8,7 @@ use std::time::Instant;
 use adit_planners::routes::{CompactGraph, CompactTree, Goal, RoomIndex};
 use rayon::prelude::*;
 
+use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 
 /// A robot and a place, by index: where routes start.
@@ -33,14 +34,14 @@ impl Known {
     /// The routes from these starts, in their order; those not known yet are found until the deadline.
     pub fn rows(
         &self,
-        graph: &SiteGraph,
+        (graph, gauge): (&SiteGraph, &Gauge),
         robots: &[String],
         wanted: &[From],
         deadline: Instant,
     ) -> BTreeMap<From, Row> {
         let mut known = self.0.lock().map(|known| known.clone()).unwrap_or_default();
         let missing: Vec<From> = wanted.iter().filter(|from| !known.contains_key(from)).copied().collect();
-        let found = rows(graph, robots, &missing, deadline);
+        let found = rows((graph, gauge), robots, &missing, deadline);
         if let Ok(mut kept) = self.0.lock() {
             kept.extend(found.iter().map(|(from, row)| (*from, row.clone())));
         }
@@ -50,7 +51,12 @@ impl Known {
 }
 
 /// The routes from these starts to all places; the first ones where the deadline comes before the last.
-pub fn rows(graph: &SiteGraph, robots: &[String], wanted: &[From], deadline: Instant) -> BTreeMap<From, Row> {
+pub fn rows(
+    (graph, gauge): (&SiteGraph, &Gauge),
+    robots: &[String],
+    wanted: &[From],
+    deadline: Instant,
+) -> BTreeMap<From, Row> {
     let compact = CompactGraph::new(graph.graph());
     let mut found = BTreeMap::new();
     for batch in wanted.chunks(rayon::current_num_threads().max(1) * 2) {
@@ -59,22 +65,29 @@ pub fn rows(graph: &SiteGraph, robots: &[String], wanted: &[From], deadline: Ins
         }
         let rows: Vec<Row> = batch
             .par_iter()
-            .map(|&(robot, place)| row(graph, compact.as_ref(), &robots[robot], place))
+            .map(|&(robot, place)| row((graph, gauge), compact.as_ref(), &robots[robot], place))
             .collect();
         found.extend(batch.iter().copied().zip(rows));
     }
     found
 }
 
-fn row(graph: &SiteGraph, compact: Option<&CompactGraph>, robot: &str, place: usize) -> Row {
-    let start = graph.start(&End::Place(place), Some(robot));
+fn row(
+    (graph, gauge): (&SiteGraph, &Gauge),
+    compact: Option<&CompactGraph>,
+    robot: &str,
+    place: usize,
+) -> Row {
+    let gauge = Some(gauge);
+    let start = graph.start(gauge, &End::Place(place), Some(robot));
     let goals: Vec<Goal> =
-        (0..graph.places.len()).map(|goal| graph.goal(&End::Place(goal), Some(robot))).collect();
+        (0..graph.places.len()).map(|goal| graph.goal(gauge, &End::Place(goal), Some(robot))).collect();
     if let Some(compact) = compact {
-        let tree = compact.tree(&start.rooms);
+        let tree = compact.tree(&start);
         let best = |goal: &Goal| {
-            let reached = goal.rooms.iter().filter(|room| tree.cost(**room).is_finite());
-            reached.min_by(|one, two| tree.cost(**one).total_cmp(&tree.cost(**two))).copied()
+            let reached =
+                goal.rooms.iter().map(|entry| entry.room).filter(|&room| tree.cost(room).is_finite());
+            reached.min_by(|&one, &two| tree.cost(one).total_cmp(&tree.cost(two)))
         };
         return goals.iter().map(|goal| best(goal).map(|room| of_tree(&tree, room))).collect();
     }

@@ -104,7 +104,8 @@ impl Memory {
         let kept = Kept::of_opened(&state, &step)?;
         state.accept(step);
         state.generation = generation;
-        let plan = trees::plan(state.graph(), &site.robots(tx)?, site.site().starts.as_ref())?;
+        let floor = (&**state.graph(), &*state.gauge);
+        let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts.as_ref())?;
         let before = Before { graph: state.graph(), starts: &starts };
         Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
     }

@@ -163,7 +163,7 @@ impl KnowledgeBase {
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let sizes = sizes_of(&states::in_force(tx)?);
         let ground = Ground::Later(self.site(), sizes, OnceCell::new());
-        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, ground };
+        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, ground, within: self.within };
         let answer = basis.search(goals, answer);
         // nobody waits until all of it is given back
         rayon::spawn(|| drop(graph));

@@ -54,9 +54,10 @@ impl Live {
             return Ok(None);
         }
         let graph = Arc::clone(memory.state.graph());
-        let plan = trees::plan(&graph, &memory.state.robots(), self.site.site().starts.as_ref())?;
-        let fits = plan.starts == memory.routes.plan().starts;
         let gauge = Arc::clone(&memory.state.gauge);
+        let starts = self.site.site().starts.as_ref();
+        let plan = trees::plan((&graph, &gauge), &memory.state.robots(), starts)?;
+        let fits = plan.starts == memory.routes.plan().starts;
         Ok(Some(Renewal { graph, gauge, plan, generation: memory.state.generation, fits }))
     }
 

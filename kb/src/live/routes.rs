@@ -66,8 +66,11 @@ impl KeptRoutes {
         let is_small = plan.roots.len() * graph.rooms.len() <= AT_ONCE;
         let compact = if is_small { CompactGraph::new(graph.graph()) } else { None };
         if let Some(compact) = compact {
-            let trees = plan.roots.iter().map(|(_, start)| compact.tree(&start.rooms)).collect();
-            let place = |robot: &str, index| graph.rooms_of(&End::Place(index), Some(robot)).first().copied();
+            let trees = plan.roots.iter().map(|(_, start)| compact.tree(start)).collect();
+            let place = |robot: &str, index| {
+                let rooms = graph.entries(None, &End::Place(index), Some(robot));
+                rooms.first().map(|entry| entry.room)
+            };
             let places =
                 |(robot, _): &(String, _)| (0..graph.places.len()).map(|index| place(robot, index)).collect();
             let places = plan.roots.iter().map(places).collect();
@@ -96,7 +99,7 @@ impl KeptRoutes {
                     graph.reweigh(*door, weight_of(weight.hardness.value, weight.passable.value));
                 }
                 let roots = &self.plan.roots;
-                let now: Vec<_> = roots.iter().map(|(_, start)| graph.tree(&start.rooms)).collect();
+                let now: Vec<_> = roots.iter().map(|(_, start)| graph.tree(start)).collect();
                 let changes = now.iter().zip(trees.iter()).zip(roots.iter().zip(places));
                 let changes = changes.map(|((now, before), ((_, start), places))| {
                     differences(graph_now, (before, now), start.at, places)

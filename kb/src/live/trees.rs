@@ -49,7 +49,11 @@ impl Plan {
 ///
 /// # Arguments
 /// `robots` are the robots of the site; `wanted` is what `site.toml` says.
-pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Result<Plan> {
+pub fn plan(
+    (graph, gauge): (&SiteGraph, &Gauge),
+    robots: &[String],
+    wanted: Option<&Starts>,
+) -> Result<Plan> {
     let by_state = !graph.robots().is_empty();
     let names: Vec<&str> = match wanted {
         Some(Starts::Named(names)) => known(graph, names)?,
@@ -66,10 +70,10 @@ pub fn plan(graph: &SiteGraph, robots: &[String], wanted: Option<&Starts>) -> Re
             {
                 continue;
             }
-            let mut start = graph.start(&end, Some(robot));
+            let mut start = graph.start(Some(gauge), &end, Some(robot));
             if !by_state {
                 // all hardness lies on the doors, so every point of a room starts the same tree
-                start.at = start.rooms.first().map_or(start.at, |room| graph.point(&End::Room(*room)));
+                start.at = start.rooms.first().map_or(start.at, |entry| graph.point(&End::Room(entry.room)));
             }
             let root = (robot.clone(), start);
             let shared = if by_state { None } else { plan.roots.iter().position(|known| *known == root) };
@@ -134,7 +138,7 @@ pub fn keep(
     let site = &state.site;
     let graph: &SiteGraph = state.graph_after(step);
     let gauge = state.gauge_after(step);
-    let plan = plan(graph, &site.robots(tx)?, site.site().starts.as_ref())?;
+    let plan = plan((graph, gauge), &site.robots(tx)?, site.site().starts.as_ref())?;
     let comparable = !matches!(so_far, KeptSoFar::OfAnotherCut) && before.same_starts(&plan.starts);
     let mut routes = Routes::new(plan.starts.len(), comparable);
     let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };

@@ -10,8 +10,8 @@ use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::inputs::Inputs;
+use crate::knowledge::{KnowledgeBase, tolerance};
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
 #[derive(Clone)]
@@ -24,6 +24,7 @@ pub struct View {
     layout: Arc<str>,
     generation: u64,
     routes_due: bool,
+    within: Option<f64>,
 }
 
 impl View {
@@ -37,7 +38,14 @@ impl View {
             layout: memory.layout(),
             generation: memory.state.generation,
             routes_due: memory.routes_due,
+            within: None,
         }
+    }
+
+    /// Moves a start or goal at which nothing fits by up to so many metres, to the nearest point.
+    pub fn within(mut self, metres: Option<f64>) -> Result<Self> {
+        self.within = tolerance(metres)?;
+        Ok(self)
     }
 
     /// The route of least hardness to the one of several goals that costs least. Nothing is read but memory.
@@ -65,6 +73,7 @@ impl View {
             graph: &self.graph,
             rules: &self.inputs.rule_names,
             ground: answer::Ground::Known(&self.inputs.world, &self.gauge),
+            within: self.within,
         }
     }
 
@@ -75,10 +84,11 @@ impl View {
         let all = 0..graph.places.len();
         let mut costs = PlaceCosts::new();
         for robot in self.robots.iter() {
+            let (robot_name, gauge) = (Some(robot.as_str()), Some(&*self.gauge));
             let goals: Vec<Goal> =
-                all.clone().map(|index| graph.goal(&place(index), Some(robot.as_str()))).collect();
+                all.clone().map(|index| graph.goal(gauge, &place(index), robot_name)).collect();
             for from in all.clone() {
-                let start = graph.start(&place(from), Some(robot.as_str()));
+                let start = graph.start(gauge, &place(from), robot_name);
                 let ways = graph.graph().ways(&start, &goals, false).goals;
                 for (to, way) in ways.into_iter().enumerate() {
                     if let Some(way) = way {

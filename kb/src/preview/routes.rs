@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::LISTED;
 use crate::graph::SiteGraph;
+use crate::graph::gauge::Gauge;
 use crate::graph::pairs::{self, Found, From, Known};
 
 /// How the routes between places would change.
@@ -60,14 +61,14 @@ impl PlaceRoutes {
 
 /// Compares the routes from each place to all others. Those of before are looked up where they are known.
 pub(super) fn compare(
-    (before, known): (&SiteGraph, &Known),
-    after: &SiteGraph,
+    (before, known): ((&SiteGraph, &Gauge), &Known),
+    after: (&SiteGraph, &Gauge),
     robots: &[String],
     is_anew: bool,
     patience: Duration,
 ) -> PlaceRoutes {
     let began = Instant::now();
-    let places = before.places.len();
+    let places = before.0.places.len();
     let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), places) };
     let wanted: Vec<From> =
         (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
@@ -79,7 +80,7 @@ pub(super) fn compare(
             let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);
             all.compared += 1;
             if let Some(other_way) = all.note(old, *new, is_anew) {
-                let name = |place: usize| before.places[place].place.clone();
+                let name = |place: usize| before.0.places[place].place.clone();
                 all.list.push(PlaceRoute {
                     robot: robots[*robot].clone(),
                     start: name(*start),

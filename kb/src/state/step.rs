@@ -109,7 +109,7 @@ impl State {
         if cut.is_none() && !weighed.is_empty() {
             self.twin.write(&weighed);
         }
-        let needed = ["ROBOTS.width".to_owned(), "ROBOTS.height".to_owned()];
+        let needed = ["width", "height", "length"].map(|property| format!("ROBOTS.{property}"));
         let is_resized = needs_changed(&needed, &changes);
         let gauge = is_resized.then(|| Arc::new(self.gauge.resized(sizes(&self.knowledge))));
         clock.lap("graph");

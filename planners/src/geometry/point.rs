@@ -11,6 +11,12 @@ pub struct Point {
     pub y: f64,
 }
 
+impl From<Coord> for Point {
+    fn from(Coord { x, y }: Coord) -> Self {
+        Self { x, y }
+    }
+}
+
 impl From<Point> for Coord {
     fn from(p: Point) -> Self {
         Self { x: p.x, y: p.y }

@@ -14,13 +14,13 @@ use crate::strips::Block;
 pub(super) const FACINGS: usize = 8;
 
 /// Degrees from one facing to the next; counterclockwise from x.
-pub(super) const STEP_DEGREES: f64 = 180.0 / FACINGS as f64;
+pub(crate) const STEP_DEGREES: f64 = 180.0 / FACINGS as f64;
 
 /// The points whose convex hull is the body, its length along the facing.
 ///
 /// # Arguments
 /// `clearance` is added on all four sides.
-pub(super) fn body(length: f64, width: f64, clearance: f64, facing: usize) -> Vec<Point> {
+pub(crate) fn body(length: f64, width: f64, clearance: f64, facing: usize) -> Vec<Point> {
     let (radius, angles) = corners(length, width, clearance);
     let turned = |angle: f64| Point::towards(angle + radians(facing)) * radius;
     angles.map(turned).into()

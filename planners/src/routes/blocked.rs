@@ -33,9 +33,9 @@ fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
     // 0-1 breadth-first search: an open door costs nothing, a shut one costs one
     let mut least: Vec<Option<usize>> = vec![None; graph.rooms.len()];
     let mut from: Vec<Option<(RoomIndex, DoorIndex)>> = vec![None; graph.rooms.len()];
-    let mut queue: VecDeque<(RoomIndex, usize)> = start.rooms.iter().map(|&room| (room, 0)).collect();
-    for &room in &start.rooms {
-        least[room.index()] = Some(0);
+    let mut queue: VecDeque<(RoomIndex, usize)> = start.rooms.iter().map(|entry| (entry.room, 0)).collect();
+    for entry in &start.rooms {
+        least[entry.room.index()] = Some(0);
     }
     while let Some((room, shut)) = queue.pop_front() {
         if least[room.index()].is_some_and(|known| known < shut) {
@@ -55,7 +55,8 @@ fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
             }
         }
     }
-    let nearest = goal.rooms.iter().filter_map(|&goal| least[goal.index()].map(|shut| (shut, goal))).min();
+    let reached = goal.rooms.iter().filter_map(|goal| Some((least[goal.room.index()]?, goal.room)));
+    let nearest = reached.min();
     let Some((_, mut room)) = nearest else { return Blockage::Apart };
     let mut doors = Vec::new();
     while let Some((before, door)) = from[room.index()] {

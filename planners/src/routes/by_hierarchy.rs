@@ -23,8 +23,8 @@ impl RouteGraph {
     ) -> Option<(usize, Way)> {
         let mut best: Option<Found> = None;
         for (index, goal) in goals.iter().enumerate() {
-            for &to in &goal.rooms {
-                for &from in start.rooms.iter().filter(|&&room| self.is_entered(room)) {
+            for to in goal.rooms.iter().map(|entry| entry.room) {
+                for from in start.rooms.iter().map(|entry| entry.room).filter(|&room| self.is_entered(room)) {
                     let Some(doors) = hierarchy.doors(from, to) else { continue };
                     // as it is driven, so that it is the sum that a search from door to door finds
                     let cost = doors.iter().fold(0.0, |cost, passed| cost + passed.weight);

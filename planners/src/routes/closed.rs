@@ -5,7 +5,7 @@ use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
 use super::mesh::EPSILON;
-use super::parts::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
+use super::parts::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 use super::way::{Leg, Way, Ways};
 use crate::geometry::{Point, Rect};
 
@@ -218,11 +218,13 @@ impl Cut {
     }
 
     /// The parts of rooms, as far as they hold a point.
-    fn parts_at(&self, rooms: &[RoomIndex], at: Option<Point>) -> Vec<RoomIndex> {
-        let holds = |part: &RoomIndex| at.is_none_or(|at| self.graph[*part].rect.contains(at));
-        let of = |room: &RoomIndex| match self.parts[room.index()].as_slice() {
-            [whole] => vec![*whole],
-            parts => parts.iter().copied().filter(holds).collect(),
+    fn parts_at(&self, rooms: &[Entry], at: Option<Point>) -> Vec<Entry> {
+        let holds =
+            |part: RoomIndex, at: Option<Point>| at.is_none_or(|at| self.graph[part].rect.contains(at));
+        let of = |&Entry { room, joint }: &Entry| {
+            let (parts, at) = (&self.parts[room.index()], joint.or(at));
+            let held = parts.iter().copied().filter(move |&part| parts.len() == 1 || holds(part, at));
+            held.map(move |room| Entry { room, joint })
         };
         rooms.iter().flat_map(of).collect()
     }

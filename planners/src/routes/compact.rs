@@ -4,7 +4,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 
 use super::graph::RouteGraph;
-use super::parts::{DoorIndex, RoomIndex, Walking};
+use super::parts::{DoorIndex, RoomIndex, Start, Walking};
 use crate::search::Csr;
 
 /// Rooms and all their doors, shut ones too, for many searches.
@@ -69,10 +69,10 @@ impl CompactGraph {
         Some(std::mem::replace(&mut self.weights[door.index()], weight)).filter(|weight| weight.is_finite())
     }
 
-    /// The least cost of every room from these, as [`RouteGraph::tree`] finds it.
-    pub fn tree(&self, starts: &[RoomIndex]) -> CompactTree {
+    /// The least cost of every room from the start, as [`RouteGraph::tree`] finds it.
+    pub fn tree(&self, start: &Start) -> CompactTree {
         let leaving = |room: RoomIndex| self.leaving.of(room.index()).iter().copied();
-        let starts = starts.iter().copied();
+        let starts = start.rooms.iter().map(|entry| entry.room);
         let (weight, key) =
             (|door: DoorIndex| self.weights[door.index()], |door: DoorIndex| self.keys[door.index()]);
         search(self.leaving.len(), starts, leaving, weight, key)

@@ -28,7 +28,7 @@ impl RouteGraph {
     ///
     /// Equal costs: the room, then the door, of lower number. O((rooms + doors) log rooms).
     pub fn tree(&self, start: &Start) -> Tree {
-        let starts = start.rooms.iter().copied().filter(|&room| self.is_entered(room));
+        let starts = start.rooms.iter().map(|entry| entry.room).filter(|&room| self.is_entered(room));
         let leaving = |room: RoomIndex| self.exits(room).map(|exit| (exit.to, exit.door));
         let weight = |door: DoorIndex| self.passage(door).unwrap_or(f64::INFINITY);
         let found = search(self.rooms().len(), starts, leaving, weight, |door| self[door].door);
@@ -44,7 +44,8 @@ impl Tree {
     /// The ways to goals, and to all rooms where asked for: from door to door.
     pub(super) fn ways(&self, graph: &RouteGraph, start: &Start, goals: &[Goal], rooms: bool) -> Ways {
         let goals = goals.iter().map(|goal| {
-            let reached = goal.rooms.iter().filter_map(|&room| Some((room, self.rooms[room.index()]?)));
+            let reached =
+                goal.rooms.iter().filter_map(|entry| Some((entry.room, self.rooms[entry.room.index()]?)));
             let best = reached.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
             best.map(|(room, _)| self.way(graph, start, room, goal.at))
         });

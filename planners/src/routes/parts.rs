@@ -65,22 +65,50 @@ impl RouteDoor {
     }
 }
 
+/// A room in which a way starts or ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    pub room: RoomIndex,
+    /// Where a straight leg joins the end with the room; `None`: the room holds the end. The leg weighs what the room does.
+    pub joint: Option<Point>,
+}
+
+impl From<RoomIndex> for Entry {
+    fn from(room: RoomIndex) -> Self {
+        Self { room, joint: None }
+    }
+}
+
 /// Where a search begins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Rooms that hold the start: one in the paper's modes, one for each state that fits there otherwise.
-    pub rooms: Vec<RoomIndex>,
+    /// Rooms from which ways lead: one in the paper's modes, otherwise some for each state that fits there.
+    pub rooms: Vec<Entry>,
     /// The start point, metres.
     pub at: Point,
+}
+
+impl Start {
+    /// In rooms that hold the point.
+    pub fn within(rooms: impl IntoIterator<Item = RoomIndex>, at: Point) -> Self {
+        Self { rooms: rooms.into_iter().map(Entry::from).collect(), at }
+    }
 }
 
 /// Where a search may end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// Rooms that hold it.
-    pub rooms: Vec<RoomIndex>,
+    /// Rooms into which ways lead.
+    pub rooms: Vec<Entry>,
     /// The point; `None`: anywhere in one of the rooms.
     pub at: Option<Point>,
+}
+
+impl Goal {
+    /// In rooms that hold the point.
+    pub fn within(rooms: impl IntoIterator<Item = RoomIndex>, at: Option<Point>) -> Self {
+        Self { rooms: rooms.into_iter().map(Entry::from).collect(), at }
+    }
 }
 
 /// What passing a door changes.

@@ -13,7 +13,7 @@ use super::cone::{Gap, Segment, View};
 use super::gates::sides;
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
-use super::parts::{DoorIndex, Goal, RoomIndex, Start};
+use super::parts::{DoorIndex, Entry, Goal, RoomIndex, Start};
 use super::turning::{Gate, Turning};
 use crate::geometry::Point;
 
@@ -88,12 +88,15 @@ enum Care {
     Full,
 }
 
-/// A goal in a room: where it is, and the hardness of a change of shape that has to follow there.
+/// A goal in a room: where it is, and the hardness of a change of shape and of a leg that have to follow there.
 #[derive(Clone, Copy)]
 struct Target {
     goal: usize,
+    /// The goal, or where the leg to it leaves the rooms.
     at: Option<Point>,
     change: Option<(Exit, f64)>,
+    /// What that leg costs.
+    leg: f64,
 }
 
 pub(super) struct Search<'g> {
@@ -130,7 +133,7 @@ impl<'g> Search<'g> {
         }
         let joined = graph.joined_with(&start.rooms);
         let is_missed =
-            |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|room| joined[room.index()]);
+            |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|entry| joined[entry.room.index()]);
         if !(0..goals.len()).any(is_missed) {
             return outcome;
         }
@@ -140,16 +143,19 @@ impl<'g> Search<'g> {
     fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, care: Care) -> Self {
         let mut targets = Vec::new();
         for (index, goal) in goals.iter().enumerate() {
-            for &room in &goal.rooms {
-                targets.push((room, Target { goal: index, at: goal.at, change: None }));
-                let Some(at) = goal.at else { continue };
+            for &Entry { room, joint } in &goal.rooms {
+                let at = joint.or(goal.at);
+                let leg =
+                    joint.zip(goal.at).map_or(0.0, |(joint, at)| graph.per_m(room) * joint.distance(at));
+                targets.push((room, Target { goal: index, at, change: None, leg }));
+                let Some(at) = at else { continue };
                 for exit in graph.exits.changes_into(room) {
                     let door = &graph[exit.door];
                     if let Some(weight) = graph.passage(exit.door)
                         && door.crossing.contains(at)
                     {
                         let change = Some((Exit { door: exit.door, to: room }, weight));
-                        targets.push((exit.to, Target { goal: index, at: goal.at, change }));
+                        targets.push((exit.to, Target { goal: index, at: Some(at), change, leg }));
                     }
                 }
             }
@@ -179,11 +185,14 @@ impl<'g> Search<'g> {
     }
 
     fn run(mut self, start: &Start) -> Outcome {
-        for &room in start.rooms.iter().filter(|&&room| self.graph.is_entered(room)) {
-            let root = start.at;
+        for &Entry { room, joint } in &start.rooms {
+            if !self.graph.is_entered(room) {
+                continue;
+            }
+            let root = joint.unwrap_or(start.at);
             self.push(Node {
                 root,
-                cost: 0.0,
+                cost: joint.map_or(0.0, |joint| self.graph.per_m(room) * start.at.distance(joint)),
                 before: NO_NODE,
                 room,
                 door: DoorIndex::end(),
@@ -367,7 +376,7 @@ impl<'g> Search<'g> {
             let at = target.at.unwrap_or_else(|| Self::samples(node).0[0]);
             if self.outcome.goals[target.goal].len() < MOST_WAYS && node.view.sees(node.root, at) {
                 let weight = target.change.map_or(0.0, |(_, weight)| weight);
-                let cost = node.cost + per_m * node.root.distance(at) + weight;
+                let cost = node.cost + per_m * node.root.distance(at) + weight + target.leg;
                 let change = target.change.map(|(exit, _)| exit);
                 let found = Found { node: index, at, cost, change };
                 let what = What::Goal(self.found.len() as u32);

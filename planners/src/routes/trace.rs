@@ -7,14 +7,22 @@ use super::parts::{RoomIndex, Start};
 use super::pull::{Chain, Link};
 use super::taut::{Found, NO_NODE, Node};
 use super::way::Way;
+use crate::geometry::Point;
 
-pub(super) fn trace(graph: &RouteGraph, nodes: &[Node], start: &Start, found: &Found) -> Way {
-    let (room, links) = links(graph, nodes, found);
-    Chain { graph, start: (room, start.at), links, goal: found.at }.pulled_tight()
+/// The way between a start and the goal's point, which may lie outside of the rooms.
+pub(super) fn trace(
+    graph: &RouteGraph,
+    nodes: &[Node],
+    (start, goal): (&Start, Option<Point>),
+    found: &Found,
+) -> Way {
+    let (start_in, links) = links(graph, nodes, found);
+    let way = Chain { graph, start: start_in, links, goal: found.at }.pulled_tight();
+    way.joined(graph, start.at, goal.unwrap_or(found.at))
 }
 
-/// The room in which a way starts, and the doors that it passes.
-fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> (RoomIndex, Vec<Link>) {
+/// The room and the point in it from which a way starts, and the doors that it passes.
+fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> ((RoomIndex, Point), Vec<Link>) {
     let mut links = Vec::new();
     if let Some(exit) = found.change {
         links.push(Link::new(graph, exit.door, found.at, exit.to));
@@ -33,7 +41,7 @@ fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> (RoomIndex, Vec<L
         }
         if before.is_none() {
             links.reverse();
-            return (node.room, links);
+            return ((node.room, node.root), links);
         }
         if is_new {
             to = node.root;

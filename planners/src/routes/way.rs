@@ -63,6 +63,30 @@ impl Way {
         Self { legs, cost }
     }
 
+    /// The same with straight legs from a start and to a goal that lie outside of its first and last room.
+    pub(super) fn joined(mut self, graph: &RouteGraph, start: Point, goal: Point) -> Self {
+        let (Some(first), Some(last)) = (self.legs.first().copied(), self.legs.last().copied()) else {
+            return self;
+        };
+        if start != first.from {
+            let hardness = walked(graph, first.room, start, first.from);
+            for leg in &mut self.legs {
+                leg.cost += hardness;
+            }
+            self.legs.insert(
+                0,
+                Leg { from: start, to: first.from, hardness, door: None, cost: hardness, ..first },
+            );
+            self.cost += hardness;
+        }
+        if goal != last.to {
+            let hardness = walked(graph, last.room, last.to, goal);
+            self.cost += hardness;
+            self.legs.push(Leg { from: last.to, to: goal, hardness, door: None, cost: self.cost, ..last });
+        }
+        self
+    }
+
     /// Metres.
     pub fn length(&self) -> f64 {
         self.legs.iter().map(Leg::length).sum()

@@ -76,8 +76,8 @@ fn rules() -> Rules {
 /// The answer as serde writes it, and as it is put together.
 fn both(graph: &SiteGraph, [start, goal]: [&str; 2]) -> Option<[Vec<u8>; 2]> {
     let ends = [start, goal].map(|name| graph.end(name).unwrap());
-    let goals = [graph.goal(&ends[1], None)];
-    let (_, way) = graph.graph().way(&graph.start(&ends[0], None), &goals)?;
+    let goals = [graph.goal(None, &ends[1], None)];
+    let (_, way) = graph.graph().way(&graph.start(None, &ends[0], None), &goals)?;
     let rules = rules();
     let mut answer = Answer::blank("r", start, &[goal.to_owned()], 7);
     let text = write(&answer, (graph, graph.texts().unwrap(), &rules), &way).unwrap();
@@ -136,8 +136,8 @@ fn how_long_answers_take() {
             for pair in draw.chunks_exact(2) {
                 let began = Instant::now();
                 let ends = [0, 1].map(|end| graph.end(&pair[end]).unwrap());
-                let goals = [graph.goal(&ends[1], None)];
-                let Some((_, way)) = graph.graph().way(&graph.start(&ends[0], None), &goals) else {
+                let goals = [graph.goal(None, &ends[1], None)];
+                let Some((_, way)) = graph.graph().way(&graph.start(None, &ends[0], None), &goals) else {
                     continue;
                 };
                 let mut answer = Answer::blank("r", &pair[0], &pair[1..], 7);

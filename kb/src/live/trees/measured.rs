@@ -10,10 +10,7 @@ use crate::graph::gauge::{Gauge, bends, headings};
 use crate::graph::{End, SiteGraph, place_node};
 
 pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start), gauge: &Gauge) -> Vec<TreeRow> {
-    let goal = |index: usize| Goal {
-        rooms: graph.rooms_of(&End::Place(index), Some(robot)),
-        at: Some(graph.point(&End::Place(index))),
-    };
+    let goal = |index: usize| graph.goal(Some(gauge), &End::Place(index), Some(robot));
     let goals: Vec<Goal> = (0..graph.places.len()).map(goal).collect();
     let ways = graph.graph().ways(start, &goals, keeps_rooms(graph));
     let mut chains = Chains::new(graph, place_node(graph.places.len()));

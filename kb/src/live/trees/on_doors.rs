@@ -12,9 +12,9 @@ pub(super) fn rows(graph: &SiteGraph, (robot, start): &(String, Start)) -> Vec<T
     let mut rows: Vec<TreeRow> =
         graph.graph().room_indices().filter_map(|room| room_row(graph, &tree, room, start.at)).collect();
     for index in 0..graph.places.len() {
-        let rooms = graph.rooms_of(&End::Place(index), Some(robot));
-        let Some((room, arrival)) = rooms.first().and_then(|&room| Some((room, tree.rooms[room.index()]?)))
-        else {
+        let rooms = graph.entries(None, &End::Place(index), Some(robot));
+        let first = rooms.first().map(|entry| entry.room);
+        let Some((room, arrival)) = first.and_then(|room| Some((room, tree.rooms[room.index()]?))) else {
             continue;
         };
         let goal = graph.point(&End::Place(index));

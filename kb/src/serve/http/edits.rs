@@ -247,6 +247,9 @@ pub struct PreviewBody {
     goal: Option<String>,
     #[serde(default)]
     robot: Option<String>,
+    /// Metres by which a start or goal at which no state fits may be moved, to the nearest point at which one does.
+    #[serde(default)]
+    within: Option<f64>,
     /// Milliseconds in which routes between places are compared, at most 10,000; what is not compared by then is said.
     #[serde(default)]
     patience_ms: Option<u64>,
@@ -260,7 +263,7 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
         return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
     }
     let edits = body.edits.into_iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
-    let mut fork = site.fork().await?;
+    let mut fork = site.fork().await?.within(body.within)?;
     if let Some(patience) = body.patience_ms {
         fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
     }

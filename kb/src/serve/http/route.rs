@@ -20,24 +20,35 @@ struct Question {
     start: String,
     goals: Vec<String>,
     robot: Option<String>,
+    within: Option<f64>,
 }
 
 impl Question {
     fn read(query: &str) -> Answered<Self> {
-        let (mut start, mut goals, mut robot) = (None, Vec::new(), None);
+        let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
         for (name, value) in form_urlencoded::parse(query.as_bytes()) {
             match &*name {
                 "start" => start = Some(value.into_owned()),
                 "goal" => goals.push(value.into_owned()),
                 "robot" => robot = Some(value.into_owned()),
+                "within" => {
+                    let metres = value.parse().map_err(|_| {
+                        Fault::new(
+                            Code::RouteWithin,
+                            format!("`within` is `{value}`, and is a number of metres"),
+                        )
+                    })?;
+                    within = Some(metres);
+                }
                 other => {
-                    let message = format!("a route has `start`, `goal` and `robot`, and not `{other}`");
+                    let message =
+                        format!("a route has `start`, `goal`, `robot` and `within`, and not `{other}`");
                     return Err(Fault::new(Code::ServiceQuestion, message));
                 }
             }
         }
         match start {
-            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot }),
+            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot, within }),
             _ => {
                 let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
                 Err(Fault::new(Code::ServiceQuestion, message).helped("/api/route?start=dock&goal=ward%206"))
@@ -68,14 +79,16 @@ impl Question {
         ("start" = String, Query, description = "A place, a room or `x,y` in metres"),
         ("goal" = String, Query, description = "A place, a room or `x,y`; may stand several times"),
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
+        ("within" = Option<f64>, Query, description = "Metres by which a start or goal at which no state fits may be moved, to the nearest point at which one does; the answer's `taken` says where"),
     ),
     responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     let seen = Arc::clone(&site.view.load());
-    if let Some(response) = question.quick(&seen.view)? {
+    let view = seen.view.clone().within(question.within)?;
+    if let Some(response) = question.quick(&view)? {
         return Ok(response);
     }
     // over measured rooms it takes milliseconds, and so does the reason why there is no route
-    beside(move || question.answer(&seen.view)).await
+    beside(move || question.answer(&view)).await
 }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use adit_planners::routes::{DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start};
+use adit_planners::routes::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start};
 
 use super::path::reweigh;
 use super::{Path, Prober, Routes, Weights};
@@ -119,8 +119,9 @@ impl Corridor {
             }
         }
         let copied: Vec<RouteRoom> = rooms.iter().map(|&room| graph.graph()[room]).collect();
-        let of_run = |run: usize, wanted: &[RoomIndex]| -> Vec<RoomIndex> {
-            wanted.iter().filter_map(|&room| index.get(&(run, room)).copied()).collect()
+        let of_run = |run: usize, wanted: &[Entry]| -> Vec<Entry> {
+            let own = |entry: &Entry| Some(Entry { room: *index.get(&(run, entry.room))?, ..*entry });
+            wanted.iter().filter_map(own).collect()
         };
         let start = Start { rooms: of_run(0, &routes.start.rooms), at: routes.start.at };
         let goal =

@@ -63,7 +63,9 @@ impl Routes {
     pub fn new(fork: &State, start: &str, goal: &str, robot: &str) -> Result<Self> {
         let (start, goal) = (fork.end(start)?, fork.end(goal)?);
         let graph = fork.graph();
-        Ok(Self::between(graph.graph(), graph.start(&start, Some(robot)), graph.goal(&goal, Some(robot))))
+        let (gauge, robot) = (Some(&*fork.gauge), Some(robot));
+        let (start, goal) = (graph.start(gauge, &start, robot), graph.goal(gauge, &goal, robot));
+        Ok(Self::between(graph.graph(), start, goal))
     }
 
     pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
@@ -85,7 +87,7 @@ impl Routes {
             Searched::OnDoors(graph) => {
                 let mut graph = graph.borrow_mut();
                 weigh(&mut graph, weights);
-                best_of(&graph.tree(&self.start.rooms), &self.goal.rooms)
+                best_of(&graph.tree(&self.start), &self.goal)
             }
             Searched::Measured(graph) => {
                 let mut graph = graph.borrow_mut();
@@ -111,8 +113,8 @@ fn weigh(graph: &mut CompactGraph, weights: &Weights) {
 }
 
 /// The way to the goal that costs least.
-fn best_of(tree: &CompactTree, goals: &[RoomIndex]) -> Option<Path> {
-    let reached = goals.iter().copied().filter(|&room| tree.cost(room).is_finite());
+fn best_of(tree: &CompactTree, goal: &Goal) -> Option<Path> {
+    let reached = goal.rooms.iter().map(|entry| entry.room).filter(|&room| tree.cost(room).is_finite());
     let mut at = reached.min_by(|&one, &two| tree.cost(one).total_cmp(&tree.cost(two)))?;
     let mut doors = Vec::new();
     while let Some((before, door)) = tree.before(at) {

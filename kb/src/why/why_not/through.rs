@@ -1,7 +1,7 @@
 //! The best way through a room or a door: a search in two copies of the graph, one for what lies before it and one for
 //! what comes after. Who is in the second copy has passed it.
 
-use adit_planners::routes::{DoorIndex, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way};
+use adit_planners::routes::{DoorIndex, Entry, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way};
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
@@ -38,7 +38,9 @@ impl<'g> Question<'g> {
     pub(super) fn new(fork: &'g State, start: &str, goal: &str, robot: &str) -> Result<Self> {
         let (start, goal) = (fork.end(start)?, fork.end(goal)?);
         let graph = fork.graph();
-        Ok(Self { graph, start: graph.start(&start, Some(robot)), goal: graph.goal(&goal, Some(robot)) })
+        let (gauge, robot) = (Some(&*fork.gauge), Some(robot));
+        let (start, goal) = (graph.start(gauge, &start, robot), graph.goal(gauge, &goal, robot));
+        Ok(Self { graph, start, goal })
     }
 
     pub(super) fn best(&self) -> Option<Way> {
@@ -83,9 +85,10 @@ impl<'g> Question<'g> {
         let rooms = graph.rooms().iter().chain(graph.rooms()).copied().collect();
         let mut both = RouteGraph::new(rooms, copies);
         both.close(graph.closed().to_vec());
-        let begin = |&room: &RoomIndex| if via == Via::Room(room) { second(room) } else { room };
+        let in_second = |entry: &Entry| Entry { room: second(entry.room), ..*entry };
+        let begin = |entry: &Entry| if via == Via::Room(entry.room) { in_second(entry) } else { *entry };
         let start = Start { rooms: self.start.rooms.iter().map(begin).collect(), at: self.start.at };
-        let goal = Goal { rooms: self.goal.rooms.iter().copied().map(second).collect(), ..self.goal };
+        let goal = Goal { rooms: self.goal.rooms.iter().map(in_second).collect(), ..self.goal };
         let way = both.way(&start, std::slice::from_ref(&goal)).map(|(_, way)| {
             let leg = |leg: &Leg| {
                 let door = leg.door.map(|door| doors[door.index()]);

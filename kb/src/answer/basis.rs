@@ -1,0 +1,55 @@
+//! What routes are found with.
+
+use std::cell::OnceCell;
+
+use adit_planners::world::World;
+
+use crate::error::Result;
+use crate::graph::gauge::{Gauge, Sizes};
+use crate::graph::{Rules, SiteGraph};
+use crate::knowledge::KnowledgeBase;
+use crate::site::Site;
+
+/// What routes are found with.
+pub(crate) struct Basis<'a> {
+    /// The site.
+    pub knowledge: &'a KnowledgeBase,
+    /// Its rooms and doors.
+    pub graph: &'a SiteGraph,
+    /// The rules' names.
+    pub rules: &'a Rules,
+    pub ground: Ground<'a>,
+    /// How far an end may be moved to where something fits, metres; `None`: not at all.
+    pub within: Option<f64>,
+}
+
+/// The map, with what measures clearances in it.
+pub(crate) enum Ground<'a> {
+    Known(&'a World, &'a Gauge),
+    /// For a single question: read where it needs the map, for robots of these sizes.
+    Later(&'a Site, Sizes, OnceCell<Box<(World, Gauge)>>),
+}
+
+impl Ground<'_> {
+    pub(super) fn get(&self) -> Result<(&World, &Gauge)> {
+        match self {
+            Self::Known(world, gauge) => Ok((world, gauge)),
+            Self::Later(site, sizes, read) => {
+                if read.get().is_none() {
+                    let world = site.world()?;
+                    let gauge = Gauge::new(&world, sizes.clone());
+                    read.get_or_init(|| Box::new((world, gauge)));
+                }
+                let (world, gauge) = &**read.get().expect("it was read just now");
+                Ok((world, gauge))
+            }
+        }
+    }
+}
+
+impl Basis<'_> {
+    /// What judges which points fit; none where all hardness lies on the doors, and rooms are of no state.
+    pub(super) fn gauge(&self) -> Result<Option<&Gauge>> {
+        if self.graph.graph().is_on_doors() { Ok(None) } else { Ok(Some(self.ground.get()?.1)) }
+    }
+}

@@ -1,0 +1,77 @@
+//! The rooms by layer, found by where they are.
+
+use adit_db::room::Room;
+use adit_planners::geometry::{Point, Rect};
+use adit_planners::rect_index::RectIndex;
+use adit_planners::routes::RoomIndex;
+
+/// Robot and state, and the degrees to which it faces; neither in the paper's modes.
+pub type Shape<'a> = (Option<&'a (String, String)>, Option<f64>);
+
+/// The rooms of one state of one robot, at one facing; in the paper's modes there is one layer.
+pub struct Layer {
+    /// Robot and state.
+    of: Option<(String, String)>,
+    facing: Option<f64>,
+    /// In their order.
+    rooms: Vec<RoomIndex>,
+    index: RectIndex,
+}
+
+impl Layer {
+    /// The layers of all rooms.
+    pub fn all(rooms: &[Room]) -> Vec<Self> {
+        let mut layers: Vec<(&Room, Vec<RoomIndex>)> = Vec::new();
+        let is_like = |one: &Room, two: &Room| one.layer == two.layer && one.facing == two.facing;
+        for (index, room) in rooms.iter().enumerate().map(|(index, room)| (RoomIndex::new(index), room)) {
+            // rooms of a layer mostly follow one another
+            match layers.iter_mut().rev().find(|(first, _)| is_like(first, room)) {
+                Some((_, members)) => members.push(index),
+                None => layers.push((room, vec![index])),
+            }
+        }
+        let layer = |(first, members): (&Room, Vec<RoomIndex>)| Self {
+            of: first.layer.clone(),
+            facing: first.facing,
+            index: RectIndex::new(members.iter().map(|&room| rect_of(&rooms[room.index()]))),
+            rooms: members,
+        };
+        layers.into_iter().map(layer).collect()
+    }
+
+    pub fn at(&self, point: Point) -> impl Iterator<Item = RoomIndex> {
+        self.index.at(point).into_iter().map(|member| self.rooms[member])
+    }
+
+    /// The rooms with their metres from a point, the nearest first.
+    pub fn nearest(&self, point: Point) -> impl Iterator<Item = (RoomIndex, f64)> {
+        self.index.nearest(point).map(|(member, metres)| (self.rooms[member], metres))
+    }
+
+    pub fn meeting(&self, rect: Rect) -> impl Iterator<Item = RoomIndex> {
+        self.index.meeting(rect).map(|member| self.rooms[member])
+    }
+
+    pub fn holds(&self, room: RoomIndex) -> bool {
+        self.rooms.contains(&room)
+    }
+
+    /// Whether it is a robot's; those of the paper's modes are anybody's.
+    pub fn is_of(&self, robot: &str) -> bool {
+        self.of.as_ref().is_none_or(|(of, _)| of == robot)
+    }
+
+    pub fn state(&self) -> Option<&str> {
+        self.of.as_ref().map(|(_, state)| state.as_str())
+    }
+
+    /// Robot and state, and the degrees to which it faces.
+    pub fn shape(&self) -> Shape<'_> {
+        (self.of.as_ref(), self.facing)
+    }
+}
+
+pub fn rect_of(room: &Room) -> Rect {
+    let [x0, y0, x1, y1] = room.rect;
+    Rect::new(x0, y0, x1, y1)
+}
