@@ -310,10 +310,11 @@ fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings
     if fields.get("grid").is_some() {
         settings.grid = fields.positive("grid", problems).map(|grid| grid.value);
     }
-    for (key, value) in [("speck_area", &mut settings.speck_area), ("clearance", &mut settings.clearance)] {
-        if fields.get(key).is_some() {
-            *value = not_negative(fields, key, problems).unwrap_or(*value);
-        }
+    if fields.get("speck_area").is_some() {
+        settings.speck_area = not_negative(fields, "speck_area", problems);
+    }
+    if fields.get("clearance").is_some() {
+        settings.clearance = not_negative(fields, "clearance", problems).unwrap_or(settings.clearance);
     }
     settings
 }

@@ -7,6 +7,7 @@ mod occupancy;
 pub mod overlay;
 mod report;
 pub mod ros_map;
+mod salt;
 mod settings;
 mod suggest;
 pub mod toml_map;

@@ -201,7 +201,10 @@ fn settings_and_files_that_make_no_sense_are_refused() {
     let folder = Folder::new(YAML, PGM);
     let code = |settings| folder.read(&settings).unwrap_err().problems[0].code.as_str();
     assert_eq!(code(MapSettings { grid: Some(0.0), ..MapSettings::default() }), "map/not-positive");
-    assert_eq!(code(MapSettings { speck_area: f64::NAN, ..MapSettings::default() }), "map/not-positive");
+    assert_eq!(
+        code(MapSettings { speck_area: Some(f64::NAN), ..MapSettings::default() }),
+        "map/not-positive"
+    );
     assert_eq!(code(MapSettings { clearance: -1.0, ..MapSettings::default() }), "map/not-positive");
     assert_eq!(code(MapSettings { grid: Some(1e-6), ..MapSettings::default() }), "map/grid-too-fine");
     let missing = |name: &str| {

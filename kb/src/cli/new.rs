@@ -113,7 +113,7 @@ rooms  = "{}"        # or "paper", "minimum"
 
 # For images:
 # unknown    = "wall"      # or "free": what nobody has seen
-# speck_area = 0.0         # square metres: smaller blobs of wall are noise
+# speck_area = 0.0         # square metres: smaller blobs of wall are noise; without it those that chance strewed (salt)
 # grid       = 0.05        # metres: side of a cell of the rooms by state
 # clearance  = 0.0         # metres kept free around every state
 

@@ -120,7 +120,7 @@ fn source(world: &Fields<'_, '_>, fields: &Fields<'_, '_>, problems: &mut Vec<Pr
         };
     }
     if fields.get("speck_area").is_some() {
-        settings.speck_area = not_negative(fields, "speck_area", problems)?;
+        settings.speck_area = Some(not_negative(fields, "speck_area", problems)?);
     }
     fields.string("map", problems).map(|file| Source::Map(file.value, settings))
 }

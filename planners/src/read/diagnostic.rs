@@ -57,6 +57,8 @@ codes! {
     Degenerate = "map/degenerate",
     /// Wholly outside of the environment.
     Outside = "map/outside",
+    /// Lone wall pixels of an image that are taken for noise, or might be, a note.
+    Salt = "map/salt",
     /// Partly outside of the environment: cut at the edge, a note.
     Clipped = "map/clipped",
     /// A polygon with fewer than three distinct corners.

@@ -5,7 +5,7 @@ pub(crate) mod yaml;
 
 use std::path::Path;
 
-use super::diagnostic::{MapErrors, Text};
+use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::image::read_image;
 use super::occupancy::{self, Cell};
 use super::report::MapReport;
@@ -43,7 +43,10 @@ pub fn read_ros_map(
         rows: image.rows,
         blocked: occupancy::walls(&cells, settings.unknown),
     };
-    report.specks = occupancy::drop_specks(&mut walls, settings.speck_area);
+    let (specks, salt_note) = occupancy::drop_specks(&mut walls, settings.speck_area);
+    report.specks = specks;
+    let note = |note: String| Problem::of_file(Code::Salt, format!("{}: {note}", file.image)).as_advice();
+    report.notes.extend(salt_note.map(note));
     let mut world = World::empty(walls.bounds());
     world.frame = frame(file.origin);
     world.occupancy = Some(walls);

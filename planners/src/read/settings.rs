@@ -16,8 +16,8 @@ pub enum Unknown {
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct MapSettings {
     pub unknown: Unknown,
-    /// Blobs of wall cells with a smaller area are dropped, square metres; 0 drops none.
-    pub speck_area: f64,
+    /// Blobs of wall cells with a smaller area are dropped, square metres; 0 drops none. `None`: those that are salt.
+    pub speck_area: Option<f64>,
     /// Side of a cell of the layers, metres; `None`: the image's resolution, or chosen by the planner.
     pub grid: Option<f64>,
     /// Kept free around every state besides its own width, metres.
@@ -29,7 +29,7 @@ impl MapSettings {
         let Self { speck_area, grid, clearance, .. } = *self;
         let mut problems = Vec::new();
         let mut refuse = |code, message: String| problems.push(Problem::of_file(code, message));
-        for (key, value) in [("speck_area", speck_area), ("clearance", clearance)] {
+        for (key, value) in [("speck_area", speck_area.unwrap_or(0.0)), ("clearance", clearance)] {
             if !value.is_finite() || value < 0.0 {
                 refuse(
                     Code::NotPositive,
