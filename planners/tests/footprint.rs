@@ -128,7 +128,7 @@ proptest! {
             let all = (0..=200).map(|step| apart(&world, way.at(f64::from(step) / 200.0), 1.2));
             let room = all.fold(f64::INFINITY, f64::min) - radius;
             // between two samples a distance changes by less than half their distance
-            if room < -HAIR || room > 0.002 {
+            if !(-HAIR..=0.002).contains(&room) {
                 prop_assert_eq!(solids.fits(&disc, way.a, way.b), room > 0.0, "{:?}: {} m of room", way, room);
             }
         }

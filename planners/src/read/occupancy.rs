@@ -46,7 +46,9 @@ pub(crate) fn drop_specks(walls: &mut Occupancy, speck_area: Option<f64>) -> (f6
         None => salt(walls),
     };
     let freed = specks.iter().map(Vec::len).sum::<usize>() as f64 * cell_area;
-    specks.into_iter().flatten().for_each(|cell| walls.blocked[cell] = false);
+    for cell in specks.into_iter().flatten() {
+        walls.blocked[cell] = false;
+    }
     (freed, note)
 }
 

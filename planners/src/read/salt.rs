@@ -45,12 +45,16 @@ impl Salt {
     /// Looks at the blobs of at most [`LARGEST`] pixels.
     pub(crate) fn of(walls: &Occupancy, mut small: Vec<Blob>) -> Self {
         let mut observed = [0; LARGEST];
-        small.iter().for_each(|blob| observed[blob.len() - 1] += 1);
+        for blob in &small {
+            observed[blob.len() - 1] += 1;
+        }
         if observed[0] < LEAST {
             return Self::None;
         }
         let mut large = walls.blocked.clone();
-        small.iter().flatten().for_each(|&cell| large[cell] = false);
+        for &cell in small.iter().flatten() {
+            large[cell] = false;
+        }
         // where a pixel would be alone, or part of a small blob
         let floor: Vec<bool> = (0..large.len())
             .map(|cell| !large[cell] && ring(walls, &large, cell) == Some([false; 8]))
@@ -77,7 +81,7 @@ impl Salt {
 
 /// Whether there are no more than chance makes.
 fn is_of_chance(observed: usize, expected: f64) -> bool {
-    expected >= LIKELY && observed as f64 <= expected + 2.0 * expected.sqrt() + 1.0
+    expected >= LIKELY && observed as f64 <= expected + 3.0 * expected.sqrt() + 1.0
 }
 
 /// Which cells about one are walls, counterclockwise from the right; `None` at the border.
