@@ -167,7 +167,9 @@ fn a_few_specks_legs_in_groups_and_a_pillar_among_salt_stay() {
     // thirty tables of four legs
     for _ in 0..30 {
         let corner = place(20);
-        [0, 12, 12 * columns, 12 * columns + 12].iter().for_each(|leg| cells[corner + leg] = true);
+        for leg in [0, 12, 12 * columns, 12 * columns + 12] {
+            cells[corner + leg] = true;
+        }
     }
     let tables = empty(cells);
     let (world, said) = note(&tables);
@@ -179,7 +181,9 @@ fn a_few_specks_legs_in_groups_and_a_pillar_among_salt_stay() {
     for row in 176..186 {
         salted[row * columns + 176..row * columns + 186].fill(false);
     }
-    pillar.iter().for_each(|&cell| salted[cell] = true);
+    for cell in pillar {
+        salted[cell] = true;
+    }
     let (world, said) = note(&empty(salted));
     let left = &world.occupancy.unwrap().blocked;
     assert!(said.contains("taken for salt"), "{said}");
