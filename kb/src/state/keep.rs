@@ -48,8 +48,7 @@ impl Recall for LastBuild<'_, '_> {
         let given = planner.signature().gives;
         let gives = |class: &str| given.iter().any(|given| classes::split(given).0 == class);
         let is_made = |class: &str| ["ROOMS", "DOORS"].contains(&class) || MEMBERS.contains(&class);
-        if !(gives("ROOMS") && gives("DOORS")) || !given.iter().all(|given| is_made(classes::split(given).0))
-        {
+        if !(gives("ROOMS") && gives("DOORS") && given.iter().all(|given| is_made(classes::split(given).0))) {
             return Ok(None);
         }
         let stored = self.0.site_value(&fingerprint_key(planner.name()))?;
