@@ -2,6 +2,8 @@
 //! `subgoal_pairs`, `clearances`, `tasks` and `strategies`.
 //!
 //! Experience is written step by step: [`Tx::keep_step`] takes what one task changed. What was taken out keeps its row.
+//!
+//! What is kept and recalled are the types below, which a transaction hands to both: a circle that stays.
 
 mod keep;
 mod numbers;

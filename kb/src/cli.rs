@@ -25,10 +25,10 @@ mod tuning;
 mod watch;
 mod why;
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use args::{SiteArgs, WayArgs};
+use clap::{Parser, Subcommand};
 
 /// A rule engine and knowledge base that tells a mobile robot which way to go and how to move.
 #[derive(Parser, Debug)]
@@ -89,38 +89,6 @@ pub enum Verb {
     Token(serve::TokenArgs),
     /// Integrity, versions, backup
     Doctor(doctor::DoctorArgs),
-}
-
-/// What every verb on a site takes.
-#[derive(Args, Debug, Clone)]
-pub struct SiteArgs {
-    /// Folder of the site
-    pub site: PathBuf,
-    /// The database, instead of `site.db` in the site's folder
-    #[arg(long, value_name = "FILE")]
-    pub db: Option<PathBuf>,
-    /// Folder of *.rhai files, instead of the site's own or the shipped ones
-    #[arg(long, value_name = "DIR")]
-    pub rules: Option<PathBuf>,
-    /// Print the result as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-/// Where to go on a site, and who goes.
-#[derive(Args, Debug)]
-pub struct WayArgs {
-    #[command(flatten)]
-    pub site: SiteArgs,
-    /// A place, a room or `x,y`
-    #[arg(allow_hyphen_values = true)]
-    pub start: String,
-    /// A place, a room or `x,y`
-    #[arg(allow_hyphen_values = true)]
-    pub goal: String,
-    /// Which robot, where the site has several
-    #[arg(long)]
-    pub robot: Option<String>,
 }
 
 /// Runs a verb and prints what came of it.

@@ -17,10 +17,8 @@ use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::state::{Nothing, State, Weighed};
 use crate::words::progress::Silent;
+use routes::LISTED;
 pub use routes::{PlaceRoute, PlaceRoutes};
-
-/// How many rooms, doors or routes are listed.
-const LISTED: usize = 5_000;
 
 /// A route that is asked for beside a preview.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,10 +1,42 @@
-//! What the verbs ask that several files carry out: `adit plan` and `adit simulate`.
+//! What several verbs take.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
 use crate::error::{Code, Error, Result};
+
+/// What every verb on a site takes.
+#[derive(Args, Debug, Clone)]
+pub struct SiteArgs {
+    /// Folder of the site
+    pub site: PathBuf,
+    /// The database, instead of `site.db` in the site's folder
+    #[arg(long, value_name = "FILE")]
+    pub db: Option<PathBuf>,
+    /// Folder of *.rhai files, instead of the site's own or the shipped ones
+    #[arg(long, value_name = "DIR")]
+    pub rules: Option<PathBuf>,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where to go on a site, and who goes.
+#[derive(Args, Debug)]
+pub struct WayArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub start: String,
+    /// A place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub goal: String,
+    /// Which robot, where the site has several
+    #[arg(long)]
+    pub robot: Option<String>,
+}
 
 #[derive(Args, Debug)]
 pub struct PlanArgs {

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use adit_db::Store;
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{as_json, json, line, problems};
 use crate::error::Result;

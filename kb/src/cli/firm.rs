@@ -1,6 +1,6 @@
 //! `adit firm`.
 
-use super::WayArgs;
+use super::args::WayArgs;
 use super::build::open;
 use super::output::{json, line, table};
 use crate::error::Result;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{either, line, table};
 use super::tune::author;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{json, line};
 use crate::answer::scene::main_state;

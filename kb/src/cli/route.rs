@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::WayArgs;
+use super::args::WayArgs;
 use super::build::open;
 use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::{Args, Subcommand};
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::output::{json, line, remark, table};
 use crate::error::Result;
 use crate::error::problem::Problem;

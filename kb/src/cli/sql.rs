@@ -7,7 +7,7 @@ use adit_db::cell::Cell;
 use adit_db::query::{Answer, Limits};
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{json, line, problems, remark};
 use crate::error::Result;

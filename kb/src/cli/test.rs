@@ -1,6 +1,6 @@
 //! `adit test`: the tests of the rules, a line a test.
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{json, line, problems};
 use crate::error::Result;

@@ -4,7 +4,7 @@ use adit_db::Store;
 use adit_db::history::Author;
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::{changes, notes, open};
 use super::output::{json, line, table};
 use crate::edit::{Edit, change};

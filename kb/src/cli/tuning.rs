@@ -3,7 +3,7 @@
 use adit_db::Store;
 use clap::Args;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::open;
 use super::output::{json, line, maybe, table};
 use super::tune::apply;

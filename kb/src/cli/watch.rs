@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::SiteArgs;
+use super::args::SiteArgs;
 use super::build::{changes, notes, open};
 use super::output::{as_json, line, problems, remark};
 use crate::error::Result;

@@ -2,9 +2,9 @@
 
 use clap::Args;
 
+use super::args::{SiteArgs, WayArgs};
 use super::build::open;
 use super::output::{json, line};
-use super::{SiteArgs, WayArgs};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::why as mission;

@@ -4,10 +4,12 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::LISTED;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
 use crate::graph::pairs::{self, Found, From, Known};
+
+/// How many rooms, doors or routes are listed.
+pub(super) const LISTED: usize = 5_000;
 
 /// How the routes between places would change.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, utoipa::ToSchema)]

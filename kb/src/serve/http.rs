@@ -1,4 +1,5 @@
-//! All routes of the service, and what every request passes.
+//! All routes of the service, and what every request passes. Their description is answered by one of them: a circle with
+//! `http/service`.
 
 mod edits;
 mod experience;
@@ -15,14 +16,11 @@ mod stream;
 mod tables;
 mod why;
 
-use std::convert::Infallible;
-use std::ops::Deref;
 use std::pin::pin;
 use std::sync::Arc;
 
 use axum::body::Body;
-use axum::extract::{DefaultBodyLimit, FromRequestParts, State};
-use axum::http::request::Parts;
+use axum::extract::{DefaultBodyLimit, State};
 use axum::http::{HeaderValue, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -36,52 +34,16 @@ use utoipa::openapi::{Content, OpenApi, Ref, ResponseBuilder};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::desk::Desk;
-use super::fault::{Answered, Failure, Fault};
+use super::fault::{Failure, Fault};
 use super::shared::Shared;
 use super::waiting::Waiting;
 use super::{event, gate, meter, page};
 use crate::error::Code;
-
-/// The longest body that is read, bytes.
-const BODY: usize = 2 << 20;
+use extract::{BODY, too_large};
 
 /// Scripts, styles and data come from here and nowhere else.
 const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; object-src 'none'; base-uri 'none'; \
                       form-action 'self'; frame-ancestors 'none'";
-
-/// What every handler is given: what all requests share, and whether this one is still waited for.
-pub struct Site {
-    shared: Arc<Shared>,
-    waiting: Waiting,
-}
-
-impl Site {
-    /// Has an edit made, if its turn comes while its caller waits.
-    async fn edit_at_desk<T: Send + 'static>(
-        &self,
-        work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
-    ) -> Answered<T> {
-        self.shared.edit_at_desk(&self.waiting, work).await
-    }
-}
-
-impl Deref for Site {
-    type Target = Arc<Shared>;
-
-    fn deref(&self) -> &Arc<Shared> {
-        &self.shared
-    }
-}
-
-impl FromRequestParts<Arc<Shared>> for Site {
-    type Rejection = Infallible;
-
-    async fn from_request_parts(parts: &mut Parts, shared: &Arc<Shared>) -> Result<Self, Infallible> {
-        let waiting = parts.extensions.get().cloned().unwrap_or_default();
-        Ok(Self { shared: Arc::clone(shared), waiting })
-    }
-}
 
 /// All routes, and their description.
 fn described() -> (Router<Arc<Shared>>, OpenApi) {
@@ -247,8 +209,4 @@ async fn shape(request: Request<Body>, next: middleware::Next) -> Response {
         _ => Fault::new(Code::ServiceRefused, status.canonical_reason().unwrap_or("refused")),
     };
     fault.into_response()
-}
-
-fn too_large() -> Fault {
-    Fault::new(Code::ServiceTooLarge, format!("a body may have {BODY} bytes"))
 }

@@ -12,6 +12,9 @@
 //! cutting: at the far end the best way is looked for, the cell is moved to where that way costs as much as this
 //! one, and so on until no way costs less. Where it does not hold, ends are found by trying values and halving, and
 //! [`FirmCell::exact`] is false.
+//!
+//! The search and the words for what it finds take their types from here and are called from here: a circle that stays,
+//! since a lever, a path and a probe mean nothing without them.
 
 mod cells;
 mod corridor;

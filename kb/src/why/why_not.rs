@@ -1,5 +1,7 @@
 //! Why not another way: what the best route through a room or door would cost, contrasted with the best one, what
 //! decides, and what would have to be otherwise.
+//!
+//! The contrast puts the answer into words, and the answer is made of them: a circle that stays.
 
 mod contrast;
 mod through;

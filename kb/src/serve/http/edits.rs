@@ -7,8 +7,8 @@ use axum::Json;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Site;
 use super::extract::Body;
+use super::extract::Site;
 use crate::edit::Tell;
 use crate::edit::{Done, Edit};
 use crate::error::Code;

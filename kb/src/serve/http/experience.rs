@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::extract::{Asked, Body};
-use super::{BODY, Site, too_large};
+use super::extract::{BODY, Site, too_large};
 use crate::error::Code;
 use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Fault};

@@ -1,5 +1,9 @@
 //! What requests bring, taken apart; what cannot be is a failure in the one shape.
 
+use std::convert::Infallible;
+use std::ops::Deref;
+use std::sync::Arc;
+
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{FromRequest, FromRequestParts, Json, Query, Request};
 use axum::http::StatusCode;
@@ -7,8 +11,48 @@ use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
 
 use crate::error::Code;
-use crate::serve::fault::Fault;
+use crate::serve::desk::Desk;
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::role::Caller;
+use crate::serve::shared::Shared;
+use crate::serve::waiting::Waiting;
+
+/// The longest body that is read, bytes.
+pub const BODY: usize = 2 << 20;
+
+/// What every handler is given: what all requests share, and whether this one is still waited for.
+pub struct Site {
+    pub shared: Arc<Shared>,
+    pub waiting: Waiting,
+}
+
+impl Site {
+    /// Has an edit made, if its turn comes while its caller waits.
+    pub async fn edit_at_desk<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.shared.edit_at_desk(&self.waiting, work).await
+    }
+}
+
+impl Deref for Site {
+    type Target = Arc<Shared>;
+
+    fn deref(&self) -> &Arc<Shared> {
+        &self.shared
+    }
+}
+
+impl FromRequestParts<Arc<Shared>> for Site {
+    type Rejection = Infallible;
+
+    async fn from_request_parts(parts: &mut Parts, shared: &Arc<Shared>) -> Result<Self, Infallible> {
+        let waiting = parts.extensions.get().cloned().unwrap_or_default();
+        Ok(Self { shared: Arc::clone(shared), waiting })
+    }
+}
+
 pub struct Body<T>(pub T);
 
 impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
@@ -69,4 +113,8 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
         // the gate put it there; without it nobody is known, who may do nothing
         Ok(parts.extensions.get::<Self>().cloned().unwrap_or(Self { name: String::new(), roles: Vec::new() }))
     }
+}
+
+pub fn too_large() -> Fault {
+    Fault::new(Code::ServiceTooLarge, format!("a body may have {BODY} bytes"))
 }

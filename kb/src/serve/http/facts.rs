@@ -4,8 +4,8 @@ use axum::Json;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Site;
 use super::edits::{self, Edited, Scalar, Wish};
+use super::extract::Site;
 use super::extract::{Asked, Body, Named};
 use crate::edit::Edit;
 use crate::serve::fault::Answered;

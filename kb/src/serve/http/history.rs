@@ -4,8 +4,8 @@ use axum::Json;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Site;
 use super::extract::Asked;
+use super::extract::Site;
 use crate::serve::fault::Answered;
 
 /// Entries that one answer gives at most.

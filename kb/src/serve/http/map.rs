@@ -4,7 +4,7 @@ use axum::Json;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use crate::graph::SiteGraph;
 use adit_planners::world::{Shape, World};
 #[derive(Serialize, ToSchema)]

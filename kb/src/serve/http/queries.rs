@@ -5,7 +5,7 @@ use axum::Json;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use super::extract::{Body, Named};
 use crate::error::Code;
 use crate::serve::fault::{Answered, Fault};

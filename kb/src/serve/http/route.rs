@@ -7,7 +7,7 @@ use axum::extract::RawQuery;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 
-use super::Site;
+use super::extract::Site;
 use crate::answer::Answer;
 use crate::error::Code;
 use crate::live::View;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use super::extract::{Asked, Body, Named};
 use crate::error::problem::Problem;
 use crate::error::{Code, Error};

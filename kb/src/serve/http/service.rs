@@ -8,7 +8,7 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use crate::error::problem::Problem;
 use crate::serve::fault::Answered;
 use crate::serve::role::{Caller, Role};

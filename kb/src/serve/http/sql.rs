@@ -11,7 +11,7 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use super::extract::{Asked, Body};
 use crate::error::{Code, Error};
 use crate::serve::fault::{Answered, Fault};

@@ -10,7 +10,7 @@ use futures_util::Stream;
 use futures_util::stream;
 use tokio::sync::watch;
 
-use super::Site;
+use super::extract::Site;
 use crate::serve::event::{Event, Hello};
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate;

@@ -6,7 +6,7 @@ use axum::Json;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::Site;
+use super::extract::Site;
 use crate::edit;
 use crate::error::Result;
 use crate::knowledge::generation;

@@ -3,8 +3,8 @@
 use axum::Json;
 use serde::Deserialize;
 
-use super::Site;
 use super::extract::Asked;
+use super::extract::Site;
 use crate::serve::fault::Answered;
 use crate::why::Why;
 use crate::why::why_not::WhyNot;
