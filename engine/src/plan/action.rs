@@ -125,7 +125,12 @@ fn step(
             let slot = slot(lowering);
             // Known by name even if its value is wrong: one mistake, one message.
             let kind = lowered.as_ref().ok().and_then(|(_, kind)| *kind);
-            lowering.locals.push(Local { name, slot, kind });
+            let local = Local { name, slot, kind };
+            // one declared again in its block takes the place of the first, counted from the end
+            match var.2.and_then(|from_end| lowering.locals.len().checked_sub(from_end.get())) {
+                Some(place) => lowering.locals[place] = local,
+                None => lowering.locals.push(local),
+            }
             out.push(Step::Put { slot, value: lowered?.0 });
         }
         Stmt::Assignment(assignment) => {

@@ -353,3 +353,21 @@ fn what_changes_a_variable_is_not_dropped() {
         }
     }
 }
+
+#[test]
+fn a_variable_is_itself_after_another_of_its_block_is_declared_twice() {
+    for body in [
+        "let s = t.s; { let v = 2.5; let v = v + 1; let u = s.len(); t.n = u + v; }",
+        "let s = t.s; let v = 2.5; let v = v + 1; let u = s.len(); t.n = u + v;",
+        "let v = 2.5; let s = t.s; let v = v + 1; if v > 3 { let w = v; let u = s.len(); t.n = u + w; }",
+        "let v = 2.5; let v = v + 1; let s = t.s; { let s = s + s; let v = 1; let v = s.len(); t.n = v; }",
+    ] {
+        let (base, _) = concluded(&format!("rule \"c\" each t in T then {{ {body} }}"), [class(&ROWS)]);
+        let (reference, _) = concluded(
+            &format!("rule \"i\" each t in T then {{ for i in 0..1 {{ }} {body} }}"),
+            [class(&ROWS)],
+        );
+        assert_eq!(base.numbers("T", "n"), reference.numbers("T", "n"), "{body}");
+        assert!(base.numbers("T", "n").unwrap().iter().any(Option::is_some), "{body}");
+    }
+}
