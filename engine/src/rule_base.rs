@@ -79,6 +79,12 @@ impl RuleBase {
     pub fn concluded(&self) -> BTreeSet<&PropertyName> {
         self.rules.iter().flat_map(|rule| rule.sets.keys()).collect()
     }
+
+    /// Whether a rule or a default gives a property its values; a revision only changes what there is.
+    pub fn gives(&self, class: &str, property: &str) -> bool {
+        let name = PropertyName::new(class, property);
+        self.rules.iter().any(|rule| rule.level().is_none() && rule.sets.contains_key(&name))
+    }
 }
 
 /// A declared default is heard after every rule, that of the most special class first.

@@ -101,6 +101,22 @@ impl KnowledgeBase {
         Ok(())
     }
 
+    /// Takes a property away that was told object by object, as if it had never been told: a rule that needs it waits,
+    /// unless another concludes it. Of a property that is not there, nothing is left to take away.
+    pub fn retract_property(&mut self, class: &str, property: &str) -> Result<(), FactError> {
+        let Some(Held { table, pending }) = self.held.get_mut(class) else { return Ok(()) };
+        let Some(at) = table.names.iter().position(|name| name == property) else { return Ok(()) };
+        if table.key.contains(&at) {
+            return Err(FactError::Key { class: class.to_owned(), property: property.to_owned() });
+        }
+        let column = table.narrow(at);
+        for row in (0..column.len()).filter(|&row| !column.is_unknown(row)) {
+            pending.change(property, row as u32);
+        }
+        self.network.recheck = true;
+        Ok(())
+    }
+
     /// Adds an object at the end of its class and gives its row. Properties that are left out are unknown; a class
     /// or property that is not there is made.
     pub fn add(&mut self, class: &str, object: &[(&str, Value)]) -> Result<usize, FactError> {
@@ -210,6 +226,15 @@ impl Table {
         self.names.push(property.to_owned());
         self.columns.push(Column::unknown(kind, self.len));
         self.columns.len() - 1
+    }
+
+    /// Takes a property out that is no part of the key.
+    fn narrow(&mut self, at: usize) -> Column {
+        self.nulls.retain(|(column, _)| *column != at);
+        let later = self.key.iter_mut().chain(self.nulls.iter_mut().map(|(column, _)| column));
+        later.filter(|column| **column > at).for_each(|column| *column -= 1);
+        self.names.remove(at);
+        self.columns.remove(at)
     }
 
     fn null_of(&self, at: usize) -> Cell {

@@ -47,10 +47,28 @@ pub type Row = (Option<i32>, Option<i32>, Option<usize>, Option<bool>);
 
 #[derive(Clone, Debug)]
 enum Edit {
-    Tell { class: bool, row: usize, property: usize, value: Row },
-    Add { class: bool, value: Row },
-    Remove { class: bool, row: usize },
-    Assert { class: bool, rows: Vec<(u8, Row)> },
+    Tell {
+        class: bool,
+        row: usize,
+        property: usize,
+        value: Row,
+    },
+    Add {
+        class: bool,
+        value: Row,
+    },
+    Remove {
+        class: bool,
+        row: usize,
+    },
+    Assert {
+        class: bool,
+        rows: Vec<(u8, Row)>,
+    },
+    /// Nothing is told of z any more, which is as if there were none.
+    RetractZ {
+        class: bool,
+    },
     Rule(usize),
     Ask,
 }
@@ -69,6 +87,7 @@ fn edit() -> impl Strategy<Value = Edit> {
         2 => (any::<bool>(), row()).prop_map(|(class, value)| Edit::Add { class, value }),
         2 => (any::<bool>(), 0..7_usize).prop_map(|(class, row)| Edit::Remove { class, row }),
         1 => (any::<bool>(), rows.prop_shuffle()).prop_map(|(class, rows)| Edit::Assert { class, rows }),
+        1 => any::<bool>().prop_map(|class| Edit::RetractZ { class }),
         1 => (0..RULES.len()).prop_map(Edit::Rule),
         2 => Just(Edit::Ask),
     ]
@@ -81,6 +100,8 @@ pub const PROPERTIES: [&str; 5] = ["x", "y", "s", "b", "z"];
 #[derive(Clone, Debug, Default)]
 struct Facts {
     tables: [Vec<(f64, Vec<Option<Value>>)>; 2],
+    /// Whether they have no z.
+    lack_z: [bool; 2],
     next: f64,
 }
 
@@ -109,13 +130,16 @@ impl Facts {
             _ => None,
         };
         let (name, key) = if class { ("T", "t") } else { ("U", "u") };
-        Class::new(name, &[key])
+        let told = Class::new(name, &[key])
             .numbers(key, rows.iter().map(|row| Some(row.0)))
             .numbers("x", rows.iter().map(|row| number(&row.1[0])))
             .numbers("y", rows.iter().map(|row| number(&row.1[1])))
             .texts("s", rows.iter().map(|row| text(&row.1[2])))
-            .truths("b", rows.iter().map(|row| truth(&row.1[3])))
-            .numbers("z", rows.iter().map(|row| number(&row.1[4])))
+            .truths("b", rows.iter().map(|row| truth(&row.1[3])));
+        if self.lack_z[usize::from(class)] {
+            return told;
+        }
+        told.numbers("z", rows.iter().map(|row| number(&row.1[4])))
     }
 
     fn apply(&mut self, edit: &Edit, base: &mut KnowledgeBase) {
@@ -126,6 +150,7 @@ impl Facts {
                 // A told z stands before what rules conclude of it.
                 let value = cells(value)[if *property == 4 { 0 } else { *property }].clone();
                 base.tell(name, &row.0.to_string(), PROPERTIES[*property], value.clone()).unwrap();
+                self.lack_z[usize::from(*class)] &= *property != 4 || value.is_none();
                 row.1[*property] = value;
             }
             Edit::Add { class, value } => {
@@ -150,6 +175,11 @@ impl Facts {
                 self.tables[usize::from(*class)] =
                     rows.iter().map(|(key, row)| (f64::from(*key), cells(row))).collect();
                 base.assert(self.class(*class)).unwrap();
+            }
+            Edit::RetractZ { class } => {
+                base.retract_property(class_name(*class), "z").unwrap();
+                self.lack_z[usize::from(*class)] = true;
+                self.tables[usize::from(*class)].iter_mut().for_each(|(_, cells)| cells[4] = None);
             }
             Edit::Rule(_) | Edit::Ask => {}
         }
