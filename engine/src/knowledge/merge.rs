@@ -37,6 +37,7 @@ impl KnowledgeBase {
         }
         let len = derived.stages[0].len();
         let pending = std::mem::take(&mut derived.pending[0]).settle(len);
+        run.reasons.entry(name.clone()).or_default().join(&pending);
         self.index(name, &derived.rules());
         let kind = derived.stages[0].kind();
         let changed = match pending {
@@ -65,8 +66,8 @@ impl KnowledgeBase {
         let writers = derived.rules();
         derived.complete[0] = writers.iter().all(done);
         if !told && !writers.iter().any(done) {
-            if !derived.stages.is_empty() {
-                run.changed(name, (0, derived.stages.len()), &Dirty::All);
+            for stage in 0..derived.stages.len() {
+                run.changed(name, (stage, derived.stages.len()), &Dirty::All);
             }
             derived.stages.clear();
             derived.pending.fill(Dirty::All);

@@ -26,6 +26,7 @@ impl KnowledgeBase {
         }
         let len = derived.stages[0].len();
         let pending = std::mem::take(&mut derived.pending[stage]).settle(len);
+        run.reasons.entry(name.clone()).or_default().join(&pending);
         let rules = derived.levels[stage - 1].1.clone();
         self.index(name, &rules);
         let mut changed = Dirty::None;

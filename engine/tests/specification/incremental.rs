@@ -1,5 +1,7 @@
 //! After any edits of facts, tables and rules, everything is as if it had been concluded from scratch, to the bit.
 
+use std::collections::BTreeMap;
+
 use adit_engine::{Class, Conclusions, KnowledgeBase, RuleBase, Schema, SourceFile, Value};
 use proptest::prelude::*;
 
@@ -256,6 +258,61 @@ proptest! {
                     prop_assert_eq!(seen(&base, &rules, &report), seen(&scratch, &rules, &anew));
                 }
                 _ => {}
+            }
+        }
+    }
+}
+
+/// What a host that keeps values with their reasons sees of the objects: by class, key and property.
+fn kept(base: &KnowledgeBase, rules: &RuleBase) -> BTreeMap<(String, String, String), String> {
+    let mut kept = BTreeMap::new();
+    for name in rules.concluded() {
+        let (class, property) = (&name.class, &name.property);
+        let rows: Vec<u32> = (0..base.len(class).unwrap_or(0) as u32).collect();
+        let (grounds, places) = base.grounds(class, property, &rows);
+        let revised = base.revised(rules, class, property);
+        for (&row, place) in rows.iter().zip(places) {
+            let key = base.key(class, row as usize).unwrap();
+            let value = base.value_at(class, row as usize, property);
+            let rule = place.map(|place| rules.rules()[grounds[place].rule].name());
+            let by: Vec<&str> = revised
+                .iter()
+                .flat_map(|(rule, rows)| rows.iter().filter(|&&of| of == row).map(|_| rule.name()))
+                .collect();
+            kept.insert((class.clone(), key, property.clone()), format!("{value:?} {rule:?} {by:?}"));
+        }
+    }
+    kept
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn changes_name_every_object_that_stayed_and_whose_value_or_reason_is_another(
+        first in (prop::collection::vec(row(), 0..6), prop::collection::vec(row(), 0..6)),
+        chosen in prop::collection::vec(any::<bool>(), RULES.len()),
+        edits in prop::collection::vec(edit(), 1..24),
+    ) {
+        let mut facts = Facts::default();
+        facts.tables[1] = first.0.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
+        facts.tables[0] = first.1.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
+        let mut base = KnowledgeBase::new();
+        base.assert(facts.class(true)).unwrap();
+        base.assert(facts.class(false)).unwrap();
+        let rules = compiled(&chosen);
+        base.update(&rules);
+        for edit in edits {
+            let before = kept(&base, &rules);
+            facts.apply(&edit, &mut base);
+            let changes = base.update(&rules);
+            for (of, now) in kept(&base, &rules) {
+                let (class, key, property) = &of;
+                let row = base.row(class, key).unwrap() as u32;
+                let named = [changes.rows(class, property), changes.reasons(class, property)];
+                let is_new = changes.classes.get(class).is_some_and(|class| class.added.contains(&row));
+                let is_named = is_new || named.iter().any(|rows| rows.contains(&row));
+                prop_assert!(before.get(&of) == Some(&now) || is_named, "{of:?}: {:?}, now {now}", before.get(&of));
             }
         }
     }
