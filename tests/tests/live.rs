@@ -168,6 +168,67 @@ fn facts_that_are_told_and_retracted() {
     );
 }
 
+/// The paper's rooms have no hardness by themselves.
+const ROOMS_BY_HARDNESS: &str = r#"
+revise "rooms of the middle are harder"
+    each room in ROOMS where room.x1 < 60.0
+    set room.hardness by * 2.0 level 10
+
+rule "hard rooms are not entered, and those of which nothing is known"
+    each room in ROOMS where !known(room.hardness) || room.hardness > 20.0
+    then { room.passable = false; }
+"#;
+
+/// The paper's example with these rules about what facts give, and what of it is there before anything is told.
+fn with_rules_of_what_is_told() -> (TestSite, Vec<String>) {
+    let site = TestSite::example("paper");
+    site.copy_rules("paper");
+    site.write("rules/told.rhai", ROOMS_BY_HARDNESS);
+    let site = site.built();
+    let before = derived(&site);
+    (site, before)
+}
+
+/// What follows from all that is told.
+fn derived(site: &TestSite) -> Vec<String> {
+    ["rooms", "doors", "witnesses", "derivations"]
+        .iter()
+        .flat_map(|table| site.sqlite3(&format!("SELECT * FROM {table}")))
+        .collect()
+}
+
+#[test]
+fn a_property_of_which_nothing_is_told_any_more_is_as_if_it_had_never_been_told() {
+    let (site, before) = with_rules_of_what_is_told();
+    let mut live = Live::open(at_one_moment(&site)).unwrap();
+    live.edit(&tell("rooms", "room d", "hardness", "9"), &author()).unwrap();
+    assert_ne!(derived(&site), before);
+    live.edit(&Edit::Retract(1), &author()).unwrap();
+    assert_eq!(derived(&site), before);
+}
+
+#[test]
+fn a_property_of_which_nothing_is_told_any_more_may_hold_values_of_another_type() {
+    let site = TestSite::example("paper").built();
+    let mut live = Live::open(at_one_moment(&site)).unwrap();
+    for (value, id) in ["true", "7", "gum"].into_iter().zip(1..) {
+        let Edit::Tell(told) = tell("rooms", "room d", "sticks", value) else { unreachable!() };
+        live.edit(&Edit::Tell(Tell { new_property: true, ..told }), &author()).unwrap();
+        live.edit(&Edit::Retract(id), &author()).unwrap();
+    }
+}
+
+#[test]
+fn a_refused_fact_about_a_new_property_leaves_no_trace() {
+    let (site, _) = with_rules_of_what_is_told();
+    let mut live = Live::open(at_one_moment(&site)).unwrap();
+    live.edit(&tell("rooms", "room d", "hardness", "-9"), &author()).unwrap_err();
+    live.edit(&set("SQUAT", "hardness", "3"), &author()).unwrap();
+    let held = derived(&site);
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(held, derived(&site));
+}
+
 #[test]
 fn facts_about_named_doors_and_areas() {
     let named = "name = \"named\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\n[[door]]\nname = \"gate\"\nfrom = [6.0, 3.0]\n\

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 
+use adit_db::door::Door;
+use adit_db::room::Room;
 use adit_db::schema::{Part, Row, Value as Lent};
 use adit_engine::Value;
 use adit_planners::facts::{Column, Facts};
@@ -24,6 +26,18 @@ pub struct Planned {
 }
 
 impl Planned {
+    /// Whether planners gave a property.
+    pub fn gives(&self, class: &str, property: &str) -> bool {
+        fn is_cut<R: Row>(property: &str) -> bool {
+            R::columns_of(Part::Cut).any(|column| column.name == property)
+        }
+        match class {
+            "ROOMS" => is_cut::<Room>(property),
+            "DOORS" => is_cut::<Door>(property),
+            _ => self.facts.get(class).is_some_and(|table| table.column(property).is_some()),
+        }
+    }
+
     /// What a planner said of a property of the object in a row.
     pub fn value(&self, graph: &SiteGraph, (class, row, property): (&str, usize, &str)) -> Option<Value> {
         match class {

@@ -199,6 +199,7 @@ impl State {
 
     /// Tells of each object of a planner's class what counts now instead of before.
     fn tell_of_planned(&mut self, before: &Attached, now: &Attached, told: &Told) -> Result<()> {
+        self.retract_properties(before, now, told)?;
         let is_planned = |class: &str| !told.classes.contains_key(class);
         for ((class, row, property), fact) in now.cells().iter().filter(|(cell, _)| is_planned(&cell.0)) {
             fact.tell_row(&mut self.knowledge, class, *row, property)?;
@@ -209,6 +210,19 @@ impl State {
             let value = self.planned.value(self.twin.shown(), (class, *row, property));
             let told = self.knowledge.tell_row(class, *row, property, value);
             told.map_err(Error::of(Code::TellRefused))?;
+        }
+        Ok(())
+    }
+
+    /// Takes away the properties of planners' classes that only facts gave, and none does any more: whoever needs one
+    /// waits again. One that rules give stays there unknown, which is the same to all, and spares making it anew.
+    fn retract_properties(&mut self, before: &Attached, now: &Attached, told: &Told) -> Result<()> {
+        for (class, property, _) in before.properties().difference(&now.properties()) {
+            let is_given = self.planned.gives(class, property) || self.inputs.rules.gives(class, property);
+            if !is_given && !told.classes.contains_key(*class) {
+                let gone = self.knowledge.retract_property(class, property);
+                gone.map_err(Error::of(Code::TellRefused))?;
+            }
         }
         Ok(())
     }

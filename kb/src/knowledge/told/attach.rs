@@ -1,8 +1,8 @@
 //! Which objects a fact is about, after each build anew: by name, or by what lies at its point.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use adit_engine::{KnowledgeBase as Inference, Value};
+use adit_engine::{KnowledgeBase as Inference, Type, Value};
 use adit_planners::geometry::{Point, Rect};
 
 use super::{Fact, Object};
@@ -38,6 +38,12 @@ impl Attached {
     /// Keys of the objects that a fact is about.
     pub fn keys(&self, fact: i64) -> Vec<String> {
         self.keys.get(&fact).cloned().unwrap_or_default()
+    }
+
+    /// Which properties are told, and of which type: class, property, type.
+    pub fn properties(&self) -> BTreeSet<(&str, &str, Type)> {
+        let cells = self.cells.iter();
+        cells.map(|((class, _, property), fact)| (class.as_str(), property.as_str(), fact.kind())).collect()
     }
 
     /// What is told of each property of each object: class, row, property.
