@@ -30,6 +30,28 @@ pub enum Screen {
     Phone,
 }
 
+/// A driver with the port on which it listens; `None` where it ends before it does.
+///
+/// # Panics
+/// Where `chromedriver` is missing: `tests/run` installs it.
+fn driver() -> Option<(Child, u16)> {
+    let mut driver = Command::new("chromedriver")
+        .arg("--port=0")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("chromedriver is installed (tests/run installs it)");
+    let out = BufReader::new(driver.stdout.take().expect("its output is piped"));
+    let port = out.lines().map_while(Result::ok).find_map(|line| {
+        let (_, port) = line.split_once("successfully on port ")?;
+        port.trim_end_matches('.').parse::<u16>().ok()
+    });
+    if port.is_none() {
+        driver.wait().expect("a driver that has ended");
+    }
+    port.map(|port| (driver, port))
+}
+
 /// Chromium with a page.
 pub struct Browser {
     driver: Child,
@@ -45,21 +67,8 @@ impl Browser {
     /// # Panics
     /// Where `chromedriver` or `chromium` is missing: `tests/run` installs them.
     pub async fn open(address: &str, screen: Screen) -> Self {
-        let mut driver = Command::new("chromedriver")
-            .arg("--port=0")
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("chromedriver is installed (tests/run installs it)");
-        let out = BufReader::new(driver.stdout.take().expect("its output is piped"));
-        let port = out
-            .lines()
-            .map_while(Result::ok)
-            .find_map(|line| {
-                let (_, port) = line.split_once("successfully on port ")?;
-                port.trim_end_matches('.').parse::<u16>().ok()
-            })
-            .expect("chromedriver says its port");
+        // a port that somebody else takes meanwhile ends the driver
+        let (driver, port) = (0..5).find_map(|_| driver()).expect("chromedriver says its port");
         let mut options = json!({ "args": [
             "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--force-prefers-reduced-motion",
             "--window-size=1380,1020", "--lang=en",
@@ -128,7 +137,14 @@ impl Browser {
 
     /// What an element says, as it is seen.
     pub async fn text(&self, css: &str) -> String {
-        self.find(css).await.text().await.expect("a text")
+        loop {
+            match self.find(css).await.text().await {
+                Ok(text) => return text,
+                // the page has put another element in its place meanwhile
+                Err(error) if error.is_stale_element_reference() => {}
+                Err(error) => panic!("a text of {css}: {error}"),
+            }
+        }
     }
 
     /// Runs JavaScript on the page and gives what it returns.
