@@ -31,9 +31,6 @@ pub enum Screen {
 }
 
 /// A driver with the port on which it listens; `None` where it ends before it does.
-///
-/// # Panics
-/// Where `chromedriver` is missing: `tests/run` installs it.
 fn driver() -> Option<(Child, u16)> {
     let mut driver = Command::new("chromedriver")
         .arg("--port=0")
@@ -137,14 +134,14 @@ impl Browser {
 
     /// What an element says, as it is seen.
     pub async fn text(&self, css: &str) -> String {
-        loop {
+        for _ in 0..20 {
             match self.find(css).await.text().await {
-                Ok(text) => return text,
                 // the page has put another element in its place meanwhile
                 Err(error) if error.is_stale_element_reference() => {}
-                Err(error) => panic!("a text of {css}: {error}"),
+                text => return text.expect("a text"),
             }
         }
+        panic!("{css} is put in place anew all the time");
     }
 
     /// Runs JavaScript on the page and gives what it returns.

@@ -117,6 +117,20 @@ pub fn class_name(class: bool) -> &'static str {
 }
 
 impl Facts {
+    /// Rows of `T` and of `U`, numbered.
+    fn of((one, other): &(Vec<Row>, Vec<Row>)) -> Self {
+        let numbered = |rows: &[Row]| (0_u32..).map(f64::from).zip(rows.iter().map(cells)).collect();
+        Self { tables: [numbered(other), numbered(one)], ..Self::default() }
+    }
+
+    /// A knowledge base to which all of them are told.
+    fn told(&self) -> KnowledgeBase {
+        let mut base = KnowledgeBase::new();
+        base.assert(self.class(true)).unwrap();
+        base.assert(self.class(false)).unwrap();
+        base
+    }
+
     fn class(&self, class: bool) -> Class {
         let rows = &self.tables[usize::from(class)];
         let number = |value: &Option<Value>| match value {
@@ -234,12 +248,8 @@ proptest! {
         edits in prop::collection::vec(edit(), 1..24),
     ) {
         let mut chosen = chosen;
-        let mut facts = Facts::default();
-        facts.tables[1] = first.0.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
-        facts.tables[0] = first.1.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
-        let mut base = KnowledgeBase::new();
-        base.assert(facts.class(true)).unwrap();
-        base.assert(facts.class(false)).unwrap();
+        let mut facts = Facts::of(&first);
+        let mut base = facts.told();
         let mut rules = compiled(&chosen);
         base.conclude(&rules);
         for edit in edits.iter().chain([&Edit::Ask]) {
@@ -251,9 +261,7 @@ proptest! {
                 }
                 Edit::Ask => {
                     let report = base.conclude(&rules);
-                    let mut scratch = KnowledgeBase::new();
-                    scratch.assert(facts.class(true)).unwrap();
-                    scratch.assert(facts.class(false)).unwrap();
+                    let mut scratch = facts.told();
                     let anew = scratch.conclude(&rules);
                     prop_assert_eq!(seen(&base, &rules, &report), seen(&scratch, &rules, &anew));
                 }
@@ -294,12 +302,8 @@ proptest! {
         chosen in prop::collection::vec(any::<bool>(), RULES.len()),
         edits in prop::collection::vec(edit(), 1..24),
     ) {
-        let mut facts = Facts::default();
-        facts.tables[1] = first.0.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
-        facts.tables[0] = first.1.iter().enumerate().map(|(key, row)| (key as f64, cells(row))).collect();
-        let mut base = KnowledgeBase::new();
-        base.assert(facts.class(true)).unwrap();
-        base.assert(facts.class(false)).unwrap();
+        let mut facts = Facts::of(&first);
+        let mut base = facts.told();
         let rules = compiled(&chosen);
         base.update(&rules);
         for edit in edits {
