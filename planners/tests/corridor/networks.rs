@@ -111,6 +111,34 @@ fn least_gap(drive: &Drive) -> f64 {
     drive.turns.iter().map(|turn| turn.steer.gap).fold(f64::INFINITY, f64::min)
 }
 
+#[test]
+fn a_turn_so_wide_that_it_comes_through_a_wall_and_out_behind_it_is_refused() {
+    // once, it was driven, with 14 mm to spare: the robot had left the wall behind where it was looked at
+    let rect = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(x0, y0, x1, y1);
+    let channels = [
+        [0.05, 1.10243, 1.25, 11.1016],
+        [1.3, 7.22424, 2.63121, 16.40666],
+        [0.05, 1.10243, 2.63121, 5.46316],
+        [-2.66289, 7.22424, 2.63121, 11.1016],
+        [0.05, 12.0759, 2.63121, 16.40666],
+    ];
+    let problem = Problem {
+        channels: channels.map(rect).into(),
+        robot: Robot { width: 0.50156, length: 0.31672 },
+        shares: vec![3.342_63],
+        start: Point::new(-0.90946, 8.22111),
+        goal: Point::new(0.44256, 14.07651),
+        heading: None,
+    };
+    let corridors = Corridors::new(&problem.channels).unwrap();
+    let route = problem.route(&corridors).unwrap();
+    assert!(
+        matches!(problem.drive(&route, None), Err(DriveError::HitsInTurn { .. })),
+        "{:?}",
+        problem.drive(&route, None)
+    );
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 

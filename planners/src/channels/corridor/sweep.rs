@@ -118,7 +118,8 @@ impl<'a> Orbit<'a> {
     ///
     /// Seen from the body, the wall turns about the centre. The distance to a fixed piece of it then has one minimum in a
     /// full turn: an end is nearest where it is abreast of the body, or passes its outer corners; the inside of the wall
-    /// where its foot passes them. So it is enough to look at these angles and at both ends of the arc.
+    /// where its foot passes them. Who comes through the wall is on it with its middle at some moment. So it is enough to
+    /// look at these angles and at both ends of the arc.
     fn distance(&self, body: &Body, wall: &Wall) -> f64 {
         let outer = self.circle.radius + body.half_width;
         let seen = [self.seen(wall.a), self.seen(wall.b)];
@@ -146,12 +147,28 @@ impl<'a> Orbit<'a> {
                 look(end, Angle { sin: -offset.sin, ..offset });
             }
         }
+        for crossed in self.crossings(seen) {
+            look(crossed, Angle { sin: 0.0, cos: 1.0 });
+        }
         let foot = Point::default().nearest_on(seen[0], seen[1]);
         if foot != seen[0] && foot != seen[1] {
             look(foot, corner);
             look(foot, Angle { sin: -corner.sin, ..corner });
         }
         least
+    }
+
+    /// Where a wall crosses the circle that the middle goes along.
+    fn crossings(&self, [a, b]: [Point; 2]) -> impl Iterator<Item = Point> + use<> {
+        let whole = (b - a).length();
+        let along = (b - a) * (1.0 / whole);
+        let foot = -a.dot(along);
+        let half = (self.circle.radius.powi(2) - a.cross(along).powi(2)).sqrt();
+        // no number where the wall lies outside of the circle, and then neither comparison holds
+        [foot - half, foot + half]
+            .into_iter()
+            .filter(move |at| (0.0..=whole).contains(at))
+            .map(move |at| a + along * at)
     }
 
     /// A point as it is seen at the start, from the centre: x in the direction of travel, y towards the body.
