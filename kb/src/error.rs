@@ -54,7 +54,8 @@ impl Error {
     /// The exit status of a program that ends with it: 1 where all that is wrong is that there is no route or that a
     /// check failed, else 2.
     pub fn exit(&self) -> u8 {
-        self.problems.iter().map(|problem| problem.code().map_or(2, Code::exit)).max().unwrap_or(2)
+        let errors = self.problems.iter().filter(|problem| problem.is_error());
+        errors.map(|problem| problem.code().map_or(2, Code::exit)).max().unwrap_or(2)
     }
 }
 

@@ -28,12 +28,13 @@ use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
 
-use crate::error::{Code, Error, Result};
+use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
+use crate::site::lint;
 use crate::site::rules;
 use crate::site::rules::Rules;
 use crate::site::states;
@@ -356,7 +357,9 @@ impl KnowledgeBase {
         if failures.is_empty() {
             return Ok(());
         }
-        Err(Error::all(failures.into_iter().map(|failure| failure.diagnostic)))
+        // what a rule sets and nothing reads is often why
+        let failures = failures.into_iter().map(|failure| Finding::from(failure.diagnostic));
+        Err(Error::all(failures.chain(lint::unread(rules, &self.planners))))
     }
 
     /// Runs tests; all of them together may take what one inference may.

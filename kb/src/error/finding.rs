@@ -73,6 +73,11 @@ impl Finding {
         self
     }
 
+    /// Whether it keeps what was asked for from being done.
+    pub fn is_error(&self) -> bool {
+        self.diagnostic().severity().is_none_or(|severity| severity == Severity::Error)
+    }
+
     pub fn code(&self) -> Option<Code> {
         match &self.0 {
             Kind::Said(said) => said.code,

@@ -20,7 +20,7 @@ const READ_BY_ROUTES: [&str; 6] =
     ["ROOMS.hardness", "ROOMS.action", "ROOMS.passable", "DOORS.hardness", "DOORS.action", "DOORS.passable"];
 
 /// Every property that is set and never read, in the order of the rules.
-fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
+pub fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs))
 }
