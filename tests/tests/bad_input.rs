@@ -79,6 +79,44 @@ fn a_rule_that_misspells_a_property() {
 }
 
 #[test]
+fn a_rule_that_sets_a_misspelt_property_is_named_beside_the_tests_that_fail_by_it() {
+    // once, ten tests failed, and nothing said why
+    let site = TestSite::example("clinic").built();
+    site.copy_rules_and_tests("by-state");
+    site.edit("rules/doors.rhai", "door.hardness = 0.0", "door.hardnes = 0.0");
+    let words = ["no rule applied", "doors.rhai", "sets DOORS.hardnes,", "did you mean `DOORS.hardness`?"];
+    site.adit("build", &[]).expecting(1).complains(&words);
+}
+
+#[test]
+fn a_state_that_cannot_be_read_is_one_mistake_and_not_one_in_each_change_that_names_it() {
+    let site = TestSite::example("clinic").built();
+    site.edit("robots.toml", "width = 0.6", "width = \"wide\"");
+    let said = site.adit("build", &[]).expecting(2).stderr;
+    assert_eq!(said.matches('×').count(), 1, "{said}");
+    assert!(said.contains("`width` of [[robots]] must be a number"), "{said}");
+}
+
+#[test]
+fn a_change_to_no_state_is_marked_where_it_stands_below_others_that_are_wrong() {
+    // once, the line of another change was shown where one above was wrong
+    let site = TestSite::example("clinic").built();
+    let changes = "[[changes]]\nfrom_state = \"STAND\"\nto_state = \"SQUAT\"\nhardness = \"much\"\n\
+                   [[changes]]\nfrom_state = \"SQAT\"\nto_state = \"STAND\"\nhardness = 1.0\n";
+    let text = site.read("robots.toml");
+    let states = text.split("[[changes]]").next().unwrap();
+    site.write("robots.toml", states.to_owned() + changes);
+    let said = site.adit("build", &[]).expecting(2).stderr;
+    assert_eq!(said.matches('×').count(), 2, "{said}");
+    let from = states.lines().count() + 6;
+    for words in
+        ["`SQAT` is not a state of robot `robot`", "did you mean `SQUAT`?", &format!("robots.toml:{from}:")]
+    {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
 fn an_empty_robot_table() {
     let site = TestSite::example("paper").with("robots.toml", "");
     site.adit("build", &[]).expecting(2).complains(&["robots.toml", "[[robots]]"]);

@@ -13,10 +13,11 @@ use adit_db::robot::{Change, State};
 use adit_planners::read::{Code, Document, Fields, Problem};
 
 pub use names::ONLY_ROBOT;
-use names::{name, robot};
+use names::{Named, name, robot};
 
 use crate::error::{self, Error, Result};
 use crate::site::not_negative;
+use crate::words::suggest::did_you_mean;
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotFile {
@@ -38,11 +39,10 @@ impl RobotFile {
         let fields = document.fields("robots.toml");
         let mut problems = Vec::new();
         fields.refuse_unknown(&["robots", "changes", "loads"], &mut problems);
-        let robots = robots(&fields, &mut problems);
-        let changes = changes(&fields, &mut problems);
-        let loads = loads::loads(&fields, &robots, &mut problems);
+        let (robots, named) = robots(&fields, &mut problems);
+        let changes = changes(&fields, &named, &mut problems);
+        let loads = loads::loads(&fields, &named, &mut problems);
         let file = Self { robots, changes, loads };
-        file.check_changes(&fields, &mut problems);
         if !problems.is_empty() {
             return Err(Error::all(problems));
         }
@@ -100,31 +100,19 @@ impl RobotFile {
             (false, _, _) => Some(named.join(", ")),
         }
     }
-
-    fn check_changes(&self, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) {
-        let mut ignored = Vec::new();
-        let entries = fields.tables("changes", "[[changes]]", &mut ignored);
-        for (change, entry) in self.changes.iter().zip(&entries) {
-            for state in [&change.from_state, &change.to_state] {
-                if !self.robots.iter().any(|row| row.robot == change.robot && row.state == *state) {
-                    let message = format!("`{state}` is not a state of robot `{}`", change.robot);
-                    problems.push(fields.text.problem(Code::WrongType, &entry.span, message));
-                }
-            }
-        }
-    }
 }
 
 const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE\"\naction = \"DRIVE\"\n\
                        height = 1.2\nwidth = 0.6\nhardness = 1.0";
 
-fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
-    let mut rows: Vec<State> = Vec::new();
+fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> (Vec<State>, Named) {
+    let (mut rows, mut named): (Vec<State>, Named) = Default::default();
     for entry in fields.tables("robots", "[[robots]]", problems) {
         entry
             .refuse_unknown(&["robot", "state", "action", "height", "width", "length", "hardness"], problems);
         let robot = robot(&entry, problems);
         let (state, action) = (name(&entry, "state", problems), name(&entry, "action", problems));
+        named.add(&robot, state.as_ref().map(|state| state.value.as_str()));
         let sizes = ["height", "width", "hardness"].map(|key| not_negative(&entry, key, problems));
         let length = entry.get("length").is_some().then(|| entry.positive("length", problems));
         let (Some(state), Some(action), [Some(height), Some(width), Some(hardness)]) = (state, action, sizes)
@@ -150,16 +138,26 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<State> {
         let length = length.flatten().map(|length| length.value);
         rows.push(State { robot, state, action, height, width, length, hardness, position });
     }
-    rows
+    (rows, named)
 }
 
-fn changes(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Vec<Change> {
+fn changes(fields: &Fields<'_, '_>, named: &Named, problems: &mut Vec<Problem>) -> Vec<Change> {
     let mut rows: Vec<Change> = Vec::new();
     for entry in fields.tables("changes", "[[changes]]", problems) {
         entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness"], problems);
         let robot = robot(&entry, problems);
         let from = name(&entry, "from_state", problems);
         let to = name(&entry, "to_state", problems);
+        for state in [&from, &to].into_iter().flatten().filter(|state| !named.has_state(&robot, &state.value))
+        {
+            let message = format!("`{}` is not a state of robot `{robot}`", state.value);
+            let problem = entry.text.problem(Code::WrongType, &state.span, message);
+            let meant = did_you_mean(&state.value, named.of(&robot).flatten());
+            problems.push(match meant {
+                Some(help) => problem.with_help(help),
+                None => problem,
+            });
+        }
         if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems))
         {
             let row = Change { robot, from_state: from.value, to_state: to.value, hardness };

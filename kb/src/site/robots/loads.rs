@@ -1,14 +1,13 @@
 //! `[[loads]]` of `robots.toml`: what the robots can carry.
 
 use adit_db::load::Load;
-use adit_db::robot::State;
 use adit_planners::read::{Code, Fields, Problem};
 
-use super::names::{name, robot};
+use super::names::{Named, name, robot};
 use crate::site::not_negative;
 
 /// The loads of the file. One is carried from the start where the file says so.
-pub(super) fn loads(fields: &Fields<'_, '_>, states: &[State], problems: &mut Vec<Problem>) -> Vec<Load> {
+pub(super) fn loads(fields: &Fields<'_, '_>, named: &Named, problems: &mut Vec<Problem>) -> Vec<Load> {
     let mut rows: Vec<Load> = Vec::new();
     for entry in fields.tables("loads", "[[loads]]", problems) {
         entry.refuse_unknown(&["robot", "load", "height", "width", "carried"], problems);
@@ -20,7 +19,7 @@ pub(super) fn loads(fields: &Fields<'_, '_>, states: &[State], problems: &mut Ve
         let (Some(load), [Some(height), Some(width)], Some(carried)) = (load, sizes, carried) else {
             continue;
         };
-        if !states.iter().any(|row| row.robot == robot) {
+        if !named.has_robot(&robot) {
             let message = format!("`{}` is a load of robot `{robot}`, which has no state here", load.value);
             problems.push(entry.text.problem(Code::WrongType, &entry.span, message));
         }
