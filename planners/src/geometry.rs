@@ -1,6 +1,7 @@
 //! Plane geometry that every planner shares: metres in the map's frame (x to the right, y up), radians
 //! counter-clockwise from the x axis. Where a sign decides, it is exact ([`orient`]); values are rounded.
 
+mod convex;
 mod orientation;
 mod point;
 pub mod polygon;
@@ -9,6 +10,7 @@ mod rect;
 mod segment;
 pub mod tolerance;
 
+pub use convex::Convex;
 pub use orientation::{cross, orient};
 pub use point::{Point, path_length};
 pub use ray_grid::RayGrid;

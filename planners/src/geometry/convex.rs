@@ -1,0 +1,268 @@
+//! Convex outlines: of rooms, and of what two of them share.
+
+use std::sync::Arc;
+
+use super::tolerance::ROUNDING_M;
+use super::{Point, Rect, Segment, cross};
+
+/// A convex polygon. A rectangle along the axes is kept as what it is, and everything about it is exact; of others
+/// corners may lie a rounding inside of where they would be convex.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Convex {
+    bounds: Rect,
+    /// Counterclockwise; `None` for a rectangle along the axes.
+    corners: Option<Arc<[Point]>>,
+}
+
+impl From<Rect> for Convex {
+    fn from(bounds: Rect) -> Self {
+        Self { bounds, corners: None }
+    }
+}
+
+impl Convex {
+    /// # Arguments
+    /// `corners` are at least three, counterclockwise.
+    pub fn new(corners: Vec<Point>) -> Self {
+        let bounds = Rect::around(corners.iter().copied());
+        let is_rect = corners.len() == 4 && bounds.corners().iter().all(|corner| corners.contains(corner));
+        Self { bounds, corners: (!is_rect).then(|| corners.into()) }
+    }
+
+    /// The least rectangle along the axes about it.
+    pub fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// The rectangle along the axes that it is.
+    pub fn rect(&self) -> Option<Rect> {
+        self.corners.is_none().then_some(self.bounds)
+    }
+
+    /// Counterclockwise.
+    pub fn corners(&self) -> impl Iterator<Item = Point> + Clone + '_ {
+        (0..self.count()).map(|number| self.corner(number))
+    }
+
+    /// Counterclockwise, with the ground to the left.
+    pub fn sides(&self) -> impl Iterator<Item = Segment> + Clone + '_ {
+        let count = self.count();
+        (0..count).map(move |number| Segment::new(self.corner(number), self.corner((number + 1) % count)))
+    }
+
+    fn count(&self) -> usize {
+        self.corners.as_ref().map_or(4, |corners| corners.len())
+    }
+
+    fn corner(&self, number: usize) -> Point {
+        match &self.corners {
+            Some(corners) => corners[number],
+            None => self.bounds.corners()[number],
+        }
+    }
+
+    /// Whether a point lies inside or on the outline; of what is no rectangle, or a rounding beside it.
+    pub fn contains(&self, p: Point) -> bool {
+        match self.corners {
+            None => self.bounds.contains(p),
+            Some(_) => {
+                self.bounds.grown(ROUNDING_M).contains(p)
+                    && self.sides().all(|side| cross(side.a, side.b, p) >= -ROUNDING_M * side.length())
+            }
+        }
+    }
+
+    /// The point of it that is nearest to another one.
+    pub fn nearest_to(&self, p: Point) -> Point {
+        if self.corners.is_none() {
+            return self.bounds.nearest_to(p);
+        }
+        if self.sides().all(|side| cross(side.a, side.b, p) >= 0.0) {
+            return p;
+        }
+        let near = self.sides().map(|side| side.nearest_to(p));
+        near.min_by(|one, two| one.squared_distance(p).total_cmp(&two.squared_distance(p))).unwrap_or(p)
+    }
+
+    /// Metres to a point; 0 inside.
+    pub fn distance(&self, p: Point) -> f64 {
+        self.nearest_to(p).distance(p)
+    }
+
+    /// The shares of the way between two points at which it comes in and leaves again (Cyrus and Beck 1978); `None`
+    /// where at most a point of it lies inside.
+    pub fn shares(&self, from: Point, to: Point) -> Option<(f64, f64)> {
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        for side in self.sides() {
+            let (one, two) = (cross(side.a, side.b, from), cross(side.a, side.b, to));
+            if one < 0.0 && two < 0.0 {
+                return None;
+            }
+            let share = one / (one - two);
+            if two > one {
+                enters = if one < 0.0 { enters.max(share) } else { enters };
+            } else if two < one {
+                leaves = if two < 0.0 { leaves.min(share) } else { leaves };
+            }
+        }
+        (enters < leaves).then_some((enters, leaves))
+    }
+
+    /// What of a segment lies inside; `None` where at most a point does.
+    pub fn clip(&self, segment: Segment) -> Option<Segment> {
+        if self.corners.is_none() {
+            return self.bounds.clip(segment.a, segment.b).map(|(a, b)| Segment::new(a, b));
+        }
+        let (enters, leaves) = self.shares(segment.a, segment.b)?;
+        let a = if enters > 0.0 { segment.at(enters) } else { segment.a };
+        let b = if leaves < 1.0 { segment.at(leaves) } else { segment.b };
+        Some(Segment::new(a, b))
+    }
+
+    /// What lies left of the line through a segment, in its direction; `None` where nothing does but a rounding.
+    pub fn left_of(&self, line: Segment) -> Option<Self> {
+        let slack = ROUNDING_M * line.length();
+        let side = |p: Point| cross(line.a, line.b, p);
+        if self.corners().all(|corner| side(corner) >= -slack) {
+            return Some(self.clone());
+        }
+        if self.corners().all(|corner| side(corner) <= slack) {
+            return None;
+        }
+        let mut kept = Vec::with_capacity(self.count() + 1);
+        for Segment { a, b } in self.sides() {
+            let (one, two) = (side(a), side(b));
+            if one >= 0.0 {
+                kept.push(a);
+            }
+            if one.min(two) < 0.0 && one.max(two) > 0.0 {
+                kept.push(a.lerp(b, one / (one - two)));
+            }
+        }
+        kept.dedup_by(|b, a| a.distance(*b) <= ROUNDING_M);
+        if kept.len() > 1 && kept[0].distance(kept[kept.len() - 1]) <= ROUNDING_M {
+            kept.pop();
+        }
+        (kept.len() >= 3).then(|| Self::new(kept))
+    }
+
+    /// What both have in common; `None` where that is less than an area.
+    pub fn common(&self, other: &Self) -> Option<Self> {
+        let bounds = self.bounds.intersection(&other.bounds)?;
+        if let (None, None) = (&self.corners, &other.corners) {
+            return Some(bounds.into());
+        }
+        other.sides().try_fold(self.clone(), |rest, side| rest.left_of(side))
+    }
+
+    /// Square metres.
+    pub fn area(&self) -> f64 {
+        let origin = self.corner(0);
+        let twice: f64 = self.sides().map(|side| cross(origin, side.a, side.b)).sum();
+        match self.corners {
+            None => self.bounds.area(),
+            Some(_) => twice / 2.0,
+        }
+    }
+
+    /// Its centre of gravity.
+    pub fn centre(&self) -> Point {
+        let area = self.area();
+        if self.corners.is_none() || area <= 0.0 {
+            return self.bounds.centre();
+        }
+        let origin = self.corner(0);
+        let weighed = self.sides().map(|side| {
+            let (a, b) = (side.a - origin, side.b - origin);
+            (a + b) * (a.cross(b) / (6.0 * area))
+        });
+        weighed.fold(origin, |sum, part| sum + part)
+    }
+
+    /// The least distance between two parallel lines that it lies between: of a rectangle its smaller side. Metres.
+    pub fn breadth(&self) -> f64 {
+        if self.corners.is_none() {
+            return self.bounds.smaller_side();
+        }
+        let across = |side: Segment| {
+            let farthest = self.corners().map(|corner| cross(side.a, side.b, corner));
+            farthest.fold(0.0, f64::max) / side.length().max(ROUNDING_M)
+        };
+        self.sides().map(across).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn points(corners: &[(f64, f64)]) -> Vec<Point> {
+        corners.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    fn diamond() -> Convex {
+        Convex::new(points(&[(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)]))
+    }
+
+    #[test]
+    fn a_rectangle_drawn_by_its_corners_is_one() {
+        let drawn = Convex::new(points(&[(1.0, 3.0), (0.0, 3.0), (0.0, 1.0), (1.0, 1.0)]));
+        assert_eq!(drawn, Rect::new(0.0, 1.0, 1.0, 3.0).into());
+        assert_eq!(diamond().rect(), None);
+    }
+
+    #[test]
+    fn a_diamond_is_measured() {
+        let diamond = diamond();
+        assert!((diamond.area() - 2.0).abs() < 1e-12);
+        assert!((diamond.breadth() - 2f64.sqrt()).abs() < 1e-12);
+        assert!(diamond.centre().length() < 1e-12);
+        assert!((diamond.distance(Point::new(1.0, 1.0)) - 0.5f64.sqrt()).abs() < 1e-12);
+        assert!(diamond.contains(Point::new(0.5, 0.5)) && !diamond.contains(Point::new(0.6, 0.6)));
+    }
+
+    #[test]
+    fn what_a_diamond_and_a_square_share_is_an_octagon() {
+        let square = Convex::from(Rect::new(-0.75, -0.75, 0.75, 0.75));
+        let common = diamond().common(&square).unwrap();
+        assert_eq!(common.corners().count(), 8);
+        assert!((common.area() - (2.0 - 4.0 * 0.0625)).abs() < 1e-12);
+        assert_eq!(diamond().common(&Rect::new(0.5, 0.5, 1.0, 1.0).into()), None);
+    }
+
+    fn convex() -> impl Strategy<Value = Convex> {
+        let point = || (-1.0..1.0, -1.0..1.0).prop_map(|(x, y)| Point::new(x, y));
+        prop::collection::vec(point(), 3..9).prop_map(|points| {
+            use geo::ConvexHull;
+            let hull =
+                points.iter().copied().map(geo::Coord::from).collect::<geo::LineString>().convex_hull();
+            Convex::new(hull.exterior().coords().skip(1).map(|&corner| corner.into()).collect())
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn a_point_lies_in_what_two_share_if_it_lies_in_both(
+            a in convex(), b in convex(), x in -1.0..1.0, y in -1.0..1.0
+        ) {
+            let p = Point::new(x, y);
+            let on_rim = |of: &Convex| of.sides().any(|side| side.distance(p) < 1e-6);
+            prop_assume!(!on_rim(&a) && !on_rim(&b));
+            let common = a.common(&b);
+            prop_assert_eq!(common.is_some_and(|common| common.contains(p)), a.contains(p) && b.contains(p));
+        }
+
+        #[test]
+        fn what_is_clipped_lies_inside_and_what_is_cut_off_outside(
+            a in convex(), from in (-2.0..2.0, -2.0..2.0), to in (-2.0..2.0, -2.0..2.0), share in 0.0..1.0
+        ) {
+            let segment = Segment::new(Point::new(from.0, from.1), Point::new(to.0, to.1));
+            let p = segment.at(share);
+            prop_assume!(a.sides().all(|side| side.distance(p) > 1e-6));
+            let is_in = a.clip(segment).is_some_and(|part| part.distance(p) < 1e-9);
+            prop_assert_eq!(is_in, a.contains(p));
+        }
+    }
+}
