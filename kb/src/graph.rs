@@ -66,14 +66,17 @@ impl SiteGraph {
     pub fn new(rooms: Vec<Room>, mut doors: Vec<Door>, places: Vec<Place>) -> Self {
         let room_by_key =
             rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
-        let route_rooms =
-            rooms.iter().map(|room| RouteRoom { rect: rect_of(room), walking: walking_in(room) }).collect();
+        let route_rooms = rooms
+            .iter()
+            .map(|room| RouteRoom { outline: rect_of(room).into(), walking: walking_in(room) })
+            .collect();
         let mut route_doors = Vec::with_capacity(doors.len());
         // a door whose rooms somebody else took away leads nowhere
         doors.retain(|door| {
             let door = route_door(door, &room_by_key);
+            let is_kept = door.is_some();
             route_doors.extend(door);
-            door.is_some()
+            is_kept
         });
         let named = |(index, room): (usize, &Room)| (room.name.clone(), RoomIndex::new(index));
         // of places of one name the first counts
@@ -97,10 +100,10 @@ impl SiteGraph {
     /// Where doors are told to let nobody through: that holds for every state and robot.
     fn boundaries(&self) -> Vec<Closed> {
         let boundary = |&door: &DoorIndex| {
-            let door = self.graph[door];
-            Closed { door: door.door, segment: door.crossing }
+            let door = &self.graph[door];
+            door.crossing.segment().map(|segment| Closed { door: door.door, segment })
         };
-        self.closed.iter().map(boundary).collect()
+        self.closed.iter().filter_map(boundary).collect()
     }
 
     /// Makes answers quick between any two ends. Copies made from now on are prepared, too.
@@ -295,7 +298,7 @@ fn route_door(door: &Door, rooms: &HashMap<i64, RoomIndex>) -> Option<RouteDoor>
         door: u32::try_from(door.door).ok()?,
         room1: *rooms.get(&door.side1.room)?,
         room2: *rooms.get(&door.side2.room)?,
-        crossing: Rect::new(x0, y0, x1, y1),
+        crossing: Rect::new(x0, y0, x1, y1).into(),
         at: Point::new(door.at[0], door.at[1]),
         hardness: door.hardness.value,
         passable: door.passable.value.unwrap_or(false),

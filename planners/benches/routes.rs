@@ -124,7 +124,7 @@ fn as_whole_numbers(side: usize) -> (Graph, Vec<u32>) {
     }
     let head: Vec<u32> = arcs.iter().map(|(_, head, _)| *head).collect();
     let tail: Vec<u32> = arcs.iter().map(|(tail, _, _)| *tail).collect();
-    let at = graph.rooms().iter().map(|room| room.rect.centre());
+    let at = graph.rooms().iter().map(|room| room.outline.centre());
     let (x, y): (Vec<f32>, Vec<f32>) = at.map(|at| (at.x as f32, at.y as f32)).unzip();
     let order = cch::inertial_order(graph.rooms().len() as u32, &tail, &head, &y, &x);
     let weight = arcs.iter().map(|(_, _, weight)| *weight).collect();

@@ -39,7 +39,7 @@ pub use blocked::{Blockage, blockage};
 pub use compact::{CompactGraph, CompactTree};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};
-pub use parts::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
+pub use parts::{Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
 

@@ -17,7 +17,7 @@ fn rooms(is_entered: &[bool]) -> Vec<RouteRoom> {
     let room = |(index, &is_entered): (usize, &bool)| {
         let (x, y) = ((index % SIDE) as f64, (index / SIDE) as f64);
         let walking = if is_entered { Walking::OnDoors } else { Walking::Unknown };
-        RouteRoom { rect: Rect::new(x, y, x + 1.0, y + 1.0), walking }
+        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), walking }
     };
     is_entered.iter().enumerate().map(room).collect()
 }
@@ -28,7 +28,7 @@ fn door(door: u32, room1: usize, room2: usize, hardness: Option<f64>) -> RouteDo
         door,
         room1: RoomIndex::new(room1),
         room2: RoomIndex::new(room2),
-        crossing: Rect::new(at.x, 0.0, at.x, 1.0),
+        crossing: Rect::new(at.x, 0.0, at.x, 1.0).into(),
         at,
         hardness,
         passable: true,
@@ -109,7 +109,7 @@ fn is_driven(graph: &RouteGraph, way: &Way, to: usize) -> bool {
     seen.sort_unstable();
     seen.dedup();
     let follows = |(leg, next): (usize, &RoomIndex)| {
-        let door = graph[way.legs[leg].door.unwrap()];
+        let door = &graph[way.legs[leg].door.unwrap()];
         let (one, two) = (door.room1, door.room2);
         let leads = (one, two) == (rooms[leg], *next) || !door.one_way && (two, one) == (rooms[leg], *next);
         leads && door.weight().is_some()
@@ -198,7 +198,7 @@ proptest! {
 fn floor(side: usize, draw: &mut impl FnMut(u64) -> u64) -> RouteGraph {
     let square = |room: usize| {
         let (x, y) = ((room % side) as f64, (room / side) as f64);
-        RouteRoom { rect: Rect::new(x, y, x + 1.0, y + 1.0), walking: Walking::OnDoors }
+        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), walking: Walking::OnDoors }
     };
     let mut doors = Vec::new();
     for room in 0..side * side {

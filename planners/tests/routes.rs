@@ -15,7 +15,7 @@ fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
         door,
         room1: RoomIndex::new(room1),
         room2: RoomIndex::new(room2),
-        crossing: Rect::new(0.0, 0.0, 0.0, 0.0),
+        crossing: Rect::new(0.0, 0.0, 0.0, 0.0).into(),
         at: Point::default(),
         hardness: Some(hardness),
         passable: true,
@@ -24,7 +24,7 @@ fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
 }
 
 fn rooms(count: usize) -> Vec<RouteRoom> {
-    vec![RouteRoom { rect: Rect::new(0.0, 0.0, 1.0, 1.0), walking: Walking::OnDoors }; count]
+    vec![RouteRoom { outline: Rect::new(0.0, 0.0, 1.0, 1.0).into(), walking: Walking::OnDoors }; count]
 }
 
 fn start(room: usize) -> Start {
@@ -105,7 +105,7 @@ proptest! {
         let tree = graph.tree(&start(3));
         for arrival in tree.rooms.iter().flatten() {
             let Some((before, door)) = arrival.from else { continue };
-            let (before, through) = (tree.rooms[before.index()].unwrap(), graph[door]);
+            let (before, through) = (tree.rooms[before.index()].unwrap(), &graph[door]);
             prop_assert!(through.passable);
             prop_assert_eq!(arrival.cost, before.cost + through.hardness.unwrap());
             prop_assert_eq!(arrival.hops, before.hops + 1);
@@ -117,7 +117,7 @@ proptest! {
         let graph = RouteGraph::new(rooms(12), doors.clone());
         match blockage(&graph, &start(0), &goal(11)) {
             Blockage::Doors(shut) => {
-                let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..*d };
+                let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..d.clone() };
                 let opened = RouteGraph::new(rooms(12), doors.iter().map(open).collect());
                 prop_assert!(opened.tree(&start(0)).rooms[11].is_some());
                 prop_assert_eq!(shut.is_empty(), graph.tree(&start(0)).rooms[11].is_some());
@@ -159,10 +159,10 @@ fn a_door_without_hardness_is_not_passed_but_named() {
 fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     // two rooms side by side; the shared wall lies at x = 10, the start 3 m left of it and 4 m below its lower end
     let room = |x0, hardness| RouteRoom {
-        rect: Rect::new(x0, 0.0, x0 + 10.0, 10.0),
+        outline: Rect::new(x0, 0.0, x0 + 10.0, 10.0).into(),
         walking: Walking::PerMetre(hardness),
     };
-    let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0), ..door(1, 0, 1, 0.5) };
+    let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0).into(), ..door(1, 0, 1, 0.5) };
     let graph = RouteGraph::new(vec![room(0.0, 1.0), room(10.0, 2.0)], vec![wall]);
     let start = Start::within([RoomIndex::new(0)], Point::new(7.0, 4.0));
     let goal = Goal::within([RoomIndex::new(1)], Some(Point::new(13.0, 8.0)));
@@ -177,12 +177,12 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
 fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() {
     // a corridor 20 m long, walked at 1 a metre but for a pipe between 9 and 10 m; on the knees 4 a metre all along
     let room = |x0, x1, hardness| RouteRoom {
-        rect: Rect::new(x0, 0.0, x1, 2.0),
+        outline: Rect::new(x0, 0.0, x1, 2.0).into(),
         walking: Walking::PerMetre(hardness),
     };
     let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];
     let change = |number, from, to, x0, x1| RouteDoor {
-        crossing: Rect::new(x0, 0.0, x1, 2.0),
+        crossing: Rect::new(x0, 0.0, x1, 2.0).into(),
         one_way: true,
         ..door(number, from, to, 0.5)
     };

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 #![allow(clippy::float_cmp)] // two infinities are the same
 
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Point, Rect, Segment};
 use adit_planners::layers::{Kind, State, cut_layers};
 use adit_planners::routes::{
     Blockage, Closed, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
@@ -42,14 +42,14 @@ fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
     let shapes: Vec<State> = states.iter().map(|(state, _)| state.clone()).collect();
     let layers = cut_layers(world, &shapes).unwrap();
     let weigh = |room: &adit_planners::layers::Room| RouteRoom {
-        rect: room.rect,
+        outline: room.rect.into(),
         walking: Walking::PerMetre(states[room.state].1),
     };
     let door = |(index, crossing): (usize, &adit_planners::layers::Crossing)| RouteDoor {
         door: index as u32 + 1,
         room1: RoomIndex::new(crossing.room1),
         room2: RoomIndex::new(crossing.room2),
-        crossing: crossing.rect,
+        crossing: crossing.rect.into(),
         at: crossing.rect.centre(),
         hardness: Some(if crossing.kind == Kind::Change { change } else { 0.0 }),
         passable: true,
@@ -77,8 +77,8 @@ fn two_halls() -> World {
 /// The doors in the doorway's right mouth: where each shape has come through it.
 fn right_mouth(graph: &RouteGraph) -> Vec<DoorIndex> {
     let is_there = |door: &RouteDoor| {
-        let Rect { x0, y0, x1, y1 } = door.crossing;
-        !door.is_change() && x0 == x1 && (6.2..6.6).contains(&x0) && y0 > 3.1 && y1 < 3.9
+        let Some(Segment { a, b }) = door.crossing.segment() else { return false };
+        a.x == b.x && (6.2..6.6).contains(&a.x) && a.y > 3.1 && b.y < 3.9
     };
     graph.door_indices().filter(|&door| is_there(&graph[door])).collect()
 }
@@ -102,10 +102,8 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
     let before = way(&graph, home, window).unwrap();
     let mouth = right_mouth(&graph);
-    let close = |doors: &[DoorIndex]| -> Vec<Closed> {
-        let closed = |&door: &DoorIndex| graph[door];
-        doors.iter().map(closed).map(|door| Closed { door: door.door, segment: door.crossing }).collect()
-    };
+    let close =
+        |doors: &[DoorIndex]| -> Vec<Closed> { doors.iter().map(|&door| closed_at(&graph[door])).collect() };
     let all = close(&mouth);
     graph.close(all);
     assert!(way(&graph, home, window).is_none() && way(&graph, window, home).is_none());
@@ -116,8 +114,13 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
 }
 
+/// The whole of a door to pass.
+fn closed_at(door: &RouteDoor) -> Closed {
+    Closed { door: door.door, segment: door.crossing.segment().unwrap() }
+}
+
 fn holding(graph: &RouteGraph, p: Point) -> Vec<RoomIndex> {
-    graph.room_indices().filter(|&room| graph[room].rect.contains(p)).collect()
+    graph.room_indices().filter(|&room| graph[room].outline.contains(p)).collect()
 }
 
 fn way(graph: &RouteGraph, from: Point, to: Point) -> Option<Way> {
@@ -223,9 +226,9 @@ fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Result<(
     let (mut at, mut cost) = (from, 0.0);
     for leg in &way.legs {
         prop_assert!(leg.from.distance(at) < 1e-9, "{leg:?} begins elsewhere than {at:?}");
-        let rect = graph[leg.room].rect;
+        let outline = &graph[leg.room].outline;
         for p in [leg.from, leg.to] {
-            prop_assert!(rect.nearest_to(p).distance(p) < 1e-6, "{leg:?} leaves its room {rect:?}");
+            prop_assert!(outline.distance(p) < 1e-6, "{leg:?} leaves its room {outline:?}");
         }
         cost += leg.hardness + leg.door.map_or(0.0, |door| graph[door].hardness.unwrap());
         prop_assert!((leg.cost - cost).abs() < 1e-9);
@@ -247,7 +250,7 @@ proptest! {
         blocks in blocks(), from in point(), to in point()
     ) {
         let graph = graph(&hall(&blocks), &[(0.8, 1.0)], 0.0);
-        let rooms: Vec<Rect> = graph.rooms().iter().map(|room| room.rect).collect();
+        let rooms: Vec<Rect> = graph.rooms().iter().map(|room| room.outline.bounds()).collect();
         prop_assume!(!holding(&graph, from).is_empty() && !holding(&graph, to).is_empty());
         prop_assume!(!has_pinch(&rooms));
         let least = shortest(&rooms, from, to);
@@ -322,11 +325,10 @@ proptest! {
         prop_assume!(free.is_some());
         let free = free.unwrap();
         // doors on the way, as long as there are any
-        let passed: Vec<RouteDoor> = free.legs.iter().filter_map(|leg| leg.door).map(|door| graph[door])
+        let passed: Vec<RouteDoor> = free.legs.iter().filter_map(|leg| leg.door).map(|door| graph[door].clone())
             .filter(|door| !door.is_change()).collect();
         prop_assume!(!passed.is_empty());
-        let closed: Vec<Closed> = closed.iter().map(|door| door.get(&passed))
-            .map(|door| Closed { door: door.door, segment: door.crossing }).collect();
+        let closed: Vec<Closed> = closed.iter().map(|door| closed_at(door.get(&passed))).collect();
         graph.close(closed.clone());
         if let Some(way) = way(&graph, from, to) {
             check_legs(&graph, &way, from, to)?;
@@ -358,14 +360,10 @@ fn with_pipes(blocks: &[(u8, u8, u8, u8)], pipes: &[(u8, bool)]) -> World {
 }
 
 /// A way comes to a closed boundary from one side, if at all, and leaves to that side or round its end.
-fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Rect) -> Result<(), TestCaseError> {
-    let is_upright = boundary.x0 == boundary.x1;
-    let (across, along) = (
-        |p: Point| if is_upright { p.x - boundary.x0 } else { p.y - boundary.y0 },
-        |p: Point| if is_upright { p.y } else { p.x },
-    );
-    let (low, high) = if is_upright { (boundary.y0, boundary.y1) } else { (boundary.x0, boundary.x1) };
-    let is_within = |p: Point| along(p) > low + 1e-6 && along(p) < high - 1e-6;
+fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Segment) -> Result<(), TestCaseError> {
+    let seen = |p: Point| (p - boundary.a).seen_along(boundary.direction());
+    let (across, along) = (|p: Point| seen(p).y, |p: Point| seen(p).x);
+    let is_within = |p: Point| along(p) > 1e-6 && along(p) < boundary.length() - 1e-6;
     let is_on = |p: Point| across(p).abs() < 1e-6 && is_within(p);
     // the side on which the way last was, as long as it has not been past an end since
     let mut side = 0.0;

@@ -3,7 +3,7 @@
 #![allow(clippy::float_cmp, clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile};
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Convex, Point, Rect};
 use adit_planners::routes::{CompactGraph, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
 use petgraph::algo::dijkstra;
 use petgraph::visit::{EdgeRef, IntoEdges};
@@ -44,13 +44,13 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
     let rules = RuleBase::compile(&[SourceFile::new("doors.rhai", RULES)]).unwrap();
 
     let graph = |hardness: &[Option<f64>]| {
-        let rect = Rect::new(0.0, 0.0, 1.0, 1.0);
-        let rooms = vec![RouteRoom { rect, walking: Walking::OnDoors }; SIDE * SIDE];
+        let outline = Convex::from(Rect::new(0.0, 0.0, 1.0, 1.0));
+        let rooms = vec![RouteRoom { outline, walking: Walking::OnDoors }; SIDE * SIDE];
         let door = |(door, &(room1, room2)): (usize, &(usize, usize))| RouteDoor {
             door: door as u32 + 1,
             room1: RoomIndex::new(room1),
             room2: RoomIndex::new(room2),
-            crossing: Rect::new(0.0, 0.0, 0.0, 1.0),
+            crossing: Rect::new(0.0, 0.0, 0.0, 1.0).into(),
             at: Point::new(0.0, 0.0),
             hardness: hardness[door],
             passable: true,

@@ -145,7 +145,7 @@ impl SiteGraph {
     /// Whether no rule, fact or named door is passed by on a leg to a room.
     fn is_open(&self, layer: &Layer, gauge: &Gauge, leg: Segment, room: RoomIndex) -> bool {
         let closed = |segment: &Segment| segment.gap(&leg) <= TOUCHES_M;
-        if self.graph.closed().iter().any(|closed_at| closed(&diagonal(&closed_at.segment))) {
+        if self.graph.closed().iter().any(|closed_at| closed(&closed_at.segment)) {
             return false;
         }
         let is_shut = |other: RoomIndex| {
@@ -180,10 +180,6 @@ impl SiteGraph {
             own.contains(&true)
         }
     }
-}
-
-fn diagonal(rect: &Rect) -> Segment {
-    Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1))
 }
 
 /// Where a leg from a point may join a room, the nearest first: where the room is nearest, its corners, the middles of its

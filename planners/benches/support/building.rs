@@ -7,7 +7,8 @@ use adit_planners::routes::{RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking
 pub fn building(side: usize, walking: Walking) -> RouteGraph {
     let corner = |i: usize| 4.0 * i as f64;
     let square = |x: usize, y: usize| Rect::new(corner(x), corner(y), corner(x + 1), corner(y + 1));
-    let rooms = (0..side * side).map(|i| RouteRoom { rect: square(i % side, i / side), walking }).collect();
+    let rooms =
+        (0..side * side).map(|i| RouteRoom { outline: square(i % side, i / side).into(), walking }).collect();
     let mut doors = Vec::new();
     for room in 0..side * side {
         let (x, y) = (room % side, room / side);
@@ -24,7 +25,7 @@ pub fn building(side: usize, walking: Walking) -> RouteGraph {
                 door,
                 room1: RoomIndex::new(room),
                 room2: RoomIndex::new(room2),
-                crossing,
+                crossing: crossing.into(),
                 at,
                 hardness,
                 passable: true,

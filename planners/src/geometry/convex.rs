@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::tolerance::ROUNDING_M;
+use super::tolerance::{ROUNDING_M, SNAP_M};
 use super::{Point, Rect, Segment, cross};
 
 /// A convex polygon. A rectangle along the axes is kept as what it is, and everything about it is exact; of others
@@ -90,11 +90,14 @@ impl Convex {
     }
 
     /// The shares of the way between two points at which it comes in and leaves again (Cyrus and Beck 1978); `None`
-    /// where at most a point of it lies inside.
+    /// where at most a point of it lies inside. A way along a side, or a rounding beside it, lies inside.
     pub fn shares(&self, from: Point, to: Point) -> Option<(f64, f64)> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         for side in self.sides() {
             let (one, two) = (cross(side.a, side.b, from), cross(side.a, side.b, to));
+            if one.min(two) >= 0.0 || one.min(two) >= -ROUNDING_M * side.length() {
+                continue;
+            }
             if one < 0.0 && two < 0.0 {
                 return None;
             }
@@ -110,12 +113,12 @@ impl Convex {
 
     /// What of a segment lies inside; `None` where at most a point does.
     pub fn clip(&self, segment: Segment) -> Option<Segment> {
-        if self.corners.is_none() {
-            return self.bounds.clip(segment.a, segment.b).map(|(a, b)| Segment::new(a, b));
-        }
         let (enters, leaves) = self.shares(segment.a, segment.b)?;
-        let a = if enters > 0.0 { segment.at(enters) } else { segment.a };
-        let b = if leaves < 1.0 { segment.at(leaves) } else { segment.b };
+        let at = |share: f64| {
+            if self.corners.is_none() { self.bounds.nearest_to(segment.at(share)) } else { segment.at(share) }
+        };
+        let a = if enters > 0.0 { at(enters) } else { segment.a };
+        let b = if leaves < 1.0 { at(leaves) } else { segment.b };
         Some(Segment::new(a, b))
     }
 
@@ -128,6 +131,17 @@ impl Convex {
         }
         if self.corners().all(|corner| side(corner) <= slack) {
             return None;
+        }
+        if self.corners.is_none() {
+            let (Rect { x0, y0, x1, y1 }, Point { x, y }, way) = (self.bounds, line.a, line.b - line.a);
+            if way.x == 0.0 {
+                let part = if way.y > 0.0 { Rect::new(x0, y0, x, y1) } else { Rect::new(x, y0, x1, y1) };
+                return Some(part.into());
+            }
+            if way.y == 0.0 {
+                let part = if way.x > 0.0 { Rect::new(x0, y, x1, y1) } else { Rect::new(x0, y0, x1, y) };
+                return Some(part.into());
+            }
         }
         let mut kept = Vec::with_capacity(self.count() + 1);
         for Segment { a, b } in self.sides() {
@@ -153,6 +167,18 @@ impl Convex {
             return Some(bounds.into());
         }
         other.sides().try_fold(self.clone(), |rest, side| rest.left_of(side))
+    }
+
+    /// The longest part of a side on which another one lies to its other side; `None` where there is none.
+    pub fn border(&self, other: &Self) -> Option<Segment> {
+        if self.bounds.gap(&other.bounds) > SNAP_M {
+            return None;
+        }
+        let faces = |one: &Segment, two: &Segment| (one.b - one.a).dot(two.b - two.a) < 0.0;
+        let shared = self.sides().flat_map(|one| {
+            other.sides().filter(move |two| faces(&one, two)).filter_map(move |two| one.shared_with(&two))
+        });
+        shared.max_by(|one, two| one.length().total_cmp(&two.length()))
     }
 
     /// Square metres.

@@ -1,5 +1,6 @@
 //! Straight pieces between two points, in metres in the map's frame.
 
+use super::tolerance::{ROUNDING_M, SNAP_M};
 use super::{Point, Rect, orient};
 
 /// The piece from `a` to `b`.
@@ -82,6 +83,25 @@ impl Segment {
     pub fn bounds(&self) -> Rect {
         let (a, b) = (self.a, self.b);
         Rect::new(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y))
+    }
+
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self { a: self.b, b: self.a }
+    }
+
+    /// The part that lies on another one, as near as points are told apart, in its own direction; `None` where that is at
+    /// most a point.
+    pub fn shared_with(&self, other: &Self) -> Option<Self> {
+        let way = self.b - self.a;
+        let squared = way.dot(way);
+        let [one, two] = [other.a, other.b].map(|end| (end - self.a).dot(way) / squared);
+        let (from, to) = (one.min(two).max(0.0), one.max(two).min(1.0));
+        let is_long = to > from && (to - from).powi(2) * squared > ROUNDING_M * ROUNDING_M;
+        let a = if from > 0.0 { self.at(from) } else { self.a };
+        let b = if to < 1.0 { self.at(to) } else { self.b };
+        let is_on = |p: Point| other.squared_distance(p) <= SNAP_M * SNAP_M;
+        (is_long && is_on(a) && is_on(b)).then_some(Self { a, b })
     }
 
     /// Whether both cross inside: not where one ends on the other, and not along one line. Exact.

@@ -5,9 +5,9 @@ use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
 use super::mesh::EPSILON;
-use super::parts::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
+use super::parts::{Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 use super::way::{Leg, Way, Ways};
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Convex, Point, Rect};
 
 /// The key of an opening between two parts of a room.
 const NO_DOOR: u32 = u32::MAX;
@@ -16,33 +16,10 @@ const NO_DOOR: u32 = u32::MAX;
 const CLEAR_M: f64 = 0.01;
 
 impl Closed {
-    fn is_upright(&self) -> bool {
-        self.segment.dx() <= EPSILON
-    }
-
     /// A room's parts on both sides, where the boundary lies within it.
-    fn cut(&self, room: Rect) -> Option<[Rect; 2]> {
-        let s = &self.segment;
-        let parts = if self.is_upright() {
-            [Rect::new(room.x0, room.y0, s.x0, room.y1), Rect::new(s.x0, room.y0, room.x1, room.y1)]
-        } else {
-            [Rect::new(room.x0, room.y0, room.x1, s.y0), Rect::new(room.x0, s.y0, room.x1, room.y1)]
-        };
-        let shared = common(&room, s);
-        let is_within = parts.iter().all(|part| part.smaller_side() > EPSILON);
-        (is_within && is_segment(&shared)).then_some(parts)
-    }
-
-    /// The boundary, where it lies on the line of a segment.
-    fn on_line_of(&self, segment: &Rect) -> Option<Segment> {
-        let s = &self.segment;
-        let is_upright = segment.dx() <= EPSILON;
-        let is_on = if is_upright {
-            self.is_upright() && (s.x0 - segment.x0).abs() <= EPSILON
-        } else {
-            !self.is_upright() && (s.y0 - segment.y0).abs() <= EPSILON
-        };
-        is_on.then(|| Segment::of(s))
+    fn cut(&self, room: &Convex) -> Option<[Convex; 2]> {
+        room.clip(self.segment).filter(|shared| shared.length() > EPSILON)?;
+        Some([room.left_of(self.segment)?, room.left_of(self.segment.reversed())?])
     }
 }
 
@@ -92,34 +69,35 @@ impl RouteGraph {
         if self.walls.is_empty() {
             return vec![gate];
         }
-        let on_gate = |wall: &Rect| {
-            let about = Rect::new(wall.x0 - CLEAR_M, wall.y0 - CLEAR_M, wall.x1 + CLEAR_M, wall.y1 + CLEAR_M);
-            let (a, b) = (about.nearest_to(gate.a), about.nearest_to(gate.b));
-            let is_on = |p: Point| gate.nearest_to(p).distance(p) <= EPSILON;
-            (is_on(a) && is_on(b)).then_some(Segment { a, b })
+        // along the wall and across it
+        let on_gate = |wall: &Segment| {
+            let about = Rect::new(0.0, 0.0, wall.length(), 0.0).grown(CLEAR_M);
+            let [a, b] = [gate.a, gate.b].map(|end| (end - wall.a).seen_along(wall.direction()));
+            let (enters, leaves) = Convex::from(about).shares(a, b)?;
+            Some(Segment { a: gate.at(enters), b: gate.at(leaves) })
         };
         without(gate, &self.walls.iter().filter_map(on_gate).collect::<Vec<_>>())
     }
 
     /// Whether a point lies on a closed boundary.
     pub(super) fn is_on_wall(&self, p: Point) -> bool {
-        self.walls.iter().any(|wall| wall.nearest_to(p).distance(p) <= EPSILON)
+        self.walls.iter().any(|wall| wall.distance(p) <= EPSILON)
     }
 }
 
 impl Cut {
     fn new(of: &RouteGraph) -> Self {
-        let (mut rects, mut rooms, mut parts) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut outlines, mut rooms, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         for (index, room) in of.room_indices().zip(&of.rooms) {
-            let first = rects.len();
-            rects.extend(parts_of(room.rect, &of.closed));
-            rooms.resize(rects.len(), index);
-            parts.push((first..rects.len()).map(RoomIndex::new).collect());
+            let first = outlines.len();
+            outlines.extend(parts_of(&room.outline, &of.closed));
+            rooms.resize(outlines.len(), index);
+            parts.push((first..outlines.len()).map(RoomIndex::new).collect());
         }
         let graph = RouteGraph::new(Vec::new(), Vec::new());
         let mut all = Self { graph, rooms, doors: Vec::new(), parts, pieces: Vec::new() };
         let (mut doors, mut shut) = (Vec::new(), Vec::new());
-        let cut = (rects.as_slice(), of.closed.as_slice());
+        let cut = (outlines.as_slice(), of.closed.as_slice());
         for (index, door) in of.door_indices().zip(&of.doors) {
             let first = doors.len();
             all.add_pieces(cut, door, (&mut doors, &mut shut));
@@ -129,8 +107,8 @@ impl Cut {
         all.add_openings(cut, (&mut doors, &mut shut));
         doors.append(&mut shut);
         all.doors.resize(doors.len(), None);
-        let walking = |(&rect, &room): (&Rect, &RoomIndex)| RouteRoom { rect, walking: of[room].walking };
-        all.graph = RouteGraph::new(rects.iter().zip(&all.rooms).map(walking).collect(), doors);
+        let part = |(outline, &room): (Convex, &RoomIndex)| RouteRoom { outline, walking: of[room].walking };
+        all.graph = RouteGraph::new(outlines.into_iter().zip(&all.rooms).map(part).collect(), doors);
         all.graph.walls = of.closed.iter().map(|closed| closed.segment).collect();
         all
     }
@@ -139,17 +117,24 @@ impl Cut {
     /// `shut`.
     fn add_pieces(
         &self,
-        (rects, closed): (&[Rect], &[Closed]),
+        (outlines, closed): (&[Convex], &[Closed]),
         door: &RouteDoor,
         (doors, shut): (&mut Vec<RouteDoor>, &mut Vec<RouteDoor>),
     ) {
-        for &room1 in &self.parts[door.room1.index()] {
-            for &room2 in &self.parts[door.room2.index()] {
-                let crossing = common(&common(&door.crossing, &rects[room1.index()]), &rects[room2.index()]);
-                let piece = RouteDoor { room1, room2, crossing, ..*door };
-                if door.is_change() {
-                    doors.extend((crossing.smaller_side() > EPSILON).then_some(piece));
-                } else if is_segment(&crossing) {
+        let (ones, twos) = (&self.parts[door.room1.index()], &self.parts[door.room2.index()]);
+        for &room1 in ones {
+            for &room2 in twos {
+                let is_whole = ones.len() == 1 && twos.len() == 1;
+                let crossing = if is_whole {
+                    Some(door.crossing.clone())
+                } else {
+                    within(&door.crossing, [room1, room2].map(|room| &outlines[room.index()]))
+                };
+                let Some(crossing) = crossing else { continue };
+                let piece = RouteDoor { room1, room2, crossing, ..door.clone() };
+                if piece.is_change() {
+                    doors.push(piece);
+                } else {
                     divide(&piece, closed, doors, shut);
                 }
             }
@@ -159,27 +144,25 @@ impl Cut {
     /// The openings between parts of one room, as far as no boundary closes them.
     fn add_openings(
         &self,
-        (rects, closed): (&[Rect], &[Closed]),
+        (outlines, closed): (&[Convex], &[Closed]),
         (doors, shut): (&mut Vec<RouteDoor>, &mut Vec<RouteDoor>),
     ) {
         for parts in &self.parts {
             for (index, &room1) in parts.iter().enumerate() {
                 for &room2 in &parts[index + 1..] {
-                    let crossing = common(&rects[room1.index()], &rects[room2.index()]);
-                    if is_segment(&crossing) {
-                        let (at, hardness) = (crossing.centre(), Some(0.0));
-                        let opening = RouteDoor {
-                            door: NO_DOOR,
-                            room1,
-                            room2,
-                            crossing,
-                            at,
-                            hardness,
-                            passable: true,
-                            one_way: false,
-                        };
-                        divide(&opening, closed, doors, shut);
-                    }
+                    let border = outlines[room1.index()].border(&outlines[room2.index()]);
+                    let Some(segment) = border else { continue };
+                    let opening = RouteDoor {
+                        door: NO_DOOR,
+                        room1,
+                        room2,
+                        crossing: Crossing::Through(segment),
+                        at: segment.middle(),
+                        hardness: Some(0.0),
+                        passable: true,
+                        one_way: false,
+                    };
+                    divide(&opening, closed, doors, shut);
                 }
             }
         }
@@ -220,7 +203,7 @@ impl Cut {
     /// The parts of rooms, as far as they hold a point.
     fn parts_at(&self, rooms: &[Entry], at: Option<Point>) -> Vec<Entry> {
         let holds =
-            |part: RoomIndex, at: Option<Point>| at.is_none_or(|at| self.graph[part].rect.contains(at));
+            |part: RoomIndex, at: Option<Point>| at.is_none_or(|at| self.graph[part].outline.contains(at));
         let of = |&Entry { room, joint }: &Entry| {
             let (parts, at) = (&self.parts[room.index()], joint.or(at));
             let held = parts.iter().copied().filter(move |&part| parts.len() == 1 || holds(part, at));
@@ -246,39 +229,43 @@ impl Cut {
     }
 }
 
-/// A rectangle cut along boundaries.
-fn parts_of(room: Rect, closed: &[Closed]) -> Vec<Rect> {
-    let mut parts = vec![room];
+/// An outline cut along boundaries.
+fn parts_of(room: &Convex, closed: &[Closed]) -> Vec<Convex> {
+    let mut parts = vec![room.clone()];
     for boundary in closed {
-        parts = parts.into_iter().flat_map(|part| boundary.cut(part).map_or(vec![part], Vec::from)).collect();
+        let cut = |part: Convex| boundary.cut(&part).map_or(vec![part], Vec::from);
+        parts = parts.into_iter().flat_map(cut).collect();
     }
     parts
 }
 
-/// Adds the parts of a door that no boundary closes to `doors`, the others to `shut`.
-fn divide(door: &RouteDoor, closed: &[Closed], doors: &mut Vec<RouteDoor>, shut: &mut Vec<RouteDoor>) {
-    let segment = Segment::of(&door.crossing);
-    let crossing = |part: Segment| Rect::new(part.a.x, part.a.y, part.b.x, part.b.y);
-    let mut open = vec![segment];
-    for boundary in closed {
-        let Some(on) = boundary.on_line_of(&door.crossing) else { continue };
-        let part = common(&door.crossing, &boundary.segment);
-        if is_segment(&part) {
-            shut.push(RouteDoor { door: boundary.door, crossing: part, passable: false, ..*door });
-            open = open.iter().flat_map(|part| without(*part, &[on])).collect();
+/// Where a door is crossed between parts of its rooms.
+fn within(crossing: &Crossing, rooms: [&Convex; 2]) -> Option<Crossing> {
+    let [one, two] = rooms;
+    match crossing {
+        Crossing::Through(segment) => {
+            let segment = two.clip(one.clip(*segment)?)?;
+            (segment.length() > EPSILON).then_some(Crossing::Through(segment))
+        }
+        Crossing::Within(area) => {
+            let area = area.common(one)?.common(two)?;
+            (area.breadth() > EPSILON).then_some(Crossing::Within(area))
         }
     }
-    doors.extend(open.into_iter().map(|part| RouteDoor { crossing: crossing(part), ..*door }));
 }
 
-/// What two rectangles share, be it a segment; its sides are negative where they share nothing.
-fn common(a: &Rect, b: &Rect) -> Rect {
-    Rect { x0: a.x0.max(b.x0), y0: a.y0.max(b.y0), x1: a.x1.min(b.x1), y1: a.y1.min(b.y1) }
-}
-
-fn is_segment(rect: &Rect) -> bool {
-    let (thin, long) = (rect.dx().min(rect.dy()), rect.dx().max(rect.dy()));
-    (-EPSILON..=EPSILON).contains(&thin) && long > EPSILON
+/// Adds the parts of a door that no boundary closes to `doors`, the others to `shut`.
+fn divide(door: &RouteDoor, closed: &[Closed], doors: &mut Vec<RouteDoor>, shut: &mut Vec<RouteDoor>) {
+    let Some(segment) = door.crossing.segment() else { return };
+    let mut open = vec![segment];
+    for boundary in closed {
+        let Some(part) = segment.shared_with(&boundary.segment) else { continue };
+        let crossing = Crossing::Through(part);
+        shut.push(RouteDoor { door: boundary.door, crossing, passable: false, ..door.clone() });
+        open = open.iter().flat_map(|open| without(*open, &[part])).collect();
+    }
+    let piece = |part: Segment| RouteDoor { crossing: Crossing::Through(part), ..door.clone() };
+    doors.extend(open.into_iter().map(piece));
 }
 
 /// Whether one leg goes on as the other one.

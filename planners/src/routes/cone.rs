@@ -1,7 +1,7 @@
 //! What is seen from a point through a gap.
 
 use super::mesh::{EPSILON, NONE};
-use crate::geometry::{Point, Rect};
+use crate::geometry::Point;
 pub(super) use crate::geometry::{Segment, cross};
 
 /// A way that passes an end of a door by no more than this share of the door leads to the end itself.
@@ -30,11 +30,6 @@ pub(super) enum View {
 }
 
 impl Segment {
-    /// The diagonal of a rectangle: of a degenerate one, the segment.
-    pub(super) fn of(rect: &Rect) -> Self {
-        Self { a: Point::new(rect.x0, rect.y0), b: Point::new(rect.x1, rect.y1) }
-    }
-
     /// Whether the point lies on the segment's line.
     pub(super) fn is_in_line_with(&self, p: Point) -> bool {
         cross(self.a, self.b, p).abs() <= EPSILON * self.length().max(1.0)

@@ -5,7 +5,7 @@ use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit};
 use super::parts::{DoorIndex, RoomIndex};
 use super::turning::Gate;
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Convex, Point, Rect};
 
 /// So far a way into the harder state has to lead on beyond a gate, metres, unless a goal lies near: along every wall there
 /// is a strip in which only a slimmer state fits, and which leads nowhere.
@@ -34,8 +34,8 @@ impl RouteGraph {
         self.turning().gates[door.index()][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
-            let area = self[door].crossing;
-            let common = self[from].rect.intersection(&self[to].rect);
+            let Some(area) = self[door].crossing.area().map(Convex::bounds) else { return Box::default() };
+            let common = self[from].outline.bounds().intersection(&self[to].outline.bounds());
             let deep = |segment: Segment| Gate { segment, is_deep: true };
             if common.is_none_or(|common| !is_same(&common, &area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
@@ -90,7 +90,7 @@ impl RouteGraph {
         metres: f64,
         by: Further,
     ) -> Vec<Segment> {
-        let rect = &self[room].rect;
+        let rect = self[room].outline.bounds();
         let upright = (segment.a.x - segment.b.x).abs() <= EPSILON;
         let (at, from) = if upright { (segment.a.x, away_from.x) } else { (segment.a.y, away_from.y) };
         let (low, high) = if upright { (rect.x0, rect.x1) } else { (rect.y0, rect.y1) };
@@ -104,7 +104,7 @@ impl RouteGraph {
         let back = |p: Point| if upright { Point::new(at, p.y) } else { Point::new(p.x, at) };
         let mut parts = Vec::new();
         for exit in self.exits.portals(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
-            let door = Segment::of(&self[exit.door].crossing);
+            let Some(door) = self[exit.door].crossing.segment() else { continue };
             let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
             let on = |p: Point| beyond.nearest_to(p).distance(p) <= EPSILON;
             if on(a) && on(b) && a.distance(b) > EPSILON {
@@ -120,10 +120,11 @@ impl RouteGraph {
                 segment.b.y.max(beyond.b.y),
             );
             for exit in self.exits.changes(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
-                let other = self[exit.to].rect;
+                let other = self[exit.to].outline.bounds();
                 let (low, high) = if upright { (other.x0, other.x1) } else { (other.y0, other.y1) };
                 let is_further = if at > from { high > far + EPSILON } else { low < far - EPSILON };
-                let shared = self[exit.door].crossing.intersection(&strip);
+                let shared =
+                    self[exit.door].crossing.area().and_then(|area| area.bounds().intersection(&strip));
                 if let Some(shared) = shared.filter(|_| is_further) {
                     let (a, b) = (shared.nearest_to(segment.a), shared.nearest_to(segment.b));
                     let part = Segment { a: back(a), b: back(b) };
@@ -137,7 +138,7 @@ impl RouteGraph {
     /// Whether the shallow strip beyond a rim goes on along the rim, where the easier room and those behind it do not.
     fn leads_on_along(&self, easier: RoomIndex, harder: RoomIndex, rim: Segment, inside: Point) -> bool {
         let upright = (rim.a.x - rim.b.x).abs() <= EPSILON;
-        let (rect, at) = (&self[harder].rect, if upright { rim.a.x } else { rim.a.y });
+        let (rect, at) = (self[harder].outline.bounds(), if upright { rim.a.x } else { rim.a.y });
         let is_beyond_high = at > if upright { inside.x } else { inside.y };
         let far = match (upright, is_beyond_high) {
             (true, true) => rect.x1,
@@ -172,7 +173,7 @@ impl RouteGraph {
         (from, to): (RoomIndex, RoomIndex),
         side: Segment,
     ) -> (Vec<Segment>, Vec<Segment>) {
-        let area = self[door].crossing;
+        let area = &self[door].crossing;
         let weight = self.passage(door);
         let free = self.exits.portals(from).iter().filter(|exit| self.is_free(exit.door));
         let rooms = std::iter::once(from).chain(free.map(|exit| exit.to));
@@ -185,7 +186,7 @@ impl RouteGraph {
                 self.per_m(room).to_bits() == self.per_m(to).to_bits() && self.passage(other) == weight;
             let beside = &self[other].crossing;
             // a change back and forth may lie in the same area
-            if is_of_layer && beside != &area {
+            if is_of_layer && beside != area {
                 let (a, b) = (beside.nearest_to(side.a), beside.nearest_to(side.b));
                 let on = |p: Point| side.nearest_to(p).distance(p) <= EPSILON;
                 if on(a) && on(b) && a.distance(b) > EPSILON {
@@ -205,7 +206,7 @@ impl RouteGraph {
 
     /// The parts of a segment on a room's outline beyond which none like it follows.
     fn rim(&self, room: RoomIndex, side: Segment) -> Vec<Segment> {
-        let rect = &self[room].rect;
+        let rect = self[room].outline.bounds();
         let upright = (side.a.x - side.b.x).abs() <= EPSILON;
         let on = |at: f64, limits: [f64; 2]| limits.iter().any(|limit| (at - limit).abs() <= EPSILON);
         let is_outline =
@@ -217,7 +218,7 @@ impl RouteGraph {
         let mut open: Vec<Segment> = Vec::new();
         for exit in self.exits.portals(room) {
             let door = exit.door;
-            let segment = Segment::of(&self[door].crossing);
+            let Some(segment) = self[door].crossing.segment() else { continue };
             let is_beside = (across(segment.a) - across(side.a)).abs() <= EPSILON
                 && (across(segment.b) - across(side.a)).abs() <= EPSILON;
             if is_beside && self.is_free(door) {
@@ -243,24 +244,23 @@ pub(super) fn sides(area: &Rect) -> [Segment; 4] {
     [Segment { a, b }, Segment { a: b, b: c }, Segment { a: d, b: c }, Segment { a, b: d }]
 }
 
-/// The parts of an axis-parallel segment that none of some others on its line covers.
+/// The parts of a segment that none of some others on its line covers.
 pub(super) fn without(side: Segment, others: &[Segment]) -> Vec<Segment> {
-    let upright = (side.a.x - side.b.x).abs() <= EPSILON;
-    let along = |p: Point| if upright { p.y } else { p.x };
+    let (length, ahead) = (side.length(), side.direction());
+    let along = |p: Point| (p - side.a).dot(ahead);
     let ends = |segment: &Segment| {
         let (a, b) = (along(segment.a), along(segment.b));
         (a.min(b), a.max(b))
     };
-    let (low, high) = ends(&side);
     let mut covered: Vec<(f64, f64)> = others.iter().map(ends).collect();
     covered.sort_by(|one, two| one.0.total_cmp(&two.0));
-    let at = |along: f64| if upright { Point::new(side.a.x, along) } else { Point::new(along, side.a.y) };
-    let mut rest = Vec::new();
-    let mut from = low;
-    for (begins, ends) in covered.into_iter().chain([(high, high)]) {
-        let to = begins.min(high);
+    let (mut rest, mut from) = (Vec::new(), 0.0_f64);
+    for (begins, ends) in covered.into_iter().chain([(length, length)]) {
+        let to = begins.min(length);
         if to - from > EPSILON {
-            rest.push(Segment { a: at(from), b: at(to) });
+            let a = if from > 0.0 { side.at(from / length) } else { side.a };
+            let b = if to < length { side.at(to / length) } else { side.b };
+            rest.push(Segment { a, b });
         }
         from = from.max(ends);
     }

@@ -8,7 +8,7 @@ use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
 use super::turning::Turning;
-use crate::geometry::Rect;
+use crate::geometry::Segment;
 use crate::search::Csr;
 
 #[derive(Clone, Debug)]
@@ -28,7 +28,7 @@ pub struct RouteGraph {
     /// The rooms cut along them; found when first asked for.
     pub(super) cut: OnceLock<Box<Cut>>,
     /// Boundaries along which these rooms are cut already.
-    pub(super) walls: Vec<Rect>,
+    pub(super) walls: Vec<Segment>,
 }
 
 impl RouteGraph {
@@ -238,8 +238,7 @@ impl Index<DoorIndex> for RouteGraph {
 pub struct Closed {
     /// Key of the door that is closed.
     pub door: u32,
-    /// Its segment, along an axis.
-    pub segment: Rect,
+    pub segment: Segment,
 }
 
 /// The graph of the parts into which closed boundaries cut rooms.

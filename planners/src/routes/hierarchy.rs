@@ -34,7 +34,7 @@ impl Hierarchy {
     /// `passing` is what passing each door weighs, from its first room and from its second; infinite where it is not passed.
     /// Where several doors lead from one room to another, the one of lower key counts.
     pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<[f64; 2]>) -> Self {
-        let at = rooms.iter().map(|room| room.rect.centre()).collect();
+        let at = rooms.iter().map(|room| room.outline.centre()).collect();
         let topology = Arc::new(Topology::new(at, doors));
         let metric = Metric::new(&topology, passing);
         Self { topology, metric }

@@ -138,11 +138,10 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
     let mut numbers: BTreeMap<(u32, i64, i64), u32> = BTreeMap::new();
     let (mut at_end, mut points): (Vec<Vec<DoorIndex>>, Vec<Point>) = (Vec::new(), Vec::new());
     let mut ends = vec![[NONE; 2]; doors.len()];
-    for (index, door) in doors.iter().enumerate().filter(|(_, door)| !door.is_change()) {
+    for (index, door) in doors.iter().enumerate() {
         let of = layer[door.room1.index()];
-        let crossing = door.crossing;
-        let both = [Point::new(crossing.x0, crossing.y0), Point::new(crossing.x1, crossing.y1)];
-        for (end, point) in ends[index].iter_mut().zip(both) {
+        let Some(segment) = door.crossing.segment() else { continue };
+        for (end, point) in ends[index].iter_mut().zip([segment.a, segment.b]) {
             // to a micrometre: what sums of cell sides differ by is far below, what doors differ by far above
             let key = (of, (point.x * 1e6).round() as i64, (point.y * 1e6).round() as i64);
             let number = *numbers.entry(key).or_insert_with(|| {
@@ -171,7 +170,7 @@ fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
 
 /// How many quarters of the ground about a point a room takes.
 fn quarters(room: &RouteRoom, p: Point) -> u32 {
-    let rect = &room.rect;
+    let rect = room.outline.bounds();
     let within = |low: f64, high: f64, at: f64| {
         if at < low - EPSILON || at > high + EPSILON {
             0

@@ -2,7 +2,7 @@
 
 use petgraph::graph::{EdgeIndex, NodeIndex};
 
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Convex, Point, Rect, Segment};
 
 /// Which of a graph's rooms, from 0.
 pub type RoomIndex = NodeIndex;
@@ -11,9 +11,9 @@ pub type RoomIndex = NodeIndex;
 pub type DoorIndex = EdgeIndex;
 
 /// A room as the search sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RouteRoom {
-    pub rect: Rect,
+    pub outline: Convex,
     pub walking: Walking,
 }
 
@@ -34,15 +34,66 @@ pub enum Walking {
     Unknown,
 }
 
+/// Where a door is crossed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Crossing {
+    /// On a segment that both rooms share.
+    Through(Segment),
+    /// Anywhere in an area, by a change of shape.
+    Within(Convex),
+}
+
+impl From<Rect> for Crossing {
+    /// The area; where it has none, the segment that it is.
+    fn from(rect: Rect) -> Self {
+        if rect.dx() > 0.0 && rect.dy() > 0.0 {
+            return Self::Within(rect.into());
+        }
+        Self::Through(Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1)))
+    }
+}
+
+impl Crossing {
+    pub fn nearest_to(&self, p: Point) -> Point {
+        match self {
+            Self::Through(segment) => segment.nearest_to(p),
+            Self::Within(area) => area.nearest_to(p),
+        }
+    }
+
+    /// The middle of the segment, or the centre of the area.
+    pub fn middle(&self) -> Point {
+        match self {
+            Self::Through(segment) => segment.middle(),
+            Self::Within(area) => area.centre(),
+        }
+    }
+
+    /// Where it is passed, of what is no change.
+    pub fn segment(&self) -> Option<Segment> {
+        match self {
+            Self::Through(segment) => Some(*segment),
+            Self::Within(_) => None,
+        }
+    }
+
+    /// Where the shape is changed, of a change.
+    pub fn area(&self) -> Option<&Convex> {
+        match self {
+            Self::Through(_) => None,
+            Self::Within(area) => Some(area),
+        }
+    }
+}
+
 /// A door as the search sees it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RouteDoor {
     /// Its key, unique.
     pub door: u32,
     pub room1: RoomIndex,
     pub room2: RoomIndex,
-    /// Where it is crossed: a segment shared by both rooms, or the area in which a change of shape is possible.
-    pub crossing: Rect,
+    pub crossing: Crossing,
     /// The point that stands for it where no distance in its rooms is weighed.
     pub at: Point,
     /// Hardness of passing it; `None`: unknown, so it is not passed.
@@ -56,7 +107,7 @@ pub struct RouteDoor {
 impl RouteDoor {
     /// Whether it is an area in which the robot changes its shape, not a segment to pass.
     pub fn is_change(&self) -> bool {
-        self.crossing.dx() > 0.0 && self.crossing.dy() > 0.0
+        matches!(self.crossing, Crossing::Within(_))
     }
 
     /// The hardness of passing it, where it can be passed.

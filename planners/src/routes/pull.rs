@@ -5,7 +5,6 @@ use super::cone::{Gap, Segment, View, cross};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, RoomIndex};
-use super::turning::Gate;
 use super::way::Way;
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
@@ -37,14 +36,14 @@ impl Link {
     pub fn new(graph: &RouteGraph, door: DoorIndex, at: Point, room: RoomIndex) -> Self {
         let of = &graph[door];
         let before = if of.room1 == room { of.room2 } else { of.room1 };
-        if of.is_change() {
+        let Some(segment) = of.crossing.segment() else {
             let mut gates = graph.gates(door, before).iter().map(|gate| gate.segment);
             let gate = gates.find(|gate| gate.nearest_to(at).distance(at) <= SNAP_M);
             let segment = gate.unwrap_or(Segment { a: at, b: at });
             return Self { door, segment, at, room, is_straight: false };
-        }
+        };
         let is_straight = graph.per_m(room).to_bits() == graph.per_m(before).to_bits();
-        Self { door, segment: Segment::of(&of.crossing), at, room, is_straight }
+        Self { door, segment, at, room, is_straight }
     }
 }
 
@@ -108,7 +107,7 @@ impl Chain<'_> {
     /// The door of a link, as one comes to it.
     fn opening(&self, link: usize) -> Opening {
         let graph = self.graph;
-        let (before, after) = (&graph[self.room_before(link)].rect, &graph[self.links[link].room].rect);
+        let (before, after) = (&graph[self.room_before(link)].outline, &graph[self.links[link].room].outline);
         let (one, two) = (before.centre(), after.centre());
         let segment = self.links[link].segment;
         let Segment { a, b } = segment;
@@ -161,7 +160,7 @@ impl Chain<'_> {
         let length = from.distance(to);
         let mut passed = vec![room];
         while room != into {
-            let rect = &graph[room].rect;
+            let rect = graph[room].outline.bounds();
             // the share of the line at which it leaves the room
             let leaves = |from: f64, to: f64, low: f64, high: f64| {
                 if to > from {
@@ -176,14 +175,10 @@ impl Chain<'_> {
             let share = share.max(at).min(1.0);
             let on = Segment { a: from, b: to };
             let (here, beyond) = (on.at(share), on.at((share + SNAP_M / length.max(SNAP_M)).min(1.0)));
-            let near = |p: Point, room: RoomIndex| {
-                let rect = &graph[room].rect;
-                rect.nearest_to(p).distance(p)
-            };
+            let near = |p: Point, room: RoomIndex| graph[room].outline.distance(p);
             let exits = graph.exits.portals(room).iter().filter(|exit| {
-                let segment = Segment::of(&graph[exit.door].crossing);
                 graph.is_free(exit.door)
-                    && segment.nearest_to(here).distance(here) <= EPSILON
+                    && graph[exit.door].crossing.nearest_to(here).distance(here) <= EPSILON
                     && !passed.contains(&exit.to)
             });
             let next = exits.min_by(|one, two| near(beyond, one.to).total_cmp(&near(beyond, two.to)))?;
@@ -304,7 +299,7 @@ impl Chain<'_> {
         let mut rooms = vec![before];
         let free = graph.exits.portals(before).iter().filter(|exit| graph.is_free(exit.door));
         rooms.extend(free.map(|exit| exit.to));
-        rooms.retain(|&room| graph[room].rect.nearest_to(stop.at).distance(stop.at) <= SNAP_M);
+        rooms.retain(|&room| graph[room].outline.distance(stop.at) <= SNAP_M);
         let mut found = Vec::new();
         for room in rooms {
             let exits = if is_change { graph.exits.changes(room) } else { graph.exits.portals(room) };
@@ -315,12 +310,10 @@ impl Chain<'_> {
                 if !is_like {
                     continue;
                 }
-                if is_change {
-                    let gates = graph.gates(door, room).iter();
-                    let link = |gate: &Gate| Link { door, segment: gate.segment, room: to, ..*stop };
-                    found.extend(gates.map(link));
-                } else {
-                    found.push(Link { door, segment: Segment::of(&graph[door].crossing), room: to, ..*stop });
+                let link = |segment: Segment| Link { door, segment, room: to, ..*stop };
+                match graph[door].crossing.segment() {
+                    Some(segment) => found.push(link(segment)),
+                    None => found.extend(graph.gates(door, room).iter().map(|gate| link(gate.segment))),
                 }
             }
         }

@@ -152,7 +152,7 @@ impl<'g> Search<'g> {
                 for exit in graph.exits.changes_into(room) {
                     let door = &graph[exit.door];
                     if let Some(weight) = graph.passage(exit.door)
-                        && door.crossing.contains(at)
+                        && door.crossing.area().is_some_and(|area| area.contains(at))
                     {
                         let change = Some((Exit { door: exit.door, to: room }, weight));
                         targets.push((exit.to, Target { goal: index, at: Some(at), change, leg }));
@@ -291,7 +291,7 @@ impl<'g> Search<'g> {
             return NONE;
         }
         let ends = self.turning.mesh.ends(node.door);
-        let segment = Segment::of(&self.graph[node.door].crossing);
+        let Some(segment) = self.graph[node.door].crossing.segment() else { return NONE };
         match (ends, node.root.distance(segment.a) <= EPSILON) {
             ([end, _], true) | ([_, end], false) => end,
         }
@@ -407,7 +407,7 @@ impl<'g> Search<'g> {
         let Exit { door, to: room } = exit;
         let Some(weight) = self.graph.passage(door) else { return };
         let here = self.graph.per_m(node.room);
-        let segment = Segment::of(&self.graph[door].crossing);
+        let Some(segment) = self.graph[door].crossing.segment() else { return };
         let next = |root: Point, way: f64, view: View| Node {
             root,
             cost: node.cost + way * here + weight,
@@ -499,11 +499,12 @@ impl<'g> Search<'g> {
         // at the start, and where the body goes on turning
         let is_turning = || graph[node.door].is_change() && here.to_bits() == there.to_bits();
         let is_at_once = node.before == NO_NODE || is_turning();
-        if is_at_once && graph[door].crossing.contains(node.root) {
+        let Some(area) = graph[door].crossing.area() else { return };
+        if is_at_once && area.contains(node.root) {
             reach(self, node.root);
         }
         if self.care == Care::Full {
-            let sides = sides(&graph[door].crossing).into_iter();
+            let sides = sides(&area.bounds()).into_iter();
             for side in sides.flat_map(|side| graph.clear_of_walls(side)) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {

@@ -1,6 +1,5 @@
 //! From what a search found to the way, pulled tight.
 
-use super::cone::Segment;
 use super::graph::RouteGraph;
 use super::mesh::EPSILON;
 use super::parts::{RoomIndex, Start};
@@ -34,9 +33,10 @@ fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> ((RoomIndex, Poin
         let is_new = before.is_some_and(|before| before.root.distance(node.root) > EPSILON);
         if before.is_some() && !node.bent {
             let door = node.door;
-            let segment = Segment::of(&graph[door].crossing);
-            let is_here = is_new || graph[door].is_change();
-            let at = if is_here { node.root } else { segment.passed_at(node.root, to) };
+            let at = match graph[door].crossing.segment() {
+                Some(segment) if !is_new => segment.passed_at(node.root, to),
+                _ => node.root,
+            };
             links.push(Link::new(graph, door, at, node.room));
         }
         if before.is_none() {

@@ -96,7 +96,7 @@ impl Corridor {
                     room1: from,
                     room2: to,
                     one_way,
-                    ..*of
+                    ..of.clone()
                 });
                 doors.push(door);
             };
@@ -118,7 +118,7 @@ impl Corridor {
                 }
             }
         }
-        let copied: Vec<RouteRoom> = rooms.iter().map(|&room| graph.graph()[room]).collect();
+        let copied: Vec<RouteRoom> = rooms.iter().map(|&room| graph.graph()[room].clone()).collect();
         let of_run = |run: usize, wanted: &[Entry]| -> Vec<Entry> {
             let own = |entry: &Entry| Some(Entry { room: *index.get(&(run, entry.room))?, ..*entry });
             wanted.iter().filter_map(own).collect()

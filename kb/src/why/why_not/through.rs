@@ -72,17 +72,20 @@ impl<'g> Question<'g> {
             if is_entry(door, index) {
                 let leads_in = |to: RoomIndex| matches!(via, Via::Door(_)) || via == Via::Room(to);
                 if leads_in(room2) {
-                    add(index, RouteDoor { room2: second(room2), one_way: true, ..*door });
+                    add(index, RouteDoor { room2: second(room2), one_way: true, ..door.clone() });
                 }
                 if !door.one_way && leads_in(room1) {
-                    add(index, RouteDoor { room1: room2, room2: second(room1), one_way: true, ..*door });
+                    add(
+                        index,
+                        RouteDoor { room1: room2, room2: second(room1), one_way: true, ..door.clone() },
+                    );
                 }
             } else {
-                add(index, *door);
+                add(index, door.clone());
             }
-            add(index, RouteDoor { room1: second(room1), room2: second(room2), ..*door });
+            add(index, RouteDoor { room1: second(room1), room2: second(room2), ..door.clone() });
         }
-        let rooms = graph.rooms().iter().chain(graph.rooms()).copied().collect();
+        let rooms = graph.rooms().iter().chain(graph.rooms()).cloned().collect();
         let mut both = RouteGraph::new(rooms, copies);
         both.close(graph.closed().to_vec());
         let in_second = |entry: &Entry| Entry { room: second(entry.room), ..*entry };
