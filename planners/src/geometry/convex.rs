@@ -1,5 +1,6 @@
 //! Convex outlines: of rooms, and of what two of them share.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
 use super::tolerance::{ROUNDING_M, SNAP_M};
@@ -92,10 +93,14 @@ impl Convex {
     /// The shares of the way between two points at which it comes in and leaves again (Cyrus and Beck 1978); `None`
     /// where at most a point of it lies inside. A way along a side, or a rounding beside it, lies inside.
     pub fn shares(&self, from: Point, to: Point) -> Option<(f64, f64)> {
+        self.shares_near(from, to, ROUNDING_M)
+    }
+
+    fn shares_near(&self, from: Point, to: Point, slack_m: f64) -> Option<(f64, f64)> {
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         for side in self.sides() {
             let (one, two) = (cross(side.a, side.b, from), cross(side.a, side.b, to));
-            if one.min(two) >= 0.0 || one.min(two) >= -ROUNDING_M * side.length() {
+            if is_in([one, two], &side, slack_m) {
                 continue;
             }
             if one < 0.0 && two < 0.0 {
@@ -109,6 +114,63 @@ impl Convex {
             }
         }
         (enters < leaves).then_some((enters, leaves))
+    }
+
+    /// The share of a way from a point inside at which it leaves; infinite where it would not if it went on.
+    pub fn leaves(&self, from: Point, to: Point) -> f64 {
+        let leaves = |from: f64, to: f64, low: f64, high: f64| {
+            if to > from {
+                (high - from) / (to - from)
+            } else if to < from {
+                (low - from) / (to - from)
+            } else {
+                f64::INFINITY
+            }
+        };
+        if let Some(rect) = self.rect() {
+            return leaves(from.x, to.x, rect.x0, rect.x1).min(leaves(from.y, to.y, rect.y0, rect.y1));
+        }
+        let through = |side: Segment| {
+            let (one, two) = (cross(side.a, side.b, from), cross(side.a, side.b, to));
+            (two < one && !is_in([one, two], &side, ROUNDING_M)).then(|| one / (one - two))
+        };
+        self.sides().filter_map(through).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The angle of the ground about a point that it takes, radians: half a turn on a side, a whole one inside.
+    pub fn angle_at(&self, p: Point) -> f64 {
+        if let Some(rect) = self.rect() {
+            let halves = |low: f64, high: f64, at: f64| {
+                if at < low - SNAP_M || at > high + SNAP_M {
+                    0.0
+                } else if at > low + SNAP_M && at < high - SNAP_M {
+                    2.0
+                } else {
+                    1.0
+                }
+            };
+            return halves(rect.x0, rect.x1, p.x) * halves(rect.y0, rect.y1, p.y) * FRAC_PI_2;
+        }
+        if !self.bounds.grown(SNAP_M).contains(p) {
+            return 0.0;
+        }
+        let count = self.count();
+        if let Some(number) = (0..count).find(|&number| self.corner(number).distance(p) <= SNAP_M) {
+            let at = self.corner(number);
+            let out = self.corner((number + 1) % count) - at;
+            let back = self.corner((number + count - 1) % count) - at;
+            return out.cross(back).atan2(out.dot(back)).abs();
+        }
+        if self.sides().any(|side| side.distance(p) <= SNAP_M) {
+            return PI;
+        }
+        if self.contains(p) { TAU } else { 0.0 }
+    }
+
+    /// What of a segment lies inside, or as near to it as points are told apart; `None` where at most a point does.
+    pub fn clip_near(&self, segment: Segment) -> Option<Segment> {
+        let (enters, leaves) = self.shares_near(segment.a, segment.b, SNAP_M)?;
+        Some(Segment::new(segment.at(enters), segment.at(leaves)))
     }
 
     /// What of a segment lies inside; `None` where at most a point does.
@@ -158,6 +220,15 @@ impl Convex {
             kept.pop();
         }
         (kept.len() >= 3).then(|| Self::new(kept))
+    }
+
+    /// Whether both have an area in common, or come as near to it as a rounding.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        // a side of one of them lies between what is apart
+        let parts = |one: &Self, two: &Self| {
+            one.sides().any(|side| two.corners().all(|corner| cross(side.a, side.b, corner) <= 0.0))
+        };
+        self.bounds.overlaps(&other.bounds) && !parts(self, other) && !parts(other, self)
     }
 
     /// What both have in common; `None` where that is less than an area.
@@ -216,6 +287,12 @@ impl Convex {
         };
         self.sides().map(across).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Whether two points lie left of a side's line, by the areas that they span with it, or at most so far right of it.
+fn is_in([one, two]: [f64; 2], side: &Segment, slack_m: f64) -> bool {
+    let least = one.min(two);
+    least >= 0.0 || least >= -slack_m * side.length()
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Where a change of shape can pay: on the rim of the free space of the easier state.
 
-use super::cone::Segment;
+use super::cone::{Segment, cross};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit};
-use super::parts::{DoorIndex, RoomIndex};
+use super::parts::{Crossing, DoorIndex, RoomIndex};
 use super::turning::Gate;
-use crate::geometry::{Convex, Point, Rect};
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Convex, Point};
 
 /// So far a way into the harder state has to lead on beyond a gate, metres, unless a goal lies near: along every wall there
 /// is a strip in which only a slimmer state fits, and which leads nowhere.
@@ -14,6 +15,9 @@ const DEEP_M: f64 = 0.5;
 /// An area that ends so near to the rim of the easier state's space, metres, ends at the rim: changes thinner than that may be
 /// left out beside others.
 const THIN_M: f64 = 0.3;
+
+/// Beyond so much of a rim, metres, it is judged at once whether a way leads on.
+const PIECE_M: f64 = 1.0;
 
 /// By what a way may go on.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -34,26 +38,23 @@ impl RouteGraph {
         self.turning().gates[door.index()][side].get_or_init(|| {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
-            let Some(area) = self[door].crossing.area().map(Convex::bounds) else { return Box::default() };
-            let common = self[from].outline.bounds().intersection(&self[to].outline.bounds());
+            let Some(area) = self[door].crossing.area() else { return Box::default() };
+            let centre = area.centre();
+            let common = self[from].outline.common(&self[to].outline);
             let deep = |segment: Segment| Gate { segment, is_deep: true };
-            if common.is_none_or(|common| !is_same(&common, &area)) {
+            if common.is_none_or(|common| !is_same(&common, area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
-                return sides(&area)
-                    .into_iter()
-                    .flat_map(|side| self.clear_of_walls(side))
-                    .map(deep)
-                    .collect();
+                return area.sides().flat_map(|side| self.clear_of_walls(side)).map(deep).collect();
             }
             let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
-            for side in sides(&area) {
+            for side in area.sides() {
                 let mut rim = self.rim(easier, side);
                 let mut known = self.rim(harder, side);
                 known.extend(rim.iter().copied());
                 let (alike, otherwise) = self.beside(door, (from, to), side);
                 known.extend(alike);
                 for end in without(side, &known) {
-                    let on = self.deep(easier, end, area.centre(), THIN_M, Further::Doors);
+                    let on = Sweep::beyond(self, end, centre, THIN_M, Further::Doors).deep(easier);
                     rim.extend(without(end, &on));
                 }
                 gates.extend(otherwise.into_iter().map(deep));
@@ -65,11 +66,11 @@ impl RouteGraph {
                     continue;
                 }
                 for segment in rim {
-                    let parts = self.deep(to, segment, area.centre(), DEEP_M, Further::AllWays);
-                    let shallow = without(segment, &parts).into_iter();
+                    let parts = Sweep::beyond(self, segment, centre, DEEP_M, Further::AllWays).deep(to);
+                    let shallow = without(segment, &parts);
                     gates.extend(parts.into_iter().map(deep));
-                    gates.extend(shallow.map(|segment| {
-                        let is_deep = self.leads_on_along(from, to, segment, area.centre());
+                    gates.extend(shallow.into_iter().flat_map(pieces).map(|segment| {
+                        let is_deep = self.leads_on(from, to, segment);
                         Gate { segment, is_deep }
                     }));
                 }
@@ -81,88 +82,43 @@ impl RouteGraph {
         })
     }
 
-    /// The parts of a segment from which a room and those behind it go on for so many metres, away from a point.
-    fn deep(
-        &self,
-        room: RoomIndex,
-        segment: Segment,
-        away_from: Point,
-        metres: f64,
-        by: Further,
-    ) -> Vec<Segment> {
-        let rect = self[room].outline.bounds();
-        let upright = (segment.a.x - segment.b.x).abs() <= EPSILON;
-        let (at, from) = if upright { (segment.a.x, away_from.x) } else { (segment.a.y, away_from.y) };
-        let (low, high) = if upright { (rect.x0, rect.x1) } else { (rect.y0, rect.y1) };
-        let far = if at > from { high } else { low };
-        let depth = (far - at).abs();
-        if depth >= metres - EPSILON {
-            return vec![segment];
-        }
-        let line = |p: Point| if upright { Point::new(far, p.y) } else { Point::new(p.x, far) };
-        let beyond = Segment { a: line(segment.a), b: line(segment.b) };
-        let back = |p: Point| if upright { Point::new(at, p.y) } else { Point::new(p.x, at) };
-        let mut parts = Vec::new();
-        for exit in self.exits.portals(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
-            let Some(door) = self[exit.door].crossing.segment() else { continue };
-            let (a, b) = (door.nearest_to(beyond.a), door.nearest_to(beyond.b));
-            let on = |p: Point| beyond.nearest_to(p).distance(p) <= EPSILON;
-            if on(a) && on(b) && a.distance(b) > EPSILON {
-                let further = self.deep(exit.to, Segment { a, b }, away_from, metres - depth, by);
-                parts.extend(further.into_iter().map(|part| Segment { a: back(part.a), b: back(part.b) }));
+    /// Whether the harder state comes out of the neighbourhood of a rim where the easier one does not: elsewhere what lies
+    /// beyond the rim is a strip that the easier state goes along as well.
+    fn leads_on(&self, easier: RoomIndex, harder: RoomIndex, rim: Segment) -> bool {
+        let (ahead, across) = (rim.direction() * DEEP_M, rim.direction().perpendicular() * DEEP_M);
+        let (from, to) = (rim.a - ahead, rim.b + ahead);
+        let about = Convex::new(vec![from - across, to - across, to + across, from + across]);
+        let with = self.leaves(&about, easier, |exit| self.is_free(exit.door));
+        let without = self.leaves(&about, harder, |exit| self.passage(exit.door).is_some());
+        let all: f64 = about.sides().map(|side| side.length()).sum();
+        !are_covered(&without, &with, all)
+    }
+
+    /// Where one comes out of an area from a room in it by doors in it that may be passed: from where to where along its
+    /// outline.
+    fn leaves(&self, about: &Convex, room: RoomIndex, may: impl Fn(&Exit) -> bool) -> Vec<(f64, f64)> {
+        let (mut rooms, mut next, mut found) = (vec![room], 0, Vec::new());
+        while let Some(&room) = rooms.get(next) {
+            next += 1;
+            let mut begun = 0.0;
+            for side in about.sides() {
+                let length = side.length();
+                if let Some((from, to)) = self[room].outline.shares(side.a, side.b) {
+                    found.push((begun + from * length, begun + to * length));
+                }
+                begun += length;
             }
-        }
-        if by == Further::AllWays {
-            let strip = Rect::new(
-                segment.a.x.min(beyond.a.x),
-                segment.a.y.min(beyond.a.y),
-                segment.b.x.max(beyond.b.x),
-                segment.b.y.max(beyond.b.y),
-            );
-            for exit in self.exits.changes(room).iter().filter(|exit| self.passage(exit.door).is_some()) {
-                let other = self[exit.to].outline.bounds();
-                let (low, high) = if upright { (other.x0, other.x1) } else { (other.y0, other.y1) };
-                let is_further = if at > from { high > far + EPSILON } else { low < far - EPSILON };
-                let shared =
-                    self[exit.door].crossing.area().and_then(|area| area.bounds().intersection(&strip));
-                if let Some(shared) = shared.filter(|_| is_further) {
-                    let (a, b) = (shared.nearest_to(segment.a), shared.nearest_to(segment.b));
-                    let part = Segment { a: back(a), b: back(b) };
-                    parts.extend(self.deep(exit.to, part, away_from, metres, by));
+            for exit in self.exits.portals(room).iter().chain(self.exits.changes(room)) {
+                let is_met = || match &self[exit.door].crossing {
+                    Crossing::Through(segment) => about.clip(*segment).is_some(),
+                    Crossing::Within(area) => about.overlaps(area),
+                };
+                if !rooms.contains(&exit.to) && may(exit) && is_met() {
+                    rooms.push(exit.to);
                 }
             }
         }
-        parts
-    }
-
-    /// Whether the shallow strip beyond a rim goes on along the rim, where the easier room and those behind it do not.
-    fn leads_on_along(&self, easier: RoomIndex, harder: RoomIndex, rim: Segment, inside: Point) -> bool {
-        let upright = (rim.a.x - rim.b.x).abs() <= EPSILON;
-        let (rect, at) = (self[harder].outline.bounds(), if upright { rim.a.x } else { rim.a.y });
-        let is_beyond_high = at > if upright { inside.x } else { inside.y };
-        let far = match (upright, is_beyond_high) {
-            (true, true) => rect.x1,
-            (true, false) => rect.x0,
-            (false, true) => rect.y1,
-            (false, false) => rect.y0,
-        };
-        if (far - at).abs() <= EPSILON {
-            return false;
-        }
-        // across the strip, or so far into the easier room, at an end of the rim
-        let across = |end: Point, to: f64| {
-            let (low, high) = (at.min(to), at.max(to));
-            if upright {
-                Segment { a: Point::new(low, end.y), b: Point::new(high, end.y) }
-            } else {
-                Segment { a: Point::new(end.x, low), b: Point::new(end.x, high) }
-            }
-        };
-        let inner = if is_beyond_high { at - THIN_M } else { at + THIN_M };
-        [(rim.a, rim.b), (rim.b, rim.a)].into_iter().any(|(end, other)| {
-            self.deep(easier, across(end, inner), other, THIN_M, Further::Doors).is_empty()
-                && !self.deep(harder, across(end, far), other, DEEP_M, Further::AllWays).is_empty()
-        })
+        found
     }
 
     /// The parts of a side of a change's area beyond which the same change is possible; and those beyond which it has
@@ -173,7 +129,7 @@ impl RouteGraph {
         (from, to): (RoomIndex, RoomIndex),
         side: Segment,
     ) -> (Vec<Segment>, Vec<Segment>) {
-        let area = &self[door].crossing;
+        let area = self[door].crossing.area();
         let weight = self.passage(door);
         let free = self.exits.portals(from).iter().filter(|exit| self.is_free(exit.door));
         let rooms = std::iter::once(from).chain(free.map(|exit| exit.to));
@@ -184,15 +140,11 @@ impl RouteGraph {
                 other != door && self.turning().mesh.layer(room) == self.turning().mesh.layer(to);
             let is_like =
                 self.per_m(room).to_bits() == self.per_m(to).to_bits() && self.passage(other) == weight;
-            let beside = &self[other].crossing;
+            let beside = self[other].crossing.area();
             // a change back and forth may lie in the same area
             if is_of_layer && beside != area {
-                let (a, b) = (beside.nearest_to(side.a), beside.nearest_to(side.b));
-                let on = |p: Point| side.nearest_to(p).distance(p) <= EPSILON;
-                if on(a) && on(b) && a.distance(b) > EPSILON {
-                    let into = if is_like { &mut alike } else { &mut otherwise };
-                    into.push(Segment { a, b });
-                }
+                let into = if is_like { &mut alike } else { &mut otherwise };
+                into.extend(beside.and_then(|beside| beside.clip_near(side)));
             }
         }
         (alike, otherwise)
@@ -206,42 +158,162 @@ impl RouteGraph {
 
     /// The parts of a segment on a room's outline beyond which none like it follows.
     fn rim(&self, room: RoomIndex, side: Segment) -> Vec<Segment> {
-        let rect = self[room].outline.bounds();
-        let upright = (side.a.x - side.b.x).abs() <= EPSILON;
-        let on = |at: f64, limits: [f64; 2]| limits.iter().any(|limit| (at - limit).abs() <= EPSILON);
-        let is_outline =
-            if upright { on(side.a.x, [rect.x0, rect.x1]) } else { on(side.a.y, [rect.y0, rect.y1]) };
-        if !is_outline || side.length() <= EPSILON {
-            return Vec::new();
-        }
-        let across = |p: Point| if upright { p.x } else { p.y };
-        let mut open: Vec<Segment> = Vec::new();
-        for exit in self.exits.portals(room) {
-            let door = exit.door;
-            let Some(segment) = self[door].crossing.segment() else { continue };
-            let is_beside = (across(segment.a) - across(side.a)).abs() <= EPSILON
-                && (across(segment.b) - across(side.a)).abs() <= EPSILON;
-            if is_beside && self.is_free(door) {
-                open.push(segment);
-            }
-        }
-        without(side, &open)
+        let outline = self[room].outline.sides();
+        let on = outline.filter_map(|of_room| side.shared_with(&of_room));
+        let free = self.exits.portals(room).iter().filter(|exit| self.is_free(exit.door));
+        let open = free.filter_map(|exit| side.shared_with(&self[exit.door].crossing.segment()?));
+        let (on, open): (Vec<Segment>, Vec<Segment>) = (on.collect(), open.collect());
+        on.into_iter().flat_map(|part| without(part, &open)).collect()
     }
 }
 
-fn is_same(a: &Rect, b: &Rect) -> bool {
-    let pairs = [(a.x0, b.x0), (a.y0, b.y0), (a.x1, b.x1), (a.y1, b.y1)];
-    pairs.iter().all(|(a, b)| (a - b).abs() <= EPSILON)
+/// What lies straight beyond a segment.
+struct Sweep<'g> {
+    graph: &'g RouteGraph,
+    segment: Segment,
+    /// Along the segment; what lies beyond it lies to the left.
+    ahead: Point,
+    metres: f64,
+    by: Further,
 }
 
-pub(super) fn sides(area: &Rect) -> [Segment; 4] {
-    let [a, b, c, d] = [
-        Point::new(area.x0, area.y0),
-        Point::new(area.x1, area.y0),
-        Point::new(area.x1, area.y1),
-        Point::new(area.x0, area.y1),
-    ];
-    [Segment { a, b }, Segment { a: b, b: c }, Segment { a: d, b: c }, Segment { a, b: d }]
+impl<'g> Sweep<'g> {
+    /// So many metres away from a point.
+    fn beyond(graph: &'g RouteGraph, segment: Segment, away_from: Point, metres: f64, by: Further) -> Self {
+        let is_left = cross(segment.a, segment.b, away_from) > 0.0;
+        let segment = if is_left { segment.reversed() } else { segment };
+        Self { graph, segment, ahead: segment.direction(), metres, by }
+    }
+
+    /// Metres along the segment, and beyond it.
+    fn seen(&self, p: Point) -> Point {
+        (p - self.segment.a).seen_along(self.ahead)
+    }
+
+    /// The parts of the segment from which a room and those behind it go on for so many metres.
+    fn deep(&self, room: RoomIndex) -> Vec<Segment> {
+        let mut parts = Vec::new();
+        let length = self.segment.length();
+        self.find(room, (0.0, length), 0.0, &mut parts);
+        let at = |along: f64| self.segment.at(along / length);
+        parts.into_iter().map(|(from, to)| Segment { a: at(from), b: at(to) }).collect()
+    }
+
+    /// The same, of a part of the segment; `highest` is how far one has come by other changes of shape.
+    fn find(&self, room: RoomIndex, part: (f64, f64), highest: f64, deep: &mut Vec<(f64, f64)>) {
+        let graph = self.graph;
+        let outline = &graph[room].outline;
+        let top = outline.corners().map(|corner| self.seen(corner).y).fold(highest, f64::max);
+        let mut is_all = false;
+        for side in outline.sides() {
+            // seen from within, the far sides run back
+            let (b, a) = (self.seen(side.a), self.seen(side.b));
+            let Some((from, to)) = overlap((a.x, b.x), part) else { continue };
+            let height = |x: f64| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+            let least = self.metres - EPSILON;
+            let (one, two) = (height(from), height(to));
+            let limit = || from + (to - from) * ((least - one) / (two - one));
+            match (one >= least, two >= least) {
+                (true, true) => deep.push((from, to)),
+                (true, false) => deep.push((from, limit())),
+                (false, true) => deep.push((limit(), to)),
+                (false, false) => {}
+            }
+            is_all |= one.min(two) >= least && from <= part.0 && to >= part.1;
+        }
+        if is_all {
+            return;
+        }
+        let is_open = |exit: &&Exit| graph.passage(exit.door).is_some();
+        let inside = self.seen(outline.centre());
+        for exit in graph.exits.portals(room).iter().filter(is_open) {
+            let Some(door) = graph[exit.door].crossing.segment() else { continue };
+            let (a, b) = (self.seen(door.a), self.seen(door.b));
+            let (a, b) = if a.x < b.x { (a, b) } else { (b, a) };
+            let is_above = cross(a, b, inside) < 0.0 && a.y.max(b.y) > -EPSILON;
+            if let Some(part) = overlap((a.x, b.x), part).filter(|_| is_above) {
+                self.find(exit.to, part, top, deep);
+            }
+        }
+        if self.by == Further::Doors {
+            return;
+        }
+        for exit in graph.exits.changes(room).iter().filter(is_open) {
+            let Some(area) = graph[exit.door].crossing.area() else { continue };
+            let highest = |of: &Convex| of.corners().map(|corner| self.seen(corner).y).fold(0.0, f64::max);
+            if highest(&graph[exit.to].outline) <= top + EPSILON || highest(area) <= EPSILON {
+                continue;
+            }
+            let beyond = area.left_of(self.segment);
+            let along = beyond.iter().flat_map(Convex::corners).map(|corner| self.seen(corner).x);
+            let (from, to) =
+                along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+            if let Some(part) = overlap((from, to), part) {
+                self.find(exit.to, part, top, deep);
+            }
+        }
+    }
+}
+
+/// What two stretches have in common; `None` where that is less than a rounding.
+fn overlap(one: (f64, f64), two: (f64, f64)) -> Option<(f64, f64)> {
+    let (from, to) = (one.0.max(two.0), one.1.min(two.1));
+    (to - from > EPSILON).then_some((from, to))
+}
+
+/// Whether all of some stretches of a closed line of a length lies no farther than [`DEEP_M`] from some others, with nothing
+/// but such stretches between.
+fn are_covered(all: &[(f64, f64)], others: &[(f64, f64)], length: f64) -> bool {
+    // twice round, so that what goes on past the beginning is in one piece
+    let round = |of: &[(f64, f64)]| {
+        joined(of.iter().copied().chain(of.iter().map(|(a, b)| (a + length, b + length))).collect())
+    };
+    let (runs, others) = (round(all), round(others));
+    runs.into_iter().all(|(from, to)| {
+        let is_whole = to - from > length;
+        if from >= length || from <= EPSILON && !is_whole {
+            // a part of another run
+            return true;
+        }
+        let mut last = None;
+        for &(begins, ends) in others.iter().filter(|(begins, ends)| *ends >= from && *begins <= to) {
+            let (gap, most) = match last {
+                Some(last) => (begins - last, 2.0 * DEEP_M),
+                None if is_whole => (0.0, DEEP_M),
+                None => (begins - from, DEEP_M),
+            };
+            if gap > most + EPSILON {
+                return false;
+            }
+            last = Some(ends);
+        }
+        last.is_some_and(|last| is_whole || to - last <= DEEP_M + EPSILON)
+    })
+}
+
+/// Stretches put together where they meet, in their order.
+fn joined(mut stretches: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    stretches.sort_by(|one, two| one.0.total_cmp(&two.0));
+    stretches.dedup_by(|next, last| {
+        let meets = next.0 <= last.1 + SNAP_M;
+        if meets {
+            last.1 = last.1.max(next.1);
+        }
+        meets
+    });
+    stretches
+}
+
+/// A segment cut into equal pieces of at most [`PIECE_M`].
+fn pieces(segment: Segment) -> impl Iterator<Item = Segment> {
+    let count = (segment.length() / PIECE_M).ceil().max(1.0) as u32;
+    let at = move |number: u32| segment.at(f64::from(number) / f64::from(count));
+    (0..count).map(move |number| Segment { a: at(number), b: at(number + 1) })
+}
+
+fn is_same(a: &Convex, b: &Convex) -> bool {
+    let holds = |one: &Convex, other: &Convex| other.corners().all(|corner| one.distance(corner) <= SNAP_M);
+    holds(a, b) && holds(b, a)
 }
 
 /// The parts of a segment that none of some others on its line covers.

@@ -2,12 +2,13 @@
 //! way may bend.
 
 use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
 
 use petgraph::unionfind::UnionFind;
 
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom};
 use crate::geometry::Point;
-use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
 use crate::search::Csr;
 
 /// No end of a door.
@@ -15,6 +16,12 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Two points closer than this are one, metres.
 pub(super) const EPSILON: f64 = ROUNDING_M;
+
+/// Two roundings of one point differ by less than this, metres.
+const NEAR_M: f64 = 0.1 * SNAP_M;
+
+/// Sides that meet on one line may turn by so much there, radians, where corners are rounded to a grid.
+const OUT_OF_LINE: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Exit {
@@ -120,10 +127,10 @@ impl Mesh {
             around.sort_unstable();
             around.dedup();
             let at = self.points[end as usize];
-            let quarters: u32 = around.iter().map(|&room| quarters(&rooms[room.index()], at)).sum();
+            let free: f64 = around.iter().map(|&room| rooms[room.index()].outline.angle_at(at)).sum();
             // free ground all around, joined all around: there is nothing to bend about
-            let is_whole = quarters == 4 && passed().count() >= around.len() && around.len() > 2;
-            quarters > 2 && !is_whole
+            let is_whole = free >= TAU - OUT_OF_LINE && passed().count() >= around.len() && around.len() > 2;
+            free > PI + EPSILON && !is_whole
         };
         bends(&|passing| passing == Passing::Free)
             || all.iter().any(|&door| passing(door) == Passing::Open)
@@ -142,13 +149,20 @@ fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
         let of = layer[door.room1.index()];
         let Some(segment) = door.crossing.segment() else { continue };
         for (end, point) in ends[index].iter_mut().zip([segment.a, segment.b]) {
-            // to a micrometre: what sums of cell sides differ by is far below, what doors differ by far above
-            let key = (of, (point.x * 1e6).round() as i64, (point.y * 1e6).round() as i64);
-            let number = *numbers.entry(key).or_insert_with(|| {
+            // what roundings of one point differ by is far below, what doors differ by far above
+            let key = |x: f64, y: f64| (of, (x / SNAP_M).round() as i64, (y / SNAP_M).round() as i64);
+            let own = key(point.x, point.y);
+            let beside = || {
+                let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+                let keys = near.map(|(x, y)| key(point.x + NEAR_M * x, point.y + NEAR_M * y));
+                keys.into_iter().filter(|near| *near != own).find_map(|near| numbers.get(&near).copied())
+            };
+            let number = numbers.get(&own).copied().or_else(beside).unwrap_or_else(|| {
                 points.push(point);
                 at_end.push(Vec::new());
                 points.len() as u32 - 1
             });
+            numbers.insert(own, number);
             *end = number;
             let (at, index) = (&mut at_end[number as usize], DoorIndex::new(index));
             if at.last() != Some(&index) {
@@ -166,19 +180,4 @@ fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
         layers.union(door.room1.index() as u32, door.room2.index() as u32);
     }
     layers.into_labeling()
-}
-
-/// How many quarters of the ground about a point a room takes.
-fn quarters(room: &RouteRoom, p: Point) -> u32 {
-    let rect = room.outline.bounds();
-    let within = |low: f64, high: f64, at: f64| {
-        if at < low - EPSILON || at > high + EPSILON {
-            0
-        } else if at > low + EPSILON && at < high - EPSILON {
-            2
-        } else {
-            1
-        }
-    };
-    within(rect.x0, rect.x1, p.x) * within(rect.y0, rect.y1, p.y)
 }

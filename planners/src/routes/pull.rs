@@ -160,25 +160,13 @@ impl Chain<'_> {
         let length = from.distance(to);
         let mut passed = vec![room];
         while room != into {
-            let rect = graph[room].outline.bounds();
-            // the share of the line at which it leaves the room
-            let leaves = |from: f64, to: f64, low: f64, high: f64| {
-                if to > from {
-                    (high - from) / (to - from)
-                } else if to < from {
-                    (low - from) / (to - from)
-                } else {
-                    f64::INFINITY
-                }
-            };
-            let share = leaves(from.x, to.x, rect.x0, rect.x1).min(leaves(from.y, to.y, rect.y0, rect.y1));
-            let share = share.max(at).min(1.0);
+            let share = graph[room].outline.leaves(from, to).max(at).min(1.0);
             let on = Segment { a: from, b: to };
             let (here, beyond) = (on.at(share), on.at((share + SNAP_M / length.max(SNAP_M)).min(1.0)));
             let near = |p: Point, room: RoomIndex| graph[room].outline.distance(p);
             let exits = graph.exits.portals(room).iter().filter(|exit| {
                 graph.is_free(exit.door)
-                    && graph[exit.door].crossing.nearest_to(here).distance(here) <= EPSILON
+                    && graph[exit.door].crossing.nearest_to(here).distance(here) <= SNAP_M
                     && !passed.contains(&exit.to)
             });
             let next = exits.min_by(|one, two| near(beyond, one.to).total_cmp(&near(beyond, two.to)))?;

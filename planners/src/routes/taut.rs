@@ -10,7 +10,6 @@ use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View};
-use super::gates::sides;
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, Entry, Goal, RoomIndex, Start};
@@ -504,8 +503,7 @@ impl<'g> Search<'g> {
             reach(self, node.root);
         }
         if self.care == Care::Full {
-            let sides = sides(&area.bounds()).into_iter();
-            for side in sides.flat_map(|side| graph.clear_of_walls(side)) {
+            for side in area.sides().flat_map(|side| graph.clear_of_walls(side)) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
