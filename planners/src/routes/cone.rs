@@ -80,6 +80,16 @@ impl View {
         }
     }
 
+    /// The part that is seen of a segment that may lie along a limit of the view.
+    pub fn of_gate(&self, root: Point, gate: Segment) -> Option<Segment> {
+        if !gate.is_in_line_with(root) {
+            return self.of(root, gate);
+        }
+        let near = gate.nearest_to(root);
+        let end = |end: Point| if self.sees(root, end) { end } else { near };
+        self.sees(root, near).then(|| Segment { a: end(gate.a), b: end(gate.b) })
+    }
+
     pub fn sees(&self, root: Point, p: Point) -> bool {
         let slack = EPSILON * root.distance(p).max(EPSILON);
         match self {

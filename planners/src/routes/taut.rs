@@ -515,9 +515,7 @@ impl<'g> Search<'g> {
             if !is_deep && !self.is_near_a_goal(gate) {
                 continue;
             }
-            if let Some(seen) = node.view.of(node.root, *gate)
-                && (!gate.is_in_line_with(node.root) || node.view.sees(node.root, gate.nearest_to(node.root)))
-            {
+            if let Some(seen) = node.view.of_gate(node.root, *gate) {
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
                 }
