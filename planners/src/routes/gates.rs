@@ -271,8 +271,8 @@ fn are_covered(all: &[(f64, f64)], others: &[(f64, f64)], length: f64) -> bool {
     let (runs, others) = (round(all), round(others));
     runs.into_iter().all(|(from, to)| {
         let is_whole = to - from > length;
-        if from >= length || from <= EPSILON && !is_whole {
-            // a part of another run
+        if from > length + EPSILON || from <= EPSILON && !is_whole {
+            // it is found where it begins the second time round, whole
             return true;
         }
         let mut last = None;
