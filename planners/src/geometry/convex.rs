@@ -254,18 +254,21 @@ impl Convex {
 
     /// Square metres.
     pub fn area(&self) -> f64 {
+        if self.corners.is_none() {
+            return self.bounds.area();
+        }
         let origin = self.corner(0);
         let twice: f64 = self.sides().map(|side| cross(origin, side.a, side.b)).sum();
-        match self.corners {
-            None => self.bounds.area(),
-            Some(_) => twice / 2.0,
-        }
+        twice / 2.0
     }
 
     /// Its centre of gravity.
     pub fn centre(&self) -> Point {
+        if self.corners.is_none() {
+            return self.bounds.centre();
+        }
         let area = self.area();
-        if self.corners.is_none() || area <= 0.0 {
+        if area <= 0.0 {
             return self.bounds.centre();
         }
         let origin = self.corner(0);
