@@ -1,8 +1,9 @@
 //! Known facts as planners read them: a missing or unknown value is an error that names the object.
 
 use crate::facts::{Column, Facts, Table};
-use crate::geometry::Rect;
+use crate::geometry::{Convex, Rect};
 use crate::planner::PlannerError;
+use crate::rooms::outline;
 
 /// A class that a planner reads.
 pub(crate) struct KnownClass<'a> {
@@ -34,6 +35,16 @@ impl<'a> KnownClass<'a> {
         let (x1, y1) = (self.numbers("x1")?, self.numbers("y1")?);
         let edges = x0.into_iter().zip(y0).zip(x1.into_iter().zip(y1));
         Ok(edges.map(|((x0, y0), (x1, y1))| Rect::new(x0, y0, x1, y1)).collect())
+    }
+
+    /// The outlines of rooms.
+    pub(crate) fn outlines(&self) -> Result<Vec<Convex>, PlannerError> {
+        let texts = self.table.texts("outline").map_err(|what| self.error(what))?;
+        let read = |(place, (bounds, text)): (usize, (Rect, &Option<String>))| {
+            let read = outline::read(text.as_deref(), bounds);
+            read.map_err(|what| self.error(format!("`outline` of object {} {what}", place + 1)))
+        };
+        self.rects()?.into_iter().zip(texts).enumerate().map(read).collect()
     }
 
     fn all_known<T: Copy>(&self, property: &str, column: &[Option<T>]) -> Result<Vec<T>, PlannerError> {

@@ -142,7 +142,7 @@ fn room_records(world: &World, lattice: Lattice, stack: &[Placed]) -> Vec<Room> 
         let state = placed.state;
         let room = |&room: &Block| {
             let rect = lattice.rect(room);
-            Room { state, facing, rect, height: lowest(&rect) }
+            Room { state, facing, outline: rect.into(), height: lowest(&rect) }
         };
         placed.layer.rooms.iter().map(room).collect::<Vec<_>>()
     };

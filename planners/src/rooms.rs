@@ -4,6 +4,7 @@ mod cutter;
 mod greedy;
 mod low_bridges;
 mod order;
+pub mod outline;
 mod paper;
 mod queue;
 mod table;

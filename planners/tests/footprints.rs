@@ -74,7 +74,7 @@ fn parts(layers: &Layers) -> Vec<usize> {
 fn is_way(layers: &Layers, from: Point, to: Point) -> bool {
     let parts = parts(layers);
     let at = |p: Point| {
-        let rooms = layers.rooms.iter().zip(&parts).filter(move |(room, _)| room.rect.contains(p));
+        let rooms = layers.rooms.iter().zip(&parts).filter(move |(room, _)| room.outline.contains(p));
         rooms.map(|(_, part)| *part).collect::<Vec<_>>()
     };
     at(from).iter().any(|part| at(to).contains(part))
@@ -191,7 +191,7 @@ proptest! {
         let long = state("LONG", 0.3, Some(length));
         let layers = cut_layers(&world, std::slice::from_ref(&long)).unwrap();
         for room in &layers.rooms {
-            for p in points_of(room.rect) {
+            for p in points_of(room.outline.bounds()) {
                 prop_assert!(is_free(&world, &long, p, room.facing.unwrap()), "{p:?} in {room:?}");
             }
         }

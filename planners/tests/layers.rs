@@ -118,7 +118,7 @@ fn is_way(layers: &Layers, component: &[usize], ends: [(usize, Point); 2], reach
     let near = |(state, p): (usize, Point)| {
         let rooms = layers.rooms.iter().zip(component);
         rooms
-            .filter(move |(room, _)| room.state == state && room.rect.nearest_to(p).distance(p) <= reach)
+            .filter(move |(room, _)| room.state == state && room.outline.distance(p) <= reach)
             .map(|(_, component)| *component)
     };
     near(ends[0]).any(|a| near(ends[1]).any(|b| a == b))
@@ -160,15 +160,16 @@ proptest! {
             let state = &states()[room.state];
             let keep = state.width / 2.0 + world.clearance;
             for other in layers.rooms[..i].iter().filter(|other| other.state == room.state) {
-                prop_assert!(!room.rect.overlaps(&other.rect));
+                prop_assert!(room.outline.common(&other.outline).is_none());
             }
             for step in 0..81 {
                 let (u, v) = (f64::from(step % 9) / 8.0, f64::from(step / 9) / 8.0);
-                let p = Point::new(room.rect.x0 + u * room.rect.dx(), room.rect.y0 + v * room.rect.dy());
+                let about = room.outline.bounds();
+                let p = Point::new(about.x0 + u * about.dx(), about.y0 + v * about.dy());
                 let free = oracle::clearance(&world, state, p);
                 prop_assert!(free >= keep - 1e-6, "{free} of {keep} at {p:?} in {room:?}");
             }
-            let above = world.bridges.iter().filter(|bridge| bridge.rect.overlaps(&room.rect));
+            let above = world.bridges.iter().filter(|bridge| bridge.rect.overlaps(&room.outline.bounds()));
             prop_assert_eq!(room.height, above.map(|bridge| bridge.height).min_by(f64::total_cmp));
         }
     }
@@ -179,7 +180,7 @@ proptest! {
         let mut expected = BTreeSet::new();
         for (i, a) in layers.rooms.iter().enumerate() {
             for (j, b) in layers.rooms.iter().enumerate().filter(|(j, _)| *j != i) {
-                let (a, b) = ((a.state, a.rect), (b.state, b.rect));
+                let (a, b) = ((a.state, a.outline.bounds()), (b.state, b.outline.bounds()));
                 let dx = a.1.x1.min(b.1.x1) - a.1.x0.max(b.1.x0);
                 let dy = a.1.y1.min(b.1.y1) - a.1.y0.max(b.1.y0);
                 if a.0 != b.0 && dx > 1e-9 && dy > 1e-9 {
@@ -195,7 +196,7 @@ proptest! {
         let is_door = |a: usize, b: usize| found.contains(&(a.min(b), a.max(b), Kind::Door));
         for &(i, j, kind) in expected.difference(&found) {
             prop_assert_eq!(kind, Kind::Change);
-            let overlap = layers.rooms[i].rect.intersection(&layers.rooms[j].rect).unwrap();
+            let overlap = layers.rooms[i].outline.bounds().intersection(&layers.rooms[j].outline.bounds()).unwrap();
             prop_assert!(overlap.smaller_side() < 2.5 * GRID, "{:?}", overlap);
             let mut instead = found.iter().filter(|(_, _, kind)| *kind == Kind::Change);
             prop_assert!(instead.any(|&(a, b, _)| a == i && is_door(b, j) || b == j && is_door(a, i)));
@@ -238,7 +239,7 @@ proptest! {
             }
             for (index, room) in layers.rooms.iter().enumerate() {
                 let is_in = layers.area_rooms.contains(&(index, of));
-                for p in cells(room.rect).filter(|&p| !is_on_outline(&area.shape, p)) {
+                for p in cells(room.outline.bounds()).filter(|&p| !is_on_outline(&area.shape, p)) {
                     prop_assert_eq!(area.shape.contains(p), is_in, "{:?} of {:?}", p, room);
                 }
             }
@@ -261,7 +262,7 @@ proptest! {
         open.crossings.retain(|crossing| !shut(crossing.room1) && !shut(crossing.room2));
         let component = components(&open);
         let side = |room: usize| {
-            let p = layers.rooms[room].rect.centre();
+            let p = layers.rooms[room].outline.centre();
             (to.x - from.x) * (p.y - from.y) - (to.y - from.y) * (p.x - from.x) > 0.0
         };
         for room in (0..layers.rooms.len()).filter(|&room| !shut(room)) {
@@ -277,13 +278,13 @@ proptest! {
         let bare = cut_layers(&World { areas: Vec::new(), named_doors: Vec::new(), ..world.clone() }, &states).unwrap();
         for (index, room) in bare.rooms.iter().enumerate() {
             for (of, area) in world.areas.iter().enumerate() {
-                if cells(room.rect).any(|p| area.shape.contains(p) && !is_on_outline(&area.shape, p)) {
+                if cells(room.outline.bounds()).any(|p| area.shape.contains(p) && !is_on_outline(&area.shape, p)) {
                     let kept = |&(room, area): &(usize, usize)| area == of && with.rooms[room].state == bare.rooms[index].state;
                     prop_assert!(with.area_rooms.iter().any(kept), "{:?} in {:?}", area, room);
                 }
             }
             for (of, door) in world.named_doors.iter().enumerate() {
-                if room.rect.is_crossed_by(door.from, door.to) {
+                if room.outline.bounds().is_crossed_by(door.from, door.to) {
                     let kept = |&(room, door): &(usize, usize)| door == of && with.rooms[room].state == bare.rooms[index].state;
                     prop_assert!(with.door_rooms.iter().any(kept), "{:?} in {:?}", door, room);
                 }

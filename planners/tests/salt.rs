@@ -65,15 +65,15 @@ fn ends(layers: &Layers) -> [Point; 2] {
     let label = parts(layers);
     let area = |part: usize| -> f64 {
         let of_part = layers.rooms.iter().zip(&label).filter(|(_, label)| **label == part);
-        of_part.map(|(room, _)| room.rect.area()).sum()
+        of_part.map(|(room, _)| room.outline.area()).sum()
     };
     let largest = label.iter().copied().max_by(|&a, &b| area(a).total_cmp(&area(b))).unwrap();
     let rooms = layers
         .rooms
         .iter()
         .zip(&label)
-        .filter(|(room, label)| **label == largest && room.rect.smaller_side() > 0.5);
-    let centres: Vec<Point> = rooms.map(|(room, _)| room.rect.centre()).collect();
+        .filter(|(room, label)| **label == largest && room.outline.breadth() > 0.5);
+    let centres: Vec<Point> = rooms.map(|(room, _)| room.outline.centre()).collect();
     let from = centres[0];
     let to = centres.iter().copied().max_by(|a, b| a.distance(from).total_cmp(&b.distance(from))).unwrap();
     [from, to]
@@ -89,7 +89,7 @@ fn parts(layers: &Layers) -> Vec<usize> {
 
 fn are_joined(layers: &Layers, [from, to]: [Point; 2]) -> bool {
     let label = parts(layers);
-    let room = |p: Point| layers.rooms.iter().position(|room| room.rect.contains(p));
+    let room = |p: Point| layers.rooms.iter().position(|room| room.outline.contains(p));
     room(from).zip(room(to)).is_some_and(|(from, to)| label[from] == label[to])
 }
 

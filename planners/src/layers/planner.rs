@@ -45,13 +45,12 @@ impl Planner for RoomsByState {
             robot: states[room.state].robot.clone(),
             state: Some(states[room.state].state.clone()),
             facing: room.facing,
-            rect: room.rect,
+            outline: room.outline.clone(),
             height: room.height,
         };
-        let door = |crossing: &Crossing| DoorRow {
-            rooms: [crossing.room1, crossing.room2],
-            rect: crossing.rect,
-            is_change: crossing.kind == Kind::Change,
+        let door = |crossing: &Crossing| {
+            let is_change = crossing.kind == Kind::Change;
+            DoorRow::along([crossing.room1, crossing.room2], crossing.rect, is_change)
         };
         let rooms: Vec<RoomRow> = layers.rooms.iter().map(room).collect();
         let doors: Vec<DoorRow> = layers.crossings.iter().map(door).collect();

@@ -1,6 +1,6 @@
 //! States, rooms, and the crossings from room to room.
 
-use crate::geometry::Rect;
+use crate::geometry::{Convex, Rect};
 
 /// A state in which a robot can move.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,14 +17,14 @@ pub struct State {
 }
 
 /// A room of one state's layer.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Room {
     /// The state, by its index.
     pub state: usize,
     /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
     pub facing: Option<f64>,
     /// Where the robot's centre may be.
-    pub rect: Rect,
+    pub outline: Convex,
     /// The lowest bridge above the room, metres; `None` where there is none.
     pub height: Option<f64>,
 }

@@ -4,10 +4,10 @@ use geo::{Area as _, BooleanOps};
 
 use super::member_facts;
 use crate::facts::Facts;
-use crate::geometry::Rect;
+use crate::geometry::{Convex, Segment, cross};
 use crate::known::KnownClass;
 use crate::planner::{Planner, PlannerError, Signature};
-use crate::world::{Shape, World};
+use crate::world::{NamedDoor, Shape, World};
 
 const NAME: &str = "rooms in overlays";
 
@@ -22,14 +22,14 @@ impl Planner for RoomsInOverlays {
     }
 
     fn signature(&self) -> Signature {
-        let needs = ["room", "x0", "y0", "x1", "y1"].map(|property| format!("ROOMS.{property}"));
+        let needs = ["room", "x0", "y0", "x1", "y1", "outline"].map(|property| format!("ROOMS.{property}"));
         Signature { needs: needs.into(), gives: super::MEMBERS_GIVE.map(str::to_owned).into() }
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
         let known = KnownClass::find(NAME, "ROOMS", known)?;
-        let (keys, rooms) = (known.numbers("room")?, known.rects()?);
-        let pairs = |of: usize, is_in: &dyn Fn(&Rect) -> bool| -> Vec<(usize, usize)> {
+        let (keys, rooms) = (known.numbers("room")?, known.outlines()?);
+        let pairs = |of: usize, is_in: &dyn Fn(&Convex) -> bool| -> Vec<(usize, usize)> {
             let inside = keys.iter().zip(&rooms).filter(|(_, room)| is_in(room));
             inside.map(|(key, _)| (*key as usize, of)).collect()
         };
@@ -37,17 +37,27 @@ impl Planner for RoomsInOverlays {
         let areas: Vec<_> =
             areas.flat_map(|(of, area)| pairs(of, &|room| is_mostly_in(room, &area.shape))).collect();
         let doors = world.named_doors.iter().enumerate();
-        let doors: Vec<_> =
-            doors.flat_map(|(of, door)| pairs(of, &|room| room.is_crossed_by(door.from, door.to))).collect();
+        let across = |room: &Convex, door: &NamedDoor| is_crossed(room, Segment::new(door.from, door.to));
+        let doors: Vec<_> = doors.flat_map(|(of, door)| pairs(of, &|room| across(room, door))).collect();
         Ok(member_facts(world, &areas, &doors))
     }
 }
 
-fn is_mostly_in(room: &Rect, shape: &Shape) -> bool {
-    let Some(common) = room.intersection(&shape.enclosing_rect()) else { return false };
+fn is_mostly_in(room: &Convex, shape: &Shape) -> bool {
+    if !room.bounds().overlaps(&shape.enclosing_rect()) {
+        return false;
+    }
     let covered = match shape {
-        Shape::Rect(_) => common.area(),
-        Shape::Polygon(_) => shape.to_geo().intersection(&Shape::Rect(*room).to_geo()).unsigned_area(),
+        Shape::Rect(rect) => room.common(&(*rect).into()).map_or(0.0, |common| common.area()),
+        Shape::Polygon(_) => {
+            shape.to_geo().intersection(&Shape::Polygon(room.corners().collect()).to_geo()).unsigned_area()
+        }
     };
     covered > room.area() / 2.0
+}
+
+/// Whether a part of some length lies inside, not just on the outline.
+fn is_crossed(room: &Convex, by: Segment) -> bool {
+    let inside = room.clip(by).map(|part| part.middle());
+    inside.is_some_and(|p| room.sides().all(|side| cross(side.a, side.b, p) > 0.0))
 }

@@ -2,11 +2,11 @@
 
 use crate::doors::{SharedEdge, shared_edges};
 use crate::facts::{Column, Facts, Table};
-use crate::geometry::Rect;
+use crate::geometry::{Convex, Point, Rect, Segment};
 use crate::known::{keys, with_edges};
 use crate::names::room_name;
 
-use super::Room;
+use super::{Room, outline};
 
 /// What [`facts`] gives.
 pub(crate) const GIVES: &[&str] = &[
@@ -19,6 +19,7 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.y0",
     "ROOMS.x1",
     "ROOMS.y1",
+    "ROOMS.outline: text",
     "ROOMS.height",
     "ROOMS.width",
     "DOORS.door",
@@ -47,16 +48,42 @@ pub(crate) struct RoomRow {
     pub robot: Option<String>,
     pub state: Option<String>,
     pub facing: Option<f64>,
-    pub rect: Rect,
+    pub outline: Convex,
     pub height: Option<f64>,
 }
 
-/// A door as a row of `DOORS`: its rooms by index, and the segment or the area in which it is passed.
+/// A door as a row of `DOORS`, its rooms by index.
 pub(crate) struct DoorRow {
     pub rooms: [usize; 2],
-    pub rect: Rect,
+    /// Where it is passed; of a change of shape opposite corners of the least rectangle about what the outlines of its
+    /// rooms have in common, or about the part of that in which it is made.
+    pub across: Segment,
     /// Whether it is a change of shape, one way.
     pub is_change: bool,
+}
+
+impl DoorRow {
+    /// From a rectangle without extent along one axis, or that of a change.
+    pub(crate) fn along(rooms: [usize; 2], rect: Rect, is_change: bool) -> Self {
+        let across = Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1));
+        Self { rooms, across, is_change }
+    }
+
+    /// The area in which a shape is changed.
+    fn area(&self, rooms: &[RoomRow]) -> Convex {
+        let [one, other] = self.rooms.map(|room| &rooms[room].outline);
+        outline::shared(one, other, self.across.bounds())
+    }
+
+    /// Where it is on the map, and how wide.
+    fn extent(&self, rooms: &[RoomRow]) -> (Point, f64) {
+        if self.is_change {
+            let area = self.area(rooms);
+            (area.centre(), area.breadth())
+        } else {
+            (self.across.middle(), self.across.length())
+        }
+    }
 }
 
 /// `ROOMS` and `DOORS` between them (Abou-Ali et al., Table 4), both numbered from 1. Metres.
@@ -68,20 +95,19 @@ pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow]) -> Facts {
 pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
     let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
     let edges = shared_edges(&rects).into_iter();
-    let door =
-        |edge: SharedEdge| DoorRow { rooms: [edge.first, edge.second], rect: edge.segment, is_change: false };
+    let door = |edge: SharedEdge| DoorRow::along([edge.first, edge.second], edge.segment, false);
     let row = |room: &Room| RoomRow {
         robot: None,
         state: None,
         facing: None,
-        rect: room.rect,
+        outline: room.rect.into(),
         height: room.height,
     };
     facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>())
 }
 
 fn room_table(rooms: &[RoomRow]) -> Table {
-    let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
+    let rects: Vec<_> = rooms.iter().map(|room| room.outline.bounds()).collect();
     let table = Table::default()
         .with("room", keys(rooms.len()))
         .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
@@ -89,34 +115,37 @@ fn room_table(rooms: &[RoomRow]) -> Table {
         .with("state", rooms.iter().map(|room| room.state.clone()).collect::<Column>())
         .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
     with_edges(table, &rects)
+        .with("outline", rooms.iter().map(|room| outline::write(&room.outline)).collect::<Column>())
         .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
-        .with("width", rects.iter().map(Rect::smaller_side).collect::<Column>())
+        .with("width", rooms.iter().map(|room| room.outline.breadth()).collect::<Column>())
 }
 
 fn door_table(rooms: &[RoomRow], doors: &[DoorRow]) -> Table {
     let column = |of: &dyn Fn(&DoorRow) -> f64| doors.iter().map(of).collect::<Column>();
     let kind = |door: &DoorRow| if door.is_change { "change" } else { "door" }.to_owned();
-    let width = |door: &DoorRow| {
-        if door.is_change { door.rect.smaller_side() } else { door.rect.dx().max(door.rect.dy()) }
-    };
-    let table = Table::default()
+    let extents: Vec<(Point, f64)> = doors.iter().map(|door| door.extent(rooms)).collect();
+    let mut table = Table::default()
         .with("door", keys(doors.len()))
         .with("kind", doors.iter().map(kind).collect::<Column>())
         .with("room1", column(&|door| (door.rooms[0] + 1) as f64))
         .with("room2", column(&|door| (door.rooms[1] + 1) as f64))
-        .with("x", column(&|door| door.rect.centre().x))
-        .with("y", column(&|door| door.rect.centre().y))
-        .with("width", column(&width));
-    let rects: Vec<_> = doors.iter().map(|door| door.rect).collect();
-    let mut table = with_edges(table, &rects);
+        .with("x", extents.iter().map(|(at, _)| at.x).collect::<Column>())
+        .with("y", extents.iter().map(|(at, _)| at.y).collect::<Column>())
+        .with("width", extents.iter().map(|(_, width)| *width).collect::<Column>())
+        .with("x0", column(&|door| door.across.a.x))
+        .with("y0", column(&|door| door.across.a.y))
+        .with("x1", column(&|door| door.across.b.x))
+        .with("y1", column(&|door| door.across.b.y));
+    let centres: Vec<Point> = rooms.iter().map(|room| room.outline.centre()).collect();
+    let breadths: Vec<f64> = rooms.iter().map(|room| room.outline.breadth()).collect();
     for (side, names) in
         [["height1", "width1", "distance1"], ["height2", "width2", "distance2"]].into_iter().enumerate()
     {
-        let room = |door: &DoorRow| &rooms[door.rooms[side]];
+        let distance = |(door, (at, _)): (&DoorRow, &(Point, f64))| centres[door.rooms[side]].distance(*at);
         table = table
-            .with(names[0], doors.iter().map(|door| room(door).height).collect::<Column>())
-            .with(names[1], column(&|door| room(door).rect.smaller_side()))
-            .with(names[2], column(&|door| room(door).rect.centre().distance(door.rect.centre())));
+            .with(names[0], doors.iter().map(|door| rooms[door.rooms[side]].height).collect::<Column>())
+            .with(names[1], column(&|door| breadths[door.rooms[side]]))
+            .with(names[2], doors.iter().zip(&extents).map(distance).collect::<Column>());
     }
     table.with("one_way", doors.iter().map(|door| door.is_change).collect::<Column>())
 }
