@@ -51,7 +51,7 @@ pub struct Door {
     pub at: [f64; 2],
     /// Metres.
     pub width: f64,
-    /// x0, y0, x1, y1 of the crossing segment, metres.
+    /// x0, y0, x1, y1, metres: the ends of the crossing segment, or the least rectangle about the area of a change.
     pub segment: [f64; 4],
     /// Cost of passing.
     pub hardness: Derived<f64>,

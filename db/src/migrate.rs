@@ -72,6 +72,7 @@ pub(crate) const STEPS: &[Step] = &[
             include_str!("../sql/v5/50-experience.sql"),
         ],
     },
+    Step::of_all(&[include_str!("../sql/v6/10-outlines.sql")]),
 ];
 
 /// The newest schema version.

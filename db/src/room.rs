@@ -11,7 +11,7 @@ use crate::stale::in_bulk;
 use crate::transaction::Tx;
 use crate::weight::Weight;
 
-/// A room: a rectangle of free space, in one layer.
+/// A room: a convex piece of free space, in one layer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Room {
     /// Its number, from 1.
@@ -22,11 +22,13 @@ pub struct Room {
     pub layer: Option<(String, String)>,
     /// How the body lies there, degrees counterclockwise from x, less than 180; `None` for a disc.
     pub facing: Option<f64>,
-    /// x0, y0, x1, y1 in metres.
+    /// x0, y0, x1, y1 of the least rectangle about it, metres.
     pub rect: [f64; 4],
+    /// Its corners as JSON, `[[x,y],…]`, counterclockwise, metres; `None` where it is that rectangle.
+    pub outline: Option<String>,
     /// Metres; `None` is unlimited.
     pub height: Option<f64>,
-    /// The smaller side, metres.
+    /// Its breadth, metres: of a rectangle the smaller side.
     pub width: f64,
     /// Cost per metre.
     pub hardness: Derived<f64>,
@@ -60,6 +62,7 @@ impl Row for Room {
         column!(Cut Real "y0" rect[1]),
         column!(Cut Real "x1" rect[2]),
         column!(Cut Real "y1" rect[3]),
+        column!(Cut Text "outline" outline),
         column!(Cut Real "height" height),
         column!(Cut Real "width" width),
         column!(Weight Real "hardness" hardness.value),

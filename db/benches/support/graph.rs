@@ -151,6 +151,7 @@ fn room(index: usize) -> Room {
         layer: None,
         facing: None,
         rect: [x, y, x + 3.0, y + 3.0],
+        outline: None,
         height: None,
         width: 3.0,
         hardness: Derived::default(),

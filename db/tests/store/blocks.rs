@@ -43,6 +43,7 @@ fn room(number: i64) -> Room {
         layer: (number % 2 == 0).then(|| ("cart".to_owned(), format!("state {}", number % 4))),
         facing: (number % 2 == 0).then_some(22.5),
         rect: [x, -0.0, x + 0.1, 1.0],
+        outline: (number % 13 == 0).then(|| format!("[[{x:?},0.0],[{:?},0.0],[{x:?},1.0]]", x + 0.1)),
         height: (number % 3 > 0).then_some(2.5),
         width: 0.1,
         hardness: if number % 5 == 0 {

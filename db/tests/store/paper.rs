@@ -89,6 +89,7 @@ pub fn rooms() -> Vec<Room> {
         layer: None,
         facing: None,
         rect,
+        outline: None,
         height,
         width,
         hardness: Derived::default(),

@@ -1,6 +1,7 @@
 //! The schema of each version is kept: old files must open for ever.
 
 use adit_db::query::Limits;
+use adit_db::room::Room;
 use adit_db::{Cell, Store, VERSION};
 
 use crate::clients::outside;
@@ -39,4 +40,21 @@ fn nothing_of_ours_is_taken_for_the_user_s() {
     let folder = tempfile::tempdir().unwrap();
     let mut store = Store::create(folder.path().join("new.db")).unwrap();
     assert_eq!(store.snapshot(|tx| tx.user_tables()).unwrap(), []);
+}
+
+#[test]
+fn an_outline_is_a_json_list_of_corners_or_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut store = Store::create(folder.path().join("new.db")).unwrap();
+    let mut write = |outline: Option<&str>| {
+        let outline = outline.map(str::to_owned);
+        let room = Room { room: 1, name: "a".into(), rect: [0.0, 0.0, 1.0, 1.0], outline, ..Room::default() };
+        store.transaction(|tx| tx.replace_rooms(&[room]))
+    };
+    write(None).unwrap();
+    write(Some("[[0.0,0.0],[1.0,0.0],[0.0,1.0]]")).unwrap();
+    for outline in ["round", "[[0,0],[1,0]]", "{}"] {
+        let refused = write(Some(outline)).unwrap_err().to_string();
+        assert!(refused.contains("outline"), "{refused}");
+    }
 }
