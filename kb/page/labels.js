@@ -3,6 +3,7 @@
 import { number } from './format.js';
 import { EASIEST, roomsWeigh } from './layers.js';
 import { model } from './model.js';
+import { boxIn, centreOf } from './shapes.js';
 
 const MOST_ROOMS = 500;
 const PLAIN = '12px system-ui, sans-serif';
@@ -99,14 +100,17 @@ function rooms(labels, camera, shown, find) {
   const { map, weights } = model;
   let left = MOST_ROOMS;
   for (const index of shown.rooms) {
-    const [x0, y0, x1, y1] = map.rooms[index].rect;
-    if (x1 < sx0 || x0 > sx1 || y1 < sy0 || y0 > sy1 || Math.min((x1 - x0) * camera.scale * 0.8, (y1 - y0) * camera.scale) < 22) continue;
-    const middle = [(x0 + x1) / 2, (y0 + y1) / 2];
+    const room = map.rooms[index];
+    const [x0, y0, x1, y1] = room.rect;
+    if (x1 < sx0 || x0 > sx1 || y1 < sy0 || y0 > sy1) continue;
+    const [wide, high] = boxIn(room).map((side) => side * camera.scale);
+    if (Math.min(wide * 0.8, high) < 22) continue;
+    const middle = centreOf(room);
     if (roomsWeigh() && shown.layer === EASIEST && shown.topRoom(find(middle)) !== index) continue;
     const [px, py] = camera.toScreen(middle);
     const letter = weights.rooms.passable[index] === false ? '✕' : shown.actions.letter(weights.rooms.action[index]);
-    const lower = py + Math.min(18, ((y1 - y0) * camera.scale) / 4);
-    labels.put(`${map.rooms[index].name} · ${letter}`, [[px, py, 'center'], [px, lower, 'center'], [px, 2 * py - lower, 'center']]);
+    const lower = py + Math.min(18, high / 4);
+    labels.put(`${room.name} · ${letter}`, [[px, py, 'center'], [px, lower, 'center'], [px, 2 * py - lower, 'center']]);
     left -= 1;
     if (left === 0) break;
   }

@@ -2,6 +2,7 @@
 
 import { model } from './model.js';
 import { Actions, Classes } from './palette.js';
+import { trace } from './shapes.js';
 
 /** The view of all layers at once: wherever several states fit, the room that is easiest lies on top. */
 export const EASIEST = 'easiest';
@@ -60,8 +61,7 @@ export class Drawn {
       const action = kind === -3 ? model.weights.rooms.action[index] : null;
       const name = `${kind}/${changed}/${action}`;
       if (!groups.has(name)) groups.set(name, { kind, changed, action, path: new Path2D() });
-      const [x0, y0, x1, y1] = model.map.rooms[index].rect;
-      groups.get(name).path.rect(x0, y0, x1 - x0, y1 - y0);
+      trace(groups.get(name).path, model.map.rooms[index]);
     }
     const rank = ({ kind }) => (kind < 0 ? 1000 - kind : kind);
     return [...groups.values()].sort((a, b) => rank(b) - rank(a) || Number(a.changed) - Number(b.changed));

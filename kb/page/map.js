@@ -8,6 +8,7 @@ import { model } from './model.js';
 import { inks, paint } from './paint.js';
 import { Finder } from './places.js';
 import { closePopover, openPopover } from './popover.js';
+import { centreOf, middleOf, polygon } from './shapes.js';
 import { weightsOf } from './thing.js';
 import { onTheme } from './theme.js';
 
@@ -51,10 +52,7 @@ function newMap() {
   finder = new Finder(map);
   const polygons = (list) => {
     const path = new Path2D();
-    for (const points of list) {
-      points.forEach((value, i) => { if (i % 2 === 0) (i ? path.lineTo(value, points[i + 1]) : path.moveTo(value, points[i + 1])); });
-      path.closePath();
-    }
+    for (const points of list) polygon(path, points);
     return path;
   };
   still = { walls: polygons(map.walls), areas: polygons(map.areas.map((area) => area.polygon)), bridges: new Path2D(), namedDoors: new Path2D() };
@@ -156,13 +154,12 @@ function resize() {
 /** Shows a room or door of the list: in the middle, with a line around it. */
 export function point(kind, index) {
   const { map } = model;
-  const [x0, y0, x1, y1] = kind === 'room' ? map.rooms[index].rect : map.doors[index].segment;
   const layer = kind === 'room' ? map.rooms[index].layer : map.rooms[model.roomIndex.get(map.doors[index].room1)].layer;
   if (layer !== null && shown.layer !== EASIEST && shown.layer !== layer) {
     byId('layer').value = String(layer);
     redraw();
   }
-  const at = [(x0 + x1) / 2, (y0 + y1) / 2];
+  const at = kind === 'room' ? centreOf(map.rooms[index]) : middleOf(map.doors[index].segment);
   camera.show(at);
   pointed = { kind, index, at };
   invalidate();

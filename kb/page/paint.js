@@ -3,6 +3,7 @@
 import { Labels, labelFloor } from './labels.js';
 import { model } from './model.js';
 import { hatching } from './palette.js';
+import { trace } from './shapes.js';
 import { colour } from './theme.js';
 import { paintRoutes } from './paint-route.js';
 
@@ -98,8 +99,9 @@ function outline(context, pointed, ink, pixel) {
   context.strokeStyle = ink.ink;
   context.lineWidth = 2 * pixel;
   if (pointed.kind === 'room') {
-    const [x0, y0, x1, y1] = model.map.rooms[pointed.index].rect;
-    context.strokeRect(x0, y0, x1 - x0, y1 - y0);
+    const path = new Path2D();
+    trace(path, model.map.rooms[pointed.index]);
+    context.stroke(path);
   } else if (pointed.kind === 'door') {
     const [x0, y0, x1, y1] = model.map.doors[pointed.index].segment;
     context.lineWidth = 9 * pixel;

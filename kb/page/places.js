@@ -1,5 +1,7 @@
 /** What lies where: rooms and doors by a point, through a grid of buckets. */
 
+import { holds } from './shapes.js';
+
 const CELLS = 64;
 
 /** Buckets over the map's bounds. */
@@ -55,10 +57,7 @@ export class Finder {
 
   /** Indices of the rooms at a point, whatever their layer. */
   roomsAt([x, y]) {
-    return this.rooms.near([x, y, x, y]).filter((index) => {
-      const [x0, y0, x1, y1] = this.map.rooms[index].rect;
-      return x >= x0 && x <= x1 && y >= y0 && y <= y1;
-    });
+    return this.rooms.near([x, y, x, y]).filter((index) => holds(this.map.rooms[index], [x, y]));
   }
 
   /** The index of the nearest door within reach among those that are drawn, or -1. */

@@ -16,10 +16,15 @@ use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::weight::Weight;
-use adit_planners::geometry::{Point, Rect};
-use adit_planners::routes::{Closed, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
+use adit_planners::geometry::{Convex, Point, Segment};
+use adit_planners::rooms::outline;
+use adit_planners::routes::{
+    Closed, Crossing, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking,
+};
 
-use layers::{Layer, rect_of};
+use layers::Layer;
+
+pub use layers::rect_of;
 
 pub use texts::{Texts, word};
 
@@ -63,17 +68,21 @@ pub enum End {
 
 impl SiteGraph {
     /// Indexes the tables.
-    pub fn new(rooms: Vec<Room>, mut doors: Vec<Door>, places: Vec<Place>) -> Self {
+    pub fn new(mut rooms: Vec<Room>, mut doors: Vec<Door>, places: Vec<Place>) -> Self {
+        let mut route_rooms = Vec::with_capacity(rooms.len());
+        // a room whose outline somebody else spoilt is none until it is built again
+        rooms.retain(|room| {
+            let outline = outline_of(room);
+            let is_kept = outline.is_ok();
+            route_rooms.extend(outline.map(|outline| RouteRoom { outline, walking: walking_in(room) }));
+            is_kept
+        });
         let room_by_key =
             rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
-        let route_rooms = rooms
-            .iter()
-            .map(|room| RouteRoom { outline: rect_of(room).into(), walking: walking_in(room) })
-            .collect();
         let mut route_doors = Vec::with_capacity(doors.len());
         // a door whose rooms somebody else took away leads nowhere
         doors.retain(|door| {
-            let door = route_door(door, &room_by_key);
+            let door = route_door(door, &room_by_key, &route_rooms);
             let is_kept = door.is_some();
             route_doors.extend(door);
             is_kept
@@ -233,17 +242,21 @@ impl SiteGraph {
     /// Where an end is: a room stands for its centre.
     pub fn point(&self, end: &End) -> Point {
         match end {
-            End::Room(index) => rect_of(&self[*index]).centre(),
+            End::Room(index) => self.outline(*index).centre(),
             End::Place(index) => Point::new(self.places[*index].x, self.places[*index].y),
             End::Point(point) => *point,
         }
     }
 
+    pub fn outline(&self, room: RoomIndex) -> &Convex {
+        &self.graph[room].outline
+    }
+
     /// Whether a room is this end, or holds it.
-    pub fn holds(&self, room: &Room, end: &End) -> bool {
+    pub fn holds(&self, room: RoomIndex, end: &End) -> bool {
         match end {
-            End::Room(index) => self[*index].room == room.room,
-            _ => rect_of(room).contains(self.point(end)),
+            End::Room(index) => *index == room,
+            _ => self.outline(room).contains(self.point(end)),
         }
     }
 }
@@ -292,13 +305,29 @@ fn walking_in(room: &Room) -> Walking {
     walking(room.hardness.value, room.passable.value, room.layer.is_some())
 }
 
-fn route_door(door: &Door, rooms: &HashMap<i64, RoomIndex>) -> Option<RouteDoor> {
+/// The outline of a room; an error is what is wrong with it, without its subject.
+pub fn outline_of(room: &Room) -> Result<Convex, String> {
+    outline::read(room.outline.as_deref(), rect_of(room))
+}
+
+/// Where a door between rooms of these outlines is crossed.
+pub fn crossing_of(door: &Door, [one, other]: [&Convex; 2]) -> Crossing {
     let [x0, y0, x1, y1] = door.segment;
+    let across = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
+    match door.kind {
+        DoorKind::Door => Crossing::Through(across),
+        DoorKind::Change => Crossing::Within(outline::shared(one, other, across.bounds())),
+    }
+}
+
+fn route_door(door: &Door, keys: &HashMap<i64, RoomIndex>, rooms: &[RouteRoom]) -> Option<RouteDoor> {
+    let (room1, room2) = (*keys.get(&door.side1.room)?, *keys.get(&door.side2.room)?);
+    let crossing = crossing_of(door, [room1, room2].map(|room| &rooms[room.index()].outline));
     Some(RouteDoor {
         door: u32::try_from(door.door).ok()?,
-        room1: *rooms.get(&door.side1.room)?,
-        room2: *rooms.get(&door.side2.room)?,
-        crossing: Rect::new(x0, y0, x1, y1).into(),
+        room1,
+        room2,
+        crossing,
         at: Point::new(door.at[0], door.at[1]),
         hardness: door.hardness.value,
         passable: door.passable.value.unwrap_or(false),
@@ -310,7 +339,7 @@ fn route_door(door: &Door, rooms: &HashMap<i64, RoomIndex>) -> Option<RouteDoor>
 pub fn layout(graph: &SiteGraph) -> Arc<str> {
     let mut hasher = DefaultHasher::new();
     for room in &graph.rooms {
-        (room.room, &room.name, room.rect.map(f64::to_bits), &room.layer).hash(&mut hasher);
+        (room.room, &room.name, room.rect.map(f64::to_bits), &room.outline, &room.layer).hash(&mut hasher);
     }
     for door in &graph.doors {
         (door.door, door.side1.room, door.side2.room, door.segment.map(f64::to_bits)).hash(&mut hasher);

@@ -1,10 +1,9 @@
 //! Why there is no route, in a sentence that names what would have to be otherwise.
 
 use adit_db::door::Door;
-use adit_db::room::Room;
 use adit_planners::geometry::Point;
 use adit_planners::layers::{Headroom, headroom, narrowest};
-use adit_planners::routes::{Blockage, blockage};
+use adit_planners::routes::{Blockage, RoomIndex, blockage};
 use adit_planners::world::World;
 
 use super::Answer;
@@ -60,8 +59,9 @@ impl Basis<'_> {
         let beside = |words: &str| {
             nearest.map_or_else(String::new, |nearest| format!("; the nearest point {words} is {nearest}"))
         };
-        if let Some(room) = graph.rooms.iter().find(|room| !is_weighed(room) && graph.holds(room, end)) {
-            let why = not_entered(room, self.rules);
+        let mut rooms = graph.graph().room_indices();
+        if let Some(room) = rooms.find(|&room| !is_weighed(&graph[room]) && graph.holds(room, end)) {
+            let why = not_entered(graph, room, self.rules);
             return Ok(format!("the {what}: {why}{}", beside("from which ways lead on")));
         }
         let place = format!("the {what} ({:.2}, {:.2})", at.x, at.y);
@@ -82,9 +82,9 @@ impl Basis<'_> {
 }
 
 /// Why no route enters a room.
-fn not_entered(room: &Room, rules: &Rules) -> String {
-    let [x0, y0, x1, y1] = room.rect;
-    let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
+fn not_entered(graph: &SiteGraph, room: RoomIndex, rules: &Rules) -> String {
+    let Point { x, y } = graph.outline(room).centre();
+    let room = &graph[room];
     let place = format!("room {} at ({x:.2}, {y:.2})", room.name);
     match (room.passable.value, room.passable.rule.and_then(|rule| rules.get(&rule))) {
         (Some(false), Some(rule)) => format!("{place} is not entered (rule \"{rule}\")"),
@@ -105,9 +105,9 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     } else {
         format!("a state narrower than {} m would be needed", number(width))
     };
-    let sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
-    if let Some(room) = sides.map(|room| &graph[room]).find(|room| !is_weighed(room)) {
-        return not_entered(room, rules);
+    let mut sides = [door.side1.room, door.side2.room].into_iter().filter_map(|key| graph.room(key));
+    if let Some(room) = sides.find(|&room| !is_weighed(&graph[room])) {
+        return not_entered(graph, room, rules);
     }
     let rule = door.passable.rule.and_then(|rule| rules.get(&rule));
     let [x, y] = door.at;

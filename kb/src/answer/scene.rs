@@ -1,13 +1,13 @@
 //! A site as a scene to be drawn: its map, its tables, and a route.
 
 use adit_db::{Store, Tx};
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Convex, Point, Rect};
 use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
 use crate::draw::{Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 use crate::error::{Code, Error, Result};
-use crate::graph::SiteGraph;
+use crate::graph::{SiteGraph, crossing_of, outline_of, rect_of};
 use crate::knowledge::KnowledgeBase;
 
 impl KnowledgeBase {
@@ -64,7 +64,7 @@ fn crop(scene: &mut Scene, world: &World) {
     if world.occupancy.is_none() || scene.rooms.is_empty() {
         return;
     }
-    let all = Rect::around(scene.rooms.iter().flat_map(|room| room.rect.corners()));
+    let all = Rect::around(scene.rooms.iter().flat_map(|room| room.outline.corners()));
     let seen = all.grown(0.05 * all.dx().max(all.dy()));
     scene.bounds = scene.bounds.intersection(&seen).unwrap_or(scene.bounds);
     let bounds = scene.bounds;
@@ -86,7 +86,6 @@ pub fn main_state(route: &Route) -> Option<String> {
 }
 
 fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
-    let rect = |[x0, y0, x1, y1]: [f64; 4]| Rect::new(x0, y0, x1, y1);
     let mut scene = Scene::new(title, world.bounds);
     scene.obstacles = world.obstacles.iter().map(|obstacle| obstacle.shape.clone()).collect();
     scene.obstacles.extend(world.occupancy.iter().flat_map(Occupancy::rectangles).map(Shape::Rect));
@@ -95,14 +94,18 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     scene.areas.clone_from(&world.areas);
     scene.named_doors.clone_from(&world.named_doors);
     let rooms = tx.rooms()?;
+    // an outline that somebody else spoilt is drawn as the box about it
+    let outline = |room: &adit_db::room::Room| outline_of(room).unwrap_or_else(|_| rect_of(room).into());
+    let outlines: Vec<Convex> = rooms.iter().map(outline).collect();
     let index = |key: i64| rooms.binary_search_by_key(&key, |room| room.room).unwrap_or_default();
     for door in tx.doors()? {
+        let sides = [door.side1.room, door.side2.room].map(index);
         scene.doors.push(Door {
             number: door.door,
             kind: door.kind,
-            room1: index(door.side1.room),
-            room2: index(door.side2.room),
-            crossing: Some(rect(door.segment)),
+            room1: sides[0],
+            room2: sides[1],
+            crossing: Some(crossing_of(&door, sides.map(|room| &outlines[room]))),
             at: Point::new(door.at[0], door.at[1]),
             hardness: door.hardness.value,
             action: door.action.value,
@@ -112,9 +115,10 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     }
     scene.rooms = rooms
         .into_iter()
-        .map(|room| Room {
+        .zip(outlines)
+        .map(|(room, outline)| Room {
             name: room.name,
-            rect: rect(room.rect),
+            outline,
             state: room.layer.map(|(_, state)| state),
             height: room.height,
             hardness: room.hardness.value,

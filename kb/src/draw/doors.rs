@@ -1,10 +1,10 @@
 //! Doors: the line where one crosses, coloured and wide by hardness; numbers; a cross where nobody passes.
 
-use super::frame::{At, Block};
+use super::frame::At;
 use super::labels::Face;
 use super::palette::{CLOSED, INK, Scale};
 use super::scene::Door;
-use super::sheet::{Sheet, cross, line};
+use super::sheet::{Across, Sheet, cross, line};
 use super::svg::{self, Svg};
 
 /// Above so many doors their numbers would be a carpet: only those of the route are written.
@@ -15,17 +15,19 @@ pub(super) fn crossings(svg: &mut Svg, sheet: &Sheet) {
     let mut doors: Vec<&Door> = sheet.view.doors.iter().map(|&i| &sheet.scene.doors[i]).collect();
     doors.sort_by_key(|door| (door.passable, sheet.class(door)));
     for door in doors {
-        let block = sheet.frame.block(&sheet.crossing(door));
-        let (from, to) = ends(&block);
+        let across = sheet.across(door);
+        // A point would have no line: give it some extent.
+        let reach = (across.length / 2.0).max(1.0);
+        let (from, to) = (across.at(-reach, 0.0), across.at(reach, 0.0));
         if door.passable {
             let class = sheet.class(door);
             line(svg, from, to, Scale::colour(class), Scale::width(class) * sheet.detail, "");
             if door.one_way {
-                arrow(svg, sheet, door, block.centre());
+                arrow(svg, sheet, door, across.centre);
             }
         } else {
             line(svg, from, to, CLOSED, 2.0 * sheet.detail, "3 3");
-            cross(svg, block.centre(), 5.0 * sheet.unit * sheet.detail.max(0.6));
+            cross(svg, across.centre, 5.0 * sheet.unit * sheet.detail.max(0.6));
         }
     }
 }
@@ -39,42 +41,28 @@ pub(super) fn numbers(sheet: &mut Sheet) {
     let size = (11.0 * sheet.unit * sheet.detail.sqrt()).max(7.0);
     for i in doors {
         let door = &sheet.scene.doors[i];
-        let block = sheet.frame.block(&sheet.crossing(door));
-        if used(sheet, i) || block.w.max(block.h) >= 6.0 {
+        let across = sheet.across(door);
+        if used(sheet, i) || across.length >= 6.0 {
             let face = Face { size, colour: INK, strong: false, chip: false };
             let content = door.number.to_string();
-            let centres = beside(&block, super::labels::extent(&content, size));
+            let centres = beside(&across, super::labels::extent(&content, size));
             sheet.labels.place(&content, face, &sheet.frame.map, centres);
         }
     }
 }
 
-/// The two ends of a crossing. An area is crossed along its longer middle line.
-fn ends(block: &Block) -> (At, At) {
-    let (x, y) = block.centre();
-    // A point would have no line: give it some extent.
-    let reach = (block.w.max(block.h) / 2.0).max(1.0);
-    if block.w >= block.h { ((x - reach, y), (x + reach, y)) } else { ((x, y - reach), (x, y + reach)) }
-}
-
-/// Spots beside a crossing, near its middle first.
-fn beside(block: &Block, (w, h): At) -> Vec<At> {
-    let (x, y) = block.centre();
-    let level = block.w >= block.h;
+/// Spots beside a crossing for what is so wide and high, near its middle first.
+fn beside(across: &Across, (w, h): At) -> Vec<At> {
+    let (x, y) = across.beside();
+    let away = (x.abs() * w + y.abs() * h) / 2.0 + 3.0;
     let shifts = [0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45];
-    let spot = |shift: f64, side: f64| {
-        if level {
-            (x + shift * block.w, y + side * (h / 2.0 + 3.0))
-        } else {
-            (x + side * (w / 2.0 + 3.0), y + shift * block.h)
-        }
-    };
+    let spot = |shift: f64, side: f64| across.at(shift * across.length, side * away);
     shifts.iter().flat_map(|&shift| [spot(shift, 1.0), spot(shift, -1.0)]).collect()
 }
 
 /// A triangle from the first room to the second.
 fn arrow(svg: &mut Svg, sheet: &Sheet, door: &Door, (x, y): At) {
-    let centre = |i: usize| sheet.scene.rooms.get(i).map(|room| sheet.frame.at(room.rect.centre()));
+    let centre = |i: usize| sheet.scene.rooms.get(i).map(|room| sheet.frame.at(room.outline.centre()));
     if let (Some(from), Some(to)) = (centre(door.room1), centre(door.room2)) {
         triangle(svg, (x, y), (to.0 - from.0, to.1 - from.1), 6.0 * sheet.unit, INK);
     }

@@ -49,7 +49,7 @@ fn edges(svg: &mut Svg, sheet: &mut Sheet) {
 fn nodes(svg: &mut Svg, sheet: &mut Sheet) {
     for &i in &sheet.view.rooms {
         let room = &sheet.scene.rooms[i];
-        let block = sheet.frame.block(&room.rect);
+        let block = rooms::inner(sheet, &room.outline);
         let (x, y) = block.centre();
         let radius = (block.w.min(block.h) * 0.42).min(16.0 * sheet.unit).max(2.0);
         svg.disc((x, y), radius, "#ffffff", (INK, (radius / 8.0).min(1.6)));
@@ -101,6 +101,6 @@ fn along(a: At, b: At) -> impl Iterator<Item = At> {
 
 /// An edge's three points: first room, door, second room.
 fn edge(sheet: &Sheet, door: &Door) -> Option<(At, At, At)> {
-    let node = |i: usize| sheet.scene.rooms.get(i).map(|room| sheet.frame.at(room.rect.centre()));
-    Some((node(door.room1)?, sheet.frame.block(&sheet.crossing(door)).centre(), node(door.room2)?))
+    let node = |i: usize| sheet.scene.rooms.get(i).map(|room| sheet.frame.at(room.outline.centre()));
+    Some((node(door.room1)?, sheet.across(door).centre, node(door.room2)?))
 }

@@ -1,9 +1,11 @@
 //! Rooms: tinted by action, outlined, named where the name fits (Figure 6).
 
+use adit_planners::geometry::{Convex, Segment, cross};
+
 use super::frame::{At, Block};
 use super::labels::Face;
 use super::palette::GREY;
-use super::sheet::{Sheet, outline};
+use super::sheet::{Sheet, room_of};
 use super::svg::Svg;
 use super::text;
 
@@ -20,7 +22,7 @@ pub(super) fn areas(svg: &mut Svg, sheet: &Sheet) {
             paths.push((colour, String::new()));
             paths.len() - 1
         });
-        outline(&mut paths[at].1, &sheet.frame.block(&room.rect));
+        room_of(&mut paths[at].1, &sheet.frame, &room.outline);
     }
     for (colour, path) in paths {
         svg.element("path")
@@ -35,7 +37,7 @@ pub(super) fn areas(svg: &mut Svg, sheet: &Sheet) {
         let room = &sheet.scene.rooms[i];
         let colour = sheet.palette.colour(room.action.as_deref());
         let mut path = String::new();
-        outline(&mut path, &sheet.frame.block(&room.rect));
+        room_of(&mut path, &sheet.frame, &room.outline);
         svg.element("path")
             .attr("d", &path)
             .attr("fill", colour)
@@ -52,13 +54,29 @@ pub(super) fn names(sheet: &mut Sheet) {
     let rooms: Vec<usize> = sheet.view.route_rooms.iter().chain(&sheet.view.rooms).copied().collect();
     for i in rooms {
         let room = &sheet.scene.rooms[i];
-        let block = sheet.frame.block(&room.rect);
+        let block = inner(sheet, &room.outline);
         let size = size_for(&room.name, &block).min(15.0 * sheet.unit);
         if size >= LEAST_SIZE {
             let face = Face { size, colour: GREY, strong: false, chip: false };
             sheet.labels.place(&room.name, face, &block, spots(&block));
         }
     }
+}
+
+/// The box in which a room's name may stand: about its centre, of the shape of the box about it.
+pub(super) fn inner(sheet: &Sheet, outline: &Convex) -> Block {
+    let about = sheet.frame.block(&outline.bounds());
+    if outline.rect().is_some() {
+        return about;
+    }
+    let (bounds, centre) = (outline.bounds(), outline.centre());
+    let share = |side: Segment| {
+        let way = side.b - side.a;
+        2.0 * cross(side.a, side.b, centre) / (way.y.abs() * bounds.dx() + way.x.abs() * bounds.dy())
+    };
+    let share = outline.sides().map(share).fold(1.0, f64::min).max(0.0);
+    let (x, y) = sheet.frame.at(centre);
+    Block::about(x, y, about.w * share, about.h * share)
 }
 
 /// The font size at which a text fills its room decently.

@@ -1,7 +1,8 @@
 //! What a picture is drawn from: plain records, as the tables of a site hold them. Metres, in the map's frame.
 
 use adit_db::door::DoorKind;
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Convex, Point, Rect};
+use adit_planners::routes::Crossing;
 use adit_planners::world::{Area, Bridge, NamedDoor, Place, Shape};
 
 /// One map with what is known about it. Every list may be empty; what is empty is not drawn.
@@ -60,7 +61,7 @@ impl Scene {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Room {
     pub name: String,
-    pub rect: Rect,
+    pub outline: Convex,
     /// The state whose layer it belongs to; `None` in the paper's modes.
     pub state: Option<String>,
     /// Clear height, metres; `None`: unlimited.
@@ -79,8 +80,8 @@ pub struct Door {
     /// Index of its first room in [`Scene::rooms`].
     pub room1: usize,
     pub room2: usize,
-    /// Where it is crossed: a segment (one side 0) or, for a change, an area. `None`: what the two rooms share.
-    pub crossing: Option<Rect>,
+    /// Where it is crossed. `None`: what the two rooms share.
+    pub crossing: Option<Crossing>,
     /// Its crossing point, `x` and `y` of the table.
     pub at: Point,
     /// What crossing it adds, where rules gave it.

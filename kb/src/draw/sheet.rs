@@ -1,6 +1,7 @@
 //! One picture in the making: what all its parts share.
 
-use adit_planners::geometry::Rect;
+use adit_planners::geometry::{Convex, Point, Segment};
+use adit_planners::routes::Crossing;
 use adit_planners::world::Shape;
 
 use super::frame::{At, Block, Frame};
@@ -36,7 +37,7 @@ impl<'a> Sheet<'a> {
         let view = View::of(scene, layers);
         let longest = style.longest_side(view.rooms.len());
         let frame = Frame::new(scene.bounds, longest, left, top);
-        let area: f64 = view.rooms.iter().map(|&i| scene.rooms[i].rect.area()).sum();
+        let area: f64 = view.rooms.iter().map(|&i| scene.rooms[i].outline.area()).sum();
         let side = (area / view.rooms.len().max(1) as f64).sqrt() * frame.scale;
         let route = scene.route.as_ref().filter(|_| layers.has(Layer::Route));
         Self {
@@ -53,22 +54,78 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// Where a door is crossed, in metres: as told, or what its rooms share, or its point.
-    pub fn crossing(&self, door: &Door) -> Rect {
-        let rect = |i: usize| self.scene.rooms.get(i).map(|room| room.rect);
+    /// The line that stands for a door: where it is crossed as told, or what its rooms share, or its point.
+    pub fn across(&self, door: &Door) -> Across {
+        let outline = |i: usize| self.scene.rooms.get(i).map(|room| &room.outline);
         let shared = || {
-            let (a, b) = (rect(door.room1)?, rect(door.room2)?);
-            let common = Rect::new(a.x0.max(b.x0), a.y0.max(b.y0), a.x1.min(b.x1), a.y1.min(b.y1));
-            (common.x0 <= common.x1 && common.y0 <= common.y1).then_some(common)
+            let (one, two) = (outline(door.room1)?, outline(door.room2)?);
+            one.common(two).map(Crossing::Within).or_else(|| one.border(two).map(Crossing::Through))
         };
-        let point = Rect::new(door.at.x, door.at.y, door.at.x, door.at.y);
-        door.crossing.or_else(shared).unwrap_or(point)
+        let segment = match door.crossing.clone().or_else(shared) {
+            Some(Crossing::Through(segment)) => segment,
+            Some(Crossing::Within(area)) => middle_line(&area),
+            None => Segment::new(door.at, door.at),
+        };
+        Across::new(self.frame.at(segment.a), self.frame.at(segment.b))
     }
 
     /// The class of a door's hardness; the easiest where it has none.
     pub fn class(&self, door: &Door) -> usize {
         let class = |scale: &Scale| door.hardness.map(|hardness| scale.class(hardness));
         self.scale.as_ref().and_then(class).unwrap_or(0)
+    }
+}
+
+/// A line across which a door leads, in the picture.
+pub(super) struct Across {
+    pub centre: At,
+    /// Its direction, of length 1: to the right where it is rather level, else down.
+    pub along: At,
+    pub length: f64,
+}
+
+impl Across {
+    fn new(a: At, b: At) -> Self {
+        let (dx, dy) = (b.0 - a.0, b.1 - a.1);
+        let length = dx.hypot(dy);
+        let forwards = if dx.abs() >= dy.abs() { dx } else { dy }.signum();
+        let along = if length > 0.0 { (dx / length * forwards, dy / length * forwards) } else { (1.0, 0.0) };
+        Self { centre: (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1)), along, length }
+    }
+
+    pub fn is_level(&self) -> bool {
+        self.along.0.abs() >= self.along.1.abs()
+    }
+
+    /// Across it, of length 1: down where it is rather level, else to the right.
+    pub fn beside(&self) -> At {
+        let (x, y) = self.along;
+        if self.is_level() { (-y, x) } else { (y, -x) }
+    }
+
+    /// The point so far along it from its centre, and so far beside it.
+    pub fn at(&self, along: f64, beside: f64) -> At {
+        let ((x, y), (u, v), (p, q)) = (self.centre, self.along, self.beside());
+        (x + u * along + p * beside, y + v * along + q * beside)
+    }
+}
+
+/// The line through the centre of an area on which the box about it is longer.
+fn middle_line(area: &Convex) -> Segment {
+    let (b, Point { x, y }) = (area.bounds(), area.centre());
+    let line = if b.dx() >= b.dy() {
+        Segment::new(Point::new(b.x0, y), Point::new(b.x1, y))
+    } else {
+        Segment::new(Point::new(x, b.y0), Point::new(x, b.y1))
+    };
+    area.clip(line).unwrap_or(line)
+}
+
+/// Path commands of a room.
+pub(super) fn room_of(path: &mut String, frame: &Frame, outline: &Convex) {
+    match outline.rect() {
+        Some(rect) => self::outline(path, &frame.block(&rect)),
+        None => svg::round(path, outline.corners().map(|corner| frame.at(corner))),
     }
 }
 

@@ -58,8 +58,8 @@ fn largest_layer(scene: &Scene) -> Option<String> {
     for room in &scene.rooms {
         if let Some(state) = room.state.as_deref() {
             match areas.iter_mut().find(|(name, _)| *name == state) {
-                Some((_, area)) => *area += room.rect.area(),
-                None => areas.push((state, room.rect.area())),
+                Some((_, area)) => *area += room.outline.area(),
+                None => areas.push((state, room.outline.area())),
             }
         }
     }

@@ -8,6 +8,7 @@ use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
 
 use crate::error::{Code, Error, Result};
+use crate::graph::outline_of;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::classes;
 use crate::knowledge::told::attach::REACH;
@@ -285,8 +286,12 @@ fn room(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
         let help = help.or_else(|| Some("say a room's name, or a point as x,y".to_owned()));
         return Err(Error::said(Code::TellUnknownObject, format!("there is no room `{name}`"), help));
     };
-    let [x0, y0, x1, y1] = room.rect;
-    Ok(Object::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], None))
+    let spoilt = |what| {
+        let help = "run `adit build`, which cuts the rooms anew".to_owned();
+        Error::said(Code::FactsProperty, format!("the outline of room {name} {what}"), Some(help))
+    };
+    let centre = outline_of(&room).map_err(spoilt)?.centre();
+    Ok(Object::Point([centre.x, centre.y], None))
 }
 
 /// The whole key of an object that has a name of its own.

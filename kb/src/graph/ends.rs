@@ -1,11 +1,11 @@
 //! Where ways start and end: in rooms that hold a point, and in rooms that a straight leg joins with a point outside of
 //! them at which a state fits.
 
-use adit_planners::geometry::{Point, Rect, Segment};
+use adit_planners::geometry::{Convex, Point, Rect, Segment, cross};
 use adit_planners::routes::{Entry, Goal, Leg, RoomIndex, Start, Walking, Way};
 
 use super::gauge::Gauge;
-use super::layers::{Layer, rect_of};
+use super::layers::Layer;
 use super::{End, SiteGraph, is_weighed};
 
 /// A leg is at most so long, metres.
@@ -58,8 +58,8 @@ impl SiteGraph {
     ) -> Option<(Point, Option<&str>)> {
         let mut best: Option<(Point, &Layer)> = None;
         for layer in self.layers(robot) {
-            let room = layer.nearest(at).find(|(room, _)| is_weighed(&self[*room]));
-            let Some(in_room) = room.map(|(room, _)| rect_of(&self[room]).nearest_to(at)) else {
+            let room = layer.nearest(&self.graph, at).find(|(room, _)| is_weighed(&self[*room]));
+            let Some(in_room) = room.map(|(room, _)| self.outline(room).nearest_to(at)) else {
                 continue;
             };
             let so_far = best.map_or(f64::INFINITY, |(best, _)| best.distance(at));
@@ -106,7 +106,7 @@ impl SiteGraph {
     }
 
     fn entries_of(&self, layer: &Layer, gauge: Option<&Gauge>, at: Point) -> Vec<Entry> {
-        let mut held = layer.at(at).peekable();
+        let mut held = layer.at(&self.graph, at).peekable();
         if held.peek().is_some() {
             return held.find(|&room| is_weighed(&self[room])).map(Entry::from).into_iter().collect();
         }
@@ -120,14 +120,14 @@ impl SiteGraph {
             return found;
         }
         let mut longest = LEG_M;
-        for (room, metres) in layer.nearest(at).take(TRIED) {
+        for (room, metres) in layer.nearest(&self.graph, at).take(TRIED) {
             if metres > longest {
                 break;
             }
             if !is_weighed(&self[room]) {
                 continue;
             }
-            let joint = joints(rect_of(&self[room]), at).into_iter().find(|&joint| {
+            let joint = joints(self.outline(room), at).into_iter().find(|&joint| {
                 joint.distance(at) <= longest
                     && gauge.fits(layer.shape(), at, joint)
                     && self.is_open(layer, gauge, Segment::new(at, joint), room)
@@ -148,14 +148,11 @@ impl SiteGraph {
         if self.graph.closed().iter().any(|closed_at| closed(&closed_at.segment)) {
             return false;
         }
-        let is_shut = |other: RoomIndex| {
-            let inner = rect_of(&self[other]).grown(-TOUCHES_M);
-            !is_weighed(&self[other]) && inner.clip(leg.a, leg.b).is_some()
-        };
+        let is_shut = |other: RoomIndex| !is_weighed(&self[other]) && goes_into(leg, self.outline(other));
         if layer.meeting(leg.bounds()).any(is_shut) {
             return false;
         }
-        let to = rect_of(&self[room]).centre();
+        let to = self.outline(room).centre();
         gauge.doors().iter().all(|door| !door.crosses(&leg))
             && gauge.areas().iter().all(|area| {
                 let is_met = area.contains(leg.a)
@@ -170,7 +167,7 @@ impl SiteGraph {
     /// Whether a room in an area is entered: one of the layer, or of any where the layer has none there.
     fn is_entered(&self, layer: &Layer, is_in: impl Fn(Point) -> bool, about: Rect) -> bool {
         let within = |layer: &Layer| -> Vec<bool> {
-            let rooms = layer.meeting(about).filter(|&room| is_in(rect_of(&self[room]).centre()));
+            let rooms = layer.meeting(about).filter(|&room| is_in(self.outline(room).centre()));
             rooms.map(|room| is_weighed(&self[room])).collect()
         };
         let own = within(layer);
@@ -182,12 +179,32 @@ impl SiteGraph {
     }
 }
 
+/// Whether a leg goes deeper into a room than it may touch it.
+fn goes_into(leg: Segment, room: &Convex) -> bool {
+    if let Some(rect) = room.rect() {
+        return rect.grown(-TOUCHES_M).clip(leg.a, leg.b).is_some();
+    }
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for side in room.sides() {
+        let [from, to] = [leg.a, leg.b].map(|end| cross(side.a, side.b, end) - TOUCHES_M * side.length());
+        if from <= 0.0 && to <= 0.0 {
+            return false;
+        }
+        let share = from / (from - to);
+        if from < 0.0 {
+            enters = enters.max(share);
+        } else if to < 0.0 {
+            leaves = leaves.min(share);
+        }
+    }
+    enters < leaves
+}
+
 /// Where a leg from a point may join a room, the nearest first: where the room is nearest, its corners, the middles of its
 /// sides, its centre.
-fn joints(rect: Rect, at: Point) -> Vec<Point> {
-    let corners = rect.corners();
-    let middles = (0..4).map(|side| corners[side].midpoint(corners[(side + 1) % 4]));
-    let all = [rect.nearest_to(at), rect.centre()].into_iter().chain(corners).chain(middles);
+fn joints(room: &Convex, at: Point) -> Vec<Point> {
+    let middles = room.sides().map(|side| side.middle());
+    let all = [room.nearest_to(at), room.centre()].into_iter().chain(room.corners()).chain(middles);
     let mut all: Vec<Point> = all.collect();
     all.sort_by(|one, two| one.distance(at).total_cmp(&two.distance(at)));
     all

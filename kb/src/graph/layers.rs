@@ -1,9 +1,12 @@
 //! The rooms by layer, found by where they are.
 
+use std::collections::VecDeque;
+use std::iter;
+
 use adit_db::room::Room;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;
-use adit_planners::routes::RoomIndex;
+use adit_planners::routes::{RoomIndex, RouteGraph};
 
 /// Robot and state, and the degrees to which it faces; neither in the paper's modes.
 pub type Shape<'a> = (Option<&'a (String, String)>, Option<f64>);
@@ -39,15 +42,31 @@ impl Layer {
         layers.into_iter().map(layer).collect()
     }
 
-    pub fn at(&self, point: Point) -> impl Iterator<Item = RoomIndex> {
-        self.index.at(point).into_iter().map(|member| self.rooms[member])
+    /// The rooms that hold a point.
+    pub fn at(&self, graph: &RouteGraph, point: Point) -> impl Iterator<Item = RoomIndex> {
+        let rooms = self.index.at(point).into_iter().map(|member| self.rooms[member]);
+        rooms.filter(move |&room| graph[room].outline.contains(point))
     }
 
     /// The rooms with their metres from a point, the nearest first.
-    pub fn nearest(&self, point: Point) -> impl Iterator<Item = (RoomIndex, f64)> {
-        self.index.nearest(point).map(|(member, metres)| (self.rooms[member], metres))
+    pub fn nearest(&self, graph: &RouteGraph, point: Point) -> impl Iterator<Item = (RoomIndex, f64)> {
+        let mut boxes = self.index.nearest(point).peekable();
+        let mut waiting: VecDeque<(RoomIndex, f64)> = VecDeque::new();
+        iter::from_fn(move || {
+            // a room is at least as far away as the box about it
+            while let Some((member, metres)) =
+                boxes.next_if(|(_, metres)| waiting.front().is_none_or(|(_, nearest)| metres < nearest))
+            {
+                let room = self.rooms[member];
+                let outline = &graph[room].outline;
+                let metres = if outline.rect().is_some() { metres } else { outline.distance(point) };
+                waiting.insert(waiting.partition_point(|(_, nearer)| *nearer <= metres), (room, metres));
+            }
+            waiting.pop_front()
+        })
     }
 
+    /// The rooms about which a box meets a rectangle.
     pub fn meeting(&self, rect: Rect) -> impl Iterator<Item = RoomIndex> {
         self.index.meeting(rect).map(|member| self.rooms[member])
     }

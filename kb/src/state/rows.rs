@@ -3,12 +3,14 @@
 use adit_db::Derived;
 use adit_db::area::Area;
 use adit_db::place::Place;
+use adit_db::room::Room;
 use adit_db::schema::{Column, Kind, Part, Row, Value};
 use adit_engine::Class;
-use adit_planners::facts::Table;
+use adit_planners::facts::{self, Table};
 use adit_planners::world::World;
 
 use crate::error::{Code, Error, Result};
+use crate::graph::outline_of;
 
 /// The columns of a class, by name, each a problem of its own where it is missing.
 struct Columns<'a> {
@@ -68,6 +70,24 @@ pub fn class<R: Row>(name: &str, rows: &[R]) -> Class {
         }
     };
     R::columns_of(Part::Cut).fold(Class::new(name, &[R::COLUMNS[0].name]), with)
+}
+
+/// Rooms as rows, without what rules say; a planner that knows of no outlines makes rectangles.
+pub fn rooms(table: &Table) -> Result<Vec<Room>> {
+    let bare = facts::Column::Text(vec![None; table.len()]);
+    let with_outlines = table.column("outline").is_none().then(|| table.clone().with("outline", bare));
+    let rooms: Vec<Room> = of_table("ROOMS", with_outlines.as_ref().unwrap_or(table))?;
+    for (row, room) in rooms.iter().enumerate() {
+        let wrong = |what| {
+            Error::said(
+                Code::FactsProperty,
+                format!("class ROOMS: `outline` of object {} {what}", row + 1),
+                None,
+            )
+        };
+        outline_of(room).map_err(wrong)?;
+    }
+    Ok(rooms)
 }
 
 /// Rooms or doors as rows, without what rules say.

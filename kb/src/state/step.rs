@@ -346,7 +346,7 @@ struct Given {
 impl Given {
     fn take(&mut self, class: String, table: Table) -> Result<()> {
         match class.as_str() {
-            "ROOMS" => self.rooms = Some(rows::of_table("ROOMS", &table)?),
+            "ROOMS" => self.rooms = Some(rows::rooms(&table)?),
             "DOORS" => self.doors = Some(rows::of_table("DOORS", &table)?),
             _ => drop(self.planned.facts.insert(class, table)),
         }

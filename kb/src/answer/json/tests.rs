@@ -23,6 +23,7 @@ fn floor(side: usize) -> SiteGraph {
             4.1 * (number % side + 1) as f64,
             4.1 * (number / side + 1) as f64,
         ],
+        outline: None,
         height: None,
         width: 4.1,
         hardness: Derived::default(),

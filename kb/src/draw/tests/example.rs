@@ -70,7 +70,7 @@ pub fn scene() -> Scene {
 fn room((name, r, height, action): RoomRow) -> Room {
     Room {
         name: name.to_owned(),
-        rect: rect(r),
+        outline: rect(r).into(),
         state: None,
         height,
         hardness: None,

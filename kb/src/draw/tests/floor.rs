@@ -23,7 +23,7 @@ pub fn floor(side: usize) -> Scene {
             let r = cell(i, j);
             scene.rooms.push(Room {
                 name: crate::draw::text::letters(j * side + i),
-                rect: r,
+                outline: r.into(),
                 state: Some("STAND".to_owned()),
                 height: None,
                 hardness: Some(1.0),
@@ -40,7 +40,7 @@ pub fn floor(side: usize) -> Scene {
                         kind: DoorKind::Door,
                         room1: j * side + i,
                         room2: (j + dj) * side + i + di,
-                        crossing: Some(Rect::new(x - h, y - v, x + h, y + v)),
+                        crossing: Some(Rect::new(x - h, y - v, x + h, y + v).into()),
                         at: Point::new(x, y),
                         hardness: Some(((i * 7 + j * 3) % 11) as f64),
                         action: Some("WALK".to_owned()),

@@ -75,7 +75,7 @@ fn the_name_of_a_room_lies_inside_it() {
         let found = texts_of(&scene, "rooms");
         let mut named = 0;
         for room in &scene.rooms {
-            let block = frame.block(&room.rect).inset(-0.5);
+            let block = frame.block(&room.outline.bounds()).inset(-0.5);
             for (_, extent) in found.iter().filter(|(name, _)| *name == room.name) {
                 assert!(block.encloses(extent), "{}: {extent:?} leaves {block:?}", room.name);
                 named += 1;

@@ -22,11 +22,11 @@ fn an_empty_scene_is_a_picture() {
 #[test]
 fn numbers_that_are_none_do_not_break_the_picture() {
     let mut scene = scene();
-    scene.rooms[0].rect.x0 = f64::NAN;
+    scene.rooms[0].outline = Rect::new(f64::NAN, 0.0, 1.0, 1.0).into();
     scene.doors[0].hardness = Some(f64::INFINITY);
     scene.doors[1].room1 = 99;
     scene.doors[2].at = Point::new(f64::NAN, f64::INFINITY);
-    scene.doors[2].crossing = Some(Rect::new(f64::NAN, 0.0, 1.0, f64::INFINITY));
+    scene.doors[2].crossing = Some(Rect::new(f64::NAN, 0.0, 1.0, f64::INFINITY).into());
     scene.strips_x.push(f64::NAN);
     let route = scene.route.as_mut().unwrap();
     route.steps[3].to.x = f64::NAN;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use adit_engine::{KnowledgeBase as Inference, Type, Value};
 use adit_planners::geometry::{Point, Rect};
+use adit_planners::rooms::outline;
 
 use super::{Fact, Object};
 
@@ -55,8 +56,8 @@ impl Attached {
 impl Fact {
     /// The rows of the objects that a fact is about, ascending.
     ///
-    /// A name means the object with that key. A point means every object with a rectangle that holds the point; of those of
-    /// one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
+    /// A name means the object with that key. A point means every object with a rectangle, or an outline, that holds the
+    /// point; of those of one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
     pub fn rows(&self, knowledge: &Inference) -> Vec<usize> {
         match &self.object {
             Object::Key(key) => knowledge.row(&self.class, key).into_iter().collect(),
@@ -79,7 +80,15 @@ fn holding(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
     let mut layers = Vec::new();
     let mut found = Vec::new();
     for (row, [x0, y0, x1, y1]) in rects(knowledge, class).unwrap_or_default().into_iter().enumerate() {
-        if !Rect::new(x0, y0, x1, y1).contains(at) {
+        let bounds = Rect::new(x0, y0, x1, y1);
+        if !bounds.contains(at) {
+            continue;
+        }
+        let text = match knowledge.value_at(class, row, "outline") {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        };
+        if !outline::read(text.as_deref(), bounds).is_ok_and(|outline| outline.contains(at)) {
             continue;
         }
         let layer = ["robot", "state", "facing"].map(|part| knowledge.value_at(class, row, part));

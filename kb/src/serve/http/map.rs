@@ -6,7 +6,9 @@ use utoipa::ToSchema;
 
 use super::extract::Site;
 use crate::graph::SiteGraph;
+use adit_planners::geometry::Convex;
 use adit_planners::world::{Shape, World};
+
 #[derive(Serialize, ToSchema)]
 pub struct MapAnswer {
     /// Names this cut of the floor.
@@ -69,7 +71,11 @@ struct RoomOf {
     name: String,
     /// Index among the layers.
     layer: Option<usize>,
+    /// The least rectangle about it: x0, y0, x1, y1.
     rect: [f64; 4],
+    /// Its corners counterclockwise, as x, y, x, y, …; absent where it is that rectangle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outline: Option<Vec<f64>>,
     /// Metres; null: unlimited.
     height: Option<f64>,
 }
@@ -81,7 +87,7 @@ struct DoorOf {
     kind: &'static str,
     room1: i64,
     room2: i64,
-    /// Where it is crossed, or the area of a change: x0, y0, x1, y1.
+    /// Where it is crossed, from x0, y0 to x1, y1; of a change the least rectangle about its area.
     segment: [f64; 4],
     one_way: bool,
 }
@@ -146,7 +152,7 @@ pub async fn map(site: Site) -> Json<MapAnswer> {
 fn rooms(graph: &SiteGraph) -> (Vec<LayerOf>, Vec<RoomOf>) {
     let mut layers: Vec<LayerOf> = Vec::new();
     let mut rooms = Vec::with_capacity(graph.rooms.len());
-    for room in &graph.rooms {
+    for (index, room) in graph.graph().room_indices().zip(&graph.rooms) {
         let layer = room.layer.as_ref().map(|(robot, state)| {
             // rooms of a layer come one after the other, so the last is mostly it
             let of = LayerOf { robot: robot.clone(), state: state.clone(), facing: room.facing };
@@ -160,6 +166,7 @@ fn rooms(graph: &SiteGraph) -> (Vec<LayerOf>, Vec<RoomOf>) {
             name: room.name.clone(),
             layer,
             rect: room.rect,
+            outline: outline(graph.outline(index)),
             height: room.height,
         });
     }
@@ -178,6 +185,10 @@ fn corners(shape: &Shape) -> Vec<f64> {
         Shape::Rect(r) => vec![r.x0, r.y0, r.x1, r.y0, r.x1, r.y1, r.x0, r.y1],
         Shape::Polygon(corners) => corners.iter().flat_map(|corner| [corner.x, corner.y]).collect(),
     }
+}
+
+fn outline(of: &Convex) -> Option<Vec<f64>> {
+    of.rect().is_none().then(|| of.corners().flat_map(|corner| [corner.x, corner.y]).collect())
 }
 
 fn rect(r: &adit_planners::geometry::Rect) -> [f64; 4] {
