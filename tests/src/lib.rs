@@ -5,6 +5,7 @@ pub mod floor;
 pub mod lock;
 pub mod oracle;
 pub mod service;
+pub mod slanted;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -14,6 +14,7 @@ use adit::{KnowledgeBase, Live, Silent, Tell};
 use adit_db::Store;
 use adit_db::history::Author;
 use adit_tests::oracle::random::Chance;
+use adit_tests::slanted::SlantedRooms;
 use adit_tests::{Ran, TestSite};
 
 /// How many sequences are tried where nobody says otherwise, and how many steps each has.
@@ -142,25 +143,35 @@ fn differing(one: &[String], other: &[String]) -> Vec<String> {
 struct Run {
     site: TestSite,
     moment: &'static str,
+    /// Whether rooms are no rectangles.
+    is_slanted: bool,
     live: Live,
 }
 
 impl Run {
-    fn new(mode: &str) -> Self {
+    fn new(mode: &str, is_slanted: bool) -> Self {
         let site = TestSite::example("starter");
         site.write("map.toml", map(2.5));
         site.write("site.toml", format!("name = \"steps\"\nrooms = \"{mode}\"\n"));
         site.copy_rules(mode);
         let moment = MOMENTS[0];
-        let held = Self::open_in(&site, moment, "held.db");
+        let held = Self::open_in((&site, is_slanted), moment, "held.db");
         held.build(&Silent).unwrap();
-        Self::open_in(&site, moment, "plain.db").build(&Silent).unwrap();
-        Self { live: Live::open(held).unwrap(), site, moment }
+        Self::open_in((&site, is_slanted), moment, "plain.db").build(&Silent).unwrap();
+        Self { live: Live::open(held).unwrap(), site, moment, is_slanted }
     }
 
-    fn open_in(site: &TestSite, moment: &str, database: &str) -> KnowledgeBase {
+    fn open_in((site, is_slanted): (&TestSite, bool), moment: &str, database: &str) -> KnowledgeBase {
         let file = site.path().join(database);
-        KnowledgeBase::open(site.path()).unwrap().with_database(Some(&file)).at(Some(moment)).unwrap()
+        let mut knowledge = KnowledgeBase::open(site.path()).unwrap();
+        if is_slanted {
+            knowledge.register(Box::new(SlantedRooms));
+        }
+        knowledge.with_database(Some(&file)).at(Some(moment)).unwrap()
+    }
+
+    fn open(&self, database: &str) -> KnowledgeBase {
+        Self::open_in((&self.site, self.is_slanted), self.moment, database)
     }
 
     fn database(&self, name: &str) -> PathBuf {
@@ -187,8 +198,8 @@ impl Run {
     }
 
     fn files_changed(&mut self) {
-        let plain = Self::open_in(&self.site, self.moment, "plain.db").build(&Silent);
-        let held = self.live.open_again(Self::open_in(&self.site, self.moment, "held.db"));
+        let plain = self.open("plain.db").build(&Silent);
+        let held = self.live.open_again(self.open("held.db"));
         assert_eq!(plain.is_ok(), held.is_ok(), "{plain:?}\n{held:?}");
     }
 
@@ -196,7 +207,7 @@ impl Run {
         let before = content(&self.database("held.db"));
         let preview = self.live.preview(std::slice::from_ref(edit), None);
         assert_eq!(content(&self.database("held.db")), before, "a preview changes nothing");
-        let plain = Self::open_in(&self.site, self.moment, "plain.db").edit(edit, &author(), false, &Silent);
+        let plain = self.open("plain.db").edit(edit, &author(), false, &Silent);
         let held = self.live.edit(edit, &author());
         match (plain, held, preview) {
             (Ok((_, report)), Ok(outcome), Ok(preview)) => {
@@ -229,7 +240,7 @@ impl Run {
         fs::copy(self.database("plain.db"), &nothing).unwrap();
         let forgotten = Command::new("sqlite3").arg(&nothing).arg(FORGET).output();
         Ran::new(&forgotten.unwrap()).expect_status(0);
-        Self::open_in(&self.site, self.moment, "nothing.db").build(&Silent).unwrap();
+        self.open("nothing.db").build(&Silent).unwrap();
         let is_other = |row: &String| row.contains("VALUES('generation'");
         let [plain, anew] = [plain, content(&nothing)]
             .map(|rows| rows.into_iter().filter(|row| !is_other(row)).collect::<Vec<_>>());
@@ -241,7 +252,7 @@ impl Run {
 fn sequence(seed: usize) {
     let mut chance = Chance::new(seed as u64);
     let mode = if seed.is_multiple_of(4) { "paper" } else { "by-state" };
-    let mut run = Run::new(mode);
+    let mut run = Run::new(mode, seed % 8 == 1);
     let mut steps = Vec::new();
     for _ in 0..STEPS {
         let step = step(&mut chance);
