@@ -7,30 +7,28 @@
 mod cells;
 mod changes;
 mod clearance;
-mod cut;
 mod footprint;
 mod free_space;
 mod gap;
+mod grown;
 mod headroom;
 mod labels;
 mod lattice;
 mod layer;
-mod maximal;
 mod narrowest;
-mod neighbours;
+mod pieces;
 mod planner;
 mod record;
-mod slivers;
+mod traced;
 mod transform;
+mod walls;
 
-use crate::strips::Block;
 use changes::changes;
 use footprint::FACINGS;
-use labels::{Label, Labels};
+use labels::Label;
 use layer::{Placed, Size};
-use rayon::prelude::*;
 
-use crate::geometry::Rect;
+use crate::geometry::Convex;
 use crate::world::World;
 
 pub(crate) use footprint::{STEP_DEGREES, body};
@@ -44,8 +42,6 @@ pub use record::{Crossing, Kind, Room, State};
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layers {
-    /// The cells in which they were cut.
-    pub lattice: Lattice,
     /// By state, then as made: largest first.
     pub rooms: Vec<Room>,
     /// By (room1, room2); there is at most one from a room into another.
@@ -59,27 +55,26 @@ pub struct Layers {
 /// Cuts one layer a state, or eight where it has a length. States of equal size that the same bridges block are
 /// computed once, whatever robot they are of.
 ///
-/// The side of a cell is the world's [`grid`](World::grid); where it has none, the image's resolution; for a vector
-/// map the largest of 1, 2, 5 steps not above a seventh of the slimmest state's width.
+/// A layer is everything solid grown by the state, taken from the floor: exactly along walls; about corners a disc's arc is
+/// drawn around by tangents a twelfth of a turn apart, and exactly where something else is near. An image's walls are made
+/// straight where that closes no gap that a disc passes, outwards by at most a cell.
 ///
-/// Rooms are cut along the outlines of named areas: a cell, and so a room, lies in an area if its middle does. A named
-/// door is a band of rooms one cell thick, and whoever passes it enters one of them.
+/// Rooms are cut along the outlines of named areas. A named door is a band of rooms, and whoever passes it enters one of them.
 ///
 /// # Returns
-/// Within a layer the rooms are disjoint and free throughout. They cover the free space up to a cell's diagonal from
-/// its limit, but for rooms one cell thin along the limit, dropped within two cells of a thicker one where that
-/// separates nothing: so up to three cells' diagonals. Changes join layers of the same robot only; an
-/// overlap one or two cells thin has none beside a thicker one of the same room. The error is one sentence.
+/// Within a layer the rooms are convex, disjoint and free throughout, and cover the free space as it was drawn. Changes join
+/// layers of the same robot only; an overlap thinner than 10 cm has none beside a thicker one of the same room. The
+/// error is one sentence.
 ///
 /// # Complexity
-/// Near-linear in the number of cells, times the number of states of different size.
+/// O(n log n) in the number of corners of walls, times the number of states of different size.
 pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
     cut_layers_anew(world, states, &KnownLayers::default())
 }
 
 /// As [`cut_layers`], taking those layers from `known` whose sizes have not changed since.
 pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> Result<Layers, String> {
-    let lattice = Lattice::new(world.bounds, side(world, states)?)?;
+    check(states)?;
     let mut layers = Vec::new();
     for (state, of) in states.iter().enumerate() {
         match of.length {
@@ -89,8 +84,7 @@ pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> 
     }
     let sizes: Vec<Size> =
         layers.iter().map(|&(state, facing)| Size::of(world, &states[state], facing)).collect();
-    let labels = Labels::new(world, lattice)?;
-    let cut = known.layers(world, lattice, labels.as_ref(), &sizes);
+    let cut = known.layers(world, &sizes)?;
     let mut first = 0;
     let mut stack = Vec::new();
     for ((state, facing), layer) in layers.into_iter().zip(cut) {
@@ -98,19 +92,19 @@ pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> 
         stack.push(Placed { state, facing, first, layer });
         first += rooms;
     }
-    let rooms = room_records(world, lattice, &stack);
-    let mut crossings = doors(lattice, &stack);
-    crossings.extend(changes(lattice, states, labels.as_ref(), &stack));
-    crossings.par_sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
-    let members = |of: fn(&Label) -> &[usize]| match &labels {
-        Some(labels) => members(labels, &stack, of),
-        None => Vec::new(),
+    let mut crossings: Vec<Crossing> = stack.iter().flat_map(doors).collect();
+    crossings.extend(changes(states, &stack));
+    crossings.sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
+    let members = |of: fn(&Label) -> &[usize]| {
+        let labels = stack.iter().flat_map(|placed| &placed.layer.labels).enumerate();
+        labels.flat_map(|(room, label)| of(label).iter().map(move |&named| (room, named))).collect()
     };
     let (area_rooms, door_rooms) = (members(|label| &label.areas), members(|label| &label.doors));
-    Ok(Layers { lattice, rooms, crossings, area_rooms, door_rooms })
+    let rooms = stack.iter().flat_map(|placed| rooms(world, placed)).collect();
+    Ok(Layers { rooms, crossings, area_rooms, door_rooms })
 }
 
-fn side(world: &World, states: &[State]) -> Result<f64, String> {
+fn check(states: &[State]) -> Result<(), String> {
     let is_length = |metres: f64| metres.is_finite() && metres > 0.0;
     for State { state, width, length, .. } in states {
         if !is_length(*width) {
@@ -122,48 +116,30 @@ fn side(world: &World, states: &[State]) -> Result<f64, String> {
             return Err(format!("state `{state}` is {length} m long; a length is finite and more than 0"));
         }
     }
-    let native = world.occupancy.as_ref().map(|cells| cells.resolution);
-    let slimmest = states.iter().map(|state| state.length.unwrap_or(state.width).min(state.width));
-    let slimmest = slimmest.fold(f64::INFINITY, f64::min);
-    match world.grid.or(native) {
-        Some(side) => Ok(side),
-        None if slimmest.is_finite() => Ok(lattice::round_step(slimmest / 7.0)),
-        None => Err("no state moves, so there is no layer to cut".to_owned()),
-    }
+    if states.is_empty() { Err("no state moves, so there is no layer to cut".to_owned()) } else { Ok(()) }
 }
 
-fn room_records(world: &World, lattice: Lattice, stack: &[Placed]) -> Vec<Room> {
-    let lowest = |rect: &Rect| {
-        let above = world.bridges.iter().filter(|bridge| bridge.rect.overlaps(rect));
+fn rooms<'a>(world: &'a World, placed: &'a Placed) -> impl Iterator<Item = Room> + 'a {
+    let lowest = |outline: &Convex| {
+        let above = world.bridges.iter().filter(|bridge| {
+            let is_near = bridge.rect.overlaps(&outline.bounds());
+            is_near && outline.common(&bridge.rect.into()).is_some()
+        });
         above.map(|bridge| bridge.height).min_by(f64::total_cmp)
     };
-    let of_layer = |placed: &Placed| {
-        let facing = placed.facing.map(|facing| facing as f64 * STEP_DEGREES);
-        let state = placed.state;
-        let room = |&room: &Block| {
-            let rect = lattice.rect(room);
-            Room { state, facing, outline: rect.into(), height: lowest(&rect) }
-        };
-        placed.layer.rooms.iter().map(room).collect::<Vec<_>>()
-    };
-    stack.iter().flat_map(of_layer).collect()
+    let facing = placed.facing.map(|facing| facing as f64 * STEP_DEGREES);
+    placed.layer.rooms.iter().map(move |outline| Room {
+        state: placed.state,
+        facing,
+        outline: outline.clone(),
+        height: lowest(outline),
+    })
 }
 
-/// For each room, by index, what of its label is asked for.
-fn members(labels: &Labels, stack: &[Placed], of: fn(&Label) -> &[usize]) -> Vec<(usize, usize)> {
-    let rooms = stack.iter().flat_map(|placed| &placed.layer.rooms).enumerate();
-    rooms.flat_map(|(room, &block)| of(labels.of(block)).iter().map(move |&named| (room, named))).collect()
-}
-
-fn doors(lattice: Lattice, stack: &[Placed]) -> Vec<Crossing> {
-    let of_layer = |placed: &Placed| {
-        let Placed { layer, first, .. } = placed;
-        let door = |(a, b): (u32, u32)| {
-            let (a, b) = (a as usize, b as usize);
-            let rect = lattice.rect(layer.rooms[a].clip(&layer.rooms[b]));
-            Crossing { kind: Kind::Door, room1: first + a, room2: first + b, rect }
-        };
-        layer.beside.iter().copied().map(door).collect::<Vec<_>>()
-    };
-    stack.par_iter().map(of_layer).collect::<Vec<_>>().concat()
+fn doors(placed: &Placed) -> impl Iterator<Item = Crossing> + '_ {
+    let first = placed.first;
+    placed.layer.beside.iter().map(move |&(a, b, across)| {
+        let (room1, room2) = (first + a as usize, first + b as usize);
+        Crossing { kind: Kind::Door, room1, room2, across }
+    })
 }

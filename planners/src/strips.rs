@@ -77,11 +77,6 @@ impl Strips {
 }
 
 impl Block {
-    /// How many cells it has.
-    pub(crate) fn area(&self) -> u64 {
-        u64::from(self.x1 - self.x0) * u64::from(self.y1 - self.y0)
-    }
-
     /// The up to four largest blocks of this one outside of a hole, which overlaps it, one on each side.
     pub(crate) fn around(self, hole: Self) -> impl Iterator<Item = Self> {
         let left = (hole.x0 > self.x0).then_some(Self { x1: hole.x0, ..self });

@@ -44,7 +44,6 @@ fn build(path: &Path) {
     let start = Instant::now();
     let layers = cut_layers(&world, &states()).unwrap();
     let cut = start.elapsed();
-    let side = layers.lattice.side();
     println!("{}: read {read:.0?}, cut {cut:.0?}", path.display());
     println!(
         "  free {:.1} m², unknown {:.1} m² (walls), {} doors, {} changes",
@@ -55,16 +54,13 @@ fn build(path: &Path) {
     );
     for (index, state) in states().iter().enumerate() {
         let rooms: Vec<_> = layers.rooms.iter().filter(|room| room.state == index).collect();
-        let area: f64 = rooms.iter().map(|room| room.rect.area()).sum();
-        let thinner =
-            |cells: f64| rooms.iter().filter(|room| room.rect.smaller_side() < cells * side - 1e-9).count();
+        let area: f64 = rooms.iter().map(|room| room.outline.area()).sum();
+        let thinner = rooms.iter().filter(|room| room.outline.breadth() < 0.1).count();
         println!(
-            "  {:10} {:5} rooms, {:7.1} m², thinner than two cells {:5}, than three {:5}",
+            "  {:10} {:5} rooms, {:7.1} m², thinner than 10 cm {thinner:5}",
             state.state,
             rooms.len(),
-            area,
-            thinner(2.0),
-            thinner(3.0)
+            area
         );
         assert!(area <= report.free + 1e-6, "a layer is inside of the free space");
         assert!(!rooms.is_empty(), "{} can be somewhere", state.state);

@@ -2,11 +2,11 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 #![allow(clippy::float_cmp)] // two infinities are the same
 
-use adit_planners::geometry::{Point, Rect, Segment};
-use adit_planners::layers::{Kind, State, cut_layers};
+use adit_planners::geometry::{Convex, Point, Rect, Segment};
+use adit_planners::layers::{Kind, Room, State, cut_layers};
 use adit_planners::routes::{
-    Blockage, Closed, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
-    blockage,
+    Blockage, Closed, Crossing, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking,
+    Way, blockage,
 };
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use proptest::prelude::*;
@@ -37,6 +37,13 @@ fn graph(world: &World, states: &[(f64, f64)], change: f64) -> RouteGraph {
     graph_of(world, &shapes, change)
 }
 
+/// Where a shape is changed: what both rooms have in common, in the rectangle that says so.
+fn area(rooms: &[Room], change: &adit_planners::layers::Crossing) -> Convex {
+    let [one, other] = [change.room1, change.room2].map(|room| &rooms[room].outline);
+    let common = one.common(other).and_then(|common| common.common(&change.across.bounds().into()));
+    common.unwrap_or_else(|| change.across.bounds().into())
+}
+
 /// The graph of all layers of states, each with what a metre of it weighs.
 fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
     let shapes: Vec<State> = states.iter().map(|(state, _)| state.clone()).collect();
@@ -49,8 +56,11 @@ fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
         door: index as u32 + 1,
         room1: RoomIndex::new(crossing.room1),
         room2: RoomIndex::new(crossing.room2),
-        crossing: crossing.rect.into(),
-        at: crossing.rect.centre(),
+        crossing: match crossing.kind {
+            Kind::Door => Crossing::Through(crossing.across),
+            Kind::Change => Crossing::Within(area(&layers.rooms, crossing)),
+        },
+        at: crossing.across.middle(),
         hardness: Some(if crossing.kind == Kind::Change { change } else { 0.0 }),
         passable: true,
         one_way: crossing.kind == Kind::Change,

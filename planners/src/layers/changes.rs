@@ -1,31 +1,26 @@
 //! Changes of shape and turns: ways between rooms of two layers that lie over each other.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::footprint::FACINGS;
-use super::labels::Labels;
-use super::lattice::Lattice;
-use super::layer::{Layer, Placed};
-use super::maximal::largest_within;
+use super::layer::{Layer, Placed, Places};
 use super::record::{Crossing, Kind, State};
-use crate::strips::Block;
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Convex, Point, Rect, Segment};
 
-/// An overlap not thicker than so many cells is left out beside a thicker one.
-const THIN: u32 = 2;
+/// An overlap not thicker than this is left out beside a thicker one, metres.
+const THIN_M: f64 = 0.1;
+
+/// A rectangle for turning is found to within this share of its size.
+const FITTED: f64 = 1e-3;
 
 /// All changes of shape and turns between layers.
-///
-/// # Arguments
-/// `labels` tell what may be closed: no change stands for another one across a named door or the outline of an area.
-pub(super) fn changes(
-    lattice: Lattice,
-    states: &[State],
-    labels: Option<&Labels>,
-    stack: &[Placed],
-) -> Vec<Crossing> {
+pub(super) fn changes(states: &[State], stack: &[Placed]) -> Vec<Crossing> {
     let pairs = (0..stack.len()).flat_map(|from| (from + 1..stack.len()).map(move |to| (from, to)));
     let pairs: Vec<_> = pairs.filter(|&(from, to)| may_change(states, &stack[from], &stack[to])).collect();
-    let of_pair = |&(from, to): &(usize, usize)| changes_between(lattice, labels, &stack[from], &stack[to]);
+    let of_pair = |&(from, to): &(usize, usize)| changes_between(&stack[from], &stack[to]);
     pairs.par_iter().map(of_pair).collect::<Vec<_>>().concat()
 }
 
@@ -53,61 +48,94 @@ fn turned_from(a: usize, b: usize) -> Option<usize> {
     }
 }
 
-fn changes_between(lattice: Lattice, labels: Option<&Labels>, from: &Placed, to: &Placed) -> Vec<Crossing> {
+/// What rooms of two layers have in common, by their numbers.
+type Overlaps = BTreeMap<(u32, u32), Convex>;
+
+fn changes_between(from: &Placed, to: &Placed) -> Vec<Crossing> {
     let turns = (from.state == to.state).then(|| from.facing.zip(to.facing)).flatten();
     let turning = turns.and_then(|(a, b)| turned_from(a, b)).and_then(|facing| {
         let first = if from.facing == Some(facing) { from } else { to };
         first.layer.turning.as_ref()
     });
-    let overlap = |(a, b): (u32, u32)| {
-        let common = from.layer.rooms[a as usize].clip(&to.layer.rooms[b as usize]);
-        let common = turning.map_or(Some(common), |turning| largest_within(turning, common))?;
-        Some(((a, b), common))
-    };
-    let overlaps: Vec<_> = from.layer.owners.over(&to.layer.owners).into_iter().filter_map(overlap).collect();
-    let mut found = Vec::new();
-    for &((a, b), common) in &overlaps {
-        let layers = (&*from.layer, &*to.layer);
-        if is_thin(&common) && has_thicker_beside(&overlaps, layers, labels, ((a, b), common)) {
-            continue;
+    let mut overlaps = Overlaps::new();
+    for (a, room) in (0..).zip(&from.layer.rooms) {
+        for (b, common) in to.layer.places.common(room) {
+            // rooms are cut along the same lines: what lies in other areas is a rounding
+            let is_alike = from.layer.labels[a as usize] == to.layer.labels[b as usize];
+            if is_alike && common.breadth() > SNAP_M {
+                overlaps.insert((a, b), common);
+            }
         }
-        let (room1, room2) = (from.first + a as usize, to.first + b as usize);
-        let (kind, rect) = (Kind::Change, lattice.rect(common));
-        found.push(Crossing { kind, room1, room2, rect });
-        found.push(Crossing { kind, room1: room2, room2: room1, rect });
     }
-    found
+    if let Some(turning) = turning {
+        return overlaps
+            .iter()
+            .filter_map(|(&pair, common)| Some((pair, largest_within(turning, common)?)))
+            .flat_map(|(pair, rect)| there_and_back((from, to), pair, rect))
+            .collect();
+    }
+    let layers = (&*from.layer, &*to.layer);
+    let is_needed =
+        |pair: (u32, u32), common: &Convex| !is_thin(common) || !has_thicker_beside(&overlaps, layers, pair);
+    let needed = overlaps.iter().filter(|(pair, common)| is_needed(**pair, common));
+    needed.flat_map(|(&pair, common)| there_and_back((from, to), pair, common.bounds())).collect()
 }
 
-fn is_thin(overlap: &Block) -> bool {
-    (overlap.x1 - overlap.x0).min(overlap.y1 - overlap.y0) <= THIN
+fn there_and_back((from, to): (&Placed, &Placed), (a, b): (u32, u32), rect: Rect) -> [Crossing; 2] {
+    let (room1, room2) = (from.first + a as usize, to.first + b as usize);
+    let across = Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1));
+    let there = Crossing { kind: Kind::Change, room1, room2, across };
+    [there, Crossing { room1: room2, room2: room1, ..there }]
 }
 
-type Overlap = ((u32, u32), Block);
+fn is_thin(overlap: &Convex) -> bool {
+    overlap.breadth() <= THIN_M
+}
 
 /// Whether the same room overlaps a neighbour of the other room, right beside this overlap and thicker than it: there
-/// the robot may change as well, and go through the door between the neighbours, a few cells from here.
-fn has_thicker_beside(
-    overlaps: &[Overlap],
-    layers: (&Layer, &Layer),
-    labels: Option<&Labels>,
-    ((a, b), here): Overlap,
-) -> bool {
-    let label = |block: &Block| labels.map(|labels| labels.number(block.x0, block.y0));
-    let is_beside = |pair: (u32, u32)| {
-        let found = overlaps.binary_search_by_key(&pair, |(pair, _)| *pair);
-        found.is_ok_and(|at| {
-            let other = &overlaps[at].1;
-            !is_thin(other) && touch(other, &here) && label(other) == label(&here)
-        })
+/// the robot may change as well, and go through the door between the neighbours. No change stands for another one across a
+/// named door or the outline of an area, which may be closed.
+fn has_thicker_beside(overlaps: &Overlaps, layers: (&Layer, &Layer), (a, b): (u32, u32)) -> bool {
+    let is_beside = |pair: (u32, u32), room: &Convex, door: &Segment, labels: (u32, u32), of: &Layer| {
+        let is_alike = of.labels[labels.0 as usize] == of.labels[labels.1 as usize];
+        let touches = || room.clip(*door).is_some_and(|part| part.length() > SNAP_M);
+        overlaps.get(&pair).is_some_and(|other| !is_thin(other)) && is_alike && touches()
     };
-    layers.1.neighbours.of(b as usize).iter().any(|&other| is_beside((a, other)))
-        || layers.0.neighbours.of(a as usize).iter().any(|&other| is_beside((other, b)))
+    let (one, other) = layers;
+    let (room_a, room_b) = (&one.rooms[a as usize], &other.rooms[b as usize]);
+    other
+        .neighbours
+        .of(b as usize)
+        .iter()
+        .any(|(next, door)| is_beside((a, *next), room_a, door, (b, *next), other))
+        || one
+            .neighbours
+            .of(a as usize)
+            .iter()
+            .any(|(next, door)| is_beside((*next, b), room_b, door, (a, *next), one))
 }
 
-/// Whether two disjoint blocks share a boundary of at least a cell's side.
-fn touch(a: &Block, b: &Block) -> bool {
-    let shared = |(a0, a1): (u32, u32), (b0, b1): (u32, u32)| i64::from(a1.min(b1)) - i64::from(a0.max(b0));
-    let (dx, dy) = (shared((a.x0, a.x1), (b.x0, b.x1)), shared((a.y0, a.y1), (b.y0, b.y1)));
-    dx.min(dy) == 0 && dx.max(dy) > 0
+/// A rectangle in the largest part of an overlap in which a body can turn, as large as it fits about its middle.
+fn largest_within(turning: &Places, overlap: &Convex) -> Option<Rect> {
+    let parts = turning.common(overlap).into_iter().map(|(_, part)| part);
+    let part = parts.max_by(|a, b| a.area().total_cmp(&b.area()))?;
+    let (middle, bounds) = (part.centre(), part.bounds());
+    let sized = |share: f64| {
+        let (dx, dy) = (bounds.dx() * share / 2.0, bounds.dy() * share / 2.0);
+        Rect::new(middle.x - dx, middle.y - dy, middle.x + dx, middle.y + dy)
+    };
+    let fits = |share: f64| sized(share).corners().iter().all(|&corner| part.contains(corner));
+    let (mut fitting, mut large) = (0.0, 1.0);
+    if fits(large) {
+        return Some(bounds);
+    }
+    while large - fitting > FITTED {
+        let share = f64::midpoint(fitting, large);
+        if fits(share) {
+            fitting = share;
+        } else {
+            large = share;
+        }
+    }
+    (fitting > 0.0 && sized(fitting).smaller_side() > SNAP_M).then(|| sized(fitting))
 }

@@ -144,7 +144,7 @@ impl<'a> Solid<'a> {
 }
 
 /// The range of x that the segment has between two heights; `None` where it does not come there.
-pub(super) fn x_range_in_band(a: Point, b: Point, (low, high): (f64, f64)) -> Option<(f64, f64)> {
+fn x_range_in_band(a: Point, b: Point, (low, high): (f64, f64)) -> Option<(f64, f64)> {
     let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
     if b.y < low || a.y > high {
         return None;

@@ -1,6 +1,5 @@
 //! The uniform lattice of cells in which all layers of a world are cut.
 
-use crate::geometry::tolerance::ROUNDING;
 use crate::geometry::{Point, Rect};
 use crate::strips::Block;
 
@@ -95,27 +94,9 @@ fn about(low: f64, high: f64, count: u32) -> std::ops::Range<u32> {
     first..last.max(first)
 }
 
-/// The largest of 1, 2, 5, 10, ... (times any power of ten) that is not above `length`.
-pub(super) fn round_step(length: f64) -> f64 {
-    let power = length.log10().floor() as i32;
-    // Dividing by a power of ten gives the float nearest to the decimal; multiplying does not.
-    let scaled = |digit: f64, power: i32| {
-        if power < 0 { digit / 10f64.powi(-power) } else { digit * 10f64.powi(power) }
-    };
-    let steps = [scaled(1.0, power + 1), scaled(5.0, power), scaled(2.0, power), scaled(1.0, power)];
-    let not_above = steps.into_iter().find(|step| *step <= length * (1.0 + ROUNDING));
-    not_above.unwrap_or(scaled(5.0, power - 1))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn steps_are_one_two_five() {
-        let steps = [0.35 / 7.0, 0.049, 0.0999, 1.0, 3.0 / 7.0, 70.0].map(|l| round_step(l).to_string());
-        assert_eq!(steps, ["0.05", "0.02", "0.05", "1", "0.2", "50"]);
-    }
 
     #[test]
     fn a_lattice_covers_all_but_less_than_a_cell() {

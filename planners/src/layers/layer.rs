@@ -3,17 +3,17 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
 
-use super::cells::Cells;
-use super::free_space::Solid;
-use super::labels::Labels;
-use super::lattice::Lattice;
-use super::neighbours::{Owners, by_room};
+use super::footprint;
+use super::grown::Moved;
+use super::labels::{Label, Labels};
+use super::pieces::Pieces;
 use super::record::State;
-use super::{cut, footprint, slivers};
-use crate::geometry::Rect;
+use super::walls::Walls;
+use crate::geometry::{Convex, Rect, Segment};
 use crate::search::Csr;
-use crate::strips::Block;
 use crate::world::World;
 
 /// What of a state decides its layer.
@@ -36,45 +36,73 @@ impl Size {
 
 /// The rooms of a size.
 pub(super) struct Layer {
-    pub(super) rooms: Vec<Block>,
-    pub(super) owners: Owners,
-    /// The pairs of rooms (a < b) that have a common boundary; ordered.
-    pub(super) beside: Vec<(u32, u32)>,
+    pub(super) rooms: Vec<Convex>,
+    /// By room.
+    pub(super) labels: Vec<Label>,
+    /// The pairs of rooms (a < b) that have a side in common, or a part of one; ordered.
+    pub(super) beside: Vec<(u32, u32, Segment)>,
     /// The same, by room.
-    pub(super) neighbours: Csr<u32>,
-    /// Where a body can turn to the next facing; `None` for a disc.
-    pub(super) turning: Option<Cells>,
+    pub(super) neighbours: Csr<(u32, Segment)>,
+    /// Where a body can turn to the next facing, in convex pieces; `None` for a disc.
+    pub(super) turning: Option<Places>,
+    pub(super) places: Places,
+}
+
+/// Convex pieces, found by where they are.
+pub(super) struct Places {
+    pieces: Vec<Convex>,
+    index: RTree<GeomWithData<Rectangle<[f64; 2]>, u32>>,
+}
+
+impl Places {
+    fn new(pieces: Vec<Convex>) -> Self {
+        let place = |(number, piece): (u32, &Convex)| {
+            let Rect { x0, y0, x1, y1 } = piece.bounds();
+            GeomWithData::new(Rectangle::from_corners([x0, y0], [x1, y1]), number)
+        };
+        let index = RTree::bulk_load((0..).zip(&pieces).map(place).collect());
+        Self { pieces, index }
+    }
+
+    /// What pieces have in common with one, by number.
+    pub(super) fn common(&self, with: &Convex) -> Vec<(u32, Convex)> {
+        let Rect { x0, y0, x1, y1 } = with.bounds();
+        let near = self.index.locate_in_envelope_intersecting(AABB::from_corners([x0, y0], [x1, y1]));
+        let shared =
+            near.filter_map(|piece| Some((piece.data, with.common(&self.pieces[piece.data as usize])?)));
+        let mut shared: Vec<_> = shared.collect();
+        shared.sort_unstable_by_key(|(number, _)| *number);
+        shared
+    }
 }
 
 impl Layer {
-    fn cut(
-        world: &World,
-        solid: &Solid<'_>,
-        (lattice, labels): (Lattice, Option<&Labels>),
-        size: &Size,
-    ) -> Self {
+    fn cut(world: &World, walls: &Walls, labels: &Labels, size: &Size) -> Result<Self, String> {
         let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
-        let extent = size.lies.map_or(size.width, |(length, _)| length.max(size.width));
+        let (bounds, clearance) = (world.bounds, world.clearance);
         let (free, turning) = match size.lies {
-            // what is longer than the map fits nowhere, whatever its outline
-            _ if extent > world.bounds.dx().hypot(world.bounds.dy()) => {
-                let nowhere = Cells::none(lattice.columns(), lattice.rows());
-                (nowhere.clone(), size.lies.map(|_| nowhere))
+            None => {
+                let keep = size.width / 2.0 + clearance;
+                let solid = walls.about_discs(&low, bounds, [2.0 * keep, 2.0 * keep * Moved::most()]);
+                (Moved::Disc(keep).free_space(bounds, &solid), None)
             }
-            None => (solid.free_cells(size.width / 2.0 + world.clearance, &low), None),
             Some((length, facing)) => {
-                let open = solid.free_cells(0.0, &low);
-                let body = footprint::body(length, size.width, world.clearance, facing);
-                let sweep = footprint::sweep(length, size.width, world.clearance, facing);
-                let fitting = |outline| footprint::fitting(&open, outline, lattice.side());
-                (fitting(&body), Some(fitting(&sweep)))
+                let solid = walls.about_bodies(&low);
+                let body = footprint::body(length, size.width, clearance, facing);
+                let sweep = footprint::sweep(length, size.width, clearance, facing);
+                let turning = Moved::Body(sweep).free_space(bounds, &solid);
+                (Moved::Body(body).free_space(bounds, &solid), Some(turning))
             }
         };
-        let rooms = slivers::drop_slivers(&free, &cut::cut_along(&free, labels), labels);
-        let owners = Owners::new(lattice.columns(), lattice.rows(), &rooms);
-        let beside = owners.beside();
-        let neighbours = by_room(rooms.len(), &beside);
-        Self { rooms, owners, beside, neighbours, turning }
+        let turning = turning.map(|free| Pieces::of(&free, &[])).transpose()?;
+        let Pieces { pieces: rooms, doors: beside } = Pieces::of(&free, &labels.lines())?;
+        let neighbours = Csr::new(
+            rooms.len(),
+            beside.iter().flat_map(|&(a, b, side)| [(a as usize, (b, side)), (b as usize, (a, side))]),
+        );
+        let labels = rooms.iter().map(|room| labels.of(room)).collect();
+        let turning = turning.map(|turning| Places::new(turning.pieces));
+        Ok(Self { places: Places::new(rooms.clone()), rooms, labels, beside, neighbours, turning })
     }
 }
 
@@ -94,7 +122,6 @@ pub struct KnownLayers(Mutex<Known>);
 #[derive(Default)]
 struct Known {
     world: u64,
-    lattice: Option<Lattice>,
     layers: Vec<(Size, Arc<Layer>)>,
     cut: usize,
 }
@@ -105,20 +132,14 @@ impl KnownLayers {
         self.lock().cut
     }
 
-    /// The layer of each size; equal sizes share one.
-    pub(super) fn layers(
-        &self,
-        world: &World,
-        lattice: Lattice,
-        labels: Option<&Labels>,
-        sizes: &[Size],
-    ) -> Vec<Arc<Layer>> {
+    /// The layer of each size; equal sizes share one. The error is one sentence.
+    pub(super) fn layers(&self, world: &World, sizes: &[Size]) -> Result<Vec<Arc<Layer>>, String> {
         // Cutting runs on other threads, and must not wait for a lock that is held meanwhile.
         let mut known = std::mem::take(&mut *self.lock());
         let fingerprint = world.fingerprint();
-        if (known.world, known.lattice) != (fingerprint, Some(lattice)) {
+        if known.world != fingerprint {
             known.layers.clear();
-            (known.world, known.lattice) = (fingerprint, Some(lattice));
+            known.world = fingerprint;
         }
         known.layers.retain(|(size, _)| sizes.contains(size));
         let mut missing: Vec<&Size> = Vec::new();
@@ -128,18 +149,18 @@ impl KnownLayers {
             }
         }
         if !missing.is_empty() {
-            let solid = Solid::new(world, lattice);
+            let (walls, labels) = (Walls::new(world), Labels::new(world));
             let cut = |size: &&Size| {
-                ((*size).clone(), Arc::new(Layer::cut(world, &solid, (lattice, labels), size)))
+                Ok::<_, String>(((*size).clone(), Arc::new(Layer::cut(world, &walls, &labels, size)?)))
             };
-            let new: Vec<_> = missing.par_iter().map(cut).collect();
+            let new: Vec<_> = missing.par_iter().map(cut).collect::<Result<_, _>>()?;
             known.cut += new.len();
             known.layers.extend(new);
         }
         let of = |size: &Size| known.layers.iter().find(|(other, _)| other == size);
         let layers = sizes.iter().filter_map(of).map(|(_, layer)| Arc::clone(layer)).collect();
         *self.lock() = known;
-        layers
+        Ok(layers)
     }
 
     /// A lock that is poisoned guards layers that were whole when they were put there.

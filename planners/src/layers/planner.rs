@@ -48,9 +48,10 @@ impl Planner for RoomsByState {
             outline: room.outline.clone(),
             height: room.height,
         };
-        let door = |crossing: &Crossing| {
-            let is_change = crossing.kind == Kind::Change;
-            DoorRow::along([crossing.room1, crossing.room2], crossing.rect, is_change)
+        let door = |crossing: &Crossing| DoorRow {
+            rooms: [crossing.room1, crossing.room2],
+            across: crossing.across,
+            is_change: crossing.kind == Kind::Change,
         };
         let rooms: Vec<RoomRow> = layers.rooms.iter().map(room).collect();
         let doors: Vec<DoorRow> = layers.crossings.iter().map(door).collect();

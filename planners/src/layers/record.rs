@@ -1,6 +1,6 @@
 //! States, rooms, and the crossings from room to room.
 
-use crate::geometry::{Convex, Rect};
+use crate::geometry::{Convex, Segment};
 
 /// A state in which a robot can move.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub struct Crossing {
     pub room1: usize,
     /// The other room; more than `room1` for a door.
     pub room2: usize,
-    /// The common boundary segment of a door, the overlap of a change; of a turn the largest part
-    /// of the overlap in which the body can turn.
-    pub rect: Rect,
+    /// The common boundary of a door; of a change opposite corners of the least rectangle about what both rooms have in
+    /// common, of a turn of a rectangle in which the body can turn.
+    pub across: Segment,
 }
