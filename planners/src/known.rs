@@ -37,8 +37,11 @@ impl<'a> KnownClass<'a> {
         Ok(edges.map(|((x0, y0), (x1, y1))| Rect::new(x0, y0, x1, y1)).collect())
     }
 
-    /// The outlines of rooms.
+    /// The outlines of rooms; rectangles where nobody gives any.
     pub(crate) fn outlines(&self) -> Result<Vec<Convex>, PlannerError> {
+        if !self.table.columns.iter().any(|(property, _)| property == "outline") {
+            return Ok(self.rects()?.into_iter().map(Convex::from).collect());
+        }
         let texts = self.table.texts("outline").map_err(|what| self.error(what))?;
         let read = |(place, (bounds, text)): (usize, (Rect, &Option<String>))| {
             let read = outline::read(text.as_deref(), bounds);

@@ -29,10 +29,11 @@ use labels::Label;
 use layer::{Placed, Size};
 
 use crate::geometry::Convex;
+use crate::geometry::polygon::sides;
+use crate::rooms::outline::shared;
 use crate::world::World;
 
 pub(crate) use footprint::{STEP_DEGREES, body};
-pub(crate) use free_space::Solid;
 pub use headroom::{Headroom, headroom};
 pub use lattice::{Lattice, MAX_CELLS};
 pub use layer::KnownLayers;
@@ -52,11 +53,19 @@ pub struct Layers {
     pub door_rooms: Vec<(usize, usize)>,
 }
 
+impl Layers {
+    /// The area in which a shape is changed.
+    pub fn area(&self, change: &Crossing) -> Convex {
+        let [one, other] = [change.room1, change.room2].map(|room| &self.rooms[room].outline);
+        shared(one, other, change.across.bounds())
+    }
+}
+
 /// Cuts one layer a state, or eight where it has a length. States of equal size that the same bridges block are
 /// computed once, whatever robot they are of.
 ///
 /// A layer is everything solid grown by the state, taken from the floor: exactly along walls; about corners a disc's arc is
-/// drawn around by tangents a twelfth of a turn apart, and exactly where something else is near. An image's walls are made
+/// drawn around by tangents an eighth of a turn apart, and exactly where something else is near. An image's walls are made
 /// straight where that closes no gap that a disc passes, outwards by at most a cell.
 ///
 /// Rooms are cut along the outlines of named areas. A named door is a band of rooms, and whoever passes it enters one of them.
@@ -102,6 +111,15 @@ pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> 
     let (area_rooms, door_rooms) = (members(|label| &label.areas), members(|label| &label.doors));
     let rooms = stack.iter().flat_map(|placed| rooms(world, placed)).collect();
     Ok(Layers { rooms, crossings, area_rooms, door_rooms })
+}
+
+/// Free space for a point where walls are made straight, and for what keeps the world's clearance; square metres.
+pub(crate) fn free_areas(world: &World) -> [f64; 2] {
+    let solid = walls::Walls::new(world).straight(&[]);
+    [0.0, world.clearance].map(|keep| {
+        let free = grown::Moved::Disc(keep).free_space(world.bounds, &solid);
+        free.iter().flat_map(|ring| sides(ring)).map(|side| side.a.cross(side.b)).sum::<f64>() / 2.0
+    })
 }
 
 fn check(states: &[State]) -> Result<(), String> {

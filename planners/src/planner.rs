@@ -7,7 +7,8 @@ use crate::world::World;
 /// What a planner must know before it runs, and what it asserts.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Signature {
-    /// Properties as `CLASS.property` (`PRIME_AREAS.open`): from tables, other planners or rules.
+    /// Properties as `CLASS.property` (`PRIME_AREAS.open`): from tables, other planners or rules. One that ends in `?`
+    /// (`ROOMS.outline?`) is taken where somebody gives it.
     pub needs: Vec<String>,
     /// Classes it asserts whole (`DOORS`), with their properties as `CLASS.property`; those that hold no numbers say
     /// so: `ROOMS.name: text`, `DOORS.one_way: truth`.

@@ -31,7 +31,7 @@ pub struct World {
     pub occupancy: Option<Occupancy>,
     /// Pose of the map in the world.
     pub frame: Pose,
-    /// Side of a cell where a layer is cut into cells, metres; `None`: chosen by the planner.
+    /// Steps in which the narrowest place of a way is looked for, metres; `None`: chosen.
     pub grid: Option<f64>,
     /// Kept free around every state besides its own width, metres.
     pub clearance: f64,

@@ -32,7 +32,7 @@ fn place(world: &World, name: &str) -> Point {
 /// The rooms that can be reached from those that contain `from`, in any state, through doors and changes.
 fn reachable(layers: &Layers, from: Point) -> BTreeSet<usize> {
     let mut open: Vec<usize> =
-        (0..layers.rooms.len()).filter(|&room| layers.rooms[room].rect.contains(from)).collect();
+        (0..layers.rooms.len()).filter(|&room| layers.rooms[room].outline.contains(from)).collect();
     let mut reached: BTreeSet<usize> = open.iter().copied().collect();
     while let Some(room) = open.pop() {
         for crossing in &layers.crossings {
@@ -52,7 +52,7 @@ fn reachable(layers: &Layers, from: Point) -> BTreeSet<usize> {
 fn is_way(world: &World, named: &[&str]) -> bool {
     let layers = cut_layers(world, &states(named)).unwrap();
     let goal = place(world, "ward 6");
-    reachable(&layers, place(world, "dock")).iter().any(|&room| layers.rooms[room].rect.contains(goal))
+    reachable(&layers, place(world, "dock")).iter().any(|&room| layers.rooms[room].outline.contains(goal))
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn the_way_between_dock_and_ward_lies_under_the_pipe() {
     let mut world = hospital();
     let pipe = world.bridges[0].rect;
     let layers = cut_layers(&world, &states(&["STAND", "SQUAT", "LIE"])).unwrap();
-    let under = layers.rooms.iter().filter(|room| room.rect.overlaps(&pipe));
+    let under = layers.rooms.iter().filter(|room| room.outline.common(&pipe.into()).is_some());
     assert!(under.clone().all(|room| room.height == Some(1.3) && room.state > 0));
     assert!(under.count() > 0);
     world.bridges[0].height = 0.5;

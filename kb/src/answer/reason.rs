@@ -162,12 +162,9 @@ fn apart(
             )
         }
         _ => format!(
-            "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: cells of {step:.3} m \
-             are too coarse for it, so say `grid = {:.3}` in site.toml (or the rules do not let that state move)",
-            way.width,
-            way.at.x,
-            way.at.y,
-            step / 2.0
+            "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: rules do not let that \
+             state move, or change into it",
+            way.width, way.at.x, way.at.y
         ),
     })
 }

@@ -67,9 +67,12 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
 fn free_space(report: &Report) {
     let map = &report.map;
     let mut parts = Vec::new();
-    for (what, area) in
-        [("unknown", map.unknown), ("specks", map.specks), ("grid", map.grid), ("clearance", map.clearance)]
-    {
+    for (what, area) in [
+        ("unknown", map.unknown),
+        ("specks", map.specks),
+        ("walls made straight", map.straightened),
+        ("clearance", map.clearance),
+    ] {
         if area.abs() >= 0.005 {
             let verb = if area > 0.0 { "gave" } else { "cost" };
             parts.push(format!("{what} {verb} {} m²", number(area.abs())));

@@ -84,9 +84,10 @@ pub fn keys(table: &Table, parts: &[String]) -> Vec<String> {
     (0..table.len()).map(key).collect()
 }
 
-/// A property as `CLASS.property`, split.
+/// A property as `CLASS.property`, or `CLASS.property?` where it need not be there, split.
 pub fn split(name: &str) -> (&str, &str) {
-    name.split_once('.').unwrap_or((name, ""))
+    let (class, property) = name.split_once('.').unwrap_or((name, ""));
+    (class, property.trim_end_matches('?'))
 }
 
 /// What a planner may know: the properties that it needs, as they stand.

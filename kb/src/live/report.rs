@@ -301,7 +301,7 @@ impl Report {
                 "unknown_in_file": self.map.unknown_in_file,
                 "unknown": self.map.unknown,
                 "specks": self.map.specks,
-                "grid": self.map.grid,
+                "straightened": self.map.straightened,
                 "clearance": self.map.clearance,
                 "free": self.map.free,
             },

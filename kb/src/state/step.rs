@@ -328,7 +328,7 @@ impl State {
     fn missing(&self, planner: &dyn Planner) -> Vec<String> {
         let is_known = |need: &String| {
             let (class, property) = classes::split(need);
-            classes::column(&self.knowledge, class, property).is_some()
+            need.ends_with('?') || classes::column(&self.knowledge, class, property).is_some()
         };
         planner.signature().needs.into_iter().filter(|need| !is_known(need)).collect()
     }

@@ -42,13 +42,23 @@ impl Convex {
 
     /// Counterclockwise.
     pub fn corners(&self) -> impl Iterator<Item = Point> + Clone + '_ {
-        (0..self.count()).map(|number| self.corner(number))
+        let corners = self.all();
+        (0..corners.count()).map(move |number| corners.at(number))
     }
 
     /// Counterclockwise, with the ground to the left.
     pub fn sides(&self) -> impl Iterator<Item = Segment> + Clone + '_ {
-        let count = self.count();
-        (0..count).map(move |number| Segment::new(self.corner(number), self.corner((number + 1) % count)))
+        let corners = self.all();
+        let last = corners.count() - 1;
+        let next = move |number: usize| if number == last { 0 } else { number + 1 };
+        (0..=last).map(move |number| Segment::new(corners.at(number), corners.at(next(number))))
+    }
+
+    fn all(&self) -> Corners<'_> {
+        match &self.corners {
+            Some(corners) => Corners::Polygon(corners),
+            None => Corners::Rect(self.bounds.corners()),
+        }
     }
 
     fn count(&self) -> usize {
@@ -56,10 +66,7 @@ impl Convex {
     }
 
     fn corner(&self, number: usize) -> Point {
-        match &self.corners {
-            Some(corners) => corners[number],
-            None => self.bounds.corners()[number],
-        }
+        self.all().at(number)
     }
 
     /// Whether a point lies inside or on the outline; of what is no rectangle, or a rounding beside it.
@@ -97,6 +104,11 @@ impl Convex {
     }
 
     fn shares_near(&self, from: Point, to: Point, slack_m: f64) -> Option<(f64, f64)> {
+        // most that are asked about are far apart, and boxes tell that soonest
+        let (dx, dy) = self.bounds.axis_gaps(&Segment::new(from, to).bounds());
+        if dx.max(dy) > slack_m {
+            return None;
+        }
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         for side in self.sides() {
             let (one, two) = (cross(side.a, side.b, from), cross(side.a, side.b, to));
@@ -289,6 +301,28 @@ impl Convex {
             farthest.fold(0.0, f64::max) / side.length().max(ROUNDING_M)
         };
         self.sides().map(across).fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Corners<'a> {
+    Rect([Point; 4]),
+    Polygon(&'a [Point]),
+}
+
+impl Corners<'_> {
+    fn count(&self) -> usize {
+        match self {
+            Self::Rect(_) => 4,
+            Self::Polygon(corners) => corners.len(),
+        }
+    }
+
+    fn at(&self, number: usize) -> Point {
+        match self {
+            Self::Rect(corners) => corners[number],
+            Self::Polygon(corners) => corners[number],
+        }
     }
 }
 

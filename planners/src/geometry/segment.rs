@@ -93,6 +93,10 @@ impl Segment {
     /// The part that lies on another one, as near as points are told apart, in its own direction; `None` where that is at
     /// most a point.
     pub fn shared_with(&self, other: &Self) -> Option<Self> {
+        let (dx, dy) = self.bounds().axis_gaps(&other.bounds());
+        if dx.max(dy) > SNAP_M {
+            return None;
+        }
         let way = self.b - self.a;
         let squared = way.dot(way);
         let [one, two] = [other.a, other.b].map(|end| (end - self.a).dot(way) / squared);

@@ -14,7 +14,7 @@ use crate::geometry::{Point, Rect};
 pub(super) type Rings = Vec<Vec<Point>>;
 
 /// The largest angle by which a tangent of an arc turns from the next one.
-const TURN: f64 = TAU / 12.0;
+const TURN: f64 = TAU / 8.0;
 
 /// What is moved about.
 #[derive(Clone, Debug, PartialEq)]

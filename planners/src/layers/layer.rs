@@ -87,7 +87,7 @@ impl Layer {
                 (Moved::Disc(keep).free_space(bounds, &solid), None)
             }
             Some((length, facing)) => {
-                let solid = walls.about_bodies(&low);
+                let solid = walls.straight(&low);
                 let body = footprint::body(length, size.width, clearance, facing);
                 let sweep = footprint::sweep(length, size.width, clearance, facing);
                 let turning = Moved::Body(sweep).free_space(bounds, &solid);

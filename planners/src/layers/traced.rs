@@ -1,6 +1,6 @@
 //! The outlines of an image's walls.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use crate::geometry::{Point, Segment, cross};
 use crate::world::Occupancy;
@@ -31,16 +31,16 @@ pub(super) fn outlines(occupancy: &Occupancy) -> Vec<Vec<Corner>> {
         _ => [x, y - 1],
     };
     // sides that run to the right, with the wall above: each outline has one
-    let mut open: BTreeMap<(i32, i32), ()> = BTreeMap::new();
+    let mut open: BTreeSet<(i32, i32)> = BTreeSet::new();
     for row in 0..rows {
         for column in 0..columns {
             if is_wall(column, row) && !is_wall(column, row - 1) {
-                open.insert((row, column), ());
+                open.insert((row, column));
             }
         }
     }
     let mut rings = Vec::new();
-    while let Some((&(row, column), ())) = open.first_key_value() {
+    while let Some(&(row, column)) = open.first() {
         let (start, mut at, mut direction) = ([column, row], [column, row], 0);
         let mut ring = Vec::new();
         loop {

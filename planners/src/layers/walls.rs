@@ -86,7 +86,7 @@ impl Walls {
     }
 
     /// The walls with the rectangles `low`, as straight as they can be.
-    pub fn about_bodies(&self, low: &[Rect]) -> Vec<Vec<Corner>> {
+    pub fn straight(&self, low: &[Rect]) -> Vec<Vec<Corner>> {
         let corners = |ring: &Ring| ring.kept.iter().map(|&corner| ring.corners[corner].into()).collect();
         self.rings.iter().map(corners).chain(low.iter().map(|rect| corners(&Ring::of_rect(rect)))).collect()
     }

@@ -22,7 +22,7 @@ impl Planner for RoomsInOverlays {
     }
 
     fn signature(&self) -> Signature {
-        let needs = ["room", "x0", "y0", "x1", "y1", "outline"].map(|property| format!("ROOMS.{property}"));
+        let needs = ["room", "x0", "y0", "x1", "y1", "outline?"].map(|property| format!("ROOMS.{property}"));
         Signature { needs: needs.into(), gives: super::MEMBERS_GIVE.map(str::to_owned).into() }
     }
 

@@ -3,7 +3,7 @@
 use geo::{Area, BooleanOps, unary_union};
 
 use super::diagnostic::{Code, MapErrors, Problem};
-use crate::layers::{Lattice, Solid};
+use crate::layers::{Lattice, free_areas};
 use crate::world::World;
 
 /// Free space in square metres: what the file has, and what each step then gave (positive) or cost (negative).
@@ -17,9 +17,8 @@ pub struct MapReport {
     pub unknown: f64,
     /// Given by dropping specks.
     pub specks: f64,
-    /// Cost of a grid that is not the image's: cells that a wall only touches are lost whole. 0 where the layers'
-    /// planner chooses the grid.
-    pub grid: f64,
+    /// Cost of making an image's walls straight: where no gap is tight, they gain up to a cell.
+    pub straightened: f64,
     /// Cost of the clearance for a point-like robot; what a robot's width costs comes on top, a layer each.
     pub clearance: f64,
     /// Free after all that.
@@ -29,26 +28,24 @@ pub struct MapReport {
 }
 
 impl MapReport {
-    /// Fills in what was not counted cell by cell: the free space of a vector map, [`grid`](Self::grid),
+    /// Fills in what was not counted cell by cell: the free space of a vector map, [`straightened`](Self::straightened),
     /// [`clearance`](Self::clearance) and [`free`](Self::free).
     pub(super) fn measure(&mut self, world: &World) -> Result<(), MapErrors> {
         if world.occupancy.is_none() {
             self.free_in_file = drawn_free_area(world);
         }
+        if let Some(side) = world.grid {
+            Lattice::new(world.bounds, side)
+                .map_err(|what| MapErrors::from(Problem::of_file(Code::GridTooFine, what)))?;
+        }
         self.free = self.free_in_file + self.unknown + self.specks;
-        let native = world.occupancy.as_ref().map(|cells| cells.resolution);
-        let Some(side) = world.grid.or(native) else { return Ok(()) };
-        let lattice = Lattice::new(world.bounds, side)
-            .map_err(|what| MapErrors::from(Problem::of_file(Code::GridTooFine, what)))?;
-        if native == Some(side) && world.clearance <= 0.0 {
+        if world.occupancy.is_none() && world.clearance <= 0.0 {
             return Ok(());
         }
-        let solid = Solid::new(world, lattice);
-        let area = |clearance| solid.free_cells(clearance, &[]).count() as f64 * side * side;
-        let on_grid = area(0.0);
-        self.grid = if native == Some(side) { 0.0 } else { on_grid - self.free };
-        self.clearance = if world.clearance > 0.0 { area(world.clearance) - on_grid } else { 0.0 };
-        self.free += self.grid + self.clearance;
+        let [straight, clear] = free_areas(world);
+        self.straightened = if world.occupancy.is_some() { straight - self.free } else { 0.0 };
+        self.clearance = clear - straight;
+        self.free += self.straightened + self.clearance;
         Ok(())
     }
 }

@@ -18,7 +18,7 @@ pub struct MapSettings {
     pub unknown: Unknown,
     /// Blobs of wall cells with a smaller area are dropped, square metres; 0 drops none. `None`: those that are salt.
     pub speck_area: Option<f64>,
-    /// Side of a cell of the layers, metres; `None`: the image's resolution, or chosen by the planner.
+    /// Steps in which the narrowest place of a way is looked for, metres; `None`: the image's resolution, or chosen.
     pub grid: Option<f64>,
     /// Kept free around every state besides its own width, metres.
     pub clearance: f64,

@@ -1,6 +1,7 @@
 //! The graph of routes: rooms joined by doors, what they weigh, and what is kept of both for searches.
 
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::ops::Index;
 use std::sync::OnceLock;
 
@@ -87,7 +88,7 @@ impl RouteGraph {
         let (rooms, doors) = (rooms.into_iter().collect::<Vec<_>>(), doors.into_iter().collect::<Vec<_>>());
         self.reweigh_cut(&rooms, &doors);
         let was_on_doors = self.is_on_doors();
-        let (mut touched, mut orders, mut is_other_price) = (Vec::new(), Vec::new(), false);
+        let (mut touched, mut orders, mut prices) = (Vec::new(), Vec::new(), BTreeMap::new());
         let rooms: Vec<(RoomIndex, Walking)> =
             rooms.into_iter().filter(|(room, walking)| self[*room].walking != *walking).collect();
         if !rooms.is_empty() {
@@ -105,7 +106,9 @@ impl RouteGraph {
             let of = &mut self.doors[door.index()];
             let before = of.weight();
             (of.hardness, of.passable) = (hardness, passable);
-            is_other_price |= of.is_change() && of.weight() != before;
+            if of.is_change() && of.weight() != before {
+                prices.entry(door).or_insert(before);
+            }
             if !is_all {
                 touched.push(door);
             }
@@ -118,13 +121,14 @@ impl RouteGraph {
         let is_on_doors = was_on_doors && self.is_on_doors();
         let orders_now: Vec<Ordering> =
             touched[..orders.len()].iter().map(|&door| self.order(door)).collect();
+        let is_other_price = !self.are_priced_alike(&prices);
         let Some(turning) = self.turning.get_mut() else { return };
         let is_passed_otherwise = turning.pass((&self.rooms, &self.doors), &passing);
         if is_on_doors {
             return;
         }
-        // a gate hangs on which of two rooms is easier, on what is free beside it, and on the prices of changes
-        if is_other_price || is_passed_otherwise {
+        // a gate hangs on which of two rooms is easier, on what is free beside it, and on which changes have one price
+        if is_passed_otherwise || is_other_price {
             turning.gates.fill_with(Default::default);
         } else {
             for (door, (before, now)) in orders.iter().zip(orders_now).enumerate() {
@@ -133,6 +137,21 @@ impl RouteGraph {
                 }
             }
         }
+    }
+
+    /// Whether changes of shape have one price where they had one, and only there.
+    ///
+    /// # Arguments
+    /// `before` has the prices that are others now.
+    fn are_priced_alike(&self, before: &BTreeMap<DoorIndex, Option<f64>>) -> bool {
+        let bits = |price: Option<f64>| price.map(f64::to_bits);
+        let (mut now_of, mut was_of) = (BTreeMap::new(), BTreeMap::new());
+        let mut changes = self.door_indices().filter(|&door| !before.is_empty() && self[door].is_change());
+        changes.all(|door| {
+            let now = bits(self[door].weight());
+            let was = before.get(&door).map_or(now, |price| bits(*price));
+            *now_of.entry(was).or_insert(now) == now && *was_of.entry(now).or_insert(was) == was
+        })
     }
 
     /// Weighs these doors anew where ways between any two rooms are prepared.

@@ -178,7 +178,7 @@ impl Chain<'_> {
         Some(links)
     }
 
-    /// Takes one change of shape instead of several at one point, where that costs no more.
+    /// Takes one change of shape instead of several at one point, where that costs no more, and none where doors lead there.
     fn join_changes(&mut self) {
         let graph = self.graph;
         let mut first = 0;
@@ -192,21 +192,54 @@ impl Chain<'_> {
                 let to = run.last()?.room;
                 let price: f64 = run.iter().filter_map(|link| graph.passage(link.door)).sum();
                 if to == from {
-                    return Some((count, None));
+                    return Some((count, Vec::new()));
+                }
+                if run.iter().any(|link| !graph.is_free(link.door))
+                    && let Some(doors) = self.around(from, to, at)
+                {
+                    return Some((count, doors));
                 }
                 let exit = graph.exits.changes(from).iter().find(|exit| {
-                    let area = &graph[exit.door].crossing;
+                    let crossing = &graph[exit.door].crossing;
                     exit.to == to
-                        && area.nearest_to(at).distance(at) <= SNAP_M
+                        && crossing.nearest_to(at).distance(at) <= SNAP_M
                         && graph.passage(exit.door).is_some_and(|weight| weight <= price + EPSILON)
                 })?;
-                Some((count, Some(Link::new(graph, exit.door, at, to))))
+                Some((count, vec![Link::new(graph, exit.door, at, to)]))
             });
-            if let Some((count, link)) = joined {
-                self.links.splice(first..first + count, link);
+            if let Some((count, links)) = joined {
+                self.links.splice(first..first + count, links);
             }
             first += 1;
         }
+    }
+
+    /// The doors that weigh nothing through which one comes from a room into another about a point of both.
+    fn around(&self, from: RoomIndex, to: RoomIndex, at: Point) -> Option<Vec<Link>> {
+        let graph = self.graph;
+        if graph.turning().mesh.layer(from) != graph.turning().mesh.layer(to) {
+            return None;
+        }
+        // each room with the door by which it was entered, and which one was left
+        let mut reached: Vec<(RoomIndex, Option<(usize, DoorIndex)>)> = vec![(from, None)];
+        let mut next = 0;
+        while let Some(&(room, _)) = reached.get(next).filter(|(room, _)| *room != to) {
+            for exit in graph.exits.portals(room).iter().filter(|exit| graph.is_free(exit.door)) {
+                let is_new = reached.iter().all(|(room, _)| *room != exit.to);
+                if is_new && graph[exit.door].crossing.nearest_to(at).distance(at) <= SNAP_M {
+                    reached.push((exit.to, Some((next, exit.door))));
+                }
+            }
+            next += 1;
+        }
+        let mut links = Vec::new();
+        let mut place = next;
+        while let (room, Some((before, door))) = *reached.get(place)? {
+            links.push(Link::new(graph, door, at, room));
+            place = before;
+        }
+        links.reverse();
+        Some(links)
     }
 
     /// Slides each stop along its segment to where its two neighbours are joined at least hardness.

@@ -2,8 +2,12 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Crossing, Kind, Room, State, cut_layers};
-use adit_planners::routes::{Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way};
+use adit_planners::routes::{
+    Crossing as Where, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+};
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
+use petgraph::algo::dijkstra;
+use petgraph::graph::{NodeIndex, UnGraph};
 use proptest::prelude::*;
 
 pub const SIDE: f64 = 12.0;
@@ -58,15 +62,18 @@ pub fn graph(world: &World, shapes: &[(State, f64)], change: f64) -> RouteGraph 
     let states: Vec<State> = shapes.iter().map(|(state, _)| state.clone()).collect();
     let layers = cut_layers(world, &states).unwrap();
     let weigh = |room: &Room| RouteRoom {
-        outline: room.rect.into(),
+        outline: room.outline.clone(),
         walking: Walking::PerMetre(shapes[room.state].1),
     };
     let door = |(index, crossing): (usize, &Crossing)| RouteDoor {
         door: index as u32 + 1,
         room1: RoomIndex::new(crossing.room1),
         room2: RoomIndex::new(crossing.room2),
-        crossing: crossing.rect.into(),
-        at: crossing.rect.centre(),
+        crossing: match crossing.kind {
+            Kind::Door => Where::Through(crossing.across),
+            Kind::Change => Where::Within(layers.area(crossing)),
+        },
+        at: crossing.across.middle(),
         hardness: Some(if crossing.kind == Kind::Change { change } else { 0.0 }),
         passable: true,
         one_way: crossing.kind == Kind::Change,
@@ -100,4 +107,61 @@ pub fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Resu
     }
     prop_assert!(at.distance(to) < 1e-9 && (way.cost - cost).abs() < 1e-9);
     Ok(())
+}
+
+/// The least length over corners that see each other through the rooms.
+pub fn shortest(graph: &RouteGraph, corners: &[Point], from: Point, to: Point) -> Option<f64> {
+    let all: Vec<Point> = corners.iter().copied().chain([from, to]).collect();
+    let mut seen = UnGraph::<(), f64>::default();
+    let nodes: Vec<NodeIndex> = all.iter().map(|_| seen.add_node(())).collect();
+    for (one, &a) in all.iter().enumerate() {
+        for (two, &b) in all.iter().enumerate().skip(one + 1) {
+            if is_free(graph, a, b) {
+                seen.add_edge(nodes[one], nodes[two], a.distance(b));
+            }
+        }
+    }
+    let (from, to) = (nodes[all.len() - 2], nodes[all.len() - 1]);
+    dijkstra(&seen, from, Some(to), |edge| *edge.weight()).get(&to).copied()
+}
+
+/// Whether the rooms cover the whole segment.
+fn is_free(graph: &RouteGraph, a: Point, b: Point) -> bool {
+    let mut parts: Vec<(f64, f64)> =
+        graph.rooms().iter().filter_map(|room| room.outline.shares(a, b)).collect();
+    parts.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let covered = parts
+        .into_iter()
+        .fold(0.0, |done: f64, (from, to)| if from > done + 1e-9 { done } else { done.max(to) });
+    covered >= 1.0 - 1e-9
+}
+
+/// The corners of all rooms.
+fn corners(graph: &RouteGraph) -> Vec<Point> {
+    let mut corners: Vec<Point> = graph.rooms().iter().flat_map(|room| room.outline.corners()).collect();
+    corners.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    corners.dedup_by(|a, b| a.distance(*b) < 1e-7);
+    corners
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: std::env::var("CASES").map_or(48, |cases| cases.parse().unwrap()),
+        max_global_rejects: 100_000,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn in_one_state_a_way_is_as_short_as_over_a_visibility_graph(
+        blocks in blocks(), from in point(), to in point()
+    ) {
+        let graph = graph(&hall(&blocks, &[]), &shapes()[..1], 0.0);
+        prop_assume!(!holding(&graph, from).is_empty() && !holding(&graph, to).is_empty());
+        let (least, way) = (shortest(&graph, &corners(&graph), from, to), way(&graph, from, to));
+        prop_assert_eq!(least.is_some(), way.is_some());
+        if let (Some(least), Some(way)) = (least, way) {
+            check_legs(&graph, &way, from, to)?;
+            prop_assert!((way.cost - least).abs() < 1e-6 * least.max(1.0), "{} for {least}", way.cost);
+        }
+    }
 }

@@ -4,12 +4,10 @@ use std::collections::BTreeMap;
 
 use adit_planners::geometry::{Convex, Point, Segment};
 use adit_planners::routes::{Crossing, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
-use petgraph::algo::dijkstra;
-use petgraph::graph::{NodeIndex, UnGraph};
 use proptest::prelude::*;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
-use super::floors::{SIDE, check_legs, holding, point, way};
+use super::floors::{SIDE, check_legs, holding, point, shortest, way};
 
 /// A room by its corners, counterclockwise, by number.
 type Room = Vec<usize>;
@@ -104,22 +102,6 @@ impl Hall {
             sides.values().filter(|count| **count == 1).count() > 2
         })
     }
-
-    /// The least length over the corners that see each other.
-    fn shortest(&self, graph: &RouteGraph, from: Point, to: Point) -> Option<f64> {
-        let all: Vec<Point> = self.points.iter().copied().chain([from, to]).collect();
-        let mut seen = UnGraph::<(), f64>::default();
-        let nodes: Vec<NodeIndex> = all.iter().map(|_| seen.add_node(())).collect();
-        for (one, &a) in all.iter().enumerate() {
-            for (two, &b) in all.iter().enumerate().skip(one + 1) {
-                if is_free(graph, a, b) {
-                    seen.add_edge(nodes[one], nodes[two], a.distance(b));
-                }
-            }
-        }
-        let (from, to) = (nodes[all.len() - 2], nodes[all.len() - 1]);
-        dijkstra(&seen, from, Some(to), |edge| *edge.weight()).get(&to).copied()
-    }
 }
 
 /// The side that two rooms share, as the first one has it.
@@ -129,17 +111,6 @@ fn shared(one: &Room, two: &Room) -> Option<[usize; 2]> {
     };
     let others = sides(two);
     sides(one).into_iter().find(|&[a, b]| others.contains(&[b, a]))
-}
-
-/// Whether the rooms cover the whole segment.
-fn is_free(graph: &RouteGraph, a: Point, b: Point) -> bool {
-    let mut parts: Vec<(f64, f64)> =
-        graph.rooms().iter().filter_map(|room| room.outline.shares(a, b)).collect();
-    parts.sort_by(|one, two| one.0.total_cmp(&two.0));
-    let covered = parts
-        .into_iter()
-        .fold(0.0, |done: f64, (from, to)| if from > done + 1e-9 { done } else { done.max(to) });
-    covered >= 1.0 - 1e-9
 }
 
 proptest! {
@@ -158,7 +129,7 @@ proptest! {
         let hall = Hall::new(&inner, &solid, &merged);
         let graph = hall.graph();
         prop_assume!(!holding(&graph, from).is_empty() && !holding(&graph, to).is_empty() && !hall.has_pinch());
-        let (least, way) = (hall.shortest(&graph, from, to), way(&graph, from, to));
+        let (least, way) = (shortest(&graph, &hall.points, from, to), way(&graph, from, to));
         prop_assert_eq!(least.is_some(), way.is_some());
         if let (Some(least), Some(way)) = (least, way) {
             check_legs(&graph, &way, from, to)?;

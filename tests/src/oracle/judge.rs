@@ -15,7 +15,7 @@ const TRESPASS: f64 = 1e-6;
 /// How much a told cost may differ from that of the way told, as a part of it.
 const ROUNDING: f64 = 1e-6;
 /// How much cheaper than the best way known a route may be before the judge is to blame.
-const JUDGE_MISSES: f64 = 0.005;
+const JUDGE_MISSES: f64 = 0.01;
 
 /// What was found out about routes.
 #[derive(Clone, Debug, Default)]
