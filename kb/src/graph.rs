@@ -1,5 +1,6 @@
 //! The graph of a site, for searches: which rooms and doors there are, and where points and names lie in it.
 
+mod boundary;
 mod ends;
 pub(crate) mod gauge;
 mod layers;
@@ -108,11 +109,7 @@ impl SiteGraph {
 
     /// Where doors are told to let nobody through: that holds for every state and robot.
     fn boundaries(&self) -> Vec<Closed> {
-        let boundary = |&door: &DoorIndex| {
-            let door = &self.graph[door];
-            door.crossing.segment().map(|segment| Closed { door: door.door, segment })
-        };
-        self.closed.iter().filter_map(boundary).collect()
+        self.closed.iter().filter_map(|&door| self.boundary(&self.graph[door])).collect()
     }
 
     /// Makes answers quick between any two ends. Copies made from now on are prepared, too.

@@ -3,12 +3,12 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::ops::Index;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
-use super::turning::Turning;
+use super::turning::{Turning, unknown_gates};
 use crate::geometry::Segment;
 use crate::search::Csr;
 
@@ -129,11 +129,11 @@ impl RouteGraph {
         }
         // a gate hangs on which of two rooms is easier, on what is free beside it, and on which changes have one price
         if is_passed_otherwise || is_other_price {
-            turning.gates.fill_with(Default::default);
+            turning.gates = unknown_gates(self.doors.len());
         } else {
             for (door, (before, now)) in orders.iter().zip(orders_now).enumerate() {
                 if *before != now {
-                    turning.gates[door] = Default::default();
+                    Arc::make_mut(&mut turning.gates)[door] = Default::default();
                 }
             }
         }

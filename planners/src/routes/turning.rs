@@ -1,7 +1,7 @@
 //! Where ways that weigh metres may turn: about ends of doors, and where a change of shape may pay. Nobody asks where all
 //! hardness lies on the doors, so it is found when first asked for, and follows the weights from then on.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::cone::Segment;
 use super::mesh::{Mesh, NONE};
@@ -22,14 +22,21 @@ pub(super) struct Turning {
     pub bends: Vec<bool>,
     /// For each door what passing it changes.
     passing: Vec<Passing>,
-    /// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
-    pub gates: Vec<[OnceLock<Box<[Gate]>>; 2]>,
+    /// What clones find, all have, as long as nothing that gates hang on is otherwise in one of them.
+    pub gates: Arc<Gates>,
+}
+
+/// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
+pub(super) type Gates = Vec<[OnceLock<Box<[Gate]>>; 2]>;
+
+pub(super) fn unknown_gates(doors: usize) -> Arc<Gates> {
+    Arc::new(vec![[OnceLock::new(), OnceLock::new()]; doors])
 }
 
 impl Turning {
     pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>) -> Self {
         let mesh = Mesh::new(rooms.len(), doors);
-        let gates = vec![[OnceLock::new(), OnceLock::new()]; doors.len()];
+        let gates = unknown_gates(doors.len());
         let mut all = Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates };
         all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
