@@ -32,6 +32,30 @@ pub fn spans(sides: impl IntoIterator<Item = Segment>, y: f64) -> Vec<[f64; 2]> 
     crossings.chunks_exact(2).map(|span| [span[0], span[1]]).collect()
 }
 
+/// A polygon without the corners that lie no farther than so many metres from the straight line between their neighbours.
+pub fn without_straight(corners: &[Point], aside_m: f64) -> Vec<Point> {
+    let leftmost = |&one: &usize, &two: &usize| {
+        let (one, two) = (corners[one], corners[two]);
+        one.x.total_cmp(&two.x).then(one.y.total_cmp(&two.y))
+    };
+    let Some(first) = (0..corners.len()).min_by(leftmost) else { return Vec::new() };
+    let mut kept: Vec<Point> = Vec::with_capacity(corners.len());
+    for &next in corners[first..].iter().chain(&corners[..=first]) {
+        while let [.., before, last] = kept[..]
+            && Segment::new(before, next).distance(last) <= aside_m
+        {
+            kept.pop();
+        }
+        if kept.last().is_none_or(|last| last.distance(next) > aside_m) {
+            kept.push(next);
+        }
+    }
+    if kept.len() > 1 && kept.first() == kept.last() {
+        kept.pop();
+    }
+    kept
+}
+
 /// Whether a convex outline, counterclockwise, holds a point, or comes as near to it as so many metres.
 pub fn is_in_convex(corners: &[Point], p: Point, slack_m: f64) -> bool {
     sides(corners).all(|side| (side.b - side.a).cross(p - side.a) >= -slack_m * side.length())
@@ -71,6 +95,14 @@ mod tests {
         let pinched = polygon([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 0.0), (0.0, 2.0)]);
         assert_eq!(self_crossing(&pinched), Some((0, 2)));
         assert_eq!(self_crossing(&polygon([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 0.5)])), None);
+    }
+
+    #[test]
+    fn corners_on_straight_sides_and_twice_the_same_are_left_out() {
+        let about = polygon([(1.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 1.0), (1e-8, 0.0)]);
+        let left = without_straight(&about, 1e-7);
+        assert_eq!(left, polygon([(2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1e-8, 0.0)]).to_vec());
+        assert_eq!(without_straight(&[], 1e-7), []);
     }
 
     #[test]

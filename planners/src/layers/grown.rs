@@ -7,6 +7,7 @@ use geo::algorithm::bool_ops::FillRule;
 use geo::{BooleanOps, Coord, LineString, MultiPolygon, OpType, Polygon};
 
 use super::walls::Corner;
+use crate::geometry::polygon::without_straight;
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Point, Rect};
 
@@ -14,7 +15,10 @@ use crate::geometry::{Point, Rect};
 pub(super) type Rings = Vec<Vec<Point>>;
 
 /// The largest angle by which a tangent of an arc turns from the next one.
-const TURN: f64 = TAU / 8.0;
+const TURN: f64 = TAU / 4.0;
+
+/// Straight sides are left as rough as this, metres.
+const ROUGH_M: f64 = 0.5 * SNAP_M;
 
 /// What is moved about.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +35,7 @@ impl Moved {
         1.0 / (TURN / 2.0).cos()
     }
 
-    /// Where its middle can be.
+    /// Where its middle can be, up to [`SNAP_M`].
     ///
     /// # Arguments
     /// `solid` lies to the left of its rings.
@@ -50,7 +54,8 @@ impl Moved {
         let floor = polygon(inner.corners().map(Coord::from).into());
         let free = floor.boolean_op_with_fill_rule(&grown, OpType::Difference, FillRule::Positive);
         let rings = free.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
-        rings.map(|ring| ring.0[..ring.0.len() - 1].iter().map(|&corner| corner.into()).collect()).collect()
+        let corners = rings.map(|ring| ring.0.iter().map(|&corner| corner.into()).collect::<Vec<Point>>());
+        corners.map(|corners| without_straight(&corners, ROUGH_M)).filter(|corners| corners.len() > 2).collect()
     }
 
     fn extent(&self) -> Rect {
@@ -84,11 +89,11 @@ impl Moved {
     /// How a side is moved to whose outside a direction points.
     fn reach(&self, outward: Point) -> Point {
         match self {
-            Self::Disc(radius) => outward * (radius + SNAP_M),
+            Self::Disc(radius) => outward * *radius,
             Self::Body(corners) => {
                 // what touches a wall is the part of the body that lies furthest against it
                 let furthest = corners.iter().min_by(|a, b| a.dot(outward).total_cmp(&b.dot(outward)));
-                furthest.map_or(Point::default(), |&corner| -corner + outward * SNAP_M)
+                furthest.map_or(Point::default(), |&corner| -corner)
             }
         }
     }
@@ -106,7 +111,7 @@ impl Moved {
                 let corner = |ends: &[f64]| {
                     let (middle, half) = (f64::midpoint(ends[0], ends[1]), (ends[1] - ends[0]) / 2.0);
                     let way = from.rotated(Point::towards(middle));
-                    Coord::from(here + way * ((radius + SNAP_M) / half.cos()))
+                    Coord::from(here + way * (radius / half.cos()))
                 };
                 moved.extend(touching.windows(2).map(corner));
             }
@@ -123,10 +128,8 @@ impl Moved {
                     }
                 }
                 facing.sort_by(|a, b| a.0.total_cmp(&b.0));
-                for (angle, side) in facing {
-                    let against = from.rotated(Point::towards(angle));
-                    let end = corners[(side + 1) % count];
-                    moved.push(Coord::from(here - end + against * SNAP_M));
+                for (_, side) in facing {
+                    moved.push(Coord::from(here - corners[(side + 1) % count]));
                 }
                 moved.push(Coord::from(here + self.reach(from.rotated(Point::towards(turned)))));
             }
@@ -190,7 +193,7 @@ mod tests {
                 let edge = p.x.min(10.0 - p.x).min(p.y).min(10.0 - p.y);
                 let distance = solid.fold(edge, f64::min);
                 let is_free = encloses(free.iter().flat_map(|ring| sides(ring)), p);
-                if distance < radius {
+                if distance < radius - SNAP_M {
                     prop_assert!(!is_free, "{p:?} is {distance} from what is solid");
                 } else if distance > radius * Moved::most() + 1e-5 {
                     prop_assert!(is_free, "{p:?} is {distance} from what is solid");

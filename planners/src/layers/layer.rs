@@ -12,6 +12,7 @@ use super::labels::{Label, Labels};
 use super::pieces::Pieces;
 use super::record::State;
 use super::walls::Walls;
+use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Rect, Segment};
 use crate::search::Csr;
 use crate::world::World;
@@ -79,7 +80,8 @@ impl Places {
 impl Layer {
     fn cut(world: &World, walls: &Walls, labels: &Labels, size: &Size) -> Result<Self, String> {
         let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
-        let (bounds, clearance) = (world.bounds, world.clearance);
+        // what is free within a rounding is not free
+        let (bounds, clearance) = (world.bounds, world.clearance + SNAP_M);
         let (free, turning) = match size.lies {
             None => {
                 let keep = size.width / 2.0 + clearance;

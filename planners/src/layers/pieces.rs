@@ -8,7 +8,7 @@ use spade::handles::{FixedVertexHandle, OUTER_FACE};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::grown::Rings;
-use crate::geometry::polygon::{encloses, sides};
+use crate::geometry::polygon::{encloses, sides, without_straight};
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Convex, Point, Segment, cross};
 
@@ -174,7 +174,11 @@ impl Mesh {
             }
             outlines.push(outline);
         }
-        let shapes: Vec<Convex> = outlines.iter().map(|outline| Convex::new(self.corners(outline))).collect();
+        let shape = |outline: &Vec<u32>| {
+            let corners: Vec<Point> = outline.iter().map(|&half| self.at(half)).collect();
+            Convex::new(without_straight(&corners, ROUNDING_M))
+        };
+        let shapes: Vec<Convex> = outlines.iter().map(shape).collect();
         let mut order: Vec<usize> = (0..shapes.len()).collect();
         let areas: Vec<f64> = shapes.iter().map(Convex::area).collect();
         order.sort_by(|&a, &b| areas[b].total_cmp(&areas[a]).then(a.cmp(&b)));
@@ -213,28 +217,6 @@ impl Mesh {
     fn is_gone(&mut self, half: u32) -> bool {
         let (one, other) = (self.halves[half as usize].of, self.halves[half as usize ^ 1].of);
         other != NONE && self.piece(one) == self.piece(other)
-    }
-
-    /// The corners of an outline, without those that lie on a straight side.
-    fn corners(&self, outline: &[u32]) -> Vec<Point> {
-        let mut corners: Vec<Point> = outline.iter().map(|&half| self.at(half)).collect();
-        let is_straight = |a: Point, b: Point, c: Point| cross(a, b, c) <= ROUNDING_M * a.distance(c);
-        let mut at = 0;
-        let mut since = 0;
-        while corners.len() > 3 && since < corners.len() {
-            let count = corners.len();
-            let (before, here, after) =
-                (corners[(at + count - 1) % count], corners[at], corners[(at + 1) % count]);
-            if is_straight(before, here, after) {
-                corners.remove(at);
-                at = if at == 0 { corners.len() - 1 } else { at - 1 };
-                since = 0;
-            } else {
-                at = (at + 1) % count;
-                since += 1;
-            }
-        }
-        corners
     }
 }
 

@@ -407,6 +407,9 @@ impl<'g> Search<'g> {
         let Some(weight) = self.graph.passage(door) else { return };
         let here = self.graph.per_m(node.room);
         let Some(segment) = self.graph[door].crossing.segment() else { return };
+        if self.is_entered_before(node, room) {
+            return;
+        }
         let next = |root: Point, way: f64, view: View| Node {
             root,
             cost: node.cost + way * here + weight,
@@ -445,6 +448,19 @@ impl<'g> Search<'g> {
         for p in self.points(room, seen, node.root) {
             self.push(next(p, node.root.distance(p), View::All));
         }
+    }
+
+    /// Whether the straight line on which a node goes on came through a room before: it comes through a convex room once, but
+    /// for rounding between doors that lie on nearly one line.
+    fn is_entered_before(&self, node: &Node, room: RoomIndex) -> bool {
+        let mut on = node;
+        while matches!(on.view, View::Through(_)) && on.before != NO_NODE {
+            on = &self.nodes[on.before as usize];
+            if on.room == room {
+                return true;
+            }
+        }
+        false
     }
 
     fn is_near_a_goal(&self, gate: &Segment) -> bool {
