@@ -109,7 +109,7 @@ impl SiteGraph {
 
     /// Where doors are told to let nobody through: that holds for every state and robot.
     fn boundaries(&self) -> Vec<Closed> {
-        self.closed.iter().filter_map(|&door| self.boundary(&self.graph[door])).collect()
+        self.closed.iter().flat_map(|&door| self.boundary(&self.graph[door])).collect()
     }
 
     /// Makes answers quick between any two ends. Copies made from now on are prepared, too.

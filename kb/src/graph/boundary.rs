@@ -1,5 +1,7 @@
-//! A door that is told to let nobody through, as a boundary for all layers: its segment, carried on at both ends as far as
-//! some slimmer state finds room beside it.
+//! A door that is told to let nobody through, as a boundary for all layers: its segment, carried on from both ends into the
+//! walls, as far as some slimmer state finds room there.
+
+use std::f64::consts::TAU;
 
 use adit_planners::geometry::tolerance::SNAP_M;
 use adit_planners::geometry::{Point, Segment};
@@ -11,15 +13,40 @@ use super::layers::Layer;
 /// A boundary is carried on by so much at most, metres: more than half of what a robot is wide.
 const FURTHEST_M: f64 = 3.0;
 
+/// Walls that take less than this of the ground about a point, radians, are none.
+const SLIGHT: f64 = 1e-3;
+
 impl SiteGraph {
-    /// The boundary that a door closes; `None` for a change of shape.
-    pub(super) fn boundary(&self, door: &RouteDoor) -> Option<Closed> {
-        let segment = door.crossing.segment()?;
+    /// The boundary that a door closes; nothing for a change of shape.
+    pub(super) fn boundary(&self, door: &RouteDoor) -> Vec<Closed> {
+        let Some(segment) = door.crossing.segment() else { return Vec::new() };
         let own = self.index.layers.iter().position(|layer| layer.holds(door.room1));
-        let ahead = segment.direction() * FURTHEST_M;
-        let ends = [(segment.a, segment.a - ahead), (segment.b, segment.b + ahead)];
-        let [a, b] = ends.map(|(end, far)| end.lerp(far, self.beside(own, end, far)));
-        Some(Closed { door: door.door, segment: Segment::new(a, b) })
+        let on = [segment.a, segment.b].into_iter().filter_map(|end| {
+            let far = end + self.into_wall(&self.index.layers[own?], end)? * FURTHEST_M;
+            let share = self.beside(own, end, far);
+            (share > 0.0).then(|| Segment::new(end, end.lerp(far, share)))
+        });
+        on.chain([segment]).map(|segment| Closed { door: door.door, segment }).collect()
+    }
+
+    /// The direction from a point on the rim of a layer into the middle of what is solid there; `None` where nothing is.
+    fn into_wall(&self, layer: &Layer, at: Point) -> Option<Point> {
+        let near = layer.meeting(Segment::new(at, at).bounds().grown(SNAP_M));
+        let angle = |direction: Point| direction.y.atan2(direction.x);
+        let sector = |[from, to]: [Point; 2]| (angle(from), (angle(to) - angle(from)).rem_euclid(TAU));
+        let mut sectors: Vec<(f64, f64)> =
+            near.filter_map(|room| self.graph[room].outline.sector_at(at)).map(sector).collect();
+        sectors.sort_by(|one, two| one.0.total_cmp(&two.0));
+        let first = sectors.first()?.0;
+        // how far the ground is free from there, and the widest part that is not
+        let (mut free, mut widest) = (first, (0.0, first));
+        for (from, turn) in sectors.into_iter().chain([(first + TAU, 0.0)]) {
+            if from - free > widest.0 {
+                widest = (from - free, f64::midpoint(free, from));
+            }
+            free = free.max(from + turn);
+        }
+        (widest.0 > SLIGHT).then(|| Point::towards(widest.1))
     }
 
     /// The share of a way, from its beginning, that lies in rooms of other layers and in none of a door's own.

@@ -179,6 +179,18 @@ impl Convex {
         if self.contains(p) { TAU } else { 0.0 }
     }
 
+    /// The directions between which, counterclockwise, the ground lies about a point of the outline; `None` elsewhere.
+    pub fn sector_at(&self, p: Point) -> Option<[Point; 2]> {
+        let is_at = |side: &Segment| side.distance(p) <= SNAP_M;
+        let (on, by): (Vec<Segment>, Vec<Segment>) =
+            self.sides().filter(is_at).partition(|side| side.b.distance(p) > SNAP_M);
+        match (on.last(), by.first()) {
+            (Some(on), Some(by)) => Some([on.direction(), -by.direction()]),
+            (Some(on), None) => Some([on.direction(), -on.direction()]),
+            _ => None,
+        }
+    }
+
     /// What of a segment lies inside, or as near to it as points are told apart; `None` where at most a point does.
     pub fn clip_near(&self, segment: Segment) -> Option<Segment> {
         let (enters, leaves) = self.shares_near(segment.a, segment.b, SNAP_M)?;

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use geo::{ConvexHull, Coord, LineString};
 use rstar::{AABB, RTree, RTreeObject};
 use spade::handles::{FixedVertexHandle, OUTER_FACE};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -175,7 +176,9 @@ impl Mesh {
             outlines.push(outline);
         }
         let shape = |outline: &Vec<u32>| {
-            let corners: Vec<Point> = outline.iter().map(|&half| self.at(half)).collect();
+            // what was merged may turn right by a rounding here and there
+            let hull = outline.iter().map(|&half| Coord::from(self.at(half))).collect::<LineString>().convex_hull();
+            let corners: Vec<Point> = hull.exterior().coords().map(|&corner| corner.into()).collect();
             Convex::new(without_straight(&corners, ROUNDING_M))
         };
         let shapes: Vec<Convex> = outlines.iter().map(shape).collect();
