@@ -26,6 +26,8 @@ pub struct Room {
     pub rect: [f64; 4],
     /// Its corners as JSON, `[[x,y],…]`, counterclockwise, metres; `None` where it is that rectangle.
     pub outline: Option<String>,
+    /// Of the disc whose middle may be anywhere in it, metres; `None` for a body, and in the paper's modes.
+    pub radius: Option<f64>,
     /// Metres; `None` is unlimited.
     pub height: Option<f64>,
     /// Its breadth, metres: of a rectangle the smaller side.
@@ -63,6 +65,7 @@ impl Row for Room {
         column!(Cut Real "x1" rect[2]),
         column!(Cut Real "y1" rect[3]),
         column!(Cut Text "outline" outline),
+        column!(Cut Real "radius" radius),
         column!(Cut Real "height" height),
         column!(Cut Real "width" width),
         column!(Weight Real "hardness" hardness.value),

@@ -75,7 +75,11 @@ impl SiteGraph {
         rooms.retain(|room| {
             let outline = outline_of(room);
             let is_kept = outline.is_ok();
-            route_rooms.extend(outline.map(|outline| RouteRoom { outline, walking: walking_in(room) }));
+            route_rooms.extend(outline.map(|outline| RouteRoom {
+                outline,
+                radius: room.radius,
+                walking: walking_in(room),
+            }));
             is_kept
         });
         let room_by_key =

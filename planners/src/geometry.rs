@@ -7,6 +7,7 @@ mod point;
 pub mod polygon;
 pub mod ray_grid;
 mod rect;
+mod sector;
 mod segment;
 pub mod tolerance;
 
@@ -15,4 +16,5 @@ pub use orientation::{cross, orient};
 pub use point::{Point, path_length};
 pub use ray_grid::RayGrid;
 pub use rect::Rect;
+pub use sector::Sector;
 pub use segment::Segment;

@@ -150,6 +150,7 @@ fn rooms<'a>(world: &'a World, placed: &'a Placed) -> impl Iterator<Item = Room>
         state: placed.state,
         facing,
         outline: outline.clone(),
+        radius: placed.layer.radius,
         height: lowest(outline),
     })
 }

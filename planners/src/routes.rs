@@ -21,6 +21,7 @@ mod mesh;
 mod on_doors;
 mod parts;
 mod pull;
+mod rounded;
 mod taut;
 mod trace;
 mod turning;

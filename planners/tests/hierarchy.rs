@@ -17,7 +17,7 @@ fn rooms(is_entered: &[bool]) -> Vec<RouteRoom> {
     let room = |(index, &is_entered): (usize, &bool)| {
         let (x, y) = ((index % SIDE) as f64, (index / SIDE) as f64);
         let walking = if is_entered { Walking::OnDoors } else { Walking::Unknown };
-        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), walking }
+        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), radius: None, walking }
     };
     is_entered.iter().enumerate().map(room).collect()
 }
@@ -198,7 +198,11 @@ proptest! {
 fn floor(side: usize, draw: &mut impl FnMut(u64) -> u64) -> RouteGraph {
     let square = |room: usize| {
         let (x, y) = ((room % side) as f64, (room / side) as f64);
-        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), walking: Walking::OnDoors }
+        RouteRoom {
+            outline: Rect::new(x, y, x + 1.0, y + 1.0).into(),
+            radius: None,
+            walking: Walking::OnDoors,
+        }
     };
     let mut doors = Vec::new();
     for room in 0..side * side {

@@ -24,7 +24,10 @@ fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
 }
 
 fn rooms(count: usize) -> Vec<RouteRoom> {
-    vec![RouteRoom { outline: Rect::new(0.0, 0.0, 1.0, 1.0).into(), walking: Walking::OnDoors }; count]
+    vec![
+        RouteRoom { outline: Rect::new(0.0, 0.0, 1.0, 1.0).into(), radius: None, walking: Walking::OnDoors };
+        count
+    ]
 }
 
 fn start(room: usize) -> Start {
@@ -160,6 +163,7 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     // two rooms side by side; the shared wall lies at x = 10, the start 3 m left of it and 4 m below its lower end
     let room = |x0, hardness| RouteRoom {
         outline: Rect::new(x0, 0.0, x0 + 10.0, 10.0).into(),
+        radius: None,
         walking: Walking::PerMetre(hardness),
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0).into(), ..door(1, 0, 1, 0.5) };
@@ -178,6 +182,7 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     // a corridor 20 m long, walked at 1 a metre but for a pipe between 9 and 10 m; on the knees 4 a metre all along
     let room = |x0, x1, hardness| RouteRoom {
         outline: Rect::new(x0, 0.0, x1, 2.0).into(),
+        radius: None,
         walking: Walking::PerMetre(hardness),
     };
     let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];

@@ -43,6 +43,7 @@ fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
     let layers = cut_layers(world, &shapes).unwrap();
     let weigh = |room: &adit_planners::layers::Room| RouteRoom {
         outline: room.outline.clone(),
+        radius: None,
         walking: Walking::PerMetre(states[room.state].1),
     };
     let door = |(index, crossing): (usize, &adit_planners::layers::Crossing)| RouteDoor {

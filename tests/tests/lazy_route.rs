@@ -45,7 +45,7 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
 
     let graph = |hardness: &[Option<f64>]| {
         let outline = Convex::from(Rect::new(0.0, 0.0, 1.0, 1.0));
-        let rooms = vec![RouteRoom { outline, walking: Walking::OnDoors }; SIDE * SIDE];
+        let rooms = vec![RouteRoom { outline, radius: None, walking: Walking::OnDoors }; SIDE * SIDE];
         let door = |(door, &(room1, room2)): (usize, &(usize, usize))| RouteDoor {
             door: door as u32 + 1,
             room1: RoomIndex::new(room1),

@@ -152,6 +152,7 @@ fn room(index: usize) -> Room {
         facing: None,
         rect: [x, y, x + 3.0, y + 3.0],
         outline: None,
+        radius: None,
         height: None,
         width: 3.0,
         hardness: Derived::default(),

@@ -44,6 +44,7 @@ fn room(number: i64) -> Room {
         facing: (number % 2 == 0).then_some(22.5),
         rect: [x, -0.0, x + 0.1, 1.0],
         outline: (number % 13 == 0).then(|| format!("[[{x:?},0.0],[{:?},0.0],[{x:?},1.0]]", x + 0.1)),
+        radius: (number % 3 == 0).then_some(0.35),
         height: (number % 3 > 0).then_some(2.5),
         width: 0.1,
         hardness: if number % 5 == 0 {

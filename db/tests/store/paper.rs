@@ -90,6 +90,7 @@ pub fn rooms() -> Vec<Room> {
         facing: None,
         rect,
         outline: None,
+        radius: None,
         height,
         width,
         hardness: Derived::default(),

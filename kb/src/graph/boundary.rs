@@ -1,10 +1,8 @@
 //! A door that is told to let nobody through, as a boundary for all layers: its segment, carried on from both ends into the
 //! walls, as far as some slimmer state finds room there.
 
-use std::f64::consts::TAU;
-
 use adit_planners::geometry::tolerance::SNAP_M;
-use adit_planners::geometry::{Point, Segment};
+use adit_planners::geometry::{Point, Sector, Segment};
 use adit_planners::routes::{Closed, RouteDoor};
 
 use super::SiteGraph;
@@ -32,21 +30,8 @@ impl SiteGraph {
     /// The direction from a point on the rim of a layer into the middle of what is solid there; `None` where nothing is.
     fn into_wall(&self, layer: &Layer, at: Point) -> Option<Point> {
         let near = layer.meeting(Segment::new(at, at).bounds().grown(SNAP_M));
-        let angle = |direction: Point| direction.y.atan2(direction.x);
-        let sector = |[from, to]: [Point; 2]| (angle(from), (angle(to) - angle(from)).rem_euclid(TAU));
-        let mut sectors: Vec<(f64, f64)> =
-            near.filter_map(|room| self.graph[room].outline.sector_at(at)).map(sector).collect();
-        sectors.sort_by(|one, two| one.0.total_cmp(&two.0));
-        let first = sectors.first()?.0;
-        // how far the ground is free from there, and the widest part that is not
-        let (mut free, mut widest) = (first, (0.0, first));
-        for (from, turn) in sectors.into_iter().chain([(first + TAU, 0.0)]) {
-            if from - free > widest.0 {
-                widest = (from - free, f64::midpoint(free, from));
-            }
-            free = free.max(from + turn);
-        }
-        (widest.0 > SLIGHT).then(|| Point::towards(widest.1))
+        let wall = Sector::widest_gap(near.filter_map(|room| self.graph[room].outline.sector_at(at)))?;
+        (wall.turn > SLIGHT).then(|| wall.middle())
     }
 
     /// The share of a way, from its beginning, that lies in rooms of other layers and in none of a door's own.
@@ -66,9 +51,13 @@ impl SiteGraph {
             }
         }
         others.sort_by(|one, two| one.0.total_cmp(&two.0));
-        let reach = others.into_iter().fold(0.0_f64, |reach, (begins, ends)| {
-            if begins <= reach + start { reach.max(ends) } else { reach }
-        });
+        let reach =
+            others.into_iter().fold(
+                0.0_f64,
+                |reach, (begins, ends)| {
+                    if begins <= reach + start { reach.max(ends) } else { reach }
+                },
+            );
         reach.min(limit)
     }
 }

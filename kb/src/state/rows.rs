@@ -1,5 +1,7 @@
 //! What planners assert of rooms, doors and areas, as rows of the database, and back.
 
+use std::borrow::Cow;
+
 use adit_db::Derived;
 use adit_db::area::Area;
 use adit_db::place::Place;
@@ -72,11 +74,19 @@ pub fn class<R: Row>(name: &str, rows: &[R]) -> Class {
     R::columns_of(Part::Cut).fold(Class::new(name, &[R::COLUMNS[0].name]), with)
 }
 
-/// Rooms as rows, without what rules say; a planner that knows of no outlines makes rectangles.
+/// Rooms as rows, without what rules say; a planner that knows of no outlines makes rectangles, and of no discs none.
 pub fn rooms(table: &Table) -> Result<Vec<Room>> {
-    let bare = facts::Column::Text(vec![None; table.len()]);
-    let with_outlines = table.column("outline").is_none().then(|| table.clone().with("outline", bare));
-    let rooms: Vec<Room> = of_table("ROOMS", with_outlines.as_ref().unwrap_or(table))?;
+    let bare = [
+        ("outline", facts::Column::Text(vec![None; table.len()])),
+        ("radius", facts::Column::Number(vec![None; table.len()])),
+    ];
+    let mut table = Cow::Borrowed(table);
+    for (property, column) in bare {
+        if table.column(property).is_none() {
+            table = Cow::Owned(table.into_owned().with(property, column));
+        }
+    }
+    let rooms: Vec<Room> = of_table("ROOMS", &table)?;
     for (row, room) in rooms.iter().enumerate() {
         let wrong = |what| {
             Error::said(

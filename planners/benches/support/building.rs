@@ -7,8 +7,9 @@ use adit_planners::routes::{RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking
 pub fn building(side: usize, walking: Walking) -> RouteGraph {
     let corner = |i: usize| 4.0 * i as f64;
     let square = |x: usize, y: usize| Rect::new(corner(x), corner(y), corner(x + 1), corner(y + 1));
-    let rooms =
-        (0..side * side).map(|i| RouteRoom { outline: square(i % side, i / side).into(), walking }).collect();
+    let rooms = (0..side * side)
+        .map(|i| RouteRoom { outline: square(i % side, i / side).into(), radius: None, walking })
+        .collect();
     let mut doors = Vec::new();
     for room in 0..side * side {
         let (x, y) = (room % side, room / side);

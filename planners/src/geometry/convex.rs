@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
 use super::tolerance::{ROUNDING_M, SNAP_M};
-use super::{Point, Rect, Segment, cross};
+use super::{Point, Rect, Sector, Segment, cross};
 
 /// A convex polygon. A rectangle along the axes is kept as what it is, and everything about it is exact; of others
 /// corners may lie a rounding inside of where they would be convex.
@@ -179,16 +179,14 @@ impl Convex {
         if self.contains(p) { TAU } else { 0.0 }
     }
 
-    /// The directions between which, counterclockwise, the ground lies about a point of the outline; `None` elsewhere.
-    pub fn sector_at(&self, p: Point) -> Option<[Point; 2]> {
+    /// The directions in which it lies from a point of its outline; `None` from elsewhere.
+    pub fn sector_at(&self, p: Point) -> Option<Sector> {
         let is_at = |side: &Segment| side.distance(p) <= SNAP_M;
         let (on, by): (Vec<Segment>, Vec<Segment>) =
             self.sides().filter(is_at).partition(|side| side.b.distance(p) > SNAP_M);
-        match (on.last(), by.first()) {
-            (Some(on), Some(by)) => Some([on.direction(), -by.direction()]),
-            (Some(on), None) => Some([on.direction(), -on.direction()]),
-            _ => None,
-        }
+        let on = on.last()?.direction();
+        let back = by.first().map_or(-on, |by| -by.direction());
+        Some(Sector::between(on, back))
     }
 
     /// What of a segment lies inside, or as near to it as points are told apart; `None` where at most a point does.

@@ -99,7 +99,8 @@ mod tests {
 
     #[test]
     fn corners_on_straight_sides_and_twice_the_same_are_left_out() {
-        let about = polygon([(1.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1e-8, 1.0), (0.0, 0.0)]);
+        let about =
+            polygon([(1.0, 0.0), (2.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (1e-8, 1.0), (0.0, 0.0)]);
         let left = without_straight(&about, 1e-7);
         assert_eq!(left, polygon([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]).to_vec());
         assert_eq!(without_straight(&[], 1e-7), []);

@@ -55,7 +55,10 @@ impl Moved {
         let free = floor.boolean_op_with_fill_rule(&grown, OpType::Difference, FillRule::Positive);
         let rings = free.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
         let corners = rings.map(|ring| ring.0.iter().map(|&corner| corner.into()).collect::<Vec<Point>>());
-        corners.map(|corners| without_straight(&corners, ROUGH_M)).filter(|corners| corners.len() > 2).collect()
+        corners
+            .map(|corners| without_straight(&corners, ROUGH_M))
+            .filter(|corners| corners.len() > 2)
+            .collect()
     }
 
     fn extent(&self) -> Rect {

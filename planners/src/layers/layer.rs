@@ -44,6 +44,8 @@ pub(super) struct Layer {
     pub(super) beside: Vec<(u32, u32, Segment)>,
     /// The same, by room.
     pub(super) neighbours: Csr<(u32, Segment)>,
+    /// How far a disc keeps from walls, metres; `None` for a body.
+    pub(super) radius: Option<f64>,
     /// Where a body can turn to the next facing, in convex pieces; `None` for a disc.
     pub(super) turning: Option<Places>,
     pub(super) places: Places,
@@ -104,7 +106,8 @@ impl Layer {
         );
         let labels = rooms.iter().map(|room| labels.of(room)).collect();
         let turning = turning.map(|turning| Places::new(turning.pieces));
-        Ok(Self { places: Places::new(rooms.clone()), rooms, labels, beside, neighbours, turning })
+        let radius = size.lies.is_none().then_some(size.width / 2.0 + world.clearance);
+        Ok(Self { radius, places: Places::new(rooms.clone()), rooms, labels, beside, neighbours, turning })
     }
 }
 

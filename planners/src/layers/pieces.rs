@@ -177,7 +177,8 @@ impl Mesh {
         }
         let shape = |outline: &Vec<u32>| {
             // what was merged may turn right by a rounding here and there
-            let hull = outline.iter().map(|&half| Coord::from(self.at(half))).collect::<LineString>().convex_hull();
+            let hull =
+                outline.iter().map(|&half| Coord::from(self.at(half))).collect::<LineString>().convex_hull();
             let corners: Vec<Point> = hull.exterior().coords().map(|&corner| corner.into()).collect();
             Convex::new(without_straight(&corners, ROUNDING_M))
         };

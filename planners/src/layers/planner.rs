@@ -46,6 +46,7 @@ impl Planner for RoomsByState {
             state: Some(states[room.state].state.clone()),
             facing: room.facing,
             outline: room.outline.clone(),
+            radius: room.radius,
             height: room.height,
         };
         let door = |crossing: &Crossing| DoorRow {

@@ -25,6 +25,8 @@ pub struct Room {
     pub facing: Option<f64>,
     /// Where the robot's centre may be.
     pub outline: Convex,
+    /// How far it keeps from walls, metres; `None` for what is no disc.
+    pub radius: Option<f64>,
     /// The lowest bridge above the room, metres; `None` where there is none.
     pub height: Option<f64>,
 }

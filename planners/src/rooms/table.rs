@@ -20,6 +20,7 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.x1",
     "ROOMS.y1",
     "ROOMS.outline: text",
+    "ROOMS.radius",
     "ROOMS.height",
     "ROOMS.width",
     "DOORS.door",
@@ -49,6 +50,8 @@ pub(crate) struct RoomRow {
     pub state: Option<String>,
     pub facing: Option<f64>,
     pub outline: Convex,
+    /// Of the disc whose middle may be anywhere in it; `None` for what is no disc.
+    pub radius: Option<f64>,
     pub height: Option<f64>,
 }
 
@@ -101,6 +104,7 @@ pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
         state: None,
         facing: None,
         outline: room.rect.into(),
+        radius: None,
         height: room.height,
     };
     facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>())
@@ -116,6 +120,7 @@ fn room_table(rooms: &[RoomRow]) -> Table {
         .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
     with_edges(table, &rects)
         .with("outline", rooms.iter().map(|room| outline::write(&room.outline)).collect::<Column>())
+        .with("radius", rooms.iter().map(|room| room.radius).collect::<Column>())
         .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
         .with("width", rooms.iter().map(|room| room.outline.breadth()).collect::<Column>())
 }

@@ -107,7 +107,7 @@ impl Cut {
         all.add_openings(cut, (&mut doors, &mut shut));
         doors.append(&mut shut);
         all.doors.resize(doors.len(), None);
-        let part = |(outline, &room): (Convex, &RoomIndex)| RouteRoom { outline, walking: of[room].walking };
+        let part = |(outline, &room): (Convex, &RoomIndex)| RouteRoom { outline, ..of[room].clone() };
         all.graph = RouteGraph::new(outlines.into_iter().zip(&all.rooms).map(part).collect(), doors);
         all.graph.walls = of.closed.iter().map(|closed| closed.segment).collect();
         all

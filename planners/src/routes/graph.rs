@@ -3,12 +3,12 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::ops::Index;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
-use super::turning::{Turning, unknown_gates};
+use super::turning::Turning;
 use crate::geometry::Segment;
 use crate::search::Csr;
 
@@ -123,20 +123,17 @@ impl RouteGraph {
             touched[..orders.len()].iter().map(|&door| self.order(door)).collect();
         let is_other_price = !self.are_priced_alike(&prices);
         let Some(turning) = self.turning.get_mut() else { return };
-        let is_passed_otherwise = turning.pass((&self.rooms, &self.doors), &passing);
+        let mut otherwise = turning.pass((&self.rooms, &self.doors), &passing);
         if is_on_doors {
             return;
         }
         // a gate hangs on which of two rooms is easier, on what is free beside it, and on which changes have one price
-        if is_passed_otherwise || is_other_price {
-            turning.gates = unknown_gates(self.doors.len());
-        } else {
-            for (door, (before, now)) in orders.iter().zip(orders_now).enumerate() {
-                if *before != now {
-                    Arc::make_mut(&mut turning.gates)[door] = Default::default();
-                }
-            }
+        if is_other_price {
+            otherwise.extend(prices.keys());
         }
+        turning.forget_near((&self.rooms, &self.doors), &otherwise);
+        let turned = (0..).zip(orders.iter().zip(orders_now)).filter(|(_, (before, now))| *before != now);
+        turning.forget(turned.map(|(door, _)| DoorIndex::new(door)));
     }
 
     /// Whether changes of shape have one price where they had one, and only there.

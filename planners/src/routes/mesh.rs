@@ -104,6 +104,12 @@ impl Mesh {
         self.ends[door.index()]
     }
 
+    /// The doors that end where this one does at a point; `None` where it does not end there.
+    pub fn doors_at(&self, door: DoorIndex, at: Point) -> Option<&[DoorIndex]> {
+        let is_there = |end: &&u32| **end != NONE && self.points[**end as usize].distance(at) <= SNAP_M;
+        self.ends[door.index()].iter().find(is_there).map(|&end| self.at_end[end as usize].as_slice())
+    }
+
     pub fn ends_count(&self) -> usize {
         self.points.len()
     }

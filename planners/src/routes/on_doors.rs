@@ -57,7 +57,7 @@ impl Tree {
     fn way(&self, graph: &RouteGraph, start: &Start, to: RoomIndex, goal: Option<Point>) -> Way {
         let (mut room, mut doors) = (to, Vec::new());
         while let Some((before, door)) = self.rooms[room.index()].and_then(|arrival| arrival.from) {
-            doors.push((door, graph[door].at, room));
+            doors.push((Some(door), graph[door].at, room));
             room = before;
         }
         doors.reverse();

@@ -14,6 +14,9 @@ pub type DoorIndex = EdgeIndex;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteRoom {
     pub outline: Convex,
+    /// Of the disc whose middle may be anywhere in it, metres: about corners of walls it may come nearer than to the outline.
+    /// `None` for what is no disc.
+    pub radius: Option<f64>,
     pub walking: Walking,
 }
 
@@ -66,6 +69,14 @@ impl Crossing {
         match self {
             Self::Through(segment) => segment.middle(),
             Self::Within(area) => area.centre(),
+        }
+    }
+
+    /// The least rectangle about it.
+    pub fn bounds(&self) -> Rect {
+        match self {
+            Self::Through(segment) => segment.bounds(),
+            Self::Within(area) => area.bounds(),
         }
     }
 

@@ -1,10 +1,13 @@
 //! Pulling a way tight: straight where nothing is in the way, bent only about corners, refracted where hardness
 //! changes, and a shape changed at the best point of the rim on which it may be changed.
 
+use std::ops::Range;
+
 use super::cone::{Gap, Segment, View, cross};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, RoomIndex};
+use super::rounded::Kept;
 use super::way::Way;
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
@@ -70,8 +73,7 @@ impl Chain<'_> {
         }
         self.straighten();
         self.join_changes();
-        let doors = self.links.iter().map(|link| (link.door, link.at, link.room));
-        Way::through(self.graph, self.start, doors, self.goal)
+        Way::through(self.graph, self.start, self.rounded(), self.goal)
     }
 
     fn cost(&self) -> f64 {
@@ -102,6 +104,67 @@ impl Chain<'_> {
             from = to;
             first = end + 1;
         }
+    }
+
+    /// What the way comes through, in its order, with arcs where it bends about corners of walls.
+    fn rounded(&self) -> Vec<(Option<DoorIndex>, Point, RoomIndex)> {
+        let mut passed: Vec<(Option<DoorIndex>, Point, RoomIndex)> = Vec::with_capacity(self.links.len());
+        let (mut first, mut from) = (0, self.start.1);
+        while first <= self.links.len() {
+            let stop = (first..self.links.len()).find(|&link| !self.links[link].is_straight);
+            let end = stop.unwrap_or(self.links.len());
+            let to = stop.map_or(self.goal, |stop| self.links[stop].at);
+            let (openings, of): (Vec<Opening>, Vec<Option<usize>>) =
+                self.openings(first..end).into_iter().unzip();
+            let mut points = taut(from, &openings, to);
+            points.push(to);
+            let mut before = from;
+            for (place, of) in of.into_iter().enumerate() {
+                let (at, after) = (points[place], points[place + 1]);
+                let room = passed.last().map_or(self.start.0, |(_, _, room)| *room);
+                match of {
+                    Some(link) => passed.push((Some(self.links[link].door), at, self.links[link].room)),
+                    None if turns(before, at, after) => passed.push((None, at, room)),
+                    None => continue,
+                }
+                before = at;
+            }
+            if let Some(stop) = stop {
+                passed.push((Some(self.links[stop].door), to, self.links[stop].room));
+            }
+            from = to;
+            first = end + 1;
+        }
+        passed
+    }
+
+    /// The doors of some links with the links, and where the way bends about an arc what keeps it off.
+    fn openings(&self, links: Range<usize>) -> Vec<(Opening, Option<usize>)> {
+        let mut all: Vec<(Opening, Option<usize>)> = Vec::with_capacity(links.len());
+        let mut first = links.start;
+        while first < links.end {
+            let at = self.links[first].at;
+            let here = (first..links.end).take_while(|&link| self.links[link].at.distance(at) <= SNAP_M);
+            let end = first + here.count();
+            let before = if first == 0 { self.start.1 } else { self.links[first - 1].at };
+            let after = self.links.get(end).map_or(self.goal, |next| next.at);
+            let arc = turns(before, at, after).then(|| self.graph.arc(self.links[first].door, at)).flatten();
+            match arc {
+                Some(arc) => {
+                    let is_left = cross(before, at, after) > 0.0;
+                    let links: Vec<_> = (first..end).map(|link| (link, self.links[link].segment)).collect();
+                    let opening = |kept: Kept| {
+                        let Kept { inner, outer, link } = kept;
+                        let (left, right) = if is_left { (inner, outer) } else { (outer, inner) };
+                        (Opening { segment: Segment::new(inner, outer), left, right }, link)
+                    };
+                    all.extend(arc.keeps(&links, is_left).into_iter().map(opening));
+                }
+                None => all.extend((first..end).map(|link| (self.opening(link), Some(link)))),
+            }
+            first = end;
+        }
+        all
     }
 
     /// The door of a link, as one comes to it.
@@ -345,6 +408,12 @@ impl Chain<'_> {
     }
 }
 
+/// Whether a way turns at a point.
+fn turns(before: Point, at: Point, after: Point) -> bool {
+    let (come, go) = (before.distance(at), at.distance(after));
+    come > EPSILON && go > EPSILON && cross(before, at, after).abs() > EPSILON * come.max(1.0) * go.max(1.0)
+}
+
 /// The part of a segment that is seen from a point through a door.
 fn seen_through(from: Point, door: Segment, part: Segment) -> Option<Segment> {
     if door.is_in_line_with(from) {
@@ -385,8 +454,14 @@ fn taut(from: Point, doors: &[Opening], to: Point) -> Vec<Point> {
     while done < doors.len() {
         let corner = next_corner(apex, &doors[done..], to).map(|(point, door)| (point, done + door));
         let (next, end) = corner.map_or((to, doors.len()), |(point, door)| (point, door + 1));
+        let mut last = apex;
         for door in done..end {
-            passed[door] = doors[door].segment.passed_at(apex, next);
+            let at = doors[door].segment.passed_at(apex, next);
+            // where what keeps a way off two corners lies one beside the other, nobody goes back
+            if (at - last).dot(next - apex) > 0.0 {
+                last = at;
+            }
+            passed[door] = last;
         }
         if corner.is_some() {
             passed[end - 1] = next;

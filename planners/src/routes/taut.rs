@@ -215,7 +215,7 @@ impl<'g> Search<'g> {
                     }
                     let is_last = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
                     if is_last && limit.is_infinite() {
-                        limit = found.cost * (1.0 + SLACK) + EPSILON;
+                        limit = found.cost * (1.0 + SLACK) + self.graph.saved_by_arcs() + EPSILON;
                     }
                 }
                 What::Node(index) => self.expand(index),

@@ -6,6 +6,7 @@ use std::sync::{Arc, OnceLock};
 use super::cone::Segment;
 use super::mesh::{Mesh, NONE};
 use super::parts::{DoorIndex, Passing, RouteDoor, RouteRoom};
+use crate::geometry::Rect;
 
 /// Where a change may pay.
 #[derive(Clone, Copy, Debug)]
@@ -22,32 +23,60 @@ pub(super) struct Turning {
     pub bends: Vec<bool>,
     /// For each door what passing it changes.
     passing: Vec<Passing>,
-    /// What clones find, all have, as long as nothing that gates hang on is otherwise in one of them.
-    pub gates: Arc<Gates>,
+    /// What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
+    gates: Arc<Vec<[Found; 2]>>,
 }
 
-/// For each change, and both of its directions, where it may pay to begin it; found when first asked for.
-pub(super) type Gates = Vec<[OnceLock<Box<[Gate]>>; 2]>;
+/// Where it may pay to begin a change in one direction; found when first asked for.
+type Found = Arc<OnceLock<Box<[Gate]>>>;
 
-pub(super) fn unknown_gates(doors: usize) -> Arc<Gates> {
-    Arc::new(vec![[OnceLock::new(), OnceLock::new()]; doors])
-}
+/// Farther away from the rooms of a change than this nothing touches where it may pay, metres.
+const REACH_M: f64 = 1.0;
+
+/// If more doors than these come to be passed otherwise, all gates are found anew.
+const MANY: usize = 64;
 
 impl Turning {
     pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>) -> Self {
         let mesh = Mesh::new(rooms.len(), doors);
-        let gates = unknown_gates(doors.len());
+        let gates = Arc::new(doors.iter().map(|_| Default::default()).collect());
         let mut all = Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates };
         all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
     }
 
-    /// Takes what passing these doors changes now; whether it is otherwise for any of them.
+    /// The gates of a change in one of its directions.
+    pub fn gates(&self, door: DoorIndex, side: usize, find: impl FnOnce() -> Box<[Gate]>) -> &[Gate] {
+        self.gates[door.index()][side].get_or_init(find)
+    }
+
+    /// Forgets the gates of these doors.
+    pub fn forget(&mut self, which: impl IntoIterator<Item = DoorIndex>) {
+        let mut which = which.into_iter().peekable();
+        if which.peek().is_some() {
+            let gates = Arc::make_mut(&mut self.gates);
+            which.for_each(|door| gates[door.index()] = Default::default());
+        }
+    }
+
+    /// Forgets the gates of changes between rooms that these doors come near to.
+    pub fn forget_near(&mut self, (rooms, doors): (&[RouteRoom], &[RouteDoor]), which: &[DoorIndex]) {
+        let about: Vec<Rect> =
+            which.iter().map(|door| doors[door.index()].crossing.bounds().grown(REACH_M)).collect();
+        let is_near = |door: &RouteDoor| {
+            let rooms = [door.room1, door.room2].map(|room| rooms[room.index()].outline.bounds());
+            about.len() > MANY || about.iter().any(|about| rooms.iter().any(|room| about.overlaps(room)))
+        };
+        let near = (0..).zip(doors).filter(|(_, door)| door.is_change() && is_near(door));
+        self.forget(near.map(|(index, _)| DoorIndex::new(index)));
+    }
+
+    /// Takes what passing these doors changes now; those for which it is otherwise.
     pub fn pass(
         &mut self,
         (rooms, doors): (&[RouteRoom], &[RouteDoor]),
         passing: &[(DoorIndex, Passing)],
-    ) -> bool {
+    ) -> Vec<DoorIndex> {
         let changed: Vec<DoorIndex> = passing
             .iter()
             .filter(|(door, now)| self.passing[door.index()] != *now)
@@ -57,7 +86,7 @@ impl Turning {
             self.passing[door.index()] = *now;
         }
         self.find_bends(rooms, doors, &changed);
-        !changed.is_empty()
+        changed
     }
 
     /// Finds about which ends of these doors a way may bend.

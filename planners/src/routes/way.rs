@@ -42,19 +42,19 @@ pub struct Way {
 }
 
 impl Way {
-    /// The way through these doors, each with where it is passed and the room behind it.
+    /// The way through these doors, each with where it is passed and the room behind it; or about points without a door.
     pub(super) fn through(
         graph: &RouteGraph,
         (room, start): (RoomIndex, Point),
-        doors: impl IntoIterator<Item = (DoorIndex, Point, RoomIndex)>,
+        doors: impl IntoIterator<Item = (Option<DoorIndex>, Point, RoomIndex)>,
         goal: Point,
     ) -> Self {
         let mut legs: Vec<Leg> = Vec::new();
         let (mut room, mut from, mut cost) = (room, start, 0.0);
         for (door, to, next) in doors {
             let hardness = walked(graph, room, from, to);
-            cost += hardness + graph.passage(door).unwrap_or(0.0);
-            legs.push(Leg { room, from, to, hardness, door: Some(door), cost });
+            cost += hardness + door.and_then(|door| graph.passage(door)).unwrap_or(0.0);
+            legs.push(Leg { room, from, to, hardness, door, cost });
             (room, from) = (next, to);
         }
         let hardness = walked(graph, room, from, goal);

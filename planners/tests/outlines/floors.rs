@@ -1,6 +1,6 @@
 //! Floors of rectangles, with blocks and pipes, for one or more shapes.
 
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Point, Rect, Segment};
 use adit_planners::layers::{Crossing, Kind, Room, State, cut_layers};
 use adit_planners::routes::{
     Crossing as Where, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
@@ -57,12 +57,13 @@ pub fn shapes() -> Vec<(State, f64)> {
     vec![(shape("STAND", 1.7, 0.6), 1.0), (shape("SIDE", 1.7, 0.35), 2.0), (shape("SQUAT", 1.1, 0.8), 4.0)]
 }
 
-/// The graph of the layers of shapes, each with what a metre of it weighs.
+/// The graph of the layers of shapes, each with what a metre of it weighs; ways end where rooms do.
 pub fn graph(world: &World, shapes: &[(State, f64)], change: f64) -> RouteGraph {
     let states: Vec<State> = shapes.iter().map(|(state, _)| state.clone()).collect();
     let layers = cut_layers(world, &states).unwrap();
     let weigh = |room: &Room| RouteRoom {
         outline: room.outline.clone(),
+        radius: None,
         walking: Walking::PerMetre(shapes[room.state].1),
     };
     let door = |(index, crossing): (usize, &Crossing)| RouteDoor {
@@ -92,15 +93,22 @@ pub fn way(graph: &RouteGraph, from: Point, to: Point) -> Option<Way> {
     graph.way(&start, &[goal]).map(|(_, way)| way)
 }
 
-/// What must hold of every way.
+/// What must hold of every way through rooms.
 pub fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Result<(), TestCaseError> {
-    let (mut at, mut cost) = (from, 0.0);
     for leg in &way.legs {
-        prop_assert!(leg.from.distance(at) < 1e-9, "{leg:?} begins elsewhere than {at:?}");
         let outline = &graph[leg.room].outline;
         for p in [leg.from, leg.to] {
             prop_assert!(outline.distance(p) < 1e-6, "{leg:?} leaves its room {outline:?}");
         }
+    }
+    check_way(graph, way, from, to)
+}
+
+/// What must hold of every way.
+pub fn check_way(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Result<(), TestCaseError> {
+    let (mut at, mut cost) = (from, 0.0);
+    for leg in &way.legs {
+        prop_assert!(leg.from.distance(at) < 1e-9, "{leg:?} begins elsewhere than {at:?}");
         cost += leg.hardness + leg.door.map_or(0.0, |door| graph[door].hardness.unwrap());
         prop_assert!((leg.cost - cost).abs() < 1e-9);
         at = leg.to;
@@ -111,12 +119,22 @@ pub fn check_legs(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Resu
 
 /// The least length over corners that see each other through the rooms.
 pub fn shortest(graph: &RouteGraph, corners: &[Point], from: Point, to: Point) -> Option<f64> {
+    shortest_over(corners, from, to, |Segment { a, b }| is_free(graph, a, b))
+}
+
+/// The least length over points that see each other.
+pub fn shortest_over(
+    corners: &[Point],
+    from: Point,
+    to: Point,
+    is_free: impl Fn(Segment) -> bool,
+) -> Option<f64> {
     let all: Vec<Point> = corners.iter().copied().chain([from, to]).collect();
     let mut seen = UnGraph::<(), f64>::default();
     let nodes: Vec<NodeIndex> = all.iter().map(|_| seen.add_node(())).collect();
     for (one, &a) in all.iter().enumerate() {
         for (two, &b) in all.iter().enumerate().skip(one + 1) {
-            if is_free(graph, a, b) {
+            if is_free(Segment::new(a, b)) {
                 seen.add_edge(nodes[one], nodes[two], a.distance(b));
             }
         }

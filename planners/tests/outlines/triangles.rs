@@ -63,6 +63,7 @@ impl Hall {
     fn graph(&self) -> RouteGraph {
         let room = |room: &Room| RouteRoom {
             outline: Convex::new(room.iter().map(|&corner| self.points[corner]).collect()),
+            radius: None,
             walking: Walking::PerMetre(1.0),
         };
         let mut doors = Vec::new();

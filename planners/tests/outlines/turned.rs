@@ -30,8 +30,7 @@ impl Turn {
     }
 
     fn graph(self, graph: &RouteGraph) -> RouteGraph {
-        let room =
-            |room: &RouteRoom| RouteRoom { outline: self.outline(&room.outline), walking: room.walking };
+        let room = |room: &RouteRoom| RouteRoom { outline: self.outline(&room.outline), ..room.clone() };
         let door = |door: &RouteDoor| {
             let crossing = match &door.crossing {
                 Crossing::Through(segment) => Crossing::Through(self.segment(*segment)),

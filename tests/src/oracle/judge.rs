@@ -1,6 +1,6 @@
 //! The judge of a site's routes: each beside the best way, and everything about it that cannot be right.
 
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 
 use super::driven::Driven;
 use super::grid::Grid;
@@ -141,17 +141,25 @@ impl<'a> Judge<'a> {
     /// What cannot be right about a route by itself.
     fn faults(&self, driven: &Driven, of: &str, (start, goal): (Point, Point)) -> Vec<String> {
         let mut faults = driven.faults(&self.exact);
-        for (way, kind) in [(&driven.way, "waypoints"), (&driven.steps, "steps")] {
-            if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
-                faults.push(format!("{kind} are {depth:.6} m too near to a wall on {piece:?}"));
-            }
-            let sum = way.cost(&self.exact);
-            if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
-                faults.push(format!("costs {}, its {kind} {sum}", driven.cost));
-            }
-            let ends = [way.points[0].distance(start), way.points[way.points.len() - 1].distance(goal)];
-            if ends.iter().any(|off| *off > TRESPASS) {
-                faults.push(format!("{kind} begin and end {ends:?} m off"));
+        let way = &driven.way;
+        if let Some((piece, depth)) = way.worst_trespass(&self.exact, TRESPASS) {
+            faults.push(format!("waypoints are {depth:.6} m too near to a wall on {piece:?}"));
+        }
+        let sum = way.cost(&self.exact);
+        if (sum - driven.cost).abs() > ROUNDING * driven.cost.max(1.0) {
+            faults.push(format!("costs {}, its waypoints {sum}", driven.cost));
+        }
+        let ends = |points: &[Point]| [points[0].distance(start), points[points.len() - 1].distance(goal)];
+        let off = [ends(&way.points), ends(&driven.steps.points)].concat();
+        if off.iter().any(|off| *off > TRESPASS) {
+            faults.push(format!("waypoints and steps begin and end {off:?} m off"));
+        }
+        // a step may bend within its room: only where it ends lies on the way
+        for p in &driven.steps.points {
+            let off = way.pieces().map(|piece| Segment::new(piece.from, piece.to).distance(*p));
+            let off = off.fold(p.distance(way.points[0]), f64::min);
+            if off > TRESPASS {
+                faults.push(format!("a step ends at {p:?}, {off} m beside the way"));
             }
         }
         faults.into_iter().map(|fault| format!("{of}: {fault}")).collect()

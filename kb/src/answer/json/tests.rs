@@ -24,6 +24,7 @@ fn floor(side: usize) -> SiteGraph {
             4.1 * (number / side + 1) as f64,
         ],
         outline: None,
+        radius: None,
         height: None,
         width: 4.1,
         hardness: Derived::default(),

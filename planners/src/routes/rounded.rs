@@ -1,0 +1,161 @@
+//! Bends about corners of walls as arcs. The rooms of a disc end at the tangents of the arc about a corner; beyond them, up to
+//! the arc, the ground is as free.
+
+use std::f64::consts::{PI, TAU};
+
+use super::graph::RouteGraph;
+use super::parts::{DoorIndex, RoomIndex};
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Convex, Point, Sector, Segment, cross};
+
+/// An arc is drawn around by tangents that turn by no more than this from one to the next.
+const TURN: f64 = TAU / 24.0;
+
+/// The arc about a corner of a wall, where the tangents at both of its ends meet in the end of doors.
+pub(super) struct Arc {
+    /// Where the tangents meet.
+    at: Point,
+    /// What the wall takes of the directions about there, radians.
+    wall: f64,
+    /// Corners about the arc, counterclockwise.
+    corners: Vec<Point>,
+    /// The doors that end there, each with the direction in which it leads away: counterclockwise, radians from the wall.
+    doors: Vec<(f64, Segment)>,
+}
+
+/// By what a way about an arc is kept in its place.
+pub(super) struct Kept {
+    /// The end that lies on the side of the wall.
+    pub inner: Point,
+    pub outer: Point,
+    /// The link that is passed there.
+    pub link: Option<usize>,
+}
+
+impl RouteGraph {
+    /// What arcs about a few corners save of a way beside their tangents, about.
+    pub(super) fn saved_by_arcs(&self) -> f64 {
+        let radius = self.rooms.iter().filter_map(|room| room.radius).fold(0.0, f64::max);
+        radius * self.least_per_m()
+    }
+
+    /// The arc about which a way bends at the end of a door; `None` where it is not known that all is free up to one.
+    pub(super) fn arc(&self, door: DoorIndex, at: Point) -> Option<Arc> {
+        let radius = self[self[door].room1].radius? + SNAP_M;
+        let doors = self.turning().mesh.doors_at(door, at)?;
+        if !doors.iter().all(|&door| self.is_free(door)) {
+            return None;
+        }
+        let mut around: Vec<RoomIndex> =
+            doors.iter().flat_map(|&door| [self[door].room1, self[door].room2]).collect();
+        around.sort_unstable();
+        around.dedup();
+        let sectors = around.iter().filter_map(|&room| self[room].outline.sector_at(at));
+        let wall = Sector::widest_gap(sectors)?;
+        if wall.turn >= PI {
+            return None;
+        }
+        let foot = radius / (wall.turn / 2.0).tan();
+        let first = wall.from + wall.turn;
+        let feet = [first, wall.from].map(|angle| at + Point::towards(angle) * foot);
+        let is_straight = |foot: Point| {
+            let sides = || around.iter().flat_map(|&room| self[room].outline.sides());
+            sides().any(|side| side.distance(at) <= SNAP_M && side.distance(foot) <= 2.0 * SNAP_M)
+        };
+        if !feet.into_iter().all(is_straight) {
+            return None;
+        }
+        let centre = at + wall.middle() * (radius / (wall.turn / 2.0).sin());
+        let count = ((PI - wall.turn) / TURN).ceil().max(1.0);
+        let step = (PI - wall.turn) / count;
+        let from = (feet[0] - centre).angle() + step / 2.0;
+        let reach = radius / (step / 2.0).cos();
+        let corner = |number: u32| centre + Point::towards(from + step * f64::from(number)) * reach;
+        let corners: Vec<Point> = (0..count as u32).map(corner).collect();
+        let segments = doors.iter().filter_map(|&door| self[door].crossing.segment());
+        let doors =
+            segments.map(|door| (((far(door, at) - at).angle() - first).rem_euclid(TAU), door)).collect();
+        let arc = Arc { at, wall: wall.turn, corners, doors };
+        arc.is_clear_of(&self.walls).then_some(arc)
+    }
+}
+
+/// The end of a door that is not here.
+fn far(door: Segment, here: Point) -> Point {
+    if door.a.distance(here) > door.b.distance(here) { door.a } else { door.b }
+}
+
+impl Arc {
+    /// Whether no boundary lies between the arc and its tangents.
+    fn is_clear_of(&self, walls: &[Segment]) -> bool {
+        if walls.is_empty() {
+            return true;
+        }
+        let mut between = vec![self.at];
+        between.extend(self.corners.iter().rev());
+        let between = Convex::new(between);
+        walls.iter().all(|wall| between.clip(*wall).is_none())
+    }
+
+    /// What keeps a way in its place that goes around the arc.
+    ///
+    /// # Arguments
+    /// `links` with their doors, which all end where the tangents meet, in their order; `is_left` says whether the wall lies
+    /// to the left.
+    ///
+    /// # Returns
+    /// In the way's order: doors by which it comes to the wall, corners of the arc, doors by which it leaves the wall.
+    pub fn keeps(&self, links: &[(usize, Segment)], is_left: bool) -> Vec<Kept> {
+        let kept = |inner: Point, outer: Point, link: Option<usize>| Kept { inner, outer, link };
+        let angle =
+            |door: &Segment| self.doors.iter().find(|(_, of)| of == door).map_or(PI, |(angle, _)| *angle);
+        let angles: Vec<f64> = links.iter().map(|(_, door)| angle(door)).collect();
+        let least = angles.iter().copied().fold(f64::INFINITY, f64::min);
+        let most = angles.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut all: Vec<Kept> = Vec::new();
+        let beside = |is_beside: &dyn Fn(f64) -> bool, all: &mut Vec<Kept>| {
+            let mut doors: Vec<_> = self.doors.iter().filter(|(angle, _)| is_beside(*angle)).collect();
+            doors.sort_by(|one, two| two.0.total_cmp(&one.0));
+            if !is_left {
+                doors.reverse();
+            }
+            all.extend(doors.into_iter().map(|(_, door)| kept(far(*door, self.at), self.at, None)));
+        };
+        let (below, above) = (|angle: f64| angle < least, |angle: f64| angle > most);
+        beside(if is_left { &below } else { &above }, &mut all);
+        let mut on: Vec<(f64, Kept)> = Vec::new();
+        for (number, corner) in (0..).zip(&self.corners) {
+            on.push((f64::from(number), kept(*corner, self.at, None)));
+        }
+        for (&(link, _), angle) in links.iter().zip(angles) {
+            let (place, corner) = self.met(angle);
+            on.push((place, kept(corner, self.at, Some(link))));
+        }
+        on.sort_by(|one, two| one.0.total_cmp(&two.0));
+        if !is_left {
+            on.reverse();
+        }
+        all.extend(on.into_iter().map(|(_, kept)| kept));
+        beside(if is_left { &above } else { &below }, &mut all);
+        all
+    }
+
+    /// Where a door that leads away at an angle meets the corners about the arc when it is carried on, and behind how many of
+    /// them.
+    fn met(&self, angle: f64) -> (f64, Point) {
+        let (first, last) = (self.corners[0], self.corners[self.corners.len() - 1]);
+        // carried on, it leads into the wall, from one of its sides to the other
+        let share = (angle - (PI - self.wall)) / self.wall;
+        if share <= 0.0 {
+            return (-0.5, first);
+        }
+        let along = (first - self.at).rotated(Point::towards(-share * self.wall));
+        let side = |p: Point| cross(self.at, self.at + along, p);
+        let met = self.corners.windows(2).position(|ends| side(ends[0]) >= 0.0 && side(ends[1]) < 0.0);
+        let Some(number) = met.filter(|_| share < 1.0) else {
+            return (self.corners.len() as f64 - 0.5, last);
+        };
+        let (one, two) = (side(self.corners[number]), side(self.corners[number + 1]));
+        (number as f64 + 0.5, self.corners[number].lerp(self.corners[number + 1], one / (one - two)))
+    }
+}
