@@ -35,7 +35,7 @@ impl RouteGraph {
     /// another price.
     pub(super) fn gates(&self, door: DoorIndex, from: RoomIndex) -> &[Gate] {
         let (to, side) = self.beyond(door, from);
-        self.turning().gates(door, side, || {
+        self.turning().gates(door, (side, self.order(door)), || {
             let (easier, harder) = if self.per_m(to) >= self.per_m(from) { (from, to) } else { (to, from) };
             let mut gates = Vec::new();
             let Some(area) = self[door].crossing.area() else { return Box::default() };

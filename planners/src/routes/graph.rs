@@ -88,12 +88,11 @@ impl RouteGraph {
         let (rooms, doors) = (rooms.into_iter().collect::<Vec<_>>(), doors.into_iter().collect::<Vec<_>>());
         self.reweigh_cut(&rooms, &doors);
         let was_on_doors = self.is_on_doors();
-        let (mut touched, mut orders, mut prices) = (Vec::new(), Vec::new(), BTreeMap::new());
+        let (mut touched, mut prices) = (Vec::new(), BTreeMap::new());
         let rooms: Vec<(RoomIndex, Walking)> =
             rooms.into_iter().filter(|(room, walking)| self[*room].walking != *walking).collect();
         if !rooms.is_empty() {
             touched = self.door_indices().collect();
-            orders = touched.iter().map(|&door| self.order(door)).collect();
         }
         for (room, walking) in rooms {
             let room = &mut self.rooms[room.index()];
@@ -119,34 +118,32 @@ impl RouteGraph {
             None => return,
         };
         let is_on_doors = was_on_doors && self.is_on_doors();
-        let orders_now: Vec<Ordering> =
-            touched[..orders.len()].iter().map(|&door| self.order(door)).collect();
         let is_other_price = !self.are_priced_alike(&prices);
         let Some(turning) = self.turning.get_mut() else { return };
         let mut otherwise = turning.pass((&self.rooms, &self.doors), &passing);
         if is_on_doors {
             return;
         }
-        // a gate hangs on which of two rooms is easier, on what is free beside it, and on which changes have one price
+        // a gate hangs on what is free beside it, and on which changes have one price
         if is_other_price {
             otherwise.extend(prices.keys());
         }
         turning.forget_near((&self.rooms, &self.doors), &otherwise);
-        let turned = (0..).zip(orders.iter().zip(orders_now)).filter(|(_, (before, now))| *before != now);
-        turning.forget(turned.map(|(door, _)| DoorIndex::new(door)));
     }
 
-    /// Whether changes of shape have one price where they had one, and only there.
+    /// Whether changes of shape between the same layers have one price where they had one, and only there.
     ///
     /// # Arguments
     /// `before` has the prices that are others now.
     fn are_priced_alike(&self, before: &BTreeMap<DoorIndex, Option<f64>>) -> bool {
-        let bits = |price: Option<f64>| price.map(f64::to_bits);
         let (mut now_of, mut was_of) = (BTreeMap::new(), BTreeMap::new());
         let mut changes = self.door_indices().filter(|&door| !before.is_empty() && self[door].is_change());
         changes.all(|door| {
-            let now = bits(self[door].weight());
-            let was = before.get(&door).map_or(now, |price| bits(*price));
+            let of = &self[door];
+            let layers = [of.room1, of.room2].map(|room| self.turning().mesh.layer(room));
+            let priced = |price: Option<f64>| (layers, price.map(f64::to_bits));
+            let now = priced(of.weight());
+            let was = before.get(&door).map_or(now, |price| priced(*price));
             *now_of.entry(was).or_insert(now) == now && *was_of.entry(now).or_insert(was) == was
         })
     }
@@ -169,7 +166,7 @@ impl RouteGraph {
     }
 
     /// Which of a door's rooms is easier.
-    fn order(&self, door: DoorIndex) -> Ordering {
+    pub(super) fn order(&self, door: DoorIndex) -> Ordering {
         self.per_m(self[door].room2).total_cmp(&self.per_m(self[door].room1))
     }
 

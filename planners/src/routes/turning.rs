@@ -1,6 +1,7 @@
 //! Where ways that weigh metres may turn: about ends of doors, and where a change of shape may pay. Nobody asks where all
 //! hardness lies on the doors, so it is found when first asked for, and follows the weights from then on.
 
+use std::cmp::Ordering;
 use std::sync::{Arc, OnceLock};
 
 use super::cone::Segment;
@@ -24,11 +25,11 @@ pub(super) struct Turning {
     /// For each door what passing it changes.
     passing: Vec<Passing>,
     /// What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
-    gates: Arc<Vec<[Found; 2]>>,
+    gates: Arc<Vec<Arc<Gates>>>,
 }
 
-/// Where it may pay to begin a change in one direction; found when first asked for.
-type Found = Arc<OnceLock<Box<[Gate]>>>;
+/// Where it may pay to begin a change, in each direction, and whichever of its rooms is easier; found when first asked for.
+type Gates = [[OnceLock<Box<[Gate]>>; 3]; 2];
 
 /// Farther away from the rooms of a change than this nothing touches where it may pay, metres.
 const REACH_M: f64 = 1.0;
@@ -39,36 +40,40 @@ const MANY: usize = 64;
 impl Turning {
     pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>) -> Self {
         let mesh = Mesh::new(rooms.len(), doors);
-        let gates = Arc::new(doors.iter().map(|_| Default::default()).collect());
+        let gates = Arc::new(doors.iter().map(|_| Arc::default()).collect());
         let mut all = Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates };
         all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
     }
 
     /// The gates of a change in one of its directions.
-    pub fn gates(&self, door: DoorIndex, side: usize, find: impl FnOnce() -> Box<[Gate]>) -> &[Gate] {
-        self.gates[door.index()][side].get_or_init(find)
-    }
-
-    /// Forgets the gates of these doors.
-    pub fn forget(&mut self, which: impl IntoIterator<Item = DoorIndex>) {
-        let mut which = which.into_iter().peekable();
-        if which.peek().is_some() {
-            let gates = Arc::make_mut(&mut self.gates);
-            which.for_each(|door| gates[door.index()] = Default::default());
-        }
+    ///
+    /// # Arguments
+    /// `order` is that of what its rooms weigh.
+    pub fn gates(
+        &self,
+        door: DoorIndex,
+        (side, order): (usize, Ordering),
+        find: impl FnOnce() -> Box<[Gate]>,
+    ) -> &[Gate] {
+        self.gates[door.index()][side][(order as i8 + 1) as usize].get_or_init(find)
     }
 
     /// Forgets the gates of changes between rooms that these doors come near to.
     pub fn forget_near(&mut self, (rooms, doors): (&[RouteRoom], &[RouteDoor]), which: &[DoorIndex]) {
+        if which.is_empty() {
+            return;
+        }
         let about: Vec<Rect> =
             which.iter().map(|door| doors[door.index()].crossing.bounds().grown(REACH_M)).collect();
         let is_near = |door: &RouteDoor| {
             let rooms = [door.room1, door.room2].map(|room| rooms[room.index()].outline.bounds());
             about.len() > MANY || about.iter().any(|about| rooms.iter().any(|room| about.overlaps(room)))
         };
-        let near = (0..).zip(doors).filter(|(_, door)| door.is_change() && is_near(door));
-        self.forget(near.map(|(index, _)| DoorIndex::new(index)));
+        let gates = Arc::make_mut(&mut self.gates);
+        for (gates, _) in gates.iter_mut().zip(doors).filter(|(_, door)| door.is_change() && is_near(door)) {
+            *gates = Arc::default();
+        }
     }
 
     /// Takes what passing these doors changes now; those for which it is otherwise.
