@@ -41,7 +41,7 @@ impl RouteGraph {
             let Some(area) = self[door].crossing.area() else { return Box::default() };
             let centre = area.centre();
             let common = self[from].outline.common(&self[to].outline);
-            let deep = |segment: Segment| Gate { segment, is_deep: true };
+            let deep = |segment: Segment| Gate { segment, is_deep: true, is_step: false };
             if common.is_none_or(|common| !is_same(&common, area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
                 return area.sides().flat_map(|side| self.clear_of_walls(side)).map(deep).collect();
@@ -54,24 +54,31 @@ impl RouteGraph {
                 let (alike, otherwise) = self.beside(door, (from, to), side);
                 known.extend(alike);
                 for end in without(side, &known) {
-                    let on = Sweep::beyond(self, end, centre, THIN_M, Further::Doors).deep(easier);
-                    rim.extend(without(end, &on));
+                    let beyond = |room| Sweep::beyond(self, end, centre, THIN_M, Further::Doors).deep(room);
+                    let only_harder =
+                        beyond(harder).into_iter().flat_map(|part| without(part, &beyond(easier)));
+                    rim.extend(only_harder.collect::<Vec<_>>());
                 }
                 gates.extend(otherwise.into_iter().map(deep));
                 if is_equal {
                     gates.extend(self.rim(harder, side).into_iter().map(deep));
                 }
-                if is_equal || easier == to {
+                if is_equal {
                     gates.extend(rim.into_iter().map(deep));
                     continue;
                 }
-                for segment in rim {
+                let of_harder = self.rim(harder, side);
+                for (segment, is_step) in rim.into_iter().flat_map(|part| parted(part, &of_harder)) {
+                    if easier == to {
+                        gates.push(Gate { segment, is_deep: true, is_step });
+                        continue;
+                    }
                     let parts = Sweep::beyond(self, segment, centre, DEEP_M, Further::AllWays).deep(to);
                     let shallow = without(segment, &parts);
-                    gates.extend(parts.into_iter().map(deep));
+                    gates.extend(parts.into_iter().map(|segment| Gate { segment, is_deep: true, is_step }));
                     gates.extend(shallow.into_iter().flat_map(pieces).map(|segment| {
                         let is_deep = self.leads_on(from, to, segment);
-                        Gate { segment, is_deep }
+                        Gate { segment, is_deep, is_step }
                     }));
                 }
             }
@@ -79,6 +86,25 @@ impl RouteGraph {
                 self.clear_of_walls(gate.segment).into_iter().map(move |segment| Gate { segment, ..gate })
             };
             gates.into_iter().flat_map(clear).collect()
+        })
+    }
+
+    /// Whether a change may pay as one of several at one point: not where one change does the same at no higher price.
+    pub(super) fn is_step_on_a_way(&self, door: DoorIndex, from: RoomIndex) -> bool {
+        let (to, _) = self.beyond(door, from);
+        let layer = |room| self.turning().mesh.layer(room);
+        let own = self.passage(door).unwrap_or(f64::INFINITY);
+        // the changes that come after it, or before it, and those that do the same at once
+        let (others, at_once, end) = if self.per_m(to) >= self.per_m(from) {
+            (self.exits.changes(to), self.exits.changes(from), layer(from))
+        } else {
+            (self.exits.changes_into(from), self.exits.changes_into(to), layer(to))
+        };
+        others.iter().filter(|other| layer(other.to) != end).any(|other| {
+            let both = self.passage(other.door).map(|price| own + price + EPSILON);
+            let does_the_same = |exit: &&Exit| layer(exit.to) == layer(other.to);
+            let is_no_more = |exit: &Exit| self.passage(exit.door) <= both && self.is_open(exit.door);
+            both.is_some() && !at_once.iter().filter(does_the_same).any(is_no_more)
         })
     }
 
@@ -196,7 +222,7 @@ impl<'g> Sweep<'g> {
         let length = self.segment.length();
         self.find(room, (0.0, length), 0.0, &mut parts);
         let at = |along: f64| self.segment.at(along / length);
-        parts.into_iter().map(|(from, to)| Segment { a: at(from), b: at(to) }).collect()
+        joined(parts).into_iter().map(|(from, to)| Segment { a: at(from), b: at(to) }).collect()
     }
 
     /// The same, of a part of the segment; `highest` is how far one has come by other changes of shape.
@@ -314,6 +340,13 @@ fn pieces(segment: Segment) -> impl Iterator<Item = Segment> {
 fn is_same(a: &Convex, b: &Convex) -> bool {
     let holds = |one: &Convex, other: &Convex| other.corners().all(|corner| one.distance(corner) <= SNAP_M);
     holds(a, b) && holds(b, a)
+}
+
+/// The parts of a segment, with whether one of some others on its line covers them.
+fn parted(side: Segment, others: &[Segment]) -> Vec<(Segment, bool)> {
+    let free = without(side, others);
+    let covered = without(side, &free);
+    free.into_iter().map(|part| (part, false)).chain(covered.into_iter().map(|part| (part, true))).collect()
 }
 
 /// The parts of a segment that none of some others on its line covers.

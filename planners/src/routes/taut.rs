@@ -114,6 +114,8 @@ pub(super) struct Search<'g> {
     /// For each room points that are reached, with their costs: a room is convex, so from each of them every point
     /// of the room costs at most the way over.
     reached: Vec<Vec<(Point, f64)>>,
+    /// The same of points at which a change of shape into the room was found, though it was not gone on from there yet.
+    offered: Vec<Vec<(Point, f64)>>,
     /// For each end of a door the least cost of a way that bends there.
     bent: Vec<f64>,
     /// Roots from which a room was looked at already: the room, the point, and to which side.
@@ -176,6 +178,7 @@ impl<'g> Search<'g> {
             found: Vec::new(),
             queue: BinaryHeap::new(),
             reached: vec![Vec::new(); rooms],
+            offered: vec![Vec::new(); rooms],
             bent: vec![f64::INFINITY; turning.bends.len()],
             looked: HashSet::new(),
             outcome,
@@ -322,25 +325,30 @@ impl<'g> Search<'g> {
     }
 
     fn is_cheaper_in(&self, room: RoomIndex, p: Point, limit: f64, per_m: f64) -> bool {
-        self.reached[room.index()].iter().any(|&(q, cost)| {
-            let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
-            cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
-        })
+        is_cheaper_from(&self.reached[room.index()], p, limit, per_m)
     }
 
     /// Whether walking in an easier state, and changing at the point or close to it, costs less.
     fn is_cheaper_by_a_change(&self, room: RoomIndex, p: Point, limit: f64, per_m: f64) -> bool {
-        self.graph.exits.changes_into(room).iter().any(|exit| {
+        let graph = self.graph;
+        graph.exits.changes_into(room).iter().any(|exit| {
             let from = exit.to;
-            let easier = self.graph.per_m(from);
-            if easier > per_m || self.reached[from.index()].is_empty() {
+            let easier = graph.per_m(from);
+            let reached = &self.reached[from.index()];
+            if easier > per_m || reached.is_empty() {
                 return false;
             }
-            let near = self.graph[exit.door].crossing.nearest_to(p);
+            let Some(area) = graph[exit.door].crossing.area() else { return false };
+            // most changes are far away, or come too late, and that is told sooner than where exactly they are
+            let Some(weight) = graph.passage(exit.door) else { return false };
+            if !area.bounds().grown(CLOSE_M).contains(p)
+                || !is_cheaper_from(reached, p, limit - weight, easier)
+            {
+                return false;
+            }
+            let near = area.nearest_to(p);
             let aside = near.distance(p);
-            let weight = self.graph.passage(exit.door).filter(|_| aside <= CLOSE_M);
-            weight
-                .is_some_and(|weight| self.is_cheaper_in(from, near, limit - weight - aside * per_m, easier))
+            aside <= CLOSE_M && is_cheaper_from(reached, near, limit - weight - aside * per_m, easier)
         })
     }
 
@@ -497,8 +505,10 @@ impl<'g> Search<'g> {
             let cost = node.cost + node.root.distance(p) * here;
             // reached at less cost otherwise, here or there
             let is_vain = search.is_cheaper_in(node.room, p, cost - EPSILON, here)
-                || search.is_cheaper_in(room, p, cost + weight + EPSILON, there);
+                || search.is_cheaper_in(room, p, cost + weight + EPSILON, there)
+                || is_cheaper_from(&search.offered[room.index()], p, cost + weight + EPSILON, there);
             if !is_vain {
+                search.offered[room.index()].push((p, cost + weight));
                 search.push(Node {
                     root: p,
                     cost: cost + weight,
@@ -527,8 +537,12 @@ impl<'g> Search<'g> {
             }
             return;
         }
-        for Gate { segment: gate, is_deep } in graph.gates(door, node.room) {
-            if !is_deep && !self.is_near_a_goal(gate) {
+        let mut is_step_on_a_way = None;
+        for Gate { segment: gate, is_deep, is_step } in graph.gates(door, node.room) {
+            if !is_deep && !self.is_near_a_goal(gate)
+                || *is_step
+                    && !*is_step_on_a_way.get_or_insert_with(|| graph.is_step_on_a_way(door, node.room))
+            {
                 continue;
             }
             if let Some(seen) = node.view.of_gate(node.root, *gate) {
@@ -538,6 +552,14 @@ impl<'g> Search<'g> {
             }
         }
     }
+}
+
+/// Whether a point is reached at less cost from one of some points of its room.
+fn is_cheaper_from(points: &[(Point, f64)], p: Point, limit: f64, per_m: f64) -> bool {
+    points.iter().any(|&(q, cost)| {
+        let aside = (p.x - q.x).abs().max((p.y - q.y).abs());
+        cost + aside * per_m < limit && cost + q.distance(p) * per_m < limit
+    })
 }
 
 #[derive(Clone, Copy)]

@@ -15,6 +15,8 @@ pub(super) struct Gate {
     pub segment: Segment,
     /// Whether the harder state has room beyond it for more than half a metre.
     pub is_deep: bool,
+    /// Whether it is the rim of both states, so that the change can only be one of several at one point.
+    pub is_step: bool,
 }
 
 #[derive(Clone, Debug)]
