@@ -189,7 +189,12 @@ proptest! {
             }
         }
         let found: BTreeSet<_> = layers.crossings.iter().map(|c| (c.room1, c.room2, c.kind)).collect();
-        prop_assert!(found.is_subset(&expected) && layers.crossings.len() == found.len());
+        prop_assert_eq!(layers.crossings.len(), found.len());
+        for &(i, j, kind) in found.difference(&expected) {
+            // what is broader than a rounding by little may be one or none
+            let common = layers.rooms[i].outline.common(&layers.rooms[j].outline);
+            prop_assert!(kind == Kind::Change && common.is_some_and(|common| common.breadth() > 0.5 * ROUNDING_M));
+        }
         // A thin overlap may be left out beside a thicker one of the same room.
         let is_door = |a: usize, b: usize| found.contains(&(a.min(b), a.max(b), Kind::Door));
         for &(i, j, kind) in expected.difference(&found) {

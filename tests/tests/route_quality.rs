@@ -3,6 +3,8 @@
 
 #[path = "route_quality/judge.rs"]
 mod judge;
+#[path = "route_quality/many_maps.rs"]
+mod many_maps;
 #[path = "route_quality/metamorphic.rs"]
 mod metamorphic;
 #[path = "route_quality/occupancy_maps.rs"]

@@ -48,26 +48,20 @@ impl RouteGraph {
             }
             let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
             for side in area.sides() {
-                let mut rim = self.rim(easier, side);
-                let mut known = self.rim(harder, side);
-                known.extend(rim.iter().copied());
+                let [of_easier, of_harder] = [easier, harder].map(|room| self.rim(room, side));
                 let (alike, otherwise) = self.beside(door, (from, to), side);
-                known.extend(alike);
+                gates.extend(otherwise.into_iter().map(deep));
+                let known = [of_easier.as_slice(), &of_harder, &alike].concat();
+                let mut rim = of_easier;
                 for end in without(side, &known) {
                     let beyond = |room| Sweep::beyond(self, end, centre, THIN_M, Further::Doors).deep(room);
-                    let only_harder =
-                        beyond(harder).into_iter().flat_map(|part| without(part, &beyond(easier)));
-                    rim.extend(only_harder.collect::<Vec<_>>());
-                }
-                gates.extend(otherwise.into_iter().map(deep));
-                if is_equal {
-                    gates.extend(self.rim(harder, side).into_iter().map(deep));
+                    let by_easier = beyond(easier);
+                    rim.extend(beyond(harder).into_iter().flat_map(|part| without(part, &by_easier)));
                 }
                 if is_equal {
-                    gates.extend(rim.into_iter().map(deep));
+                    gates.extend(rim.into_iter().chain(of_harder).map(deep));
                     continue;
                 }
-                let of_harder = self.rim(harder, side);
                 for (segment, is_step) in rim.into_iter().flat_map(|part| parted(part, &of_harder)) {
                     if easier == to {
                         gates.push(Gate { segment, is_deep: true, is_step });
