@@ -54,7 +54,7 @@ pub(super) fn numbers(sheet: &mut Sheet) {
 /// Spots beside a crossing for what is so wide and high, near its middle first.
 fn beside(across: &Across, (w, h): At) -> Vec<At> {
     let (x, y) = across.beside();
-    let away = (x.abs() * w + y.abs() * h) / 2.0 + 3.0;
+    let away = f64::midpoint(x.abs() * w, y.abs() * h) + 3.0;
     let shifts = [0.0, 0.15, -0.15, 0.3, -0.3, 0.45, -0.45];
     let spot = |shift: f64, side: f64| across.at(shift * across.length, side * away);
     shifts.iter().flat_map(|&shift| [spot(shift, 1.0), spot(shift, -1.0)]).collect()

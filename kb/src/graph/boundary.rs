@@ -20,7 +20,7 @@ impl SiteGraph {
         let Some(segment) = door.crossing.segment() else { return Vec::new() };
         let own = self.index.layers.iter().position(|layer| layer.holds(door.room1));
         let on = [segment.a, segment.b].into_iter().filter_map(|end| {
-            let far = end + self.into_wall(&self.index.layers[own?], end)? * FURTHEST_M;
+            let far = end + self.led_into_wall(&self.index.layers[own?], end)? * FURTHEST_M;
             let share = self.beside(own, end, far);
             (share > 0.0).then(|| Segment::new(end, end.lerp(far, share)))
         });
@@ -28,7 +28,7 @@ impl SiteGraph {
     }
 
     /// The direction from a point on the rim of a layer into the middle of what is solid there; `None` where nothing is.
-    fn into_wall(&self, layer: &Layer, at: Point) -> Option<Point> {
+    fn led_into_wall(&self, layer: &Layer, at: Point) -> Option<Point> {
         let near = layer.meeting(Segment::new(at, at).bounds().grown(SNAP_M));
         let wall = Sector::widest_gap(near.filter_map(|room| self.graph[room].outline.sector_at(at)))?;
         (wall.turn > SLIGHT).then(|| wall.middle())

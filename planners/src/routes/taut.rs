@@ -428,33 +428,33 @@ impl<'g> Search<'g> {
             view,
         };
         let is_same = self.graph.per_m(room).to_bits() == here.to_bits();
+        if !is_same {
+            let Some(seen) = node.view.of_gate(node.root, segment) else { return };
+            for p in self.points(room, seen, node.root) {
+                self.push(next(p, node.root.distance(p), View::All));
+            }
+            return;
+        }
         let is_inside = !matches!(node.view, View::Through(_));
         if segment.is_in_line_with(node.root) {
             let near = segment.nearest_to(node.root);
             let way = near.distance(node.root);
             if way <= EPSILON && is_inside {
-                let view = if is_same { node.view } else { View::All };
-                self.push(next(node.root, 0.0, view));
+                self.push(next(node.root, 0.0, node.view));
             } else if node.view.sees(node.root, near) {
                 // along a wall, and about the near end
                 let ends = self.turning.mesh.ends(door);
                 let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
-                if self.turning.bends[end as usize] || !is_same {
+                if self.turning.bends[end as usize] {
                     self.push(next(near, way, View::All));
                 }
             }
             return;
         }
         let Some(seen) = node.view.of(node.root, segment) else { return };
-        if is_same {
-            if seen.length() > EPSILON || segment.length() <= EPSILON {
-                let gap = Gap::new(node.root, segment, seen, self.turning.mesh.ends(door));
-                self.push(next(node.root, 0.0, View::Through(gap)));
-            }
-            return;
-        }
-        for p in self.points(room, seen, node.root) {
-            self.push(next(p, node.root.distance(p), View::All));
+        if seen.length() > EPSILON || segment.length() <= EPSILON {
+            let gap = Gap::new(node.root, segment, seen, self.turning.mesh.ends(door));
+            self.push(next(node.root, 0.0, View::Through(gap)));
         }
     }
 

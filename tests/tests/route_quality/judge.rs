@@ -91,6 +91,14 @@ fn in_a_wet_half_of_a_hall_the_way_is_refracted_too() {
 }
 
 #[test]
+fn along_the_edge_of_a_wet_floor_the_way_stays_dry_as_long_as_that_pays() {
+    // it begins on the line of the edge, and leaves the edge at 60 degrees
+    let plan = Plan::hall(10.0, 8.0).with_area(4.0, 3.0, 10.0, 8.0, 2.0);
+    let aside = 0.5 / 3.0f64.sqrt();
+    expect(&plan, &disc(0.6), (4.0, 1.0), (4.5, 7.0), 6.0 - aside + 2.0 * 0.5f64.hypot(aside));
+}
+
+#[test]
 fn under_a_pipe_the_shape_is_changed_just_before_and_just_behind() {
     let plan = Plan::hall(12.0, 2.0).with_bridge(5.0, 0.0, 5.5, 2.0, 1.2);
     let body = Body::new(&[("STAND", 1.7, 0.6, 1.0), ("SQUAT", 1.0, 0.8, 4.0)])

@@ -27,7 +27,8 @@ fn bodies() -> [Body; 3] {
 #[ignore = "an hour; ADIT_MAPS=40 cargo test --release -p adit-tests --test route_quality many_maps -- --ignored --nocapture"]
 fn routes_on_maps_of_others_cost_hardly_more_than_the_best_way() {
     let most = std::env::var("ADIT_MAPS").map_or(40, |maps| maps.parse().expect("ADIT_MAPS is a number"));
-    let finer: f64 = std::env::var("ADIT_FINER").map_or(1.0, |by| by.parse().expect("ADIT_FINER is a number"));
+    let finer: f64 =
+        std::env::var("ADIT_FINER").map_or(1.0, |by| by.parse().expect("ADIT_FINER is a number"));
     let Some(folder) = shared("data/room-segmentation") else { return };
     let mut maps: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     maps.retain(|path| path.extension().is_some_and(|extension| extension == "yaml"));
@@ -39,7 +40,8 @@ fn routes_on_maps_of_others_cost_hardly_more_than_the_best_way() {
         let judge = Judge::new(&built, side);
         let points = judge.points(&mut Chance::new(5), 9);
         let Some((start, goals)) = points.split_first() else { continue };
-        let name = format!("{} with {} states", map.file_stem().unwrap().to_string_lossy(), body.states.len());
+        let name =
+            format!("{} with {} states", map.file_stem().unwrap().to_string_lossy(), body.states.len());
         let found = judge.judge(&name, *start, goals, side / finer);
         found.print(&name);
         all.extend(found);
