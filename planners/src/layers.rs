@@ -68,7 +68,8 @@ impl Layers {
 /// drawn around by tangents a quarter of a turn apart, and exactly where something else is near. An image's walls are made
 /// straight where that closes no gap that a disc passes, outwards by at most a cell.
 ///
-/// Rooms are cut along the outlines of named areas. A named door is a band of rooms, and whoever passes it enters one of them.
+/// Rooms are cut along the outlines of named areas; of those that are entered by any part of the robot, along the outline of
+/// where its middle then is. A named door is a band of rooms, and whoever passes it enters one of them.
 ///
 /// # Returns
 /// Within a layer the rooms are convex, disjoint and free throughout, and cover the free space as it was drawn. Changes join
@@ -78,11 +79,19 @@ impl Layers {
 /// # Complexity
 /// O(n log n) in the number of corners of walls, times the number of states of different size.
 pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
-    cut_layers_anew(world, states, &KnownLayers::default())
+    cut_layers_anew(world, states, &[], &KnownLayers::default())
 }
 
 /// As [`cut_layers`], taking those layers from `known` whose sizes have not changed since.
-pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> Result<Layers, String> {
+///
+/// # Arguments
+/// `whole` are the areas, by number, that are entered by any part of the robot; others are by its middle.
+pub fn cut_layers_anew(
+    world: &World,
+    states: &[State],
+    whole: &[usize],
+    known: &KnownLayers,
+) -> Result<Layers, String> {
     check(states)?;
     let mut layers = Vec::new();
     for (state, of) in states.iter().enumerate() {
@@ -92,7 +101,7 @@ pub fn cut_layers_anew(world: &World, states: &[State], known: &KnownLayers) -> 
         }
     }
     let sizes: Vec<Size> =
-        layers.iter().map(|&(state, facing)| Size::of(world, &states[state], facing)).collect();
+        layers.iter().map(|&(state, facing)| Size::of(world, &states[state], facing, whole)).collect();
     let cut = known.layers(world, &sizes)?;
     let mut first = 0;
     let mut stack = Vec::new();

@@ -1,6 +1,7 @@
 //! Named areas and doors, laid over any map, and what rules make of them.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
+use adit_planners::geometry::{Point, Segment};
 use adit_tests::TestSite;
 
 /// A hall of 12 x 8 m with a wall across it that has two doorways, one straight ahead and one out of the way.
@@ -89,6 +90,46 @@ fn nobody_enters_an_area_to_keep_out_of() {
     let ran = site.adit("route", &["west", "7.5,2", "--json"]).expecting(1);
     let reason = ran.json()["reason"].as_str().unwrap().to_owned();
     assert!(reason.contains("is not entered (rule \"areas to keep out of are not entered\")"), "{reason}");
+}
+
+/// How near the middle of the robot comes to the pit's corners, metres.
+fn nearest_to_the_pit(site: &TestSite) -> f64 {
+    let route = route(site, 0);
+    let at = |waypoint: &serde_json::Value| {
+        let [x, y] = ["x", "y"].map(|axis| waypoint[axis].as_f64().unwrap());
+        Point::new(x, y)
+    };
+    let points: Vec<Point> = route["waypoints"].as_array().unwrap().iter().map(at).collect();
+    let legs = points.windows(2).map(|ends| Segment::new(ends[0], ends[1]));
+    let corners = [(8.0, 1.0), (9.0, 1.0), (9.0, 3.0), (8.0, 3.0)].map(|(x, y)| Point::new(x, y));
+    let gaps = legs.flat_map(|leg| corners.map(|corner| leg.distance(corner)));
+    gaps.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn nothing_of_the_robot_comes_into_an_area_to_keep_out_of_unless_its_middle_alone_is_meant() {
+    let pit = |more: &str| {
+        hall(&format!("[[area]]\nname = \"pit\"\nkind = \"keep-out\"\nrect = [8.0, 1.0, 9.0, 3.0]\n{more}"))
+            .built()
+    };
+    let body = nearest_to_the_pit(&pit(""));
+    assert!((0.3..0.31).contains(&body), "a robot 0.6 m wide passes it at {body}");
+    let middle = nearest_to_the_pit(&pit("whole_body = false\n"));
+    assert!(middle < 1e-3, "its middle passes it at {middle}");
+    let told = pit("whole_body = false\n");
+    told.adit("tell", &["AREAS", "pit", "whole_body", "true"]).expect_status(0);
+    assert!((0.3..0.31).contains(&nearest_to_the_pit(&told)), "as soon as it is told");
+}
+
+#[test]
+fn any_area_may_be_for_the_whole_body() {
+    // 0.7 m are left beside it, in which the robot's middle has 0.1
+    let wet = |more: &str| {
+        let area = "[[area]]\nname = \"wet\"\nhardness_factor = 5.0\nrect = [8.0, 0.7, 9.0, 8.0]\n";
+        cost(&hall(&format!("{area}{more}")).built())
+    };
+    let (middle, body) = (wet(""), wet("whole_body = true\n"));
+    assert!(body > middle + 0.1 && body < 9.0, "{middle}, then {body}");
 }
 
 #[test]

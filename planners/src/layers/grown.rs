@@ -7,7 +7,7 @@ use geo::algorithm::bool_ops::FillRule;
 use geo::{BooleanOps, Coord, LineString, MultiPolygon, OpType, Polygon};
 
 use super::walls::Corner;
-use crate::geometry::polygon::without_straight;
+use crate::geometry::polygon::{sides, without_straight};
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Point, Rect};
 
@@ -16,6 +16,9 @@ pub(super) type Rings = Vec<Vec<Point>>;
 
 /// The largest angle by which a tangent of an arc turns from the next one.
 const TURN: f64 = TAU / 4.0;
+
+/// An area that a disc may not touch has tangents about its corners in so many directions.
+const FINE: u32 = 16;
 
 /// Straight sides are left as rough as this, metres.
 const ROUGH_M: f64 = 0.5 * SNAP_M;
@@ -53,12 +56,22 @@ impl Moved {
         let grown = MultiPolygon::new(solid.iter().map(|ring| polygon(self.grown(ring))).collect());
         let floor = polygon(inner.corners().map(Coord::from).into());
         let free = floor.boolean_op_with_fill_rule(&grown, OpType::Difference, FillRule::Positive);
-        let rings = free.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
-        let corners = rings.map(|ring| ring.0.iter().map(|&corner| corner.into()).collect::<Vec<Point>>());
-        corners
-            .map(|corners| without_straight(&corners, ROUGH_M))
-            .filter(|corners| corners.len() > 2)
-            .collect()
+        rings(&free)
+    }
+
+    /// Where its middle is while any part of it is in an area.
+    pub fn met(&self, bounds: Rect, area: &[Point]) -> Rings {
+        let signed: f64 = sides(area).map(|side| side.a.cross(side.b)).sum();
+        // nothing rounds these arcs later
+        let tight: Vec<Point> =
+            (0..FINE).map(|part| Point::towards(TAU * f64::from(part) / f64::from(FINE))).collect();
+        let mut corners: Vec<Corner> = area.iter().map(|&at| Corner { at, tight: tight.clone() }).collect();
+        if signed < 0.0 {
+            corners.reverse();
+        }
+        let grown = MultiPolygon::new(vec![polygon(self.grown(&corners))]);
+        let floor = polygon(bounds.corners().map(Coord::from).into());
+        rings(&floor.boolean_op_with_fill_rule(&grown, OpType::Intersection, FillRule::Positive))
     }
 
     fn extent(&self) -> Rect {
@@ -138,6 +151,12 @@ impl Moved {
             }
         }
     }
+}
+
+fn rings(of: &MultiPolygon) -> Rings {
+    let rings = of.iter().flat_map(|part| std::iter::once(part.exterior()).chain(part.interiors()));
+    let corners = rings.map(|ring| ring.0.iter().map(|&corner| corner.into()).collect::<Vec<Point>>());
+    corners.map(|corners| without_straight(&corners, ROUGH_M)).filter(|corners| corners.len() > 2).collect()
 }
 
 /// The direction, of length 1, to the right of a side.

@@ -1,9 +1,11 @@
-//! Which named areas and doors a room lies in. Rooms are cut along their outlines, so that none lies in one in part.
+//! Which named areas and doors a room lies in. Rooms are cut along their outlines, so that none lies in one in part. Some areas
+//! are entered as soon as any part of the robot comes into them: their outlines are grown by it.
 //!
 //! A named door is a band along its segment: whoever passes the door enters a room of the band.
 
+use super::grown::{Moved, Rings};
 use crate::geometry::{Convex, Point, Rect, Segment, polygon};
-use crate::world::{NamedDoor, Shape, World};
+use crate::world::{Area, NamedDoor, Shape, World};
 
 /// The band of a named door is so broad, metres.
 const BAND_M: f64 = 0.05;
@@ -22,37 +24,47 @@ pub(super) struct Labels {
 }
 
 struct Outline {
-    corners: Vec<Point>,
+    sides: Vec<Segment>,
     bounds: Rect,
 }
 
-impl From<Vec<Point>> for Outline {
-    fn from(corners: Vec<Point>) -> Self {
-        Self { bounds: Rect::around(corners.iter().copied()), corners }
+impl From<Rings> for Outline {
+    fn from(rings: Rings) -> Self {
+        Self {
+            sides: rings.iter().flat_map(|ring| polygon::sides(ring)).collect(),
+            bounds: Rect::around(rings.iter().flatten().copied()),
+        }
     }
 }
 
 impl Outline {
     fn holds(&self, p: Point) -> bool {
-        self.bounds.contains(p) && polygon::encloses(polygon::sides(&self.corners), p)
+        self.bounds.contains(p) && polygon::encloses(self.sides.iter().copied(), p)
     }
 }
 
 impl Labels {
-    pub(super) fn new(world: &World) -> Self {
-        let area = |shape: &Shape| match shape {
-            Shape::Rect(rect) => Outline::from(Vec::from(rect.corners())),
-            Shape::Polygon(corners) => corners.clone().into(),
+    /// # Arguments
+    /// `whole` are the areas, by number, that are entered by any part of `robot`; the others are by its middle.
+    pub(super) fn new(world: &World, whole: &[usize], robot: &Moved) -> Self {
+        let area = |(number, area): (usize, &Area)| {
+            let corners = match &area.shape {
+                Shape::Rect(rect) => Vec::from(rect.corners()),
+                Shape::Polygon(corners) => corners.clone(),
+            };
+            let rings =
+                if whole.contains(&number) { robot.met(world.bounds, &corners) } else { vec![corners] };
+            Outline::from(rings)
         };
         Self {
-            areas: world.areas.iter().map(|of| area(&of.shape)).collect(),
-            doors: world.named_doors.iter().map(|door| band(door).into()).collect(),
+            areas: world.areas.iter().enumerate().map(area).collect(),
+            doors: world.named_doors.iter().map(|door| vec![band(door)].into()).collect(),
         }
     }
 
     /// Where rooms are cut.
     pub(super) fn lines(&self) -> Vec<Segment> {
-        self.areas.iter().chain(&self.doors).flat_map(|outline| polygon::sides(&outline.corners)).collect()
+        self.areas.iter().chain(&self.doors).flat_map(|outline| outline.sides.iter().copied()).collect()
     }
 
     pub(super) fn of(&self, room: &Convex) -> Label {

@@ -25,13 +25,15 @@ pub(super) struct Size {
     lies: Option<(f64, usize)>,
     /// Indices of the bridges that it does not pass.
     low: Vec<usize>,
+    /// Indices of the areas that any part of it enters.
+    whole: Vec<usize>,
 }
 
 impl Size {
-    pub(super) fn of(world: &World, state: &State, facing: Option<usize>) -> Self {
+    pub(super) fn of(world: &World, state: &State, facing: Option<usize>, whole: &[usize]) -> Self {
         let passes = |height: f64| state.height < height;
         let low = (0..world.bridges.len()).filter(|&bridge| !passes(world.bridges[bridge].height));
-        Self { width: state.width, lies: state.length.zip(facing), low: low.collect() }
+        Self { width: state.width, lies: state.length.zip(facing), low: low.collect(), whole: whole.into() }
     }
 }
 
@@ -80,7 +82,7 @@ impl Places {
 }
 
 impl Layer {
-    fn cut(world: &World, walls: &Walls, labels: &Labels, size: &Size) -> Result<Self, String> {
+    fn cut(world: &World, walls: &Walls, size: &Size) -> Result<Self, String> {
         let low: Vec<Rect> = size.low.iter().map(|&bridge| world.bridges[bridge].rect).collect();
         // what is free within a rounding is not free
         let (bounds, clearance) = (world.bounds, world.clearance + SNAP_M);
@@ -99,6 +101,11 @@ impl Layer {
             }
         };
         let turning = turning.map(|free| Pieces::of(&free, &[])).transpose()?;
+        let robot = match size.lies {
+            None => Moved::Disc(size.width / 2.0 + SNAP_M),
+            Some((length, facing)) => Moved::Body(footprint::body(length, size.width, SNAP_M, facing)),
+        };
+        let labels = Labels::new(world, &size.whole, &robot);
         let Pieces { pieces: rooms, doors: beside } = Pieces::of(&free, &labels.lines())?;
         let neighbours = Csr::new(
             rooms.len(),
@@ -154,10 +161,9 @@ impl KnownLayers {
             }
         }
         if !missing.is_empty() {
-            let (walls, labels) = (Walls::new(world), Labels::new(world));
-            let cut = |size: &&Size| {
-                Ok::<_, String>(((*size).clone(), Arc::new(Layer::cut(world, &walls, &labels, size)?)))
-            };
+            let walls = Walls::new(world);
+            let cut =
+                |size: &&Size| Ok::<_, String>(((*size).clone(), Arc::new(Layer::cut(world, &walls, size)?)));
             let new: Vec<_> = missing.par_iter().map(cut).collect::<Result<_, _>>()?;
             known.cut += new.len();
             known.layers.extend(new);

@@ -2,7 +2,7 @@
 
 use super::{Crossing, Kind, KnownLayers, Room, State, cut_layers_anew};
 use crate::facts::Facts;
-use crate::overlays::{MEMBERS_GIVE, member_facts};
+use crate::overlays::{AREAS, MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::{DoorRow, GIVES, RoomRow, facts};
 use crate::world::World;
@@ -14,7 +14,8 @@ const NAME: &str = "rooms by state";
 /// Gives ROOMS by robot (in the order in which the table first names them), state and then as made; and DOORS of
 /// kind `door` (within a layer) and `change` (one way, a pair where rooms of two states of a robot overlap), all
 /// numbered by (room1, room2). `width` is a room's smaller side, a door's length, the smaller side of the overlap
-/// of a change. `AREA_ROOMS` and `DOOR_ROOMS` say which room lies in which named area or door: rooms are cut along them.
+/// of a change. `AREA_ROOMS` and `DOOR_ROOMS` say which room lies in which named area or door: rooms are cut along them. An
+/// area is entered by the robot's middle, or, where a rule or the map says so (`AREAS.whole_body`), by any part of it.
 ///
 /// Layers are kept from one run to the next: where the size of one state changes, the others' are not cut again.
 #[derive(Debug, Default)]
@@ -28,18 +29,22 @@ impl Planner for RoomsByState {
     }
 
     fn signature(&self) -> Signature {
-        let needs = ["robot", "state", "height", "width", "length", "moves"].map(|p| format!("ROBOTS.{p}"));
+        let of_robots =
+            ["robot", "state", "height", "width", "length", "moves"].map(|p| format!("ROBOTS.{p}"));
+        let of_areas = ["area", "whole_body"].map(|p| format!("{AREAS}.{p}?"));
+        let needs: Vec<String> = of_robots.into_iter().chain(of_areas).collect();
         let gives = GIVES.iter().chain(&MEMBERS_GIVE).map(|given| (*given).to_owned()).collect();
-        Signature { needs: needs.into(), gives }
+        Signature { needs, gives }
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
-        let states = moving_states(known).map_err(|what| PlannerError::Fact {
-            planner: NAME.to_owned(),
-            class: "ROBOTS".to_owned(),
-            what,
-        })?;
-        let layers = cut_layers_anew(world, &states, &self.known)
+        let fact = |class: &str| {
+            let class = class.to_owned();
+            move |what: String| PlannerError::Fact { planner: NAME.to_owned(), class, what }
+        };
+        let states = moving_states(known).map_err(fact("ROBOTS"))?;
+        let whole = for_the_whole_body(world, known).map_err(fact(AREAS))?;
+        let layers = cut_layers_anew(world, &states, &whole, &self.known)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
         let room = |room: &Room| RoomRow {
             robot: states[room.state].robot.clone(),
@@ -63,6 +68,19 @@ impl Planner for RoomsByState {
         all.extend(member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms)));
         Ok(all)
     }
+}
+
+/// The areas, by number, that any part of the robot enters.
+fn for_the_whole_body(world: &World, known: &Facts) -> Result<Vec<usize>, String> {
+    let Some(table) = known.get(AREAS).filter(|table| table.column("whole_body").is_some()) else {
+        return Ok(Vec::new());
+    };
+    let (names, whole) = (table.texts("area")?, table.truths("whole_body")?);
+    let is_whole = |name: &str| {
+        let row = names.iter().position(|other| other.as_deref() == Some(name));
+        row.is_some_and(|row| whole[row] == Some(true))
+    };
+    Ok((0..world.areas.len()).filter(|&area| is_whole(&world.areas[area].name)).collect())
 }
 
 /// The states that move, by robot and then in the table's order.
