@@ -22,6 +22,7 @@ mod on_doors;
 mod parts;
 mod pull;
 mod rounded;
+mod sequences;
 mod taut;
 mod trace;
 mod turning;

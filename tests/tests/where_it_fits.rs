@@ -115,6 +115,18 @@ fn no_point_that_fits_is_refused_beside_straight_slanted_and_round_things() {
 
 #[test]
 fn no_point_that_fits_is_refused_on_a_scan() {
+    on_a_scan(300);
+}
+
+#[test]
+#[ignore = "minutes: 200,000 points; cargo test --release -p adit-tests --test where_it_fits very_many -- --ignored"]
+fn of_very_many_points_none_that_fits_is_refused() {
+    let built = Built::of_plan(&floor(), &body(), 0.1);
+    is_never_refused(&built, Point::new(1.5, 1.5), 150_000, 3);
+    on_a_scan(50_000);
+}
+
+fn on_a_scan(count: usize) {
     let Some(map) = shared("data/aws-robomaker/bookstore_map.yaml") else { return };
     let built = Built::of_map(&map, &body());
     let space = Space::new(&built.world, built.body(), 0.4);
@@ -122,7 +134,7 @@ fn no_point_that_fits_is_refused_on_a_scan() {
     let mut chance = Chance::new(5);
     let mut home = || Point::new(chance.between(b.x0, b.x1), chance.between(b.y0, b.y1));
     let home = (0..100_000).map(|_| home()).find(|&p| space.spares_at(p).all(|spare| spare > 0.0)).unwrap();
-    is_never_refused(&built, home, 300, 2);
+    is_never_refused(&built, home, count, 2);
 }
 
 /// A hall with a wall up to 5.0; the robot's radius is 0.31.

@@ -22,6 +22,7 @@ const READ_BY_ROUTES: [&str; 6] =
 /// Every property that is set and never read, in the order of the rules.
 pub fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
+    let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
     unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs))
 }
 

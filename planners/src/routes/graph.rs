@@ -120,6 +120,9 @@ impl RouteGraph {
         let is_on_doors = was_on_doors && self.is_on_doors();
         let is_other_price = !self.are_priced_alike(&prices);
         let Some(turning) = self.turning.get_mut() else { return };
+        if is_all || !prices.is_empty() {
+            turning.sequences = OnceLock::new();
+        }
         let mut otherwise = turning.pass((&self.rooms, &self.doors), &passing);
         if is_on_doors {
             return;

@@ -496,28 +496,47 @@ impl<'g> Search<'g> {
     /// Into another state.
     fn change(&mut self, index: u32, node: &Node, exit: Exit) {
         let Exit { door, to: room } = exit;
-        let Some(weight) = self.graph.passage(door) else { return };
+        let at_once = self.graph.passage(door);
+        let is_in_steps = self.graph.is_sequence_cheaper(node.room, room);
+        if at_once.is_none() && !is_in_steps || !self.graph.is_entered(room) {
+            return;
+        }
         let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
         let reach = |search: &mut Self, p: Point| {
             if search.graph.is_on_wall(p) {
                 return;
             }
             let cost = node.cost + node.root.distance(p) * here;
-            // reached at less cost otherwise, here or there
-            let is_vain = search.is_cheaper_in(node.room, p, cost - EPSILON, here)
-                || search.is_cheaper_in(room, p, cost + weight + EPSILON, there)
+            // reached at less cost otherwise
+            if search.is_cheaper_in(node.room, p, cost - EPSILON, here) {
+                return;
+            }
+            let steps = if is_in_steps {
+                search.graph.cheapest_changes(node.room, room, p)
+            } else {
+                at_once.map(|weight| vec![(exit, weight)])
+            };
+            let Some(((last, weight), steps)) = steps.as_deref().and_then(<[_]>::split_last) else { return };
+            let weight = *weight;
+            let is_vain = search.is_cheaper_in(room, p, cost + weight + EPSILON, there)
                 || is_cheaper_from(&search.offered[room.index()], p, cost + weight + EPSILON, there);
             if !is_vain {
                 search.offered[room.index()].push((p, cost + weight));
-                search.push(Node {
+                let changed = |before: u32, (exit, weight): &(Exit, f64)| Node {
                     root: p,
                     cost: cost + weight,
-                    before: index,
-                    room,
-                    door,
+                    before,
+                    room: exit.to,
+                    door: exit.door,
                     bent: false,
                     view: View::All,
-                });
+                };
+                let mut before = index;
+                for step in steps {
+                    search.nodes.push(changed(before, step));
+                    before = search.nodes.len() as u32 - 1;
+                }
+                search.push(changed(before, &(*last, weight)));
             }
         };
         let graph = self.graph;

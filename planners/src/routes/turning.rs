@@ -2,6 +2,7 @@
 //! hardness lies on the doors, so it is found when first asked for, and follows the weights from then on.
 
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::sync::{Arc, OnceLock};
 
 use super::cone::Segment;
@@ -28,6 +29,8 @@ pub(super) struct Turning {
     passing: Vec<Passing>,
     /// What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
     gates: Arc<Vec<Arc<Gates>>>,
+    /// From which layer into which one several changes cost less than one, somewhere; found when first asked for.
+    pub sequences: OnceLock<BTreeSet<(u32, u32)>>,
 }
 
 /// Where it may pay to begin a change, in each direction, and whichever of its rooms is easier; found when first asked for.
@@ -43,7 +46,8 @@ impl Turning {
     pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>) -> Self {
         let mesh = Mesh::new(rooms.len(), doors);
         let gates = Arc::new(doors.iter().map(|_| Arc::default()).collect());
-        let mut all = Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates };
+        let mut all =
+            Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates, sequences: OnceLock::new() };
         all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
     }

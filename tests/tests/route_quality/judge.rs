@@ -109,6 +109,18 @@ fn under_a_pipe_the_shape_is_changed_just_before_and_just_behind() {
 }
 
 #[test]
+fn two_changes_at_one_point_are_made_where_they_cost_less_than_one() {
+    let plan = Plan::hall(12.0, 2.0).with_bridge(5.0, 0.0, 5.5, 2.0, 0.6);
+    let states = [("STAND", 1.7, 0.6, 1.0), ("KNEEL", 1.0, 0.6, 3.0), ("LIE", 0.5, 0.6, 4.0)];
+    let steps = [(0, 1, 0.5), (1, 2, 0.75), (2, 1, 0.25), (1, 0, 0.5)];
+    let way = 10.0 + 3.0 * (0.5 + 2.0 * 0.3);
+    let dear = [steps.as_slice(), &[(0, 2, 5.0), (2, 0, 5.0)]].concat();
+    expect(&plan, &Body::new(&states).with_changes(&dear), (1.0, 1.0), (11.0, 1.0), way + 2.0);
+    let cheap = [steps.as_slice(), &[(0, 2, 1.0), (2, 0, 0.5)]].concat();
+    expect(&plan, &Body::new(&states).with_changes(&cheap), (1.0, 1.0), (11.0, 1.0), way + 1.5);
+}
+
+#[test]
 fn a_dear_change_is_worth_a_detour_and_a_cheap_one_is_not() {
     let plan = Plan::hall(10.0, 6.0).with_bridge(4.8, 0.0, 5.2, 4.0, 1.2);
     let body = Body::new(&[("STAND", 1.7, 0.6, 1.0), ("SQUAT", 1.0, 0.6, 2.0)]);

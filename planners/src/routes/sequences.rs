@@ -1,0 +1,101 @@
+//! Changes of shape one after the other at one point, where that costs less than one change does.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::graph::RouteGraph;
+use super::mesh::{EPSILON, Exit};
+use super::parts::RoomIndex;
+use crate::geometry::Point;
+
+/// Of two layers the least and the most that a change from one into the other costs; infinite where it is not made.
+type Prices = BTreeMap<u32, BTreeMap<u32, [f64; 2]>>;
+
+impl RouteGraph {
+    /// Whether a change of shape between the layers of two rooms costs more than several one after the other, or is not made.
+    pub(super) fn is_sequence_cheaper(&self, from: RoomIndex, to: RoomIndex) -> bool {
+        let all = self.turning().sequences.get_or_init(|| {
+            let prices = self.prices();
+            let mut cheaper = BTreeSet::new();
+            for (&from, all) in &prices {
+                for (over, [first, _]) in all {
+                    for (&to, [second, _]) in prices.get(over).into_iter().flatten() {
+                        if all.get(&to).is_some_and(|[_, at_once]| first + second < at_once - EPSILON) {
+                            cheaper.insert((from, to));
+                        }
+                    }
+                }
+            }
+            cheaper
+        });
+        !all.is_empty() && all.contains(&(self.turning().mesh.layer(from), self.turning().mesh.layer(to)))
+    }
+
+    fn prices(&self) -> Prices {
+        let mut prices = Prices::new();
+        let mut last = None;
+        for door in self.doors().iter().filter(|door| door.is_change()) {
+            let of = [door.room1, door.room2];
+            let is_entered = of.iter().all(|&room| self.is_entered(room));
+            let price = door.weight().filter(|_| is_entered).unwrap_or(f64::INFINITY);
+            let [one, two] = of.map(|room| self.turning().mesh.layer(room));
+            // most doors are between the layers of the one before, and cost what it does
+            let this = Some((one, two, price.to_bits(), door.one_way));
+            if this == last {
+                continue;
+            }
+            last = this;
+            let mut note = |from: u32, to: u32| {
+                let known = prices.entry(from).or_default().entry(to).or_insert([price, price]);
+                *known = [known[0].min(price), known[1].max(price)];
+            };
+            note(one, two);
+            if !door.one_way {
+                note(two, one);
+            }
+        }
+        prices
+    }
+
+    /// The changes at a point that lead from a room into another and together cost least (Dijkstra), each with what they
+    /// cost up to there; `None` where none do.
+    pub(super) fn cheapest_changes(
+        &self,
+        from: RoomIndex,
+        to: RoomIndex,
+        at: Point,
+    ) -> Option<Vec<(Exit, f64)>> {
+        // rooms that were reached: the change into each, what all cost up to there, and the one before
+        let mut reached: Vec<(Exit, f64, Option<usize>)> = Vec::new();
+        let mut done: Vec<bool> = Vec::new();
+        let (mut room, mut cost, mut before) = (from, 0.0, None);
+        while room != to {
+            for exit in self.exits.changes(room).iter().filter(|exit| exit.to != from) {
+                let Some(price) = self.passage(exit.door) else { continue };
+                if !self[exit.door].crossing.area().is_some_and(|area| area.contains(at)) {
+                    continue;
+                }
+                let next = (*exit, cost + price, before);
+                match reached.iter_mut().find(|(known, ..)| known.to == exit.to) {
+                    Some(known) if known.1 > next.1 + EPSILON => *known = next,
+                    Some(_) => {}
+                    None => {
+                        reached.push(next);
+                        done.push(false);
+                    }
+                }
+            }
+            let open = (0..reached.len()).filter(|&place| !done[place]);
+            let place = open.min_by(|&one, &two| reached[one].1.total_cmp(&reached[two].1))?;
+            done[place] = true;
+            (room, cost, before) = (reached[place].0.to, reached[place].1, Some(place));
+        }
+        let mut steps = Vec::new();
+        while let Some(place) = before {
+            let (exit, cost, previous) = reached[place];
+            steps.push((exit, cost));
+            before = previous;
+        }
+        steps.reverse();
+        Some(steps)
+    }
+}
