@@ -186,7 +186,8 @@ impl fmt::Display for Justification {
 pub struct Grounds {
     /// The rule's number in its rule base, from 0.
     pub rule: usize,
-    /// For each variable of the rule but the first the row of its object; `None` where it is bound to none.
+    /// For each variable of the rule but the first the row of its object; `None` where it is bound to none, or to the one
+    /// that a property of the first one's object names.
     pub witnesses: Vec<Option<u32>>,
 }
 

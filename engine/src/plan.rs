@@ -51,6 +51,23 @@ pub(crate) fn plan(
 }
 
 impl Plan {
+    /// For each clause whether a property of the first clause's object names its object, directly or by way of others,
+    /// by the key of its class: then nothing was chosen.
+    ///
+    /// # Arguments
+    /// `key` is the one property that tells objects of a class apart.
+    pub(crate) fn named<'k>(&self, key: impl Fn(&str) -> Option<&'k str>) -> Vec<bool> {
+        let mut named = vec![false; self.clauses.len()];
+        for (index, clause) in self.clauses.iter().enumerate() {
+            named[index] = clause.joins.iter().any(|join| {
+                let PropertyName { class, property } = &self.columns[join.column];
+                key(class) == Some(property)
+                    && matches!(join.key, Node::Property { variable, .. } if variable == 0 || named[variable])
+            });
+        }
+        named
+    }
+
     /// Whether running it calls the interpreter.
     pub(crate) fn interprets(&self) -> bool {
         let clause = |clause: &ClausePlan| {

@@ -1,6 +1,6 @@
 //! Why a property has its value.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::KnowledgeBase;
 use super::derived::Derived;
@@ -71,7 +71,8 @@ impl KnowledgeBase {
     }
 
     /// For a property that rules conclude: the different grounds of its values, and for each of these rows the place
-    /// of its own among them; `None` where the value was told or is unknown.
+    /// of its own among them; `None` where the value was told or is unknown. Objects that the row itself names are left
+    /// out, so that rows of which rules say the same share their grounds.
     pub fn grounds(&self, class: &str, property: &str, rows: &[u32]) -> (Vec<Grounds>, Vec<Option<usize>>) {
         let name = PropertyName::new(class, property);
         let Some(derived) = self.known_derived(&name) else {
@@ -81,10 +82,15 @@ impl KnowledgeBase {
         let mut places: HashMap<Grounds, usize> = HashMap::new();
         let mut different = Vec::new();
         let mut here = Grounds { rule: 0, witnesses: Vec::new() };
+        let mut named: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
         let place = |&row: &u32| match self.source(&name, derived, row) {
             Source::Rule { rule, firing } if !derived.stages[0].is_unknown(row as usize) => {
                 let memory = self.network.nodes.get(rule)?.memory.as_ref()?;
-                let bound = |clause| Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW);
+                let named = named.entry(rule).or_insert_with(|| self.named(rule));
+                let is_named = |clause: usize| named.get(clause) == Some(&true);
+                let bound = |clause| {
+                    Some(memory.witness(clause, firing)).filter(|&row| row != NO_ROW && !is_named(clause))
+                };
                 here.rule = rule;
                 here.witnesses.clear();
                 here.witnesses.extend((1..memory.witnesses.len()).map(bound));
@@ -99,6 +105,16 @@ impl KnowledgeBase {
         };
         let places = rows.iter().map(place).collect();
         (different, places)
+    }
+
+    /// For each clause of a rule whether the row itself names its object.
+    fn named(&self, rule: usize) -> Vec<bool> {
+        let key = |class: &str| {
+            let table = &self.held.get(class)?.table;
+            if let [column] = *table.key { Some(table.names[column].as_str()) } else { None }
+        };
+        let planned = self.network.nodes.get(rule).and_then(|node| node.planned.as_ref());
+        planned.map_or_else(Vec::new, |planned| planned.plan.named(key))
     }
 
     /// For a property that rules revise: each such rule with the rows that it revises.

@@ -55,6 +55,24 @@ fn a_whole_column_of_justifications_is_numbers() {
 }
 
 #[test]
+fn what_a_row_names_itself_is_no_ground_of_its_own() {
+    const NAMED: &str = r#"
+rule "the next one's" each t in THINGS
+    some  next in THINGS where next.thing == t.size
+    some  far  in THINGS where far.thing == next.size
+    least s    in ROBOTS by hardness where s.height < next.size
+    then { t.state = s.state; }"#;
+    let (base, _) = concluded(NAMED, [robots(), things("size", &[Some(2.0), Some(1.0), Some(1.0)])]);
+    let (grounds, places) = base.grounds("THINGS", "state", &[0, 1, 2]);
+    assert_eq!((grounds.len(), places), (1, vec![Some(0); 3]));
+    for by in grounds {
+        assert!(matches!(by.witnesses.as_slice(), [None, None, Some(_)]), "{by:?}");
+    }
+    let why = base.why(&rules(NAMED), "THINGS", "1", "state").unwrap().to_string();
+    assert!(why.contains("next = THINGS 2, far = THINGS 1, s = ROBOTS"), "{why}");
+}
+
+#[test]
 fn objects_that_got_nothing_are_listed_with_the_reason() {
     let (_, report) = concluded(RULE, [robots(), things("size", &[Some(-1.0), None, Some(6.0), Some(-2.0)])]);
     let gap = &report.gaps[0];
