@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use futures_util::future::join;
 use sqlx::sqlite::SqliteArguments;
 use sqlx::{Arguments, AssertSqlSafe, SqliteConnection};
 
@@ -183,17 +184,22 @@ async fn write<R: Record>(
     let most = VALUES / R::COLUMNS.len();
     let full = statement(most);
     let mut rows = rows.into_iter();
-    let mut written = 0;
-    loop {
+    let mut bind = || {
         let mut values = Values::with_capacity(VALUES);
         let count = rows.by_ref().take(most).map(|row| row.bind(&mut values)).count();
-        if count == 0 {
-            return Ok(written);
-        }
+        (count, values)
+    };
+    let mut written = 0;
+    let (mut count, mut values) = bind();
+    while count > 0 {
         let sql = if count == most { Arc::clone(&full) } else { statement(count) };
-        send::<R>(connection, sql, values).await?;
+        // SQLite writes on another thread while the next rows are bound
+        let (sent, next) = join(send::<R>(connection, sql, values), async { bind() }).await;
+        sent?;
         written += count as u64;
+        (count, values) = next;
     }
+    Ok(written)
 }
 
 async fn send<R: Record>(connection: &mut SqliteConnection, sql: Arc<str>, values: Values) -> Result<()> {

@@ -22,6 +22,7 @@ use adit_planners::rooms::outline;
 use adit_planners::routes::{
     Closed, Crossing, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking,
 };
+use rayon::prelude::*;
 
 use layers::Layer;
 
@@ -84,14 +85,12 @@ impl SiteGraph {
         });
         let room_by_key =
             rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
-        let mut route_doors = Vec::with_capacity(doors.len());
+        let route_doors: Vec<Option<RouteDoor>> =
+            doors.par_iter().map(|door| route_door(door, &room_by_key, &route_rooms)).collect();
         // a door whose rooms somebody else took away leads nowhere
-        doors.retain(|door| {
-            let door = route_door(door, &room_by_key, &route_rooms);
-            let is_kept = door.is_some();
-            route_doors.extend(door);
-            is_kept
-        });
+        let mut is_kept = route_doors.iter().map(Option::is_some);
+        doors.retain(|_| is_kept.next().unwrap_or(false));
+        let route_doors = route_doors.into_iter().flatten().collect();
         let named = |(index, room): (usize, &Room)| (room.name.clone(), RoomIndex::new(index));
         // of places of one name the first counts
         let placed = |(index, place): (usize, &Place)| (place.place.clone(), index);

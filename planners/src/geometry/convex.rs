@@ -15,6 +15,14 @@ pub struct Convex {
     corners: Option<Arc<[Point]>>,
 }
 
+/// Where a polygon lies by a line.
+enum Cut {
+    Left,
+    /// On both sides; with what lies to the left, where that is an area.
+    Through(Option<Convex>),
+    Right,
+}
+
 impl From<Rect> for Convex {
     fn from(bounds: Rect) -> Self {
         Self { bounds, corners: None }
@@ -208,14 +216,33 @@ impl Convex {
 
     /// What lies left of the line through a segment, in its direction; `None` where nothing does but a rounding.
     pub fn left_of(&self, line: Segment) -> Option<Self> {
+        match self.cut_by(line) {
+            Cut::Left => Some(self.clone()),
+            Cut::Through(part) => part,
+            Cut::Right => None,
+        }
+    }
+
+    fn cut_by(&self, line: Segment) -> Cut {
         let slack = ROUNDING_M * line.length();
         let side = |p: Point| cross(line.a, line.b, p);
         if self.corners().all(|corner| side(corner) >= -slack) {
-            return Some(self.clone());
+            Cut::Left
+        } else if self.is_right_of(line) {
+            Cut::Right
+        } else {
+            Cut::Through(self.part_left_of(line))
         }
-        if self.corners().all(|corner| side(corner) <= slack) {
-            return None;
-        }
+    }
+
+    /// Whether nothing but a rounding lies left of the line through a segment.
+    fn is_right_of(&self, line: Segment) -> bool {
+        let slack = ROUNDING_M * line.length();
+        self.corners().all(|corner| cross(line.a, line.b, corner) <= slack)
+    }
+
+    fn part_left_of(&self, line: Segment) -> Option<Self> {
+        let side = |p: Point| cross(line.a, line.b, p);
         if self.corners.is_none() {
             let (Rect { x0, y0, x1, y1 }, Point { x, y }, way) = (self.bounds, line.a, line.b - line.a);
             if way.x == 0.0 {
@@ -259,7 +286,19 @@ impl Convex {
         if let (None, None) = (&self.corners, &other.corners) {
             return Some(bounds.into());
         }
-        other.sides().try_fold(self.clone(), |rest, side| rest.left_of(side))
+        // most of what comes near is apart, and told so before anything is cut
+        if other.sides().any(|side| self.is_right_of(side)) {
+            return None;
+        }
+        let mut rest: Option<Self> = None;
+        for side in other.sides() {
+            match rest.as_ref().unwrap_or(self).cut_by(side) {
+                Cut::Left => {}
+                Cut::Through(part) => rest = Some(part?),
+                Cut::Right => return None,
+            }
+        }
+        Some(rest.unwrap_or_else(|| self.clone()))
     }
 
     /// The longest part of a side on which another one lies to its other side; `None` where there is none.

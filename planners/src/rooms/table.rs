@@ -1,5 +1,7 @@
 //! Rooms and doors as facts.
 
+use rayon::prelude::*;
+
 use crate::doors::{SharedEdge, shared_edges};
 use crate::facts::{Column, Facts, Table};
 use crate::geometry::{Convex, Point, Rect, Segment};
@@ -128,7 +130,7 @@ fn room_table(rooms: &[RoomRow]) -> Table {
 fn door_table(rooms: &[RoomRow], doors: &[DoorRow]) -> Table {
     let column = |of: &dyn Fn(&DoorRow) -> f64| doors.iter().map(of).collect::<Column>();
     let kind = |door: &DoorRow| if door.is_change { "change" } else { "door" }.to_owned();
-    let extents: Vec<(Point, f64)> = doors.iter().map(|door| door.extent(rooms)).collect();
+    let extents: Vec<(Point, f64)> = doors.par_iter().map(|door| door.extent(rooms)).collect();
     let mut table = Table::default()
         .with("door", keys(doors.len()))
         .with("kind", doors.iter().map(kind).collect::<Column>())
