@@ -32,6 +32,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let knowledge = KnowledgeBase::open(folder.path())?;
     let report = knowledge.build(&Silent)?;
     let all = began.elapsed();
+    if std::env::var_os("STAGES").is_some() {
+        let stages = report.stages.iter().map(|stage| format!("{} {:.0?}", stage.name, stage.took));
+        eprintln!("{}", stages.collect::<Vec<_>>().join(", "));
+    }
     let took = |name: &str| {
         let stage = report.stages.iter().find(|stage| stage.name == name);
         stage.map_or(String::new(), |stage| format!("{:.2} s", stage.took.as_secs_f64()))

@@ -234,7 +234,7 @@ impl Floor {
     }
 }
 
-/// States from the slimmest to the widest, some of them low.
+/// States of many sizes, the first ones those of a person; the later one stands the harder it is.
 fn robots(states: usize) -> String {
     const SIZES: [(&str, f64, f64); 8] = [
         ("WALK", 1.7, 0.6),
@@ -246,8 +246,15 @@ fn robots(states: usize) -> String {
         ("LOADED", 1.6, 0.7),
         ("TOWING", 1.5, 0.9),
     ];
+    let of_a_person = SIZES.iter().map(|&(name, height, width)| (name.to_owned(), height, width));
+    // all heights with all widths, in steps that no two have in common
+    let further = (0..).map(|more| {
+        let (height, width) = (0.5 + 0.27 * f64::from(more % 5), 0.3 + 0.025 * f64::from(more * 7 % 30));
+        (format!("SHAPE-{more}"), height, width)
+    });
+    let sizes: Vec<(String, f64, f64)> = of_a_person.chain(further).take(states).collect();
     let mut text = String::new();
-    for (index, (state, height, width)) in SIZES.iter().take(states).enumerate() {
+    for (index, (state, height, width)) in sizes.iter().enumerate() {
         let hardness = 1.0 + index as f64 / 2.0;
         writeln!(
             text,
@@ -256,8 +263,8 @@ fn robots(states: usize) -> String {
         )
         .expect("written to a string");
     }
-    for (a, _, _) in SIZES.iter().take(states) {
-        for (b, _, _) in SIZES.iter().take(states).filter(|(b, _, _)| a != b) {
+    for (a, _, _) in &sizes {
+        for (b, _, _) in sizes.iter().filter(|(b, _, _)| a != b) {
             writeln!(text, "[[changes]]\nfrom_state = \"{a}\"\nto_state = \"{b}\"\nhardness = 1.0")
                 .expect("written to a string");
         }
