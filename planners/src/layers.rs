@@ -7,6 +7,7 @@
 mod cells;
 mod changes;
 mod clearance;
+mod dents;
 mod footprint;
 mod free_space;
 mod gap;
@@ -72,8 +73,8 @@ impl Layers {
 /// where its middle then is. A named door is a band of rooms, and whoever passes it enters one of them.
 ///
 /// # Returns
-/// Within a layer the rooms are convex, disjoint and free throughout, and cover the free space as it was drawn. Changes join
-/// layers of the same robot only; an overlap thinner than 10 cm has none beside a thicker one of the same room. The
+/// Within a layer the rooms are convex, disjoint and free throughout, and cover the free space as it was drawn but for dents of up
+/// to 2 cm. Changes join layers of the same robot only; an overlap thinner than 10 cm has none beside a thicker one of the same room. The
 /// error is one sentence.
 ///
 /// # Complexity

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use super::dents::without_dents;
 use super::footprint;
 use super::grown::Moved;
 use super::labels::{Label, Labels};
@@ -16,6 +17,9 @@ use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Rect, Segment};
 use crate::search::Csr;
 use crate::world::World;
+
+/// Dents of free space up to so deep are no part of rooms, metres. A point in one is joined with them by a straight leg.
+const DENT_M: f64 = 0.02;
 
 /// What of a state decides its layer.
 #[derive(Clone, Debug, PartialEq)]
@@ -100,6 +104,7 @@ impl Layer {
                 (Moved::Body(body).free_space(bounds, &solid), Some(turning))
             }
         };
+        let free = without_dents(&free, DENT_M);
         let turning = turning.map(|free| Pieces::of(&free, &[])).transpose()?;
         let robot = match size.lies {
             None => Moved::Disc(size.width / 2.0 + SNAP_M),
