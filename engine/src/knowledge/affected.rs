@@ -31,8 +31,16 @@ struct Change {
     matching: Dirty,
     /// Rows with a value that decides whether they pass, whatever they are compared by, and new ones.
     passing: Dirty,
+    /// Whether links may lead elsewhere: an object is gone, moved, or has another value by which they find it.
+    is_led_anew: bool,
     /// The candidates before the change: the best first.
     before: Option<Candidates>,
+}
+
+impl Change {
+    fn is_nothing(&self) -> bool {
+        self.read.is_none() && self.matching.is_none() && !self.is_led_anew
+    }
 }
 
 impl KnowledgeBase {
@@ -48,7 +56,7 @@ impl KnowledgeBase {
         if memory.unasked == memory.statuses.len() {
             return Dirty::None;
         }
-        let nothing = changes.iter().all(|change| change.read.is_none() && change.matching.is_none());
+        let nothing = changes.iter().all(Change::is_nothing);
         if nothing && dirty == Dirty::Rows(vec![]) {
             return Dirty::None;
         }
@@ -83,15 +91,23 @@ impl KnowledgeBase {
 
     fn change(&self, run: &Run, rule: &Rule, planned: &Planned, number: usize) -> Change {
         let class = &rule.clauses[number].class;
-        let mut change =
-            Change { read: Dirty::None, matching: Dirty::None, passing: Dirty::None, before: None };
+        let mut change = Change {
+            read: Dirty::None,
+            matching: Dirty::None,
+            passing: Dirty::None,
+            is_led_anew: false,
+            before: None,
+        };
         if !run.touched.contains(class) {
             return change;
         }
+        let mut is_moved = false;
         if let Some(told) = run.told.get(class) {
             if told.anew {
-                return Change { read: Dirty::All, matching: Dirty::All, passing: Dirty::All, before: None };
+                let [read, matching, passing] = [Dirty::All, Dirty::All, Dirty::All];
+                return Change { read, matching, passing, is_led_anew: true, before: None };
             }
+            is_moved = told.moved.is_some();
             change.matching.extend(told.added.iter().copied());
             change.passing.extend(told.added.iter().copied());
         }
@@ -109,6 +125,9 @@ impl KnowledgeBase {
         for &column in &planned.uses.passing[number] {
             change.passing.join(delta(column));
         }
+        let clause = &planned.plan.clauses[number];
+        change.is_led_anew = clause.quantifier == Quantifier::Link
+            && (is_moved || clause.joins.iter().any(|join| !delta(join.column).is_none()));
         change
     }
 
@@ -122,20 +141,26 @@ impl KnowledgeBase {
         number: usize,
         change: &Change,
     ) -> Dirty {
-        if change.read.is_none() && change.matching.is_none() {
+        if change.is_nothing() {
             return Dirty::None;
         }
         let clause = &planned.plan.clauses[number];
         let many = [&change.read, &change.matching].contains(&&Dirty::All);
         // A hypothesis hangs on all that is unknown, too.
         let proves = planned.plan.hypothesis.is_some();
-        if memory.shape != Shape::Single || !clause.quantifier.names() || proves || many {
+        if memory.shape != Shape::Single || !clause.quantifier.names() || proves || many || change.is_led_anew
+        {
             return Dirty::All;
         }
         let size = self.len(&rule.clauses[number].class).unwrap_or(0);
         let look = Look { machine, memory, clause, number, size };
         let mut dirty = look.resting_on(&change.read.rows(size));
-        let matching = change.matching.clone().settle(usize::MAX).rows(size);
+        let mut matching = change.matching.clone();
+        if clause.quantifier == Quantifier::Link {
+            // of an object that came no further it is not kept where its links led
+            matching.join(&change.read);
+        }
+        let matching = matching.settle(usize::MAX).rows(size);
         if matching.is_empty() {
             return dirty;
         }
@@ -186,6 +211,12 @@ impl Look<'_> {
         let Self { memory, clause, number, size, .. } = *self;
         let came = memory.statuses.iter().zip(0_u32..).filter(|(status, _)| status.reached(number));
         let came = came.map(|(_, driver)| driver);
+        if clause.quantifier == Quantifier::Link {
+            // what is asked of the object before may be asked through the link, and have kept it from coming further
+            let silent = |status: &Status| status.reached(number) || *status == Status::SILENT;
+            let all = memory.statuses.iter().zip(0_u32..).filter(|(status, _)| silent(status));
+            return all.map(|(_, driver)| driver).collect();
+        }
         if !clause.joins.is_empty() {
             return came.collect();
         }
@@ -257,6 +288,12 @@ impl Look<'_> {
     /// Objects whose key is that of one of the candidates.
     fn joined(&self, matching: &[u32], reached: &[u32], dirty: &mut Dirty) {
         let joins = self.clause.joins.iter();
+        let hangs_on_links = joins.clone().any(|join| join.key.variables() & !1 != 0);
+        if self.clause.quantifier == Quantifier::Link && hangs_on_links {
+            // whom the links before lead to is not kept of an object that came no further
+            dirty.extend(reached.iter().copied());
+            return;
+        }
         let columns: Vec<_> = joins.map(|join| self.machine.columns[join.column]).collect();
         let index = Index::new(&columns, matching);
         for chunk in reached.chunks(BATCH) {

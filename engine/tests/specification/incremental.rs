@@ -6,7 +6,7 @@ use adit_engine::{Class, Conclusions, KnowledgeBase, RuleBase, Schema, SourceFil
 use proptest::prelude::*;
 
 /// Rules to choose from. T and U have a key, numbers x and y, a text s and a truth b, any of which may be unknown.
-pub const RULES: [&str; 36] = [
+pub const RULES: [&str; 39] = [
     "rule \"own\" each t in T where t.x > 0 then { t.twice = t.x * 2; t.name = t.s + \"!\"; }",
     "rule \"least\" each t in T least u in U by x where u.y < t.x then { t.least = u.x + t.y; t.who = u.s; }",
     "rule \"least of two\" each t in T least u in U by x where u.y < t.x && u.x <= t.y then { t.two = u.y; } else { t.two = -1; }",
@@ -40,6 +40,9 @@ pub const RULES: [&str; 36] = [
     "property T.z from table, rule, default y * 2",
     "property U.seen from rule, table, default true\nrule \"seen by\" each t in T some u in U where u.s == t.s then { t.saw = u.seen; }",
     "property T.s names U.s\nrule \"through a link\" each t in T where t.x > 0 then { t.link = t.s.x; t.known = known(t.s.late); }",
+    "property T.y names U.x\nrule \"where a link leads\" each t in T where t.y.b || t.y.y > 1 then { t.there = t.x; }",
+    "property U.s names T.s\nrule \"where two links lead\" each t in T each u in U where u.s.b && u.x > t.x then { t.two_links = true; }",
+    "property T.x names U.x\nproperty U.y names T.y\nrule \"where a link leads on\" each t in T where t.x.y.b then { t.chained = true; }",
     "class SMALL of U where y < 1\nclass TINY of SMALL where x < 0.5\nproperty TINY.size from default x\nproperty SMALL.size from rule, default 7\nrule \"size\" each u in TINY where u.b then { u.size = 3; }",
     "rule \"sizes\" each t in T sum n of u in U by size where u.s == t.s then { t.sizes = n; }",
     "fn f(a, b) { if a > b { a } else { b + 1 } }\nrule \"script\" each t in T some u in U where u.s == t.s then { t.f = f(t.x, u.x); }",
