@@ -37,6 +37,7 @@ pub mod route;
 pub mod saved;
 pub mod schema;
 pub mod site;
+pub mod space;
 pub mod stale;
 mod store;
 pub mod told;

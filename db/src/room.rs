@@ -32,6 +32,8 @@ pub struct Room {
     pub height: Option<f64>,
     /// Its breadth, metres: of a rectangle the smaller side.
     pub width: f64,
+    /// The number of the space that its centre lies in; `None` where that is none.
+    pub space: Option<i64>,
     /// Cost per metre.
     pub hardness: Derived<f64>,
     /// How to move in it.
@@ -68,6 +70,7 @@ impl Row for Room {
         column!(Cut Real "radius" radius),
         column!(Cut Real "height" height),
         column!(Cut Real "width" width),
+        column!(Cut Integer "space" space),
         column!(Weight Real "hardness" hardness.value),
         column!(Weight Integer "hardness_rule" hardness.rule),
         column!(Weight Integer "hardness_witness" hardness.witness),

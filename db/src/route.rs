@@ -68,6 +68,10 @@ pub struct Step {
     pub heading: Option<f64>,
     /// The rule that set the door's hardness or the room's action.
     pub rule: Option<String>,
+    /// Of a room the space that it is of.
+    pub space: Option<String>,
+    /// Of a door the doorway through which it leads into another space.
+    pub doorway: Option<String>,
 }
 
 /// A row of the view `waypoints`: where a route bends, changes shape, starts or ends.
@@ -138,6 +142,8 @@ fn step(row: &SqliteRow) -> sqlx::Result<Step> {
         y: row.try_get(8)?,
         heading: row.try_get(9)?,
         rule: row.try_get(10)?,
+        space: row.try_get(11)?,
+        doorway: row.try_get(12)?,
     })
 }
 
@@ -149,8 +155,8 @@ pub async fn action_sequence(
     goal: &str,
 ) -> Result<Vec<Step>> {
     let query = sqlx::query(
-        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule FROM action_sequence
-         WHERE robot = ? AND start = ? AND goal = ? ORDER BY step",
+        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway
+         FROM action_sequence WHERE robot = ? AND start = ? AND goal = ? ORDER BY step",
     );
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;
     Ok(rows.iter().map(step).collect::<sqlx::Result<_>>()?)

@@ -3,6 +3,7 @@
 mod args;
 mod build;
 mod cell;
+mod close;
 mod curve;
 mod demo;
 mod doctor;
@@ -53,6 +54,10 @@ pub enum Verb {
     Tune(tune::TuneArgs),
     /// Tell a fact about one object, with an end if it has one; list and retract what was told
     Tell(tell::TellArgs),
+    /// Let nobody pass a doorway, a space, an area, a named door, or the place where a robot was blocked
+    Close(close::CloseArgs),
+    /// Let everybody pass again what was closed
+    Open(close::OpenArgs),
     /// Named sets of edits: list, set, switch on and off, preview, compare
     Tuning(tuning::TuningArgs),
     /// Lint rules, tables and map without building
@@ -103,6 +108,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Route(args) => (args.way.site.json, route::run(args)),
         Verb::Tune(args) => (args.site.json, tune::tune(args).map(|()| 0)),
         Verb::Tell(args) => (args.site.json, tell::run(args).map(|()| 0)),
+        Verb::Close(args) => (args.site.json, close::close(args).map(|()| 0)),
+        Verb::Open(args) => (args.site.json, close::open(args).map(|()| 0)),
         Verb::Tuning(args) => (args.site.json, tuning::run(args).map(|()| 0)),
         Verb::Check(args) => (args.json, doctor::check(args).map(|sound| u8::from(!sound))),
         Verb::Test(args) => (args.json, test::run(args).map(|passed| u8::from(!passed))),

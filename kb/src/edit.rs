@@ -12,6 +12,8 @@ use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tunings;
 
 mod cells;
+mod close;
+mod place;
 pub mod rehearse;
 mod tell;
 mod tuning;
@@ -19,6 +21,7 @@ mod words;
 
 pub(crate) use cells::TUNABLE;
 use cells::{cell, cell_of, columns, explain, row};
+pub use close::Close;
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
 pub(crate) use words::change;
@@ -35,6 +38,10 @@ pub enum Edit {
     /// A row that goes: table, key.
     Remove(String, String),
     Tell(Tell),
+    /// What nobody passes from now on.
+    Close(Close),
+    /// What is open again, by the name that people have for it.
+    Open(String),
     /// A fact, by its number, that is no longer told.
     Retract(i64),
     /// A cell of a named tuning: the tuning, then table, key, column, value.
@@ -96,6 +103,11 @@ impl Edit {
                 let row = tell.row(tx, site, rules, author)?;
                 tx.add_row("told", &row, author)?
             }
+            Self::Close(close) => {
+                let row = close.fact(tx)?.row(tx, site, rules, author)?;
+                tx.add_row("told", &row, author)?
+            }
+            Self::Open(what) => close::open(tx, (site, rules), what, author)?,
             Self::Retract(id) => {
                 let gone = tx.remove_row("told", &id.to_string(), author);
                 gone.map_err(|error| match error {

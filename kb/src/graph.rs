@@ -1,6 +1,7 @@
 //! The graph of a site, for searches: which rooms and doors there are, and where points and names lie in it.
 
 mod boundary;
+mod building;
 mod ends;
 pub(crate) mod gauge;
 mod layers;
@@ -12,7 +13,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops;
 use std::sync::Arc;
 
-use adit_db::door::{Door, DoorKind};
+use adit_db::Tx;
+use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row;
@@ -24,8 +26,12 @@ use adit_planners::routes::{
 };
 use rayon::prelude::*;
 
+pub use boundary::Closer;
 use layers::Layer;
 
+use crate::error;
+
+pub use building::Building;
 pub use layers::rect_of;
 
 pub use texts::{Texts, word};
@@ -39,9 +45,12 @@ pub struct SiteGraph {
     pub doors: Vec<Door>,
     /// Rows of `places`, by index.
     pub places: Vec<Place>,
+    pub building: Arc<Building>,
     graph: RouteGraph,
     /// The doors that are told to let nobody through.
     closed: BTreeSet<DoorIndex>,
+    /// Of each closed boundary of the graph what closes it.
+    closers: Vec<Closer>,
     index: Arc<Index>,
     texts: Option<Texts>,
 }
@@ -70,7 +79,12 @@ pub enum End {
 
 impl SiteGraph {
     /// Indexes the tables.
-    pub fn new(mut rooms: Vec<Room>, mut doors: Vec<Door>, places: Vec<Place>) -> Self {
+    pub fn new(
+        mut rooms: Vec<Room>,
+        mut doors: Vec<Door>,
+        places: Vec<Place>,
+        building: Arc<Building>,
+    ) -> Self {
         let mut route_rooms = Vec::with_capacity(rooms.len());
         // a room whose outline somebody else spoilt is none until it is built again
         rooms.retain(|room| {
@@ -105,14 +119,49 @@ impl SiteGraph {
         );
         let closed =
             (0..doors.len()).filter(|&door| is_told_closed(&doors[door])).map(DoorIndex::new).collect();
-        let mut all = Self { rooms, doors, places, graph, closed, index: Arc::new(index), texts: None };
-        all.graph.close(all.boundaries());
+        let (closers, index) = (Vec::new(), Arc::new(index));
+        let mut all = Self { rooms, doors, places, building, graph, closed, closers, index, texts: None };
+        all.close();
         all
     }
 
-    /// Where doors are told to let nobody through: that holds for every state and robot.
-    fn boundaries(&self) -> Vec<Closed> {
-        self.closed.iter().flat_map(|&door| self.boundary(&self.graph[door])).collect()
+    /// As the last build kept it.
+    pub fn read(tx: &mut Tx<'_>) -> error::Result<Self> {
+        Ok(Self::new(tx.rooms()?, tx.doors()?, tx.places()?, Arc::new(Building::read(tx)?)))
+    }
+
+    /// Closes doors that are told to let nobody through, and doorways that nobody passes, for every state.
+    fn close(&mut self) {
+        let doors = self.closed.iter().map(|&door| (Closer::Door(door), self.of_door(&self.graph[door])));
+        let doorways = self
+            .building
+            .closed()
+            .map(|doorway| (Closer::Doorway(doorway.doorway), self.of_doorway(Building::segment(doorway))));
+        let lines = self.building.lines.iter().map(|&(fact, [x0, y0, x1, y1])| {
+            let segment = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
+            (Closer::Fact(fact), self.of_doorway(segment))
+        });
+        let (mut closers, mut boundaries) = (Vec::new(), Vec::new());
+        for (closer, segments) in doors.chain(doorways).chain(lines) {
+            closers.resize(closers.len() + segments.len(), closer);
+            boundaries.extend(segments.into_iter().map(Closed::for_all));
+        }
+        self.graph.close(boundaries);
+        self.closers = closers;
+    }
+
+    /// What people call the doorway through which a door leads into another space.
+    pub fn doorway(&self, door: &Door) -> Option<String> {
+        let space = |side: &Side| self[self.room(side.room)?].space;
+        let [one, other] = [space(&door.side1)?, space(&door.side2)?];
+        let at = Point::new(door.at[0], door.at[1]);
+        let doorway = self.building.doorway(one, other, at).filter(|_| door.kind == DoorKind::Door);
+        doorway.map(Building::name)
+    }
+
+    /// What closes a boundary of the graph.
+    pub fn closer(&self, boundary: usize) -> Closer {
+        self.closers[boundary]
     }
 
     /// Makes answers quick between any two ends. Copies made from now on are prepared, too.
@@ -133,9 +182,14 @@ impl SiteGraph {
     }
 
     /// Gives rooms and doors other weights.
-    pub fn write(&mut self, rooms: &[(RoomIndex, Weight)], doors: &[(DoorIndex, Weight)]) {
+    pub fn write(
+        &mut self,
+        rooms: &[(RoomIndex, Weight)],
+        doors: &[(DoorIndex, Weight)],
+        building: &Arc<Building>,
+    ) {
         self.put(rooms, doors);
-        self.weigh(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _)| *door));
+        self.weigh(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _)| *door), building);
     }
 
     /// Takes over the weights of some rooms and doors of another copy, and gives some other weights.
@@ -145,6 +199,7 @@ impl SiteGraph {
         (late_rooms, late_doors): (&[RoomIndex], &[DoorIndex]),
         rooms: &[(RoomIndex, Weight)],
         doors: &[(DoorIndex, Weight)],
+        building: &Arc<Building>,
     ) {
         for &room in late_rooms {
             self.rooms[room.index()].clone_from(&from[room]);
@@ -155,7 +210,7 @@ impl SiteGraph {
         self.put(rooms, doors);
         let rooms = late_rooms.iter().copied().chain(rooms.iter().map(|(room, _)| *room));
         let doors = late_doors.iter().copied().chain(doors.iter().map(|(door, _)| *door));
-        self.weigh(rooms, doors);
+        self.weigh(rooms, doors, building);
     }
 
     fn put(&mut self, rooms: &[(RoomIndex, Weight)], doors: &[(DoorIndex, Weight)]) {
@@ -168,21 +223,32 @@ impl SiteGraph {
     }
 
     /// Lets searches see the weights of these rows.
-    fn weigh(&mut self, rooms: impl Iterator<Item = RoomIndex>, doors: impl Iterator<Item = DoorIndex>) {
+    fn weigh(
+        &mut self,
+        rooms: impl Iterator<Item = RoomIndex>,
+        doors: impl Iterator<Item = DoorIndex>,
+        building: &Arc<Building>,
+    ) {
         let rooms: Vec<_> = rooms.map(|room| (room, walking_in(&self[room]))).collect();
         let weighed = |index: DoorIndex| {
             let door = &self[index];
             (index, door.hardness.value, door.passable.value.unwrap_or(false))
         };
         let doors: Vec<_> = doors.map(weighed).collect();
-        let mut is_closed_otherwise = false;
+        let is_other = self.building != *building;
+        let mut is_closed_otherwise = is_other;
         for (door, _, _) in &doors {
             let is_closed = is_told_closed(&self[*door]);
             is_closed_otherwise |=
                 if is_closed { self.closed.insert(*door) } else { self.closed.remove(door) };
         }
+        if is_other {
+            self.building = Arc::clone(building);
+            // steps name spaces and doorways
+            self.texts = self.texts.take().map(|_| Texts::new(self.rooms.len(), self.doors.len()));
+        }
         if is_closed_otherwise {
-            self.graph.close(self.boundaries());
+            self.close();
         }
         if let Some(texts) = &mut self.texts {
             texts.forget(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _, _)| *door));

@@ -24,6 +24,7 @@ use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::{Planner, PlannerError, Signature};
 use adit_planners::prime_areas::PrimeAreas;
 use adit_planners::rooms::PaperRooms;
+use adit_planners::spaces::SpacesAndDoorways;
 use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
@@ -113,6 +114,7 @@ impl KnowledgeBase {
         let planners: Vec<Arc<dyn Planner>> = vec![overlays.clone()];
         let mut knowledge =
             Self { site, planners, overlays, database, rules: None, reseed: false, at: None, within: None };
+        knowledge.register(Box::new(SpacesAndDoorways));
         match mode {
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {

@@ -7,6 +7,7 @@ pub(crate) mod grounds;
 pub(crate) mod keep;
 mod planned;
 pub(crate) mod rows;
+mod spaces;
 mod step;
 mod twin;
 mod weighed;
@@ -20,9 +21,9 @@ use adit_db::room::Room;
 use adit_engine::KnowledgeBase as Inference;
 
 use crate::error::Result;
-use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::pairs::Known;
+use crate::graph::{Building, SiteGraph};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
 use crate::knowledge::{KnowledgeBase, tolerance};
@@ -71,9 +72,9 @@ impl State {
     pub(crate) fn new(
         site: Arc<KnowledgeBase>,
         inputs: Arc<Inputs>,
-        (rooms, doors): (Vec<Room>, Vec<Door>),
+        (rooms, doors, building): (Vec<Room>, Vec<Door>, Building),
     ) -> Self {
-        let graph = SiteGraph::new(rooms, doors, rows::places(&inputs.world));
+        let graph = SiteGraph::new(rooms, doors, rows::places(&inputs.world), Arc::new(building));
         let knowledge = Inference::new();
         let gauge = Arc::new(Gauge::new(&inputs.world, Sizes::new()));
         Self {

@@ -35,12 +35,14 @@ use crate::rooms::outline::shared;
 use crate::world::World;
 
 pub(crate) use footprint::{STEP_DEGREES, body};
+pub(crate) use free_space::Solid;
 pub use headroom::{Headroom, headroom};
 pub use lattice::{Lattice, MAX_CELLS};
 pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
+pub(crate) use transform::squared_gaps;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layers {

@@ -30,5 +30,6 @@ pub mod routes;
 pub mod search;
 pub mod simulator;
 mod skyline;
+pub mod spaces;
 pub mod strips;
 pub mod world;

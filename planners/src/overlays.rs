@@ -14,7 +14,8 @@ pub const AREAS: &str = "AREAS";
 pub const NAMED_DOORS: &str = "NAMED_DOORS";
 
 /// Properties that every object of these classes has, known or not, so that rules may speak of them.
-const OWN: [(&str, &str, &str); 4] = [
+const OWN: [(&str, &str, &str); 5] = [
+    (AREAS, "closed", "truth"),
     (AREAS, "hardness_factor", "number"),
     (AREAS, "whole_body", "truth"),
     (NAMED_DOORS, "closed", "truth"),
@@ -28,7 +29,7 @@ pub(crate) fn own_kind(class: &str, property: &str) -> Option<&'static str> {
 
 /// Gives the named areas and doors of the world.
 ///
-/// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `hardness_factor`, `whole_body`. `NAMED_DOORS` by name: `door`
+/// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `hardness_factor`, `whole_body`, `closed`. `NAMED_DOORS` by name: `door`
 /// (the name), `kind`, `x` and `y` (its middle), `width`, `closed`, `hardness`. Both with whatever else is said of one
 /// of them; what is not said of an object is unknown.
 #[derive(Clone, Debug, Default)]

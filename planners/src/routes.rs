@@ -37,7 +37,7 @@ use crate::geometry::tolerance::ROUNDING;
 use taut::{Outcome, Search, Wanted};
 use trace::trace;
 
-pub use blocked::{Blockage, blockage};
+pub use blocked::{Blockage, Shut, blockage};
 pub use compact::{CompactGraph, CompactTree};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};

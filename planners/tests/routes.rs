@@ -3,7 +3,7 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{
-    Blockage, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, blockage,
+    Blockage, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Shut, Start, Walking, blockage,
 };
 use petgraph::algo::{bellman_ford, dijkstra, kosaraju_scc, tarjan_scc};
 use petgraph::visit::{EdgeCount, EdgeRef, IntoEdgeReferences, IntoEdgesDirected};
@@ -119,8 +119,8 @@ proptest! {
     fn a_blockage_names_doors_that_suffice(doors in any_doors(12)) {
         let graph = RouteGraph::new(rooms(12), doors.clone());
         match blockage(&graph, &start(0), &goal(11)) {
-            Blockage::Doors(shut) => {
-                let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&d.door), ..d.clone() };
+            Blockage::Shut(shut) => {
+                let open = |d: &RouteDoor| RouteDoor { passable: d.passable || shut.contains(&Shut::Door(d.door)), ..d.clone() };
                 let opened = RouteGraph::new(rooms(12), doors.iter().map(open).collect());
                 prop_assert!(opened.tree(&start(0)).rooms[11].is_some());
                 prop_assert_eq!(shut.is_empty(), graph.tree(&start(0)).rooms[11].is_some());
@@ -155,7 +155,7 @@ fn a_door_without_hardness_is_not_passed_but_named() {
     let unknown = RouteDoor { hardness: None, ..door(7, 0, 1, 0.0) };
     let graph = RouteGraph::new(rooms(2), vec![unknown]);
     assert!(graph.tree(&start(0)).rooms[1].is_none());
-    assert_eq!(blockage(&graph, &start(0), &goal(1)), Blockage::Doors(vec![7]));
+    assert_eq!(blockage(&graph, &start(0), &goal(1)), Blockage::Shut(vec![Shut::Door(7)]));
 }
 
 #[test]
@@ -209,6 +209,6 @@ fn a_room_of_unknown_hardness_is_not_entered_and_its_door_is_named() {
     let graph = RouteGraph::new(rooms, vec![door(1, 0, 1, 1.0), door(2, 1, 2, 1.0)]);
     let tree = graph.tree(&start(0));
     assert!(tree.rooms[1].is_none() && tree.rooms[2].is_none());
-    assert_eq!(blockage(&graph, &start(0), &goal(2)), Blockage::Doors(vec![1, 2]));
+    assert_eq!(blockage(&graph, &start(0), &goal(2)), Blockage::Shut(vec![Shut::Door(1), Shut::Door(2)]));
     assert!(graph.tree(&start(1)).rooms[1].is_none());
 }

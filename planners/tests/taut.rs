@@ -106,18 +106,18 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
     let before = way(&graph, home, window).unwrap();
     let doorway = Segment::new(Point::new(6.0, 3.0), Point::new(6.0, 4.0));
-    graph.close(vec![Closed { door: 1, segment: doorway }]);
+    graph.close(vec![Closed::for_all(doorway)]);
     assert!(way(&graph, home, window).is_none() && way(&graph, window, home).is_none());
     let goal = Goal::within(holding(&graph, window), Some(window));
     let start = Start::within(holding(&graph, home), home);
-    assert!(matches!(blockage(&graph, &start, &goal), Blockage::Doors(doors) if !doors.is_empty()));
+    assert!(matches!(blockage(&graph, &start, &goal), Blockage::Shut(doors) if !doors.is_empty()));
     graph.close(Vec::new());
     assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
 }
 
 /// The whole of a door to pass.
 fn closed_at(door: &RouteDoor) -> Closed {
-    Closed { door: door.door, segment: door.crossing.segment().unwrap() }
+    Closed::for_all(door.crossing.segment().unwrap())
 }
 
 fn holding(graph: &RouteGraph, p: Point) -> Vec<RoomIndex> {

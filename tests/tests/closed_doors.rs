@@ -1,5 +1,9 @@
-//! A door that is told to let nobody through is shut at its place: for every state, and for changes of shape there.
+//! A door that is told to let nobody through is shut at its place: for every state, and for changes of shape there. So is
+//! what people close by its name.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+#[path = "closed_doors/by_name.rs"]
+mod by_name;
 
 use adit::edit::Edit;
 use adit::preview::Wanted;

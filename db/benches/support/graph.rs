@@ -155,6 +155,7 @@ fn room(index: usize) -> Room {
         radius: None,
         height: None,
         width: 3.0,
+        space: None,
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },

@@ -47,6 +47,7 @@ fn room(number: i64) -> Room {
         radius: (number % 3 == 0).then_some(0.35),
         height: (number % 3 > 0).then_some(2.5),
         width: 0.1,
+        space: (number % 4 > 0).then_some(number % 4),
         hardness: if number % 5 == 0 {
             Derived::default()
         } else {

@@ -93,6 +93,7 @@ pub fn rooms() -> Vec<Room> {
         radius: None,
         height,
         width,
+        space: None,
         hardness: Derived::default(),
         action: Derived::by(WALK_IN, None, action.to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },

@@ -3,14 +3,14 @@
 use adit_db::door::Door;
 use adit_planners::geometry::Point;
 use adit_planners::layers::{Headroom, headroom, narrowest};
-use adit_planners::routes::{Blockage, RoomIndex, blockage};
+use adit_planners::routes::{Blockage, RoomIndex, Shut, blockage};
 use adit_planners::world::World;
 
 use super::Answer;
 use super::basis::Basis;
 use super::ends::Ends;
 use crate::error::{Code, Error, Nearest, Result};
-use crate::graph::{End, Rules, SiteGraph, is_weighed};
+use crate::graph::{Closer, End, Rules, SiteGraph, is_weighed};
 use crate::knowledge::KnowledgeBase;
 use crate::words::number::number;
 
@@ -29,13 +29,9 @@ impl Basis<'_> {
             }
         }
         match blockage(graph.graph(), &ends.start, &ends.goals[0]) {
-            Blockage::Doors(doors) => {
-                let mut shut: Vec<String> = doors
-                    .iter()
-                    .take(DESCRIBED)
-                    .filter_map(|door| graph.door(i64::from(*door)))
-                    .map(|door| shut(graph, &graph[door], self.rules))
-                    .collect();
+            Blockage::Shut(doors) => {
+                let mut shut: Vec<String> =
+                    doors.iter().take(DESCRIBED).filter_map(|of| self.shut(*of)).collect();
                 shut.dedup();
                 let more = doors.len().saturating_sub(DESCRIBED);
                 let more = if more > 0 {
@@ -51,6 +47,23 @@ impl Basis<'_> {
                 apart(&world, (ends.start.at, to), robot, self.knowledge)
             }
         }
+    }
+
+    /// What lets nobody through, and why.
+    fn shut(&self, of: Shut) -> Option<String> {
+        let graph = self.graph;
+        let door = match of {
+            Shut::Door(door) => graph.door(i64::from(door))?,
+            Shut::Closed(boundary) => match graph.closer(boundary) {
+                Closer::Door(door) => door,
+                Closer::Doorway(doorway) => return Some(graph.building.why_closed(doorway)),
+                Closer::Fact(fact) => {
+                    let at = graph.graph().closed()[boundary].segment.middle();
+                    return Some(format!("({:.2}, {:.2}) is told to be closed (fact {fact})", at.x, at.y));
+                }
+            },
+        };
+        Some(shut(graph, &graph[door], self.rules))
     }
 
     /// Why no way leads from or to an end, whatever its other end is.

@@ -30,9 +30,8 @@ impl KnowledgeBase {
     }
 
     fn drawn(&self, answer: &Answer) -> Result<Route> {
-        let graph = Store::open_read_only(self.database())?.snapshot(|tx| -> Result<SiteGraph> {
-            Ok(SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?))
-        })?;
+        let graph = Store::open_read_only(self.database())?
+            .snapshot(|tx| -> Result<SiteGraph> { SiteGraph::read(tx) })?;
         let place = |name: &str| Place {
             name: name.to_owned(),
             at: graph.end(name).map_or(Point::default(), |end| graph.point(&end)),

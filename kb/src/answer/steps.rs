@@ -40,6 +40,8 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
             y: Some(leg.to.y),
             heading,
             rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
+            space: None,
+            doorway: graph.doorway(door),
         });
     }
     for (number, step) in (1..).zip(&mut steps) {
@@ -62,6 +64,8 @@ fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
         y: Some(leg.to.y),
         heading: None,
         rule: room.action.rule.and_then(|rule| rules.get(&rule).cloned()),
+        space: room.space.and_then(|space| graph.building.space(space)),
+        doorway: None,
     }
 }
 

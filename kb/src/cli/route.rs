@@ -92,28 +92,44 @@ pub fn steps(answer: &Answer) {
             maybe(step.x),
             maybe(step.y),
             step.heading.map_or(String::new(), |heading| format!("{heading:.0}°")),
+            step.space.clone().or_else(|| step.doorway.clone()).unwrap_or_default(),
         ]
     });
-    table(&["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "heading"], rows);
+    table(
+        &["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "heading", "where"],
+        rows,
+    );
 }
 
-/// Prints an answer in a few lines: a line for each run of steps with one action.
+/// Steps with one action, one after the other.
+struct Run {
+    action: String,
+    hardness: f64,
+    to: [f64; 2],
+    /// The spaces that it leads through.
+    spaces: Vec<String>,
+}
+
+/// Prints an answer in a few lines: a line for each run of steps with one action, and the spaces that it leads through.
 pub fn summary(answer: &Answer) {
     if !head(answer) {
         return;
     }
-    let mut runs: Vec<(String, f64, f64, f64)> = Vec::new();
+    let mut runs: Vec<Run> = Vec::new();
     for step in &answer.steps {
         let action = step.action.clone().unwrap_or_default();
-        let (x, y) = (step.x.unwrap_or_default(), step.y.unwrap_or_default());
-        let hardness = step.hardness.unwrap_or_default();
-        match runs.last_mut().filter(|run| run.0 == action) {
-            Some(run) => *run = (action, run.1 + hardness, x, y),
-            None => runs.push((action, hardness, x, y)),
+        if runs.last().is_none_or(|run| run.action != action) {
+            runs.push(Run { action, hardness: 0.0, to: [0.0; 2], spaces: Vec::new() });
         }
+        let Some(run) = runs.last_mut() else { continue };
+        run.hardness += step.hardness.unwrap_or_default();
+        run.to = [step.x.unwrap_or_default(), step.y.unwrap_or_default()];
+        // where a run begins on a space's edge, nothing is walked there yet
+        let space = step.space.as_ref().filter(|_| step.hardness.is_some_and(|hardness| hardness > 0.0));
+        run.spaces.extend(space.filter(|space| run.spaces.last() != Some(space)).cloned());
     }
-    let rows = runs.into_iter().map(|(action, hardness, x, y)| {
-        vec![action, format!("to {x:.1}, {y:.1}"), format!("hardness {hardness:.1}")]
+    let rows = runs.into_iter().map(|Run { action, hardness, to: [x, y], spaces }| {
+        vec![action, format!("to {x:.1}, {y:.1}"), format!("hardness {hardness:.1}"), spaces.join(", ")]
     });
-    table(&["", "", ""], rows);
+    table(&["", "", "", ""], rows);
 }

@@ -23,9 +23,11 @@ pub(super) fn cell(text: &str) -> Cell {
 }
 
 pub(crate) const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
-const DERIVED: [&str; 17] = [
+const DERIVED: [&str; 19] = [
     "rooms",
     "doors",
+    "spaces",
+    "doorways",
     "routes",
     "route",
     "action_sequence",

@@ -7,8 +7,9 @@ use adit_db::history::Author;
 use adit_engine::{RuleBase, Schema, Type};
 use adit_planners::geometry::Point;
 
+use super::place;
 use crate::error::{Code, Error, Result};
-use crate::graph::outline_of;
+use crate::graph::{Building, outline_of};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::classes;
 use crate::knowledge::told::attach::REACH;
@@ -34,7 +35,9 @@ pub struct Tell {
 }
 
 /// What values of these properties must be, whatever rules say.
-const KINDS: [(&str, &str, Type); 7] = [
+const KINDS: [(&str, &str, Type); 9] = [
+    ("SPACES", "closed", Type::Truth),
+    ("DOORWAYS", "closed", Type::Truth),
     ("PRIME_AREAS", "open", Type::Truth),
     ("ROOMS", "hardness", Type::Number),
     ("ROOMS", "action", Type::Text),
@@ -57,7 +60,7 @@ impl Tell {
         let schema = site.schema(&told);
         let class = self.class(&schema)?;
         self.check_property(&class, &schema, rules)?;
-        let object = self.find(tx, &class, &schema, &told)?;
+        let object = self.find((tx, site), &class, &schema, &told)?;
         let kind = schema.kind(&class, &self.property).or_else(|| fixed(&class, &self.property));
         let kind = match kind {
             Some(kind) => Some(kind),
@@ -124,8 +127,40 @@ impl Tell {
     }
 
     /// Which object is meant. What has a number now is at once turned into a point.
-    fn find(&self, tx: &mut Tx<'_>, class: &str, schema: &Schema, told: &Told) -> Result<Object> {
+    fn find(
+        &self,
+        (tx, site): (&mut Tx<'_>, &KnowledgeBase),
+        class: &str,
+        schema: &Schema,
+        told: &Told,
+    ) -> Result<Object> {
         let text = self.object.trim();
+        if class == "DOORWAYS" {
+            let building = Building::read(tx)?;
+            if let Some(point) = place::split(text) {
+                return place::at(&site.site().world()?, &building, point);
+            }
+            let doorway = building.doorway_named(text).or_else(|| {
+                let number: i64 = text.parse().ok()?;
+                building.doorways.iter().find(|doorway| doorway.doorway == number)
+            });
+            let unknown = || unknown("doorway", text, building.doorways.iter().map(Building::name));
+            return doorway.map(|doorway| place::object(Building::segment(doorway))).ok_or_else(unknown);
+        }
+        if class == "SPACES" {
+            let building = Building::read(tx)?;
+            let space = building.space_named(text).or_else(|| {
+                let number: i64 = text.parse().ok()?;
+                building.spaces.iter().find(|space| space.space == number)
+            });
+            if let Some(at) = point(text) {
+                return Ok(Object::Point([at.x, at.y], None));
+            }
+            let names = building.spaces.iter().filter_map(|space| building.space(space.space));
+            return space
+                .map(|space| Object::Point([space.x, space.y], None))
+                .ok_or_else(|| unknown("space", text, names));
+        }
         let has_place = schema.kind(class, "x0").is_some() && schema.kind(class, "y1").is_some();
         if let Some(at) = point(text).filter(|_| has_place) {
             let segment = if class == "DOORS" { Some(door_at(tx, at)?) } else { None };
@@ -181,6 +216,14 @@ impl Tell {
         }
         Ok(stored(end))
     }
+}
+
+/// That there is no such thing, and what may be meant.
+fn unknown(what: &str, name: &str, names: impl Iterator<Item = String>) -> Error {
+    let names: Vec<String> = names.collect();
+    let help = did_you_mean(name, names.iter().map(String::as_str));
+    let help = help.or_else(|| Some(format!("say a {what}'s name, or a point as x,y")));
+    Error::said(Code::TellUnknownObject, format!("there is no {what} `{name}`"), help)
 }
 
 fn fixed(class: &str, property: &str) -> Option<Type> {

@@ -17,6 +17,11 @@ impl Edit {
             Self::Tell(fact) => {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
             }
+            Self::Close(close) => {
+                let until = close.until.as_ref().map_or_else(String::new, |until| format!(" until {until}"));
+                format!("{} is closed{until} (fact {key})", close.what)
+            }
+            Self::Open(what) => format!("{what} is open"),
             Self::Retract(_) => format!("fact {key} is taken back"),
             Self::SetInTuning(tuning, [table, row, column, value]) => {
                 format!("tuning {tuning}: {table}.{row}.{column} = {value}")

@@ -80,8 +80,15 @@ fn kept(place: &OnceLock<Arc<Text>>, write: impl FnOnce() -> Result<Arc<Text>>) 
     Ok(place.get_or_init(|| text))
 }
 
-fn rule_of<T>(value: &Derived<T>, rules: &Rules) -> Result<String> {
-    Ok(format!(r#","rule":{}}}"#, to_string(&value.rule.and_then(|rule| rules.get(&rule)))?))
+/// The end of a step: its rule, space and doorway.
+fn end<T>(
+    value: &Derived<T>,
+    rules: &Rules,
+    (space, doorway): (Option<String>, Option<String>),
+) -> Result<String> {
+    let rule = to_string(&value.rule.and_then(|rule| rules.get(&rule)))?;
+    let (space, doorway) = (to_string(&space)?, to_string(&doorway)?);
+    Ok(format!(r#","rule":{rule},"space":{space},"doorway":{doorway}}}"#))
 }
 
 fn room_text(graph: &SiteGraph, rules: &Rules, room: RoomIndex) -> Result<Arc<Text>> {
@@ -93,7 +100,8 @@ fn room_text(graph: &SiteGraph, rules: &Rules, room: RoomIndex) -> Result<Arc<Te
     let waypoint = format!(
         r#","state":null,"action":{action},"facing":{facing},"clearance":null,"distance":null,"cost":"#
     );
-    Ok(Text::new(&step, &rule_of(&room.action, rules)?, &waypoint))
+    let space = room.space.and_then(|space| graph.building.space(space));
+    Ok(Text::new(&step, &end(&room.action, rules, (space, None))?, &waypoint))
 }
 
 fn door_text(graph: &SiteGraph, rules: &Rules, door: DoorIndex) -> Result<Arc<Text>> {
@@ -104,7 +112,8 @@ fn door_text(graph: &SiteGraph, rules: &Rules, door: DoorIndex) -> Result<Arc<Te
         r#","kind":"{kind}","place":"{number}","state":null,"action":{action},"hardness":{hardness},"cost":"#
     );
     let at = format!(r#","x":{},"y":{},"heading":"#, to_string(&at.x)?, to_string(&at.y)?);
-    Ok(Text::new(&step, &rule_of(&door.hardness, rules)?, &at))
+    let doorway = graph.doorway(door);
+    Ok(Text::new(&step, &end(&door.hardness, rules, (None, doorway))?, &at))
 }
 
 /// What steps call a door.

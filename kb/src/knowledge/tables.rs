@@ -171,7 +171,7 @@ pub fn cell(column: &Column, row: usize) -> Cell {
 
 /// A number that stands for the content of tables: equal content, equal number. Negative zero counts as zero, as it
 /// does in a database.
-pub fn content(tables: &[Table]) -> u64 {
+pub fn content<'t>(tables: impl IntoIterator<Item = &'t Table>) -> u64 {
     let mut hasher = SipHasher13::new();
     for table in tables {
         hash_table(table, &mut hasher);

@@ -111,6 +111,13 @@ impl Fact {
         })
     }
 
+    /// The segment that it closes, whatever doorway is found there now.
+    pub fn closes(&self) -> Option<[f64; 4]> {
+        let Object::Point(_, Some(segment)) = &self.object else { return None };
+        let is_closing = self.class == "DOORWAYS" && self.property == "closed";
+        (is_closing && self.value == Value::Truth(true)).then_some(*segment)
+    }
+
     /// That it no longer finds what it is about.
     pub fn lost(&self) -> String {
         let why = match &self.object {
@@ -178,7 +185,7 @@ impl Told {
             .iter()
             .map(|fact| {
                 let keys = attached.keys(fact.id);
-                let state = if keys.is_empty() { "lost" } else { "attached" };
+                let state = if keys.is_empty() && fact.closes().is_none() { "lost" } else { "attached" };
                 Standing { told: fact.id, state: state.to_owned(), keys }
             })
             .collect();
@@ -190,8 +197,15 @@ impl Told {
 
     /// Facts that no longer find what they are about, in sentences.
     pub fn lost(&self, attached: &Attached) -> Vec<String> {
-        let lost = self.facts.iter().filter(|fact| attached.keys(fact.id).is_empty());
+        let lost =
+            self.facts.iter().filter(|fact| attached.keys(fact.id).is_empty() && fact.closes().is_none());
         lost.map(Fact::lost).collect()
+    }
+
+    /// What facts close where no doorway is found, by fact: from x0, y0 to x1, y1.
+    pub fn lines(&self, attached: &Attached) -> Vec<(i64, [f64; 4])> {
+        let alone = self.facts.iter().filter(|fact| attached.keys(fact.id).is_empty());
+        alone.filter_map(|fact| Some((fact.id, fact.closes()?))).collect()
     }
 
     /// Hours of what is no named area or door, in sentences: mostly a slip of the pen.

@@ -4,7 +4,9 @@
 use std::sync::{Arc, OnceLock};
 
 use adit_db::Tx;
+use adit_db::door::Door;
 use adit_db::history::Author;
+use adit_db::room::Room;
 use adit_db::stale::Mark;
 
 use super::report::{Report, Routes};
@@ -12,7 +14,7 @@ use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
-use crate::graph::layout;
+use crate::graph::{Building, layout};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::generation::{self, Basis};
 use crate::knowledge::inputs::Inputs;
@@ -96,7 +98,7 @@ impl Memory {
             return Ok(None);
         }
         let starts = tx.starts()?;
-        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), (tx.rooms()?, tx.doors()?));
+        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), cut(tx)?);
         let step = state.step(told, &mut LastBuild(tx), &Silent)?;
         if step.is_cut_anew || !step.weighed.is_empty() {
             return Ok(None);
@@ -119,7 +121,7 @@ impl Memory {
     ) -> Result<(Self, Report)> {
         let starts = tx.starts()?;
         let told = site.told(tx, &inputs.rules)?;
-        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), (tx.rooms()?, tx.doors()?));
+        let mut state = State::new(Arc::clone(site), Arc::clone(inputs), cut(tx)?);
         let graph = Arc::clone(state.graph());
         let before = Before { graph: &graph, starts: &starts };
         let step = state.step(told, &mut LastBuild(tx), progress)?;
@@ -269,6 +271,11 @@ impl Memory {
         self.routes.take_back(self.state.graph());
         Ok(())
     }
+}
+
+/// Rooms, doors, spaces and doorways of the last build.
+fn cut(tx: &mut Tx<'_>) -> Result<(Vec<Room>, Vec<Door>, Building)> {
+    Ok((tx.rooms()?, tx.doors()?, Building::read(tx)?))
 }
 
 /// Writes everything that there is of a state once a step is accepted, and all kept routes.

@@ -159,7 +159,7 @@ impl KnowledgeBase {
             answer.goal = route.goal;
             return Ok(answer);
         }
-        let graph = SiteGraph::new(tx.rooms()?, tx.doors()?, tx.places()?);
+        let graph = SiteGraph::read(tx)?;
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let sizes = sizes_of(&states::in_force(tx)?);
         let ground = Ground::Later(self.site(), sizes, OnceCell::new());

@@ -58,6 +58,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(tables::tables))
         .routes(routes!(tables::tunings))
         .routes(routes!(edits::edit))
+        .routes(routes!(edits::blocked))
         .routes(routes!(edits::preview))
         .routes(routes!(facts::list, facts::tell))
         .routes(routes!(facts::retract))

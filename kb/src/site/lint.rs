@@ -16,8 +16,19 @@ use crate::site::rules;
 use crate::words::suggest::did_you_mean;
 
 /// Properties that routes and pictures read.
-const READ_BY_ROUTES: [&str; 6] =
-    ["ROOMS.hardness", "ROOMS.action", "ROOMS.passable", "DOORS.hardness", "DOORS.action", "DOORS.passable"];
+const READ_BY_ROUTES: [&str; 11] = [
+    "ROOMS.hardness",
+    "ROOMS.action",
+    "ROOMS.passable",
+    "DOORS.hardness",
+    "DOORS.action",
+    "DOORS.passable",
+    "SPACES.name",
+    "SPACES.kind",
+    "SPACES.closed",
+    "DOORWAYS.name",
+    "DOORWAYS.closed",
+];
 
 /// Every property that is set and never read, in the order of the rules.
 pub fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {

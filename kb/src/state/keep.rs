@@ -1,6 +1,6 @@
 //! What is kept of a state in the database: all rows after a build, those that differ after an edit.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use adit_db::Tx;
 use adit_db::area::Area;
@@ -21,13 +21,18 @@ use crate::knowledge::tables::{self, content};
 use crate::knowledge::told::{Attached, Told};
 use crate::state::grounds::Reasons;
 use crate::state::rows;
+use crate::state::spaces;
 use crate::state::{Look, Recall, State, Step, Which, truth};
 
-/// What planners of rooms make besides rooms and doors: which room lies in which named area or door.
-const MEMBERS: [&str; 2] = ["AREA_ROOMS", "DOOR_ROOMS"];
+/// What planners of rooms make, and rows of ours hold.
+const CUT: [&str; 2] = ["ROOMS", "DOORS"];
+
+/// What our planners make besides, and is recalled. What somebody's planner makes is made anew: nobody knows whether its
+/// code is what it was.
+const MADE: [&str; 4] = ["AREA_ROOMS", "DOOR_ROOMS", "SPACES", "DOORWAYS"];
 
 /// Classes that have tables of ours, or are kept with them.
-const OURS: [&str; 5] = ["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS"];
+const OURS: [&str; 7] = ["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS", "SPACES", "DOORWAYS"];
 
 /// Properties that have a column of ours.
 const TABLED: [(&str, &str); 7] = [
@@ -45,28 +50,38 @@ pub struct LastBuild<'a, 's>(pub &'a mut Tx<'s>);
 
 impl Recall for LastBuild<'_, '_> {
     fn recall(&mut self, planner: &dyn Planner, fingerprint: u64) -> Result<Option<Facts>> {
-        let given = planner.signature().gives;
-        let gives = |class: &str| given.iter().any(|given| classes::split(given).0 == class);
-        let is_made = |class: &str| ["ROOMS", "DOORS"].contains(&class) || MEMBERS.contains(&class);
-        if !(gives("ROOMS") && gives("DOORS") && given.iter().all(|given| is_made(classes::split(given).0))) {
+        let classes = classes_of(planner);
+        let [makes_rooms, makes_doors] = CUT.map(|class| classes.contains(class));
+        let is_ours = |class: &String| CUT.contains(&class.as_str()) || MADE.contains(&class.as_str());
+        if makes_rooms != makes_doors || !classes.iter().all(is_ours) {
             return Ok(None);
+        }
+        let mut made = Facts::new();
+        for class in classes.into_iter().filter(|class| !CUT.contains(&class.as_str())) {
+            let table = match spaces::recalled(&class, self.0)? {
+                Some(table) => table,
+                None => tables::kept(self.0, &class.to_lowercase())?,
+            };
+            made.insert(class, table);
         }
         let stored = self.0.site_value(&fingerprint_key(planner.name()))?;
-        let members = [tables::kept(self.0, "area_rooms")?, tables::kept(self.0, "door_rooms")?];
         // another program may have edited or deleted rows since: then they are made anew
-        let is_edited = self.0.stale_marks()?.iter().any(|mark| ["rooms", "doors"].contains(&&*mark.table));
-        if is_edited || stored.as_deref() != Some(&signature(fingerprint, &members)) {
+        let is_edited =
+            self.0.stale_marks()?.iter().any(|mark| CUT.contains(&mark.table.to_uppercase().as_str()));
+        if stored.as_deref() != Some(&signature(fingerprint, made.values())) || makes_rooms && is_edited {
             return Ok(None);
         }
-        let members = MEMBERS.into_iter().zip(members).filter(|(class, _)| gives(class));
-        Ok(Some(members.map(|(class, table)| (class.to_owned(), table)).collect()))
+        Ok(Some(made))
     }
 }
 
-/// What a planner worked from, and which rooms lie in which named areas and doors. An edit of rooms and doors themselves
-/// leaves a mark.
-fn signature(fingerprint: u64, members: &[Table]) -> String {
-    format!("{fingerprint:016x}{:016x}", content(members))
+fn classes_of(planner: &dyn Planner) -> BTreeSet<String> {
+    planner.signature().gives.iter().map(|given| classes::split(given).0.to_owned()).collect()
+}
+
+/// What a planner worked from, and what it made besides rooms and doors. An edit of those leaves a mark.
+fn signature<'t>(fingerprint: u64, made: impl IntoIterator<Item = &'t Table>) -> String {
+    format!("{fingerprint:016x}{:016x}", content(made))
 }
 
 fn fingerprint_key(planner: &str) -> String {
@@ -143,6 +158,7 @@ impl Kept {
         tx.replace_areas(&strips[0], &strips[1], &kept.areas)?;
         tx.replace_rooms(&graph.rooms)?;
         tx.replace_doors(&graph.doors)?;
+        tx.replace_spaces(&graph.building.spaces, &graph.building.doorways)?;
         tx.replace_places(&graph.places)?;
         let frame = Frame {
             frame: "map".to_owned(),
@@ -156,9 +172,11 @@ impl Kept {
             &witnesses(facts, |at| kept.uses.contains_key(&at)),
         )?;
         tx.replace_derivations(&kept.derivations)?;
-        let members = ["AREA_ROOMS", "DOOR_ROOMS"].map(|of| planned.get(of).cloned().unwrap_or_default());
-        for (planner, fingerprint) in &step.planned.fingerprints {
-            tx.set_site_value(&fingerprint_key(planner), Some(&signature(*fingerprint, &members)))?;
+        for planner in state.site.planners() {
+            let Some(fingerprint) = step.planned.fingerprints.get(planner.name()) else { continue };
+            let classes = classes_of(planner.as_ref());
+            let made = classes.iter().filter_map(|class| planned.get(class));
+            tx.set_site_value(&fingerprint_key(planner.name()), Some(&signature(*fingerprint, made)))?;
         }
         keep_planned_classes(tx, planned)?;
         Ok(kept)
@@ -266,6 +284,9 @@ impl Written {
         tx.put_weights::<Room>(rooms.map(|(row, weight)| (graph[*row].room, weight)))?;
         let doors = step.weighed.doors.iter();
         tx.put_weights::<Door>(doors.map(|(row, weight)| (graph[*row].door, weight)))?;
+        if let Some(building) = &step.weighed.building {
+            tx.replace_spaces(&building.spaces, &building.doorways)?;
+        }
         tx.restore_blocks(&graph.rooms)?;
         tx.restore_blocks(&graph.doors)?;
         let gone: Vec<&Derivation> = self.gone.iter().collect();

@@ -88,6 +88,7 @@ impl State {
         let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
         let which = if given.is_any { Which::All } else { Which::Touched(&changes) };
         let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
+        let building = look.building(told.lines(&attached), &before.building).map(Arc::new);
         if given.rooms.is_some() || given.doors.is_some() {
             let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
             let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());
@@ -99,12 +100,14 @@ impl State {
             if !is_cut_anew {
                 weighed = Weighed::between(old, new);
             }
-            cut = Some(Arc::new(SiteGraph::new(rooms, doors, before.places.clone())));
+            let building = Arc::clone(building.as_ref().unwrap_or(&before.building));
+            cut = Some(Arc::new(SiteGraph::new(rooms, doors, before.places.clone(), building)));
         } else {
             let changes = (!given.is_any).then_some(&changes);
             weights::check(knowledge, (&before.rooms, &before.doors), changes)?;
             weighed = look.weighed(&before.rooms, &before.doors);
         }
+        weighed.building = building;
         let facts = reasons.into_facts();
         if cut.is_none() && !weighed.is_empty() {
             self.twin.write(&weighed);

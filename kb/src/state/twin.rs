@@ -63,12 +63,14 @@ impl Twin {
     pub fn write(&mut self, weighed: &Weighed) {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
+        let building = weighed.building.as_ref().unwrap_or(&self.shown.building);
         let graph = if let Some(mut graph) = free {
-            graph.follow(&self.shown, (&lag.rooms, &lag.doors), &weighed.rooms, &weighed.doors);
+            let late = (lag.rooms.as_slice(), lag.doors.as_slice());
+            graph.follow(&self.shown, late, &weighed.rooms, &weighed.doors, building);
             graph
         } else {
             let mut graph = SiteGraph::clone(&self.shown);
-            graph.write(&weighed.rooms, &weighed.doors);
+            graph.write(&weighed.rooms, &weighed.doors, building);
             graph
         };
         self.lag.note(weighed);

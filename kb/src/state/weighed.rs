@@ -1,5 +1,7 @@
 //! What rules say of rooms and doors after an inference, and in what it differs from what they said.
 
+use std::sync::Arc;
+
 use adit_db::Derived;
 use adit_db::door::Door;
 use adit_db::room::Room;
@@ -8,19 +10,23 @@ use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use adit_planners::routes::{DoorIndex, RoomIndex};
 
+use crate::graph::Building;
 use crate::state::grounds::{Reason, Reasons};
+use crate::state::spaces;
 
 /// Rooms and doors with what rules now say of them: those that differ from what they said, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Weighed {
     pub rooms: Vec<(RoomIndex, Weight)>,
     pub doors: Vec<(DoorIndex, Weight)>,
+    /// Spaces and doorways, where rules say something else of any.
+    pub building: Option<Arc<Building>>,
 }
 
 impl Weighed {
     /// Whether rules say of everything what they said.
     pub fn is_empty(&self) -> bool {
-        self.rooms.is_empty() && self.doors.is_empty()
+        self.rooms.is_empty() && self.doors.is_empty() && self.building.is_none()
     }
 
     /// In what rooms and doors differ, row by row.
@@ -30,7 +36,7 @@ impl Weighed {
                 .filter(|&row| !is_alike(&before[row], &after[row], Part::Weight));
             rows.map(|row| (I::from(row as u32), after[row].weight())).collect()
         }
-        Self { rooms: differing(before.0, after.0), doors: differing(before.1, after.1) }
+        Self { rooms: differing(before.0, after.0), doors: differing(before.1, after.1), building: None }
     }
 }
 
@@ -97,7 +103,31 @@ impl Look<'_, '_> {
         Weighed {
             rooms: self.rooms().filter(|(room, weight)| *weight != rooms[room.index()].weight()).collect(),
             doors: self.doors().filter(|(door, weight)| *weight != doors[door.index()].weight()).collect(),
+            building: None,
         }
+    }
+
+    /// Spaces and doorways with what rules say of them, where that may differ.
+    ///
+    /// # Arguments
+    /// `lines` are what is told to be closed where no doorway is found; `before` is what was said.
+    pub fn building(&self, lines: Vec<(i64, [f64; 4])>, before: &Building) -> Option<Building> {
+        let said = [
+            ("SPACES", "name"),
+            ("SPACES", "kind"),
+            ("SPACES", "closed"),
+            ("DOORWAYS", "name"),
+            ("DOORWAYS", "closed"),
+        ];
+        let may_differ = said.iter().any(|(class, property)| self.may_differ(class, property));
+        let now = if may_differ {
+            Building { lines, ..spaces::known(self.knowledge) }
+        } else if lines == before.lines {
+            return None;
+        } else {
+            Building { lines, ..before.clone() }
+        };
+        (now != *before).then_some(now)
     }
 
     fn weights<I: From<u32>>(&mut self, class: &str) -> impl Iterator<Item = (I, Weight)> + use<I> {

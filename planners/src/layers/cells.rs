@@ -25,7 +25,7 @@ impl Cells {
         self.rows
     }
 
-    pub(super) fn contains(&self, column: u32, row: u32) -> bool {
+    pub(crate) fn contains(&self, column: u32, row: u32) -> bool {
         self.words[self.word(column, row)] >> (column % 64) & 1 == 1
     }
 
@@ -40,10 +40,6 @@ impl Cells {
                 self.words[word] |= mask;
             }
         }
-    }
-
-    pub(crate) fn count(&self) -> usize {
-        self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
     fn word(&self, column: u32, row: u32) -> usize {
@@ -71,7 +67,8 @@ mod tests {
         let block = Block { x0: 3, y0: 1, x1: 131, y1: 4 };
         let mut cells = Cells::none(200, 5);
         cells.insert_block(block);
-        assert_eq!(cells.count(), 128 * 3);
+        let all = (0..cells.rows()).flat_map(|row| (0..cells.columns()).map(move |column| (column, row)));
+        assert_eq!(all.filter(|&(column, row)| cells.contains(column, row)).count(), 128 * 3);
         cells.remove(128, 2);
         assert!(cells.contains(127, 2) && !cells.contains(128, 2) && !cells.contains(131, 1));
     }

@@ -28,7 +28,9 @@ impl<'a> Solid<'a> {
     pub(crate) fn new(world: &'a World, lattice: Lattice) -> Self {
         let pictured = world.occupancy.as_ref().map(|occupancy| {
             let walls = resampled(occupancy, &lattice);
-            Pictured { squared_gaps: squared_gaps(&walls), walls }
+            let size = (walls.columns() as usize, walls.rows() as usize);
+            let has = |column: usize, row: usize| walls.contains(column as u32, row as u32);
+            Pictured { squared_gaps: squared_gaps(size, has), walls }
         });
         Self { world, lattice, pictured }
     }

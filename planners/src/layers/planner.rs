@@ -5,6 +5,7 @@ use crate::facts::Facts;
 use crate::overlays::{AREAS, MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::{DoorRow, GIVES, RoomRow, facts};
+use crate::spaces::{Located, OF_SPACES};
 use crate::world::World;
 
 const NAME: &str = "rooms by state";
@@ -32,7 +33,8 @@ impl Planner for RoomsByState {
         let of_robots =
             ["robot", "state", "height", "width", "length", "moves"].map(|p| format!("ROBOTS.{p}"));
         let of_areas = ["area", "whole_body"].map(|p| format!("{AREAS}.{p}?"));
-        let needs: Vec<String> = of_robots.into_iter().chain(of_areas).collect();
+        let of_spaces = OF_SPACES.map(str::to_owned);
+        let needs: Vec<String> = of_robots.into_iter().chain(of_areas).chain(of_spaces).collect();
         let gives = GIVES.iter().chain(&MEMBERS_GIVE).map(|given| (*given).to_owned()).collect();
         Signature { needs, gives }
     }
@@ -64,7 +66,7 @@ impl Planner for RoomsByState {
         let keyed = |pairs: &[(usize, usize)]| -> Vec<(usize, usize)> {
             pairs.iter().map(|&(room, named)| (room + 1, named)).collect()
         };
-        let mut all = facts(&rooms, &doors);
+        let mut all = facts(&rooms, &doors, &Located::read(NAME, known)?);
         all.extend(member_facts(world, &keyed(&layers.area_rooms), &keyed(&layers.door_rooms)));
         Ok(all)
     }

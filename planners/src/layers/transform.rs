@@ -1,40 +1,39 @@
 //! Distance from every cell to the nearest cell of a set, exact and in linear time: Meijster, Roerdink and
 //! Hesselink, "A general algorithm for computing distance transforms in linear time" (2000).
 
-use super::cells::Cells;
+use rayon::prelude::*;
 
-/// For every cell, row by row, the squared gap between its closed square and that of the nearest cell of `set`,
+/// For every cell, row by row, the squared gap between its closed square and that of the nearest cell of a set,
 /// in cells: 0 for the cells of the set and for all that touch one. `u32::MAX` where the set is empty or further off.
-pub(super) fn squared_gaps(set: &Cells) -> Vec<u32> {
-    let (columns, rows) = (set.columns() as usize, set.rows() as usize);
-    if set.count() == 0 {
+///
+/// # Arguments
+/// `has` says of a column and a row whether the set has that cell.
+pub(crate) fn squared_gaps((columns, rows): (usize, usize), has: impl Fn(usize, usize) -> bool) -> Vec<u32> {
+    let set: Vec<bool> = (0..rows)
+        .flat_map(|row| (0..columns).map(move |column| (column, row)))
+        .map(|(x, y)| has(x, y))
+        .collect();
+    if !set.contains(&true) {
         return vec![u32::MAX; columns * rows];
     }
     // Two squares k cells apart have a gap of k - 1. The distance of centres from a set in which every cell has
     // grown into its eight neighbours is just that.
-    let vertical = vertical_distances(set);
+    let vertical = vertical_distances((columns, rows), &set);
     let mut squared = vec![0; columns * rows];
-    for row in 0..rows {
-        let line = row * columns..(row + 1) * columns;
-        lower_envelope(&vertical[line.clone()], &mut squared[line]);
-    }
+    let lines = squared.par_chunks_mut(columns).zip(vertical.par_chunks(columns));
+    lines.for_each(|(line, vertical)| lower_envelope(vertical, line));
     squared
 }
 
 /// Distances along the column to the nearest cell of the grown set; more than any real one where there is none.
-fn vertical_distances(set: &Cells) -> Vec<i32> {
-    let (columns, rows) = (set.columns() as usize, set.rows() as usize);
+fn vertical_distances((columns, rows): (usize, usize), set: &[bool]) -> Vec<i32> {
     let far = (columns + rows) as i32;
-    let near = |column: usize, row: usize| {
-        let (x0, x1) = (column.saturating_sub(1), (column + 2).min(columns));
-        let (y0, y1) = (row.saturating_sub(1), (row + 2).min(rows));
-        (y0..y1).any(|y| (x0..x1).any(|x| set.contains(x as u32, y as u32)))
-    };
     let mut distances = vec![far; columns * rows];
-    for row in 0..rows {
+    for (row, line) in set.chunks(columns).enumerate() {
         for column in 0..columns {
+            let beside = &line[column.saturating_sub(1)..(column + 2).min(columns)];
             let below = if row > 0 { distances[(row - 1) * columns + column] + 1 } else { far };
-            distances[row * columns + column] = if near(column, row) { 0 } else { below.min(far) };
+            distances[row * columns + column] = if beside.contains(&true) { 0 } else { below.min(far) };
         }
     }
     for row in (0..rows.saturating_sub(1)).rev() {
@@ -43,6 +42,10 @@ fn vertical_distances(set: &Cells) -> Vec<i32> {
             let here = &mut distances[row * columns + column];
             *here = above.min(*here);
         }
+    }
+    // grown along the row so far, and by one cell along the column here
+    for distance in distances.iter_mut().filter(|distance| **distance < far) {
+        *distance = (*distance - 1).max(0);
     }
     distances
 }
@@ -81,19 +84,15 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::strips::Block;
 
     proptest! {
         #[test]
         fn gaps_equal_those_to_every_cell(
             columns in 1u32..40, rows in 1u32..40, walls in prop::collection::vec((0u32..40, 0u32..40), 1..12)
         ) {
-            let mut set = Cells::none(columns, rows);
             let walls: Vec<_> = walls.into_iter().map(|(x, y)| (x % columns, y % rows)).collect();
-            for &(x, y) in &walls {
-                set.insert_block(Block { x0: x, y0: y, x1: x + 1, y1: y + 1 });
-            }
-            let gaps = squared_gaps(&set);
+            let has = |column: usize, row: usize| walls.contains(&(column as u32, row as u32));
+            let gaps = squared_gaps((columns as usize, rows as usize), has);
             let apart = |a: u32, b: u32| a.abs_diff(b).saturating_sub(1).pow(2);
             for (i, &gap) in gaps.iter().enumerate() {
                 let (x, y) = (i as u32 % columns, i as u32 / columns);

@@ -3,6 +3,7 @@
 use crate::facts::Facts;
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::{GIVES, known_low_bridges, room_facts};
+use crate::spaces::{Located, OF_SPACES};
 use crate::world::World;
 
 use super::fewest_rooms;
@@ -19,11 +20,12 @@ impl Planner for MinimumRooms {
 
     fn signature(&self) -> Signature {
         let needs = ["BRIDGES.x0", "BRIDGES.y0", "BRIDGES.x1", "BRIDGES.y1", "BRIDGES.height", "BRIDGES.low"];
-        Signature::new(&needs, GIVES)
+        Signature::new(&[needs.as_slice(), &OF_SPACES].concat(), GIVES)
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
         let low = known_low_bridges(NAME, known)?;
-        Ok(room_facts(&fewest_rooms(world.bounds, &world.solid_rects(), &low)))
+        let rooms = fewest_rooms(world.bounds, &world.solid_rects(), &low);
+        Ok(room_facts(&rooms, &Located::read(NAME, known)?))
     }
 }

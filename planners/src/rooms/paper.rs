@@ -5,6 +5,7 @@ use crate::geometry::Rect;
 use crate::known::KnownClass;
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::prime_areas::maximal_rects;
+use crate::spaces::{Located, OF_SPACES};
 use crate::world::World;
 
 use super::{GIVES, LowBridge, Room, cut_low_bridges, greedy_rooms, known_low_bridges, room_facts};
@@ -57,7 +58,7 @@ impl Planner for PaperRooms {
     }
 
     fn signature(&self) -> Signature {
-        Signature::new(NEEDS, GIVES)
+        Signature::new(&[NEEDS, &OF_SPACES].concat(), GIVES)
     }
 
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
@@ -69,6 +70,6 @@ impl Planner for PaperRooms {
             all.filter(|&(_, &open)| open == on_list).map(|(&rect, _)| rect).collect()
         };
         let rooms = paper_rooms(world.bounds, &world.solid_rects(), &low, &listed(true), &listed(false));
-        Ok(room_facts(&rooms))
+        Ok(room_facts(&rooms, &Located::read(NAME, known)?))
     }
 }

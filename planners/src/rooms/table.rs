@@ -7,6 +7,7 @@ use crate::facts::{Column, Facts, Table};
 use crate::geometry::{Convex, Point, Rect, Segment};
 use crate::known::{keys, with_edges};
 use crate::names::room_name;
+use crate::spaces::Located;
 
 use super::{Room, outline};
 
@@ -25,6 +26,7 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.radius",
     "ROOMS.height",
     "ROOMS.width",
+    "ROOMS.space",
     "DOORS.door",
     "DOORS.kind: text",
     "DOORS.room1",
@@ -91,13 +93,16 @@ impl DoorRow {
     }
 }
 
-/// `ROOMS` and `DOORS` between them (Abou-Ali et al., Table 4), both numbered from 1. Metres.
-pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow]) -> Facts {
-    Facts::from([("ROOMS".to_owned(), room_table(rooms)), ("DOORS".to_owned(), door_table(rooms, doors))])
+/// `ROOMS` and `DOORS` between them (Abou-Ali et al., Table 4), both numbered from 1. Metres. A room is of the space that its
+/// centre lies in.
+pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow], spaces: &Located) -> Facts {
+    let space = |room: &RoomRow| spaces.at(room.outline.centre());
+    let table = room_table(rooms).with("space", rooms.iter().map(space).collect::<Column>());
+    Facts::from([("ROOMS".to_owned(), table), ("DOORS".to_owned(), door_table(rooms, doors))])
 }
 
 /// The facts of rooms that are the same for all robots and states, with a door wherever two of them touch.
-pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
+pub(crate) fn room_facts(rooms: &[Room], spaces: &Located) -> Facts {
     let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
     let edges = shared_edges(&rects).into_iter();
     let door = |edge: SharedEdge| DoorRow::along([edge.first, edge.second], edge.segment, false);
@@ -109,7 +114,7 @@ pub(crate) fn room_facts(rooms: &[Room]) -> Facts {
         radius: None,
         height: room.height,
     };
-    facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>())
+    facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>(), spaces)
 }
 
 fn room_table(rooms: &[RoomRow]) -> Table {

@@ -8,21 +8,41 @@ use super::parts::{DoorIndex, Goal, RoomIndex, Start};
 /// What stands between a start and a goal that no route joins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Blockage {
-    /// These doors, in order, would have to let a state through; fewer do not suffice.
-    Doors(Vec<u32>),
+    /// These, in order, would have to let a state through; fewer do not suffice.
+    Shut(Vec<Shut>),
     /// No chain of doors joins them at all, passable or not.
     Apart,
 }
 
+/// What lets nobody through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shut {
+    /// A door, by its key.
+    Door(u32),
+    /// A [closed](RouteGraph::closed) boundary, by index.
+    Closed(usize),
+}
+
 /// The fewest doors that would have to be passable to reach the goal. O(rooms + doors).
 pub fn blockage(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
-    match graph.cut().map(|cut| cut.with(start, goal)) {
-        Some((cut, start, goal)) => shut_between(cut, &start, &goal),
-        None => shut_between(graph, start, goal),
+    match graph.cut() {
+        Some(cut) => {
+            let (start, goal) = cut.ends(start, goal);
+            let of = |door: DoorIndex| match cut.doors[door.index()] {
+                Some(door) => Shut::Door(graph[door].door),
+                None => Shut::Closed(cut.graph[door].door as usize),
+            };
+            shut_between(&cut.graph, (&start, &goal), of)
+        }
+        None => shut_between(graph, (start, goal), |door| Shut::Door(graph[door].door)),
     }
 }
 
-fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
+fn shut_between(
+    graph: &RouteGraph,
+    (start, goal): (&Start, &Goal),
+    of: impl Fn(DoorIndex) -> Shut,
+) -> Blockage {
     let mut leaving: Vec<Vec<(RoomIndex, DoorIndex)>> = vec![Vec::new(); graph.rooms.len()];
     for (index, door) in graph.door_indices().zip(&graph.doors) {
         leaving[door.room1.index()].push((door.room2, index));
@@ -61,10 +81,10 @@ fn shut_between(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
     let mut doors = Vec::new();
     while let Some((before, door)) = from[room.index()] {
         if !graph.is_open(door) {
-            doors.push(graph[door].door);
+            doors.push(of(door));
         }
         room = before;
     }
     doors.reverse();
-    Blockage::Doors(doors)
+    Blockage::Shut(doors)
 }

@@ -1,6 +1,8 @@
 //! Boundaries that nobody crosses, in whichever shape: rooms of all layers are cut along them, since what is a door of
 //! one layer lies in the middle of another one's room.
 
+use std::ops::Range;
+
 use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
@@ -16,6 +18,15 @@ const NO_DOOR: u32 = u32::MAX;
 const CLEAR_M: f64 = 0.01;
 
 impl Closed {
+    /// For whoever comes along.
+    pub fn for_all(segment: Segment) -> Self {
+        Self { segment, only: None }
+    }
+
+    fn holds_for(&self, room: RoomIndex) -> bool {
+        self.only.as_ref().is_none_or(|only| only.iter().any(|rooms| rooms.contains(&room.index())))
+    }
+
     /// A room's parts on both sides, where the boundary lies within it.
     fn cut(&self, room: &Convex) -> Option<[Convex; 2]> {
         room.clip(self.segment).filter(|shared| shared.length() > EPSILON)?;
@@ -64,8 +75,8 @@ impl RouteGraph {
         );
     }
 
-    /// The parts of a gate that keep clear of closed boundaries.
-    pub(super) fn clear_of_walls(&self, gate: Segment) -> Vec<Segment> {
+    /// The parts of a gate out of a room that keep clear of closed boundaries.
+    pub(super) fn clear_of_walls(&self, room: RoomIndex, gate: Segment) -> Vec<Segment> {
         if self.walls.is_empty() {
             return vec![gate];
         }
@@ -76,12 +87,17 @@ impl RouteGraph {
             let (enters, leaves) = Convex::from(about).shares(a, b)?;
             Some(Segment { a: gate.at(enters), b: gate.at(leaves) })
         };
-        without(gate, &self.walls.iter().filter_map(on_gate).collect::<Vec<_>>())
+        without(gate, &self.walls_of(room).filter_map(on_gate).collect::<Vec<_>>())
     }
 
-    /// Whether a point lies on a closed boundary.
-    pub(super) fn is_on_wall(&self, p: Point) -> bool {
-        self.walls.iter().any(|wall| wall.distance(p) <= EPSILON)
+    /// The boundaries along which a room was cut, if it was.
+    pub(super) fn walls_of(&self, room: RoomIndex) -> impl Iterator<Item = &Segment> {
+        self.walls.iter().filter(move |wall| wall.holds_for(room)).map(|wall| &wall.segment)
+    }
+
+    /// Whether a point of a room lies on a closed boundary.
+    pub(super) fn is_on_wall(&self, room: RoomIndex, p: Point) -> bool {
+        self.walls_of(room).any(|wall| wall.distance(p) <= EPSILON)
     }
 }
 
@@ -90,7 +106,8 @@ impl Cut {
         let (mut outlines, mut rooms, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         for (index, room) in of.room_indices().zip(&of.rooms) {
             let first = outlines.len();
-            outlines.extend(parts_of(&room.outline, &of.closed));
+            outlines
+                .extend(parts_of(&room.outline, of.closed.iter().filter(|closed| closed.holds_for(index))));
             rooms.resize(outlines.len(), index);
             parts.push((first..outlines.len()).map(RoomIndex::new).collect());
         }
@@ -109,7 +126,15 @@ impl Cut {
         all.doors.resize(doors.len(), None);
         let part = |(outline, &room): (Convex, &RoomIndex)| RouteRoom { outline, ..of[room].clone() };
         all.graph = RouteGraph::new(outlines.into_iter().zip(&all.rooms).map(part).collect(), doors);
-        all.graph.walls = of.closed.iter().map(|closed| closed.segment).collect();
+        let parts_of = |rooms: &Range<usize>| {
+            let begins = |room: usize| all.parts.get(room).map_or(all.rooms.len(), |parts| parts[0].index());
+            begins(rooms.start)..begins(rooms.end)
+        };
+        let wall = |closed: &Closed| Closed {
+            segment: closed.segment,
+            only: closed.only.as_ref().map(|only| only.iter().map(parts_of).collect()),
+        };
+        all.graph.walls = of.closed.iter().map(wall).collect();
         all
     }
 
@@ -135,7 +160,7 @@ impl Cut {
                 if piece.is_change() {
                     doors.push(piece);
                 } else {
-                    divide(&piece, closed, doors, shut);
+                    divide((&piece, door.room1), closed, doors, shut);
                 }
             }
         }
@@ -162,7 +187,7 @@ impl Cut {
                         passable: true,
                         one_way: false,
                     };
-                    divide(&opening, closed, doors, shut);
+                    divide((&opening, self.rooms[room1.index()]), closed, doors, shut);
                 }
             }
         }
@@ -187,9 +212,9 @@ impl Cut {
         }
     }
 
-    /// The graph of the parts, with a start and a goal in it.
-    pub fn with(&self, start: &Start, goal: &Goal) -> (&RouteGraph, Start, Goal) {
-        (&self.graph, self.start(start), self.goal(goal))
+    /// A start and a goal in the graph of the parts.
+    pub fn ends(&self, start: &Start, goal: &Goal) -> (Start, Goal) {
+        (self.start(start), self.goal(goal))
     }
 
     fn start(&self, start: &Start) -> Start {
@@ -230,7 +255,7 @@ impl Cut {
 }
 
 /// An outline cut along boundaries.
-fn parts_of(room: &Convex, closed: &[Closed]) -> Vec<Convex> {
+fn parts_of<'c>(room: &Convex, closed: impl Iterator<Item = &'c Closed>) -> Vec<Convex> {
     let mut parts = vec![room.clone()];
     for boundary in closed {
         let cut = |part: Convex| boundary.cut(&part).map_or(vec![part], Vec::from);
@@ -254,14 +279,20 @@ fn within(crossing: &Crossing, rooms: [&Convex; 2]) -> Option<Crossing> {
     }
 }
 
-/// Adds the parts of a door that no boundary closes to `doors`, the others to `shut`.
-fn divide(door: &RouteDoor, closed: &[Closed], doors: &mut Vec<RouteDoor>, shut: &mut Vec<RouteDoor>) {
+/// Adds the parts of a door out of a room that no boundary closes to `doors`, the others, each by the number of its boundary,
+/// to `shut`.
+fn divide(
+    (door, room): (&RouteDoor, RoomIndex),
+    closed: &[Closed],
+    doors: &mut Vec<RouteDoor>,
+    shut: &mut Vec<RouteDoor>,
+) {
     let Some(segment) = door.crossing.segment() else { return };
     let mut open = vec![segment];
-    for boundary in closed {
+    for (number, boundary) in (0..).zip(closed).filter(|(_, boundary)| boundary.holds_for(room)) {
         let Some(part) = segment.shared_with(&boundary.segment) else { continue };
         let crossing = Crossing::Through(part);
-        shut.push(RouteDoor { door: boundary.door, crossing, passable: false, ..door.clone() });
+        shut.push(RouteDoor { door: number, crossing, passable: false, ..door.clone() });
         open = open.iter().flat_map(|open| without(*open, &[part])).collect();
     }
     let piece = |part: Segment| RouteDoor { crossing: Crossing::Through(part), ..door.clone() };

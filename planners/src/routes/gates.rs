@@ -44,7 +44,7 @@ impl RouteGraph {
             let deep = |segment: Segment| Gate { segment, is_deep: true, is_step: false };
             if common.is_none_or(|common| !is_same(&common, area)) {
                 // something else than the two rooms limits the change: a body turns only where all that it sweeps is free
-                return area.sides().flat_map(|side| self.clear_of_walls(side)).map(deep).collect();
+                return area.sides().flat_map(|side| self.clear_of_walls(from, side)).map(deep).collect();
             }
             let is_equal = self.per_m(from).to_bits() == self.per_m(to).to_bits();
             for side in area.sides() {
@@ -77,7 +77,9 @@ impl RouteGraph {
                 }
             }
             let clear = |gate: Gate| {
-                self.clear_of_walls(gate.segment).into_iter().map(move |segment| Gate { segment, ..gate })
+                self.clear_of_walls(from, gate.segment)
+                    .into_iter()
+                    .map(move |segment| Gate { segment, ..gate })
             };
             gates.into_iter().flat_map(clear).collect()
         })
@@ -214,14 +216,16 @@ impl<'g> Sweep<'g> {
     fn deep(&self, room: RoomIndex) -> Vec<Segment> {
         let mut parts = Vec::new();
         let length = self.segment.length();
-        self.find(room, (0.0, length), 0.0, &mut parts);
+        self.find(&mut vec![room], (0.0, length), 0.0, &mut parts);
         let at = |along: f64| self.segment.at(along / length);
         joined(parts).into_iter().map(|(from, to)| Segment { a: at(from), b: at(to) }).collect()
     }
 
-    /// The same, of a part of the segment; `highest` is how far one has come by other changes of shape.
-    fn find(&self, room: RoomIndex, part: (f64, f64), highest: f64, deep: &mut Vec<(f64, f64)>) {
+    /// The same, of a part of the segment, from the last of the rooms that one has come through; `highest` is how far one
+    /// has come by other changes of shape.
+    fn find(&self, through: &mut Vec<RoomIndex>, part: (f64, f64), highest: f64, deep: &mut Vec<(f64, f64)>) {
         let graph = self.graph;
+        let Some(&room) = through.last() else { return };
         let outline = &graph[room].outline;
         let top = outline.corners().map(|corner| self.seen(corner).y).fold(highest, f64::max);
         let mut is_all = false;
@@ -252,7 +256,7 @@ impl<'g> Sweep<'g> {
             let (a, b) = if a.x < b.x { (a, b) } else { (b, a) };
             let is_above = cross(a, b, inside) < 0.0 && a.y.max(b.y) > -EPSILON;
             if let Some(part) = overlap((a.x, b.x), part).filter(|_| is_above) {
-                self.find(exit.to, part, top, deep);
+                self.go_on(through, exit.to, (part, top), deep);
             }
         }
         if self.by == Further::Doors {
@@ -269,8 +273,23 @@ impl<'g> Sweep<'g> {
             let (from, to) =
                 along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
             if let Some(part) = overlap((from, to), part) {
-                self.find(exit.to, part, top, deep);
+                self.go_on(through, exit.to, (part, top), deep);
             }
+        }
+    }
+
+    /// Goes on in a room, but for one that one has come through: of slivers, roundings say either side of a door.
+    fn go_on(
+        &self,
+        through: &mut Vec<RoomIndex>,
+        to: RoomIndex,
+        (part, top): ((f64, f64), f64),
+        deep: &mut Vec<(f64, f64)>,
+    ) {
+        if !through.contains(&to) {
+            through.push(to);
+            self.find(through, part, top, deep);
+            through.pop();
         }
     }
 }

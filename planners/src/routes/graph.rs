@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
-use std::ops::Index;
+use std::ops::{Index, Range};
 use std::sync::OnceLock;
 
 use super::hierarchy::Hierarchy;
@@ -29,7 +29,7 @@ pub struct RouteGraph {
     /// The rooms cut along them; found when first asked for.
     pub(super) cut: OnceLock<Box<Cut>>,
     /// Boundaries along which these rooms are cut already.
-    pub(super) walls: Vec<Segment>,
+    pub(super) walls: Vec<Closed>,
 }
 
 impl RouteGraph {
@@ -250,11 +250,12 @@ impl Index<DoorIndex> for RouteGraph {
     }
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A boundary that no way crosses.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Closed {
-    /// Key of the door that is closed.
-    pub door: u32,
     pub segment: Segment,
+    /// The rooms for which it is closed, by index; `None`: for all.
+    pub only: Option<Vec<Range<usize>>>,
 }
 
 /// The graph of the parts into which closed boundaries cut rooms.

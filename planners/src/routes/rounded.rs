@@ -76,7 +76,7 @@ impl RouteGraph {
         let doors =
             segments.map(|door| (((far(door, at) - at).angle() - first).rem_euclid(TAU), door)).collect();
         let arc = Arc { at, wall: wall.turn, corners, doors };
-        arc.is_clear_of(&self.walls).then_some(arc)
+        arc.is_clear_of(self.walls_of(self[door].room1)).then_some(arc)
     }
 }
 
@@ -87,14 +87,15 @@ fn far(door: Segment, here: Point) -> Point {
 
 impl Arc {
     /// Whether no boundary lies between the arc and its tangents.
-    fn is_clear_of(&self, walls: &[Segment]) -> bool {
-        if walls.is_empty() {
+    fn is_clear_of<'w>(&self, walls: impl Iterator<Item = &'w Segment>) -> bool {
+        let mut walls = walls.peekable();
+        if walls.peek().is_none() {
             return true;
         }
         let mut between = vec![self.at];
         between.extend(self.corners.iter().rev());
         let between = Convex::new(between);
-        walls.iter().all(|wall| between.clip(*wall).is_none())
+        walls.all(|wall| between.clip(*wall).is_none())
     }
 
     /// What keeps a way in its place that goes around the arc.

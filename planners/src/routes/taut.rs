@@ -503,7 +503,7 @@ impl<'g> Search<'g> {
         }
         let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
         let reach = |search: &mut Self, p: Point| {
-            if search.graph.is_on_wall(p) {
+            if search.graph.is_on_wall(room, p) {
                 return;
             }
             let cost = node.cost + node.root.distance(p) * here;
@@ -548,7 +548,7 @@ impl<'g> Search<'g> {
             reach(self, node.root);
         }
         if self.care == Care::Full {
-            for side in area.sides().flat_map(|side| graph.clear_of_walls(side)) {
+            for side in area.sides().flat_map(|side| graph.clear_of_walls(room, side)) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);

@@ -30,17 +30,22 @@ pub fn least_cost(columns: usize, rows: usize) -> u32 {
 
 /// The cells around one that lie on a grid of `size` columns and rows, numbered row by row, with what a step there costs.
 pub fn around(cell: usize, size: (usize, usize)) -> impl Iterator<Item = (usize, u32)> {
-    AROUND.into_iter().filter_map(move |by| Some((stepped(cell, size, by)?, step(by))))
+    let from = (cell % size.0, cell / size.0);
+    AROUND.into_iter().filter_map(move |by| Some((stepped(from, size, by)?, step(by))))
 }
 
 /// Those over its sides.
 pub fn beside(cell: usize, size: (usize, usize)) -> impl Iterator<Item = usize> {
-    BESIDE.into_iter().filter_map(move |by| stepped(cell, size, by))
+    let from = (cell % size.0, cell / size.0);
+    BESIDE.into_iter().filter_map(move |by| stepped(from, size, by))
 }
 
-fn stepped(cell: usize, (columns, rows): (usize, usize), (dx, dy): (i32, i32)) -> Option<usize> {
-    let column = (cell % columns).checked_add_signed(dx as isize)?;
-    let row = (cell / columns).checked_add_signed(dy as isize)?;
+fn stepped(
+    (column, row): (usize, usize),
+    (columns, rows): (usize, usize),
+    (dx, dy): (i32, i32),
+) -> Option<usize> {
+    let (column, row) = (column.checked_add_signed(dx as isize)?, row.checked_add_signed(dy as isize)?);
     (column < columns && row < rows).then_some(row * columns + column)
 }
 

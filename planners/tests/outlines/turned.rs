@@ -42,7 +42,8 @@ impl Turn {
             graph.rooms().iter().map(room).collect(),
             graph.doors().iter().map(door).collect(),
         );
-        let closed = |closed: &Closed| Closed { door: closed.door, segment: self.segment(closed.segment) };
+        let closed =
+            |closed: &Closed| Closed { segment: self.segment(closed.segment), only: closed.only.clone() };
         turned.close(graph.closed().iter().map(closed).collect());
         turned
     }
@@ -109,10 +110,10 @@ proptest! {
         let doors: Vec<Closed> = graph
             .doors()
             .iter()
-            .filter_map(|door| Some(Closed { door: door.door, segment: door.crossing.segment()? }))
+            .filter_map(|door| Some(Closed::for_all(door.crossing.segment()?)))
             .collect();
         prop_assume!(!doors.is_empty());
-        graph.close(closed.iter().map(|closed| *closed.get(&doors)).collect());
+        graph.close(closed.iter().map(|closed| closed.get(&doors).clone()).collect());
         check_same((&graph, turn), (from, to), NEARLY)?;
     }
 }

@@ -1,13 +1,16 @@
+use std::sync::Arc;
 use std::time::Instant;
 
 use adit_db::Derived;
 use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
+use adit_db::space::{Doorway, Space};
 use adit_db::weight::Weight;
 
 use super::*;
 use crate::answer::steps;
+use crate::graph::Building;
 
 /// A floor of rooms in a square, joined by doors to the right and upwards.
 fn floor(side: usize) -> SiteGraph {
@@ -27,6 +30,8 @@ fn floor(side: usize) -> SiteGraph {
         radius: None,
         height: None,
         width: 4.1,
+        // of the last one no outline tells
+        space: Some(number as i64 % 4 + 1),
         hardness: Derived::default(),
         action: if number.is_multiple_of(7) {
             Derived::default()
@@ -44,7 +49,16 @@ fn floor(side: usize) -> SiteGraph {
     let rooms: Vec<Room> = (0..side * side).map(room).collect();
     let doors = pairs.enumerate().map(|(number, (one, two))| door(number, [one, two], &rooms)).collect();
     let place = Place { place: "dock".to_owned(), x: 1.0, y: 3.0 };
-    SiteGraph::new(rooms, doors, vec![place])
+    SiteGraph::new(rooms, doors, vec![place], building())
+}
+
+/// Three spaces, of which one has no name, and a doorway between two of them.
+fn building() -> Arc<Building> {
+    let name = |number: i64| (number != 2).then(|| format!("ward \"{number}\""));
+    let space = |number: i64| Space { space: number, name: name(number), ..Space::default() };
+    let doorway = Doorway { doorway: 1, space1: 1, space2: 2, ..Doorway::default() };
+    let (spaces, doorways) = ((1..4).map(space).collect(), vec![doorway]);
+    Arc::new(Building { spaces, doorways, lines: Vec::new() })
 }
 
 fn door(number: usize, rooms: [usize; 2], all: &[Room]) -> Door {
@@ -114,7 +128,8 @@ fn what_is_put_together_is_what_serde_writes() {
             (door, Weight { hardness, action, passable })
         });
         let weighed: Vec<_> = weighed.collect();
-        graph.write(&[], &weighed);
+        let building = Arc::clone(&graph.building);
+        graph.write(&[], &weighed, &building);
     }
     assert!(routes > 200, "{routes}");
 }

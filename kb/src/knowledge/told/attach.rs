@@ -1,9 +1,10 @@
 //! Which objects a fact is about, after each build anew: by name, or by what lies at its point.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use adit_engine::{KnowledgeBase as Inference, Type, Value};
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::{Point, Rect, polygon};
 use adit_planners::rooms::outline;
 
 use super::{Fact, Object};
@@ -77,9 +78,10 @@ fn rects(knowledge: &Inference, class: &str) -> Option<Vec<[f64; 4]>> {
 }
 
 fn holding(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
+    let Some(rects) = rects(knowledge, class) else { return in_rings(knowledge, class, at) };
     let mut layers = Vec::new();
     let mut found = Vec::new();
-    for (row, [x0, y0, x1, y1]) in rects(knowledge, class).unwrap_or_default().into_iter().enumerate() {
+    for (row, [x0, y0, x1, y1]) in rects.into_iter().enumerate() {
         let bounds = Rect::new(x0, y0, x1, y1);
         if !bounds.contains(at) {
             continue;
@@ -98,6 +100,20 @@ fn holding(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
         }
     }
     found
+}
+
+/// The objects whose outlines, of several rings each, hold a point.
+fn in_rings(knowledge: &Inference, class: &str, at: Point) -> Vec<usize> {
+    let outlines = knowledge.texts(class, "outline").unwrap_or_default();
+    let holds = |outline: &Option<Arc<str>>| {
+        let rings: Vec<Vec<[f64; 2]>> = outline.as_ref().and_then(|text| serde_json::from_str(text).ok())?;
+        let sides = rings.iter().flat_map(|ring| {
+            let corners: Vec<Point> = ring.iter().map(|[x, y]| Point::new(*x, *y)).collect();
+            polygon::sides(&corners).collect::<Vec<_>>()
+        });
+        Some(polygon::encloses(sides, at))
+    };
+    (0..outlines.len()).filter(|row| holds(&outlines[*row]) == Some(true)).collect()
 }
 
 fn doors_like(knowledge: &Inference, class: &str, at: Point, told: [f64; 4]) -> Vec<usize> {

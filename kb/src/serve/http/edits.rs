@@ -9,8 +9,7 @@ use utoipa::ToSchema;
 
 use super::extract::Body;
 use super::extract::Site;
-use crate::edit::Tell;
-use crate::edit::{Done, Edit};
+use crate::edit::{Close, Done, Edit, Tell};
 use crate::error::Code;
 use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
@@ -96,6 +95,19 @@ pub enum Wish {
         #[serde(default)]
         for_seconds: Option<u32>,
     },
+    /// Nobody passes a doorway, a named door, an area or a space from now on.
+    Close {
+        /// Its name; or a point `x,y`, with the heading of a robot that was blocked there: `x,y@90`.
+        what: String,
+        /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
+        #[serde(default)]
+        until: Option<String>,
+        /// After how many seconds it ends, instead.
+        #[serde(default)]
+        for_seconds: Option<u32>,
+    },
+    /// What was closed is open again.
+    Open { what: String },
     /// A fact that is no longer told.
     Retract { fact: i64 },
     /// A cell of a named tuning.
@@ -128,7 +140,7 @@ impl Wish {
     /// The role that it takes.
     fn role(&self) -> Role {
         match self {
-            Self::Tell { .. } | Self::Retract { .. } => Role::Tell,
+            Self::Tell { .. } | Self::Close { .. } | Self::Open { .. } | Self::Retract { .. } => Role::Tell,
             _ => Role::Tune,
         }
     }
@@ -145,7 +157,8 @@ impl Wish {
                 cells.into_iter().map(|(column, value)| (column, value.cell())).collect(),
             ),
             Self::Remove { table, key } => Edit::Remove(table, key),
-            Self::Tell { until: Some(_), for_seconds: Some(_), .. } => {
+            Self::Tell { until: Some(_), for_seconds: Some(_), .. }
+            | Self::Close { until: Some(_), for_seconds: Some(_), .. } => {
                 let message = "a fact ends at `until` or after `for_seconds`, not both";
                 return Err(Fault::new(Code::TellUsage, message));
             }
@@ -154,6 +167,11 @@ impl Wish {
                 let value = value.text();
                 Edit::Tell(Tell { class, object, property, value, until, new_property: false })
             }
+            Self::Close { what, until, for_seconds } => {
+                let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
+                Edit::Close(Close { what, until })
+            }
+            Self::Open { what } => Edit::Open(what),
             Self::Retract { fact } => Edit::Retract(fact),
             Self::SetInTuning { tuning, table, key, column, value } => {
                 Edit::SetInTuning(tuning, [table, key, column, value.cell()])
@@ -233,6 +251,36 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
 pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Answered<Json<Edited>> {
     require(&caller, body.edit.role())?;
     make(&site, &caller, body.edit.edit()?, body.why.unwrap_or_default()).await.map(Json)
+}
+
+/// Where a robot is that cannot go on.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BlockedBody {
+    /// Where its middle is, metres, in the map's frame.
+    x: f64,
+    y: f64,
+    /// Where it was to go, degrees counterclockwise from +x.
+    heading: f64,
+    /// When the way is free again: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
+    #[serde(default)]
+    until: Option<String>,
+    /// After how many seconds, instead.
+    #[serde(default)]
+    for_seconds: Option<u32>,
+    #[serde(default)]
+    why: Option<String>,
+}
+
+/// Closes the doorway ahead of a robot that is blocked, or, where none is near, the cross-section there. The same as the edit
+/// `close` of `x,y@heading`.
+#[utoipa::path(post, path = "/api/blocked", tag = "tables", request_body = BlockedBody,
+    responses((status = 200, body = Edited)))]
+pub async fn blocked(site: Site, caller: Caller, Body(body): Body<BlockedBody>) -> Answered<Json<Edited>> {
+    let BlockedBody { x, y, heading, until, for_seconds, why } = body;
+    let wish = Wish::Close { what: format!("{x},{y}@{heading}"), until, for_seconds };
+    require(&caller, wish.role())?;
+    make(&site, &caller, wish.edit()?, why.unwrap_or_default()).await.map(Json)
 }
 
 #[derive(Debug, Deserialize, ToSchema)]

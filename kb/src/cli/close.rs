@@ -1,0 +1,54 @@
+//! `adit close` and `adit open`.
+
+use clap::Args;
+
+use super::args::SiteArgs;
+use super::build;
+use super::tune::apply;
+use crate::edit::{Close, Edit};
+use crate::error::Result;
+
+#[derive(Args, Debug)]
+pub struct CloseArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// A doorway, a space, an area or a named door by its name; a point `x,y`, or `x,y@90` where a robot was blocked
+    #[arg(allow_hyphen_values = true)]
+    pub what: String,
+    /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
+    #[arg(long, value_name = "TIME")]
+    pub until: Option<String>,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+    /// Show what would change and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
+}
+
+#[derive(Args, Debug)]
+pub struct OpenArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// What was closed, as it was said
+    #[arg(allow_hyphen_values = true)]
+    pub what: String,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT")]
+    pub why: Option<String>,
+    /// Show what would change and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
+}
+
+/// Lets nobody pass.
+pub fn close(args: &CloseArgs) -> Result<()> {
+    let edit = Edit::Close(Close { what: args.what.clone(), until: args.until.clone() });
+    apply(&build::open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
+}
+
+/// Lets everybody pass again.
+pub fn open(args: &OpenArgs) -> Result<()> {
+    let edit = Edit::Open(args.what.clone());
+    apply(&build::open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
+}

@@ -1,0 +1,123 @@
+//! What is closed and opened again by the name that people have for it: a doorway, a named door, an area, a space, or the
+//! place at which a robot was blocked. Each becomes a fact, or takes facts back.
+
+use adit_db::Tx;
+use adit_db::edit::Edited;
+use adit_db::history::Author;
+use adit_db::told::Told as Row;
+use adit_engine::RuleBase;
+use adit_planners::facts::Column;
+
+use super::place;
+use super::tell::Tell;
+use crate::error::{Code, Error, Result};
+use crate::graph::Building;
+use crate::knowledge::KnowledgeBase;
+use crate::knowledge::tables;
+use crate::words::suggest::did_you_mean;
+
+/// The property that says that nobody passes.
+pub const CLOSED: &str = "closed";
+
+/// Something that is closed, as it is said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Close {
+    /// A name; or a point `x,y`, with the heading of a robot that was blocked there: `x,y@90`.
+    pub what: String,
+    /// When it ends, as [`KnowledgeBase::moment`] reads times.
+    pub until: Option<String>,
+}
+
+impl Close {
+    /// The fact that says it.
+    pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
+        let what = self.what.trim();
+        let class = class_of(tx, what)?;
+        Ok(Tell {
+            class: class.to_owned(),
+            object: what.to_owned(),
+            property: CLOSED.to_owned(),
+            value: "true".to_owned(),
+            until: self.until.clone(),
+            new_property: false,
+        })
+    }
+}
+
+/// Takes back all facts that close something; where none does, tells that it is not closed.
+pub(super) fn open(
+    tx: &mut Tx<'_>,
+    (site, rules): (&KnowledgeBase, &RuleBase),
+    what: &str,
+    author: &Author,
+) -> Result<Edited> {
+    let tell = Close { what: what.to_owned(), until: None }.fact(tx)?;
+    let row = tell.row(tx, site, rules, author)?;
+    let closes = |fact: &&Row| {
+        let value = |name: &str| row.iter().find(|(column, _)| *column == name).map(|(_, cell)| cell.clone());
+        let is_same = |name: &str, of: Option<f64>| match value(name) {
+            Some(adit_db::Cell::Real(real)) => of.is_some_and(|of| (of - real).abs() < 1e-6),
+            _ => of.is_none(),
+        };
+        let ends = fact.segment.map_or([None; 4], |segment| segment.map(Some));
+        fact.class == tell.class
+            && fact.property == CLOSED
+            && fact.key.as_deref().map(adit_db::Cell::from) == value("key")
+            && is_same("x0", ends[0])
+            && is_same("y0", ends[1])
+            && is_same("x1", ends[2])
+            && is_same("y1", ends[3])
+            && (fact.segment.is_some()
+                || is_same("x", fact.at.map(|at| at[0])) && is_same("y", fact.at.map(|at| at[1])))
+    };
+    let ids: Vec<i64> = tx.facts_told()?.iter().filter(closes).map(|fact| fact.id).collect();
+    let mut last = None;
+    for id in ids {
+        last = Some(tx.remove_row("told", &id.to_string(), author)?);
+    }
+    if let Some(entry) = last {
+        return Ok(entry);
+    }
+    let tell = Tell { value: "false".to_owned(), ..tell };
+    let row = tell.row(tx, site, rules, author)?;
+    Ok(tx.add_row("told", &row, author)?)
+}
+
+/// Of which class something is that people have a name for.
+fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
+    if place::split(what).is_some() {
+        return Ok("DOORWAYS");
+    }
+    let (areas, doors) = (names(tx, "areas", "area")?, names(tx, "named_doors", "door")?);
+    let building = Building::read(tx)?;
+    if doors.iter().any(|door| door == what) {
+        return Ok("NAMED_DOORS");
+    }
+    if areas.iter().any(|area| area == what) {
+        return Ok("AREAS");
+    }
+    if building.doorway_named(what).is_some() {
+        return Ok("DOORWAYS");
+    }
+    if building.space_named(what).is_some() {
+        return Ok("SPACES");
+    }
+    let known = areas.into_iter().chain(doors).chain(building.names());
+    let known: Vec<String> = known.collect();
+    let help = did_you_mean(what, known.iter().map(String::as_str));
+    let help =
+        help.or_else(|| Some("say a doorway, a space, an area, a named door, or a point as x,y".to_owned()));
+    Err(Error::said(
+        Code::TellUnknownObject,
+        format!("the site has nothing called `{what}` that could be closed"),
+        help,
+    ))
+}
+
+/// The names of what planners gave of a class.
+fn names(tx: &mut Tx<'_>, table: &str, key: &str) -> Result<Vec<String>> {
+    Ok(match tables::kept(tx, table)?.column(key) {
+        Some(Column::Text(names)) => names.iter().flatten().cloned().collect(),
+        _ => Vec::new(),
+    })
+}

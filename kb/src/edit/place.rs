@@ -1,0 +1,92 @@
+//! Where a doorway is meant by a point, or the cross-section at which a robot was blocked.
+
+use adit_planners::geometry::{Point, Segment};
+use adit_planners::world::World;
+
+use crate::error::{Code, Error, Result};
+use crate::graph::Building;
+use crate::knowledge::told::Object;
+use crate::words::number::number;
+
+/// A robot that is blocked stands at most so far before a doorway, or in it, metres.
+const BEFORE_M: f64 = 1.5;
+
+/// What blocks a robot in no doorway is so far ahead of its middle, metres, where there is room.
+const AHEAD_M: f64 = 0.5;
+
+/// Steps in which walls are looked for on both sides of a robot, metres.
+const STEP_M: f64 = 0.02;
+
+/// Farther than this no wall is looked for, metres.
+const FURTHEST_M: f64 = 50.0;
+
+/// A point, with a heading in degrees where one is said: `x,y` or `x,y@degrees`.
+pub(super) fn split(text: &str) -> Option<(Point, Option<f64>)> {
+    let (point, heading) = match text.split_once('@') {
+        Some((point, heading)) => {
+            (point, Some(heading.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite())?))
+        }
+        None => (text, None),
+    };
+    let (x, y) = point.split_once(',')?;
+    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+    (x.is_finite() && y.is_finite()).then(|| (Point::new(x, y), heading))
+}
+
+/// The doorway, or else the cross-section, at which a robot was blocked that stood at a point and was heading somewhere; the
+/// doorway that is nearest to a point where no heading is said.
+pub(super) fn at(world: &World, building: &Building, (at, heading): (Point, Option<f64>)) -> Result<Object> {
+    let doorways = building.doorways.iter().map(Building::segment);
+    let Some(heading) = heading else {
+        let nearest = doorways.min_by(|one, other| one.distance(at).total_cmp(&other.distance(at)));
+        if let Some(segment) = nearest.filter(|segment| segment.distance(at) <= BEFORE_M) {
+            return Ok(object(segment));
+        }
+        let place = format!("{},{}", number(at.x), number(at.y));
+        let message = match nearest {
+            Some(nearest) => format!("the nearest doorway to {place} is {:.2} m away", nearest.distance(at)),
+            None => format!("no doorway is near {place}: the map has none"),
+        };
+        let help = format!("say a heading, too, and what is ahead of it is closed: {place}@90");
+        return Err(Error::said(Code::TellNoDoor, message, Some(help)));
+    };
+    if !world.bounds.contains(at) || world.is_solid(at) {
+        let message = format!("{},{} is not on the floor", number(at.x), number(at.y));
+        return Err(Error::said(Code::TellNoDoor, message, None));
+    }
+    let ahead = Point::towards(heading.to_radians());
+    let way = Segment::new(at, at + ahead * BEFORE_M);
+    let met = doorways.filter(|doorway| doorway.crosses(&way) || doorway.distance(at) < STEP_M);
+    if let Some(doorway) = met.min_by(|one, other| one.distance(at).total_cmp(&other.distance(at))) {
+        return Ok(object(doorway));
+    }
+    let reach = free_along(world, building, at, ahead);
+    let middle = at + ahead * AHEAD_M.min(reach / 2.0);
+    let across = ahead.perpendicular();
+    let [left, right] =
+        [across, -across].map(|side| middle + side * free_along(world, building, middle, side));
+    Ok(object(Segment::new(left, right)))
+}
+
+pub(super) fn object(segment: Segment) -> Object {
+    let middle = segment.middle();
+    let Segment { a, b } = segment;
+    Object::Point([middle.x, middle.y], Some([a.x, a.y, b.x, b.y]))
+}
+
+/// How far the floor goes on in a direction, up to a wall or into another space, metres.
+fn free_along(world: &World, building: &Building, from: Point, direction: Point) -> f64 {
+    let mut metres = 0.0;
+    let mut here = from;
+    while metres < FURTHEST_M {
+        let next = from + direction * (metres + STEP_M);
+        let step = Segment::new(here, next);
+        let is_left = building.doorways.iter().any(|doorway| Building::segment(doorway).crosses(&step));
+        if is_left || !world.bounds.contains(next) || world.is_solid(next) {
+            break;
+        }
+        metres += STEP_M;
+        here = next;
+    }
+    metres
+}

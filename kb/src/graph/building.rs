@@ -1,0 +1,103 @@
+//! The building's own nouns: its spaces and the doorways between them, with what rules say of them.
+
+use adit_db::Tx;
+use adit_db::space::{Doorway, Space};
+use adit_db::told::Standing;
+use adit_planners::geometry::{Point, Segment};
+
+use crate::error::Result;
+use crate::knowledge::told::Fact;
+
+/// Spaces and doorways, by number from 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Building {
+    pub spaces: Vec<Space>,
+    pub doorways: Vec<Doorway>,
+    /// What is told to be closed where no doorway is found: by fact, from x0, y0 to x1, y1.
+    pub lines: Vec<(i64, [f64; 4])>,
+}
+
+impl Building {
+    /// As the last build kept it.
+    pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
+        let mut lines = Vec::new();
+        let standings = tx.standings()?;
+        for row in tx.facts_told()? {
+            let is_alone = |standing: &Standing| {
+                standing.told == row.id && standing.state == "attached" && standing.keys.is_empty()
+            };
+            if standings.iter().any(is_alone) {
+                lines.extend(Fact::of(&row)?.closes().map(|segment| (row.id, segment)));
+            }
+        }
+        Ok(Self { spaces: tx.spaces()?, doorways: tx.doorways()?, lines })
+    }
+
+    /// What people call a space, by its number.
+    pub fn space(&self, number: i64) -> Option<String> {
+        let place = self.spaces.binary_search_by_key(&number, |space| space.space).ok()?;
+        let name = self.spaces[place].name.clone();
+        Some(name.unwrap_or_else(|| format!("space {number}")))
+    }
+
+    /// The doorway between two spaces, by their numbers, that is nearest to a point.
+    pub fn doorway(&self, one: i64, other: i64, at: Point) -> Option<&Doorway> {
+        let between = (one.min(other), one.max(other));
+        let joins = |doorway: &&Doorway| (doorway.space1, doorway.space2) == between && one != other;
+        let off = |doorway: &Doorway| (doorway.x - at.x).powi(2) + (doorway.y - at.y).powi(2);
+        let doorways = self.doorways.iter().filter(joins);
+        doorways.reduce(|best, next| if off(next) < off(best) { next } else { best })
+    }
+
+    /// What people call a doorway.
+    pub fn name(doorway: &Doorway) -> String {
+        doorway.name.clone().unwrap_or_else(|| format!("doorway {}", doorway.doorway))
+    }
+
+    /// That a doorway is closed, and which spaces it is between.
+    pub fn why_closed(&self, number: i64) -> String {
+        let Some(doorway) = self.doorways.iter().find(|doorway| doorway.doorway == number) else {
+            return format!("doorway {number} is closed");
+        };
+        let [one, other] =
+            [doorway.space1, doorway.space2].map(|space| self.space(space).unwrap_or_default());
+        let (name, x, y) = (Self::name(doorway), doorway.x, doorway.y);
+        format!("{name} at ({x:.2}, {y:.2}), between {one} and {other}, is closed")
+    }
+
+    /// The doorway of this name: what rules call it, or `doorway 3`.
+    pub fn doorway_named(&self, name: &str) -> Option<&Doorway> {
+        let is_meant =
+            |doorway: &&Doorway| Self::name(doorway) == name || is_numbered(name, "doorway", doorway.doorway);
+        self.doorways.iter().find(is_meant)
+    }
+
+    /// The space of this name: what rules call it, or `space 3`.
+    pub fn space_named(&self, name: &str) -> Option<&Space> {
+        let is_meant = |space: &&Space| {
+            self.space(space.space).as_deref() == Some(name) || is_numbered(name, "space", space.space)
+        };
+        self.spaces.iter().find(is_meant)
+    }
+
+    /// What people call spaces and doorways.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        let spaces = self.spaces.iter().filter_map(|space| self.space(space.space));
+        spaces.chain(self.doorways.iter().map(Self::name))
+    }
+
+    /// Where a doorway lies.
+    pub fn segment(doorway: &Doorway) -> Segment {
+        Segment::new(Point::new(doorway.x0, doorway.y0), Point::new(doorway.x1, doorway.y1))
+    }
+
+    /// The doorways that nobody passes.
+    pub fn closed(&self) -> impl Iterator<Item = &Doorway> {
+        self.doorways.iter().filter(|doorway| doorway.closed == Some(true))
+    }
+}
+
+/// Whether a name is that of a kind with a number.
+fn is_numbered(name: &str, kind: &str, number: i64) -> bool {
+    name.strip_prefix(kind).is_some_and(|rest| rest.trim() == number.to_string())
+}

@@ -1,0 +1,132 @@
+//! The planner that asserts spaces and doorways.
+
+use std::fmt::Write as _;
+
+use super::{Doorway, Space, Spaces};
+use crate::facts::{Column, Facts, Table};
+use crate::geometry::{Point, Rect};
+use crate::known::keys;
+use crate::planner::{Planner, PlannerError, Signature};
+use crate::world::World;
+
+const NAME: &str = "spaces and doorways";
+
+const GIVES: [&str; 21] = [
+    "SPACES.space",
+    "SPACES.called: text",
+    "SPACES.area",
+    "SPACES.breadth",
+    "SPACES.x",
+    "SPACES.y",
+    "SPACES.outline: text",
+    "SPACES.closed: truth",
+    "DOORWAYS.doorway",
+    "DOORWAYS.called: text",
+    "DOORWAYS.space1",
+    "DOORWAYS.space2",
+    "DOORWAYS.x",
+    "DOORWAYS.y",
+    "DOORWAYS.x0",
+    "DOORWAYS.y0",
+    "DOORWAYS.x1",
+    "DOORWAYS.y1",
+    "DOORWAYS.width",
+    "DOORWAYS.height",
+    "DOORWAYS.closed: truth",
+];
+
+/// Gives the spaces of a building and the doorways between them, the same for all robots; metres.
+///
+/// SPACES by number: `called` (the only place in it, else the only area whose middle lies in it), `area`, `breadth` (where it
+/// is widest, at `x` and `y`), `outline` (a JSON array of rings of `[x, y]`, the outer one first). DOORWAYS by number:
+/// `called` (the named door that lies there), the two spaces, its ends, its middle, `width`, and `height`, the lowest bridge
+/// over it, unknown where there is none. Whether either is `closed` is for rules, and for whoever tells it. A named door is a doorway wherever it is drawn.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SpacesAndDoorways;
+
+impl Planner for SpacesAndDoorways {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn signature(&self) -> Signature {
+        Signature::new(&[], &GIVES)
+    }
+
+    fn facts(&self, world: &World, _known: &Facts) -> Result<Facts, PlannerError> {
+        let found =
+            Spaces::of(world).map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
+        Ok(Facts::from([
+            ("SPACES".to_owned(), spaces(world, &found)),
+            ("DOORWAYS".to_owned(), doorways(world, &found.doorways)),
+        ]))
+    }
+}
+
+fn spaces(world: &World, found: &Spaces) -> Table {
+    let of = |at: Point, space: usize| found.at(at) == Some(space);
+    let called = |space: usize| {
+        let places = world.places.iter().filter(|place| of(place.at, space)).map(|place| &place.name);
+        let areas = world.areas.iter().filter(|area| of(area.centre, space)).map(|area| &area.name);
+        only(places).or_else(|| only(areas)).cloned()
+    };
+    let all = &found.spaces;
+    let column = |of: fn(&Space) -> f64| all.iter().map(of).collect::<Column>();
+    Table::default()
+        .with("space", keys(all.len()))
+        .with("called", (0..all.len()).map(called).collect::<Column>())
+        .with("area", column(|space| space.area))
+        .with("breadth", column(|space| space.breadth))
+        .with("x", column(|space| space.at.x))
+        .with("y", column(|space| space.at.y))
+        .with("outline", all.iter().map(|space| json(&space.outline)).collect::<Column>())
+        .with("closed", Column::Truth(vec![None; all.len()]))
+}
+
+fn only<T>(mut all: impl Iterator<Item = T>) -> Option<T> {
+    all.next().filter(|_| all.next().is_none())
+}
+
+/// To a millimetre.
+fn json(rings: &[Vec<Point>]) -> String {
+    let mut text = String::from("[");
+    for (number, ring) in rings.iter().enumerate() {
+        text.push_str(if number > 0 { ",[" } else { "[" });
+        for (number, p) in ring.iter().enumerate() {
+            let comma = if number > 0 { "," } else { "" };
+            let [x, y] = [p.x, p.y].map(|metres| (metres * 1000.0).round() / 1000.0);
+            write!(text, "{comma}[{x},{y}]").expect("memory takes any text");
+        }
+        text.push(']');
+    }
+    text.push(']');
+    text
+}
+
+fn doorways(world: &World, found: &[Doorway]) -> Table {
+    let called = |doorway: &Doorway| Some(world.named_doors[doorway.named?].name.clone());
+    let height = |doorway: &Doorway| {
+        let Rect { x0, y0, x1, y1 } = doorway.segment.bounds();
+        let over = |rect: &Rect| {
+            rect.x0 < x1 && x0 < rect.x1 && rect.y0 < y1 && y0 < rect.y1
+                || rect.contains(doorway.segment.middle())
+        };
+        let above = world.bridges.iter().filter(|bridge| over(&bridge.rect));
+        above.map(|bridge| bridge.height).min_by(f64::total_cmp)
+    };
+    let column = |of: fn(&Doorway) -> f64| found.iter().map(of).collect::<Column>();
+    Table::default()
+        .with("doorway", keys(found.len()))
+        .with("called", found.iter().map(called).collect::<Column>())
+        .with("space1", column(|doorway| (doorway.spaces[0] + 1) as f64))
+        .with("space2", column(|doorway| (doorway.spaces[1] + 1) as f64))
+        .with("x", column(|doorway| doorway.segment.middle().x))
+        .with("y", column(|doorway| doorway.segment.middle().y))
+        .with("x0", column(|doorway| doorway.segment.a.x))
+        .with("y0", column(|doorway| doorway.segment.a.y))
+        .with("x1", column(|doorway| doorway.segment.b.x))
+        .with("y1", column(|doorway| doorway.segment.b.y))
+        .with("width", column(|doorway| doorway.segment.length()))
+        .with("height", found.iter().map(height).collect::<Column>())
+        .with("closed", Column::Truth(vec![None; found.len()]))
+}

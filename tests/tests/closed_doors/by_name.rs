@@ -1,0 +1,210 @@
+//! Whatever people close by the name that they have for it stays shut: doorways, spaces, areas, and the place where a robot
+//! was blocked.
+
+use adit::Live;
+use adit::edit::{Close, Edit};
+use adit_planners::geometry::Point;
+use adit_tests::TestSite;
+use adit_tests::oracle::random::Chance;
+
+use super::{author, crosses, faults, live};
+
+fn close(what: &str) -> Edit {
+    Edit::Close(Close { what: what.to_owned(), until: None })
+}
+
+/// What is closed by random routes.
+#[derive(Clone, Copy, PartialEq)]
+enum What {
+    /// A doorway on the way.
+    Doorway,
+    /// Whatever is ahead of a robot that stands somewhere on the way.
+    Ahead,
+}
+
+/// The segment of the newest fact.
+fn told(site: &TestSite) -> [Point; 2] {
+    let row = site.sqlite3("SELECT x0, y0, x1, y1 FROM told ORDER BY id DESC LIMIT 1").concat();
+    let ends: Vec<f64> = row.split('|').map(|number| number.parse().unwrap()).collect();
+    [Point::new(ends[0], ends[1]), Point::new(ends[2], ends[3])]
+}
+
+/// Doorways by number, with their segments.
+fn doorways(site: &TestSite) -> Vec<(String, [Point; 2])> {
+    let rows = site.sqlite3("SELECT doorway, x0, y0, x1, y1 FROM doorways ORDER BY doorway");
+    let read = |row: &String| {
+        let mut parts = row.split('|');
+        let number = parts.next().unwrap().to_owned();
+        let ends: Vec<f64> = parts.map(|part| part.parse().unwrap()).collect();
+        (number, [Point::new(ends[0], ends[1]), Point::new(ends[2], ends[3])])
+    };
+    rows.iter().map(read).collect()
+}
+
+/// Closes something on random routes, one by one: how many left a way.
+fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u64)) -> usize {
+    let mut live: Live = live(site);
+    let doorways = doorways(site);
+    let places = site.sqlite3("SELECT place FROM places ORDER BY place");
+    let robots = site.sqlite3("SELECT DISTINCT robot FROM robots ORDER BY robot");
+    let mut chance = Chance::new(seed);
+    let (mut closed, mut left) = (0, 0);
+    for _ in 0..20 * count {
+        if closed == count {
+            break;
+        }
+        let one = |chance: &mut Chance, of: &[String]| of[chance.below(of.len())].clone();
+        let (start, goal) = (one(&mut chance, &places), [one(&mut chance, &places)]);
+        let robot = one(&mut chance, &robots);
+        let before = live.route(&start, &goal, Some(&robot)).unwrap();
+        let points: Vec<Point> = before.waypoints.iter().map(|point| Point::new(point.x, point.y)).collect();
+        let (edit, at) = match what {
+            What::Doorway => {
+                let is_passed =
+                    |segment: [Point; 2]| points.windows(2).any(|leg| crosses(segment, leg[0], leg[1]));
+                let passed: Vec<&(String, [Point; 2])> =
+                    doorways.iter().filter(|(_, segment)| is_passed(*segment)).collect();
+                if passed.is_empty() {
+                    continue;
+                }
+                let (number, _) = passed[chance.below(passed.len())];
+                (close(&format!("doorway {number}")), None)
+            }
+            What::Ahead => {
+                let legs: Vec<&[Point]> =
+                    points.windows(2).filter(|leg| leg[0].distance(leg[1]) > 0.5).collect();
+                if legs.is_empty() {
+                    continue;
+                }
+                let leg = legs[chance.below(legs.len())];
+                let at = leg[0].lerp(leg[1], chance.below(1000) as f64 / 1000.0);
+                let heading = (leg[1] - leg[0]).angle().to_degrees();
+                (close(&format!("{},{}@{heading}", at.x, at.y)), Some(at))
+            }
+        };
+        live.edit(&edit, &author()).unwrap();
+        let shut = told(site);
+        let from = at.map_or(start.clone(), |at| format!("{},{}", at.x, at.y));
+        let after = live.route(&start, &goal, Some(&robot)).unwrap();
+        let onward = live.route(&from, &goal, Some(&robot)).unwrap();
+        for route in [&after, &onward] {
+            let found = faults(route, shut);
+            assert!(found.is_empty(), "{start} to {goal:?}, {robot}, {edit:?}: {found:#?}");
+        }
+        match after.cost {
+            None => assert!(after.reason.is_some_and(|reason| reason.contains("closed")), "{edit:?}"),
+            Some(cost) => {
+                assert!(cost > before.cost.unwrap() - 1e-6, "{start} to {goal:?}, {edit:?}");
+                left += 1;
+            }
+        }
+        live.edit(&Edit::Undo(None), &author()).unwrap();
+        let again = live.route(&start, &goal, Some(&robot)).unwrap();
+        assert_eq!((&again.steps, &again.waypoints), (&before.steps, &before.waypoints), "to the bit");
+        closed += 1;
+    }
+    assert_eq!(closed, count);
+    left
+}
+
+#[test]
+fn on_the_clinic_no_route_passes_a_closed_doorway() {
+    let left = close_on_random_routes(&TestSite::example("clinic").built(), (What::Doorway, 12, 1));
+    assert!(left > 1, "{left}");
+}
+
+#[test]
+fn on_the_depot_no_robot_passes_a_closed_doorway() {
+    close_on_random_routes(&TestSite::example("depot").built(), (What::Doorway, 12, 2));
+}
+
+#[test]
+fn on_the_hospital_floor_no_route_passes_what_a_robot_reported_to_be_blocked() {
+    close_on_random_routes(&TestSite::example("hospital").built(), (What::Ahead, 12, 3));
+}
+
+#[test]
+fn on_the_clinic_no_route_passes_what_a_robot_reported_to_be_blocked() {
+    let left = close_on_random_routes(&TestSite::example("clinic").built(), (What::Ahead, 12, 4));
+    assert!(left > 1, "{left}");
+}
+
+#[test]
+#[ignore = "takes minutes: 200 doorways and 200 robots that are blocked on each shipped floor"]
+fn on_every_floor_two_hundred_closings_hold() {
+    for (number, name) in ["clinic", "depot", "hospital"].into_iter().enumerate() {
+        for what in [What::Doorway, What::Ahead] {
+            let site = TestSite::example(name).built();
+            let left = close_on_random_routes(&site, (what, 200, 10 + number as u64));
+            println!("{name}: 200 closed, {left} left a way");
+        }
+    }
+}
+
+#[test]
+fn a_closed_space_is_not_come_into_and_says_so() {
+    let site = TestSite::example("clinic").built();
+    let way = || site.adit("route", &["dock", "ward 12", "--json"]).json();
+    let before = way();
+    site.adit("close", &["ward 12", "--why", "cleaning"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT closed FROM spaces WHERE name = 'ward 12'"), ["1"]);
+    let none = site.adit("route", &["dock", "ward 12"]).expecting(1).stdout;
+    assert!(none.contains("and ward 12, is closed"), "{none}");
+    site.adit("open", &["ward 12"]).expect_status(0);
+    assert_eq!(way()["waypoints"], before["waypoints"], "to the bit");
+    assert_eq!(site.sqlite3("SELECT count(*) FROM doorways WHERE closed"), ["0"]);
+}
+
+#[test]
+fn a_closed_area_is_not_entered() {
+    let site = TestSite::example("starter");
+    let text = "map = \"map.toml\"\nrobots = \"robots.toml\"\n[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    site.write("site.toml", text);
+    let site = site.built();
+    site.adit("close", &["east", "--until", "2h"]).expect_status(0);
+    site.adit("route", &["home", "11,2"]).expect_status(1);
+    site.adit("route", &["home", "11,2", "--at", "3h"]).expect_status(0);
+    site.adit("open", &["east"]).expect_status(0);
+    site.adit("route", &["home", "11,2"]).expect_status(0);
+}
+
+#[test]
+fn what_is_closed_stays_closed_when_the_map_changes() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    assert_eq!(site.sqlite3("SELECT count(*) FROM doorways"), ["1"]);
+    site.adit("close", &["doorway 1"]).expect_status(0);
+    site.edit("map.toml", "rect = [5.9, 0.0, 6.1, 3.0]", "rect = [5.8, 0.0, 6.2, 2.9]");
+    site.adit("build", &[]).expect_status(0);
+    site.adit("route", &["home", "window"]).expect_status(1);
+    // where there is no doorway any more, its line is closed all the same
+    site.edit("map.toml", "rect = [5.8, 0.0, 6.2, 2.9]", "rect = [5.8, 0.0, 6.2, 0.1]");
+    site.adit("build", &[]).expect_status(0);
+    let route = site.adit("route", &["home", "window", "--json"]).expecting(0).json();
+    let points: Vec<Point> = route["waypoints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|point| Point::new(point["x"].as_f64().unwrap(), point["y"].as_f64().unwrap()))
+        .collect();
+    let shut = told(&site);
+    assert!(!points.windows(2).any(|leg| crosses(shut, leg[0], leg[1])), "{points:?} {shut:?}");
+}
+
+#[test]
+fn what_cannot_be_closed_is_refused_with_what_was_meant() {
+    let site = TestSite::example("clinic").built();
+    for (what, said) in [
+        ("triagge", "did you mean `triage`?"),
+        ("doorway 9999", "nothing called `doorway 9999`"),
+        ("-50,3@90", "is not on the floor"),
+        ("10,8.5@north", "nothing called `10,8.5@north`"),
+        ("24,20", "m away"),
+    ] {
+        site.adit("close", &[what]).expecting(2).complains(&[said]);
+    }
+    site.adit("close", &["ward 12", "--until", "2020-01-01"]).expecting(2).complains(&["that is over"]);
+    site.adit("open", &["triagge"]).expecting(2).complains(&["did you mean `triage`?"]);
+    assert!(site.sqlite3("SELECT * FROM told").is_empty());
+}
