@@ -1,4 +1,5 @@
-//! Spaces of a map, as the judge of `shared/peers/spaces` reads them: `spaces MAP.yaml LABELS.pgm DOORWAYS.json`.
+//! Spaces and doorways of a floor plan for `tests/peers/spaces.sh`, and the seconds that finding them took:
+//! `spaces MAP.yaml LABELS.pgm DOORWAYS.json`.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -10,7 +11,9 @@ use adit_planners::spaces::Spaces;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, map, labels, doorways] = arguments.as_slice() else { panic!("MAP LABELS DOORWAYS") };
+    let [_, map, labels, doorways] = arguments.as_slice() else {
+        panic!("spaces MAP.yaml LABELS.pgm DOORWAYS.json")
+    };
     let (world, _) = read_map(Path::new(map), &MapSettings::default()).expect("a map");
     let start = Instant::now();
     let spaces = Spaces::of(&world).expect("spaces");

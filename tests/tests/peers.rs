@@ -33,6 +33,11 @@ fn rooms() {
 }
 
 #[test]
+fn spaces() {
+    runs("spaces.sh", &["empty plans: 1; MCC", "the slowest took"]);
+}
+
+#[test]
 fn rules() {
     runs("rules.sh", &["Full weighting", "sum of hardness, 1,000 doors"]);
 }
