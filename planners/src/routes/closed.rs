@@ -9,6 +9,7 @@ use super::graph::{Closed, Cut, RouteGraph};
 use super::mesh::EPSILON;
 use super::parts::{Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 use super::way::{Leg, Way, Ways};
+use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Point, Rect};
 
 /// The key of an opening between two parts of a room.
@@ -27,10 +28,16 @@ impl Closed {
         self.only.as_ref().is_none_or(|only| only.iter().any(|rooms| rooms.contains(&room.index())))
     }
 
-    /// A room's parts on both sides, where the boundary lies within it.
+    /// A room's parts on both sides, where the boundary lies within it: one that goes along a side lies on the doors there.
     fn cut(&self, room: &Convex) -> Option<[Convex; 2]> {
-        room.clip(self.segment).filter(|shared| shared.length() > EPSILON)?;
-        Some([room.left_of(self.segment)?, room.left_of(self.segment.reversed())?])
+        room.clip(self.segment).filter(|shared| shared.length() > SNAP_M)?;
+        let Segment { a, b } = self.segment;
+        let is_broad = |part: &Convex| {
+            let mut off = part.corners().map(|corner| cross(a, b, corner).abs() / a.distance(b));
+            off.any(|off| off > SNAP_M)
+        };
+        let side = |line: Segment| room.left_of(line).filter(is_broad);
+        Some([side(self.segment)?, side(self.segment.reversed())?])
     }
 }
 
@@ -270,7 +277,7 @@ fn within(crossing: &Crossing, rooms: [&Convex; 2]) -> Option<Crossing> {
     match crossing {
         Crossing::Through(segment) => {
             let segment = two.clip(one.clip(*segment)?)?;
-            (segment.length() > EPSILON).then_some(Crossing::Through(segment))
+            (segment.length() > SNAP_M).then_some(Crossing::Through(segment))
         }
         Crossing::Within(area) => {
             let area = area.common(one)?.common(two)?;
@@ -296,7 +303,9 @@ fn divide(
         open = open.iter().flat_map(|open| without(*open, &[part])).collect();
     }
     let piece = |part: Segment| RouteDoor { crossing: Crossing::Through(part), ..door.clone() };
-    doors.extend(open.into_iter().map(piece));
+    // past the end of a boundary, a rounding is no way around it
+    let is_way = |part: &Segment| *part == segment || part.length() > SNAP_M;
+    doors.extend(open.into_iter().filter(is_way).map(piece));
 }
 
 /// Whether one leg goes on as the other one.

@@ -7,7 +7,7 @@ use super::cone::{Gap, Segment, View, cross};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, RoomIndex};
-use super::rounded::Kept;
+use super::rounded::{Arc, Kept};
 use super::way::Way;
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
@@ -48,6 +48,16 @@ impl Link {
         let is_straight = graph.per_m(room).to_bits() == graph.per_m(before).to_bits();
         Self { door, segment, at, room, is_straight }
     }
+}
+
+/// Links that are passed at one point, and how the way bends there.
+struct Bend {
+    links: Range<usize>,
+    at: Point,
+    /// About what it bends, where that is an arc.
+    arc: Option<Arc>,
+    /// Whether the wall lies to the left.
+    is_left: bool,
 }
 
 /// The doors on a way from a start to a goal.
@@ -140,7 +150,7 @@ impl Chain<'_> {
 
     /// The doors of some links with the links, and where the way bends about an arc what keeps it off.
     fn openings(&self, links: Range<usize>) -> Vec<(Opening, Option<usize>)> {
-        let mut all: Vec<(Opening, Option<usize>)> = Vec::with_capacity(links.len());
+        let mut bends: Vec<Bend> = Vec::new();
         let mut first = links.start;
         while first < links.end {
             let at = self.links[first].at;
@@ -149,20 +159,28 @@ impl Chain<'_> {
             let before = if first == 0 { self.start.1 } else { self.links[first - 1].at };
             let after = self.links.get(end).map_or(self.goal, |next| next.at);
             let arc = turns(before, at, after).then(|| self.graph.arc(self.links[first].door, at)).flatten();
-            match arc {
-                Some(arc) => {
-                    let is_left = cross(before, at, after) > 0.0;
-                    let links: Vec<_> = (first..end).map(|link| (link, self.links[link].segment)).collect();
-                    let opening = |kept: Kept| {
-                        let Kept { inner, outer, link } = kept;
-                        let (left, right) = if is_left { (inner, outer) } else { (outer, inner) };
-                        (Opening { segment: Segment::new(inner, outer), left, right }, link)
-                    };
-                    all.extend(arc.keeps(&links, is_left).into_iter().map(opening));
-                }
-                None => all.extend((first..end).map(|link| (self.opening(link), Some(link)))),
-            }
+            bends.push(Bend { links: first..end, at, arc, is_left: cross(before, at, after) > 0.0 });
             first = end;
+        }
+        let mut all: Vec<(Opening, Option<usize>)> = Vec::with_capacity(links.len());
+        for (number, bend) in bends.iter().enumerate() {
+            let Some(arc) = &bend.arc else {
+                all.extend(bend.links.clone().map(|link| (self.opening(link), Some(link))));
+                continue;
+            };
+            let beside = [number.checked_sub(1), Some(number + 1)];
+            let along = beside.map(|beside| {
+                let beside = bends.get(beside?)?;
+                (beside.arc.is_some() && beside.is_left == bend.is_left).then_some(beside.at)
+            });
+            let of = |link: usize| (link, self.links[link].segment);
+            let opening = |kept: Kept| {
+                let Kept { inner, outer, link } = kept;
+                let (left, right) = if bend.is_left { (inner, outer) } else { (outer, inner) };
+                (Opening { segment: Segment::new(inner, outer), left, right }, link)
+            };
+            let links: Vec<_> = bend.links.clone().map(of).collect();
+            all.extend(arc.keeps(&links, bend.is_left, along).into_iter().map(opening));
         }
         all
     }
@@ -485,6 +503,10 @@ fn next_corner(apex: Point, doors: &[Opening], to: Point) -> Option<(Point, usiz
             (_, Some(corner)) if cross(apex, corner.0, door.left) < 0.0 => return Some(corner),
             (Some(corner), _) if cross(apex, corner.0, door.right) > 0.0 => return Some(corner),
             _ => {}
+        }
+        // one that is seen edge-on is come to at its nearer end, whatever a rounding says of what lies behind it
+        if door.segment.is_in_line_with(apex) {
+            return Some((door.segment.nearest_to(apex), index));
         }
         if left.is_none_or(|(limit, _)| cross(apex, limit, door.left) <= 0.0) {
             left = Some((door.left, index));

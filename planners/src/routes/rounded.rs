@@ -102,11 +102,12 @@ impl Arc {
     ///
     /// # Arguments
     /// `links` with their doors, which all end where the tangents meet, in their order; `is_left` says whether the wall lies
-    /// to the left.
+    /// to the left. `along` are the places where the same wall bends the way before and after: a door between two such places
+    /// lies between the way and the room that it is pulled out of, and is not passed.
     ///
     /// # Returns
     /// In the way's order: doors by which it comes to the wall, corners of the arc, doors by which it leaves the wall.
-    pub fn keeps(&self, links: &[(usize, Segment)], is_left: bool) -> Vec<Kept> {
+    pub fn keeps(&self, links: &[(usize, Segment)], is_left: bool, along: [Option<Point>; 2]) -> Vec<Kept> {
         let kept = |inner: Point, outer: Point, link: Option<usize>| Kept { inner, outer, link };
         let angle =
             |door: &Segment| self.doors.iter().find(|(_, of)| of == door).map_or(PI, |(angle, _)| *angle);
@@ -120,23 +121,26 @@ impl Arc {
             if !is_left {
                 doors.reverse();
             }
-            all.extend(doors.into_iter().map(|(_, door)| kept(far(*door, self.at), self.at, None)));
+            let is_along = |far: Point| along.iter().flatten().any(|at| at.distance(far) <= SNAP_M);
+            let fars = doors.into_iter().map(|(_, door)| far(*door, self.at)).filter(|&far| !is_along(far));
+            all.extend(fars.map(|far| kept(far, self.at, None)));
         };
         let (below, above) = (|angle: f64| angle < least, |angle: f64| angle > most);
         beside(if is_left { &below } else { &above }, &mut all);
-        let mut on: Vec<(f64, Kept)> = Vec::new();
+        // doors that meet the arc between the same two of its corners do so in the order of their angles
+        let mut on: Vec<(f64, f64, Kept)> = Vec::new();
         for (number, corner) in (0..).zip(&self.corners) {
-            on.push((f64::from(number), kept(*corner, self.at, None)));
+            on.push((f64::from(number), 0.0, kept(*corner, self.at, None)));
         }
         for (&(link, _), angle) in links.iter().zip(angles) {
             let (place, corner) = self.met(angle);
-            on.push((place, kept(corner, self.at, Some(link))));
+            on.push((place, angle, kept(corner, self.at, Some(link))));
         }
-        on.sort_by(|one, two| one.0.total_cmp(&two.0));
+        on.sort_by(|one, two| one.0.total_cmp(&two.0).then(one.1.total_cmp(&two.1)));
         if !is_left {
             on.reverse();
         }
-        all.extend(on.into_iter().map(|(_, kept)| kept));
+        all.extend(on.into_iter().map(|(_, _, kept)| kept));
         beside(if is_left { &above } else { &below }, &mut all);
         all
     }
