@@ -10,7 +10,7 @@ mod texts;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::ops;
+use std::ops::{self, Range};
 use std::sync::Arc;
 
 use adit_db::Tx;
@@ -30,6 +30,7 @@ pub use boundary::Closer;
 use layers::Layer;
 
 use crate::error;
+use crate::knowledge::told::Whom;
 
 pub use building::Building;
 pub use layers::rect_of;
@@ -137,17 +138,39 @@ impl SiteGraph {
             .building
             .closed()
             .map(|doorway| (Closer::Doorway(doorway.doorway), self.of_doorway(Building::segment(doorway))));
-        let lines = self.building.lines.iter().map(|&(fact, [x0, y0, x1, y1])| {
+        let everybody = |(closer, segments)| (closer, segments, None);
+        let lines = self.building.lines.iter().enumerate().map(|(number, line)| {
+            let [x0, y0, x1, y1] = line.segment;
             let segment = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
-            (Closer::Fact(fact), self.of_doorway(segment))
+            (Closer::Line(number), self.of_doorway(segment), self.rooms_of(&line.whom))
         });
         let (mut closers, mut boundaries) = (Vec::new(), Vec::new());
-        for (closer, segments) in doors.chain(doorways).chain(lines) {
+        for (closer, segments, only) in doors.chain(doorways).map(everybody).chain(lines) {
             closers.resize(closers.len() + segments.len(), closer);
-            boundaries.extend(segments.into_iter().map(Closed::for_all));
+            let boundary = |segment| Closed { segment, only: only.clone() };
+            boundaries.extend(segments.into_iter().map(boundary));
         }
         self.graph.close(boundaries);
         self.closers = closers;
+    }
+
+    /// The rooms of some robots, by index; `None`: all.
+    fn rooms_of(&self, whom: &Whom) -> Option<Vec<Range<usize>>> {
+        if *whom == Whom::All {
+            return None;
+        }
+        let mut found: Vec<Range<usize>> = Vec::new();
+        for (index, room) in self.rooms.iter().enumerate() {
+            // rooms of the paper's modes are anybody's
+            if room.layer.as_ref().is_some_and(|(robot, _)| !whom.holds_for(robot)) {
+                continue;
+            }
+            match found.last_mut().filter(|last| last.end == index) {
+                Some(last) => last.end += 1,
+                None => found.push(index..index + 1),
+            }
+        }
+        Some(found)
     }
 
     /// What people call the doorway through which a door leads into another space.

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use adit::edit::Edit;
+use adit::edit::{Close, Edit};
 use adit::{KnowledgeBase, Live, Silent, Tell};
 use adit_db::Store;
 use adit_db::history::Author;
@@ -26,7 +26,7 @@ const FORGET: &str = "
     DELETE FROM doors; DELETE FROM rooms; DELETE FROM rules; DELETE FROM witnesses; DELETE FROM derivations;
     DELETE FROM prime_area_strips; DELETE FROM strips; DELETE FROM starts; DELETE FROM ends; DELETE FROM tree_rows;
     DELETE FROM places; DELETE FROM frames; DELETE FROM attachments; DELETE FROM told_states; DELETE FROM site_hours;
-    DELETE FROM blocks; DELETE FROM areas; DELETE FROM named_doors; DELETE FROM area_rooms; DELETE FROM door_rooms;
+    DELETE FROM spaces; DELETE FROM doorways; DELETE FROM blocks; DELETE FROM areas; DELETE FROM named_doors; DELETE FROM area_rooms; DELETE FROM door_rooms;
     DELETE FROM site WHERE key NOT LIKE 'class.%';";
 
 #[derive(Clone, Debug)]
@@ -37,6 +37,9 @@ enum Step {
     /// The moment that is asked about.
     Clock(&'static str),
 }
+
+/// The starter's only robot.
+const ROBOT: &str = "robot";
 
 const MOMENTS: [&str; 3] = ["2030-01-01T08:00:00Z", "2030-01-01T12:00:00Z", "2030-01-01T20:00:00Z"];
 
@@ -50,7 +53,7 @@ fn step(chance: &mut Chance) -> Step {
     let set = |column: &str, value: String| {
         Step::Edit(Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value))
     };
-    match chance.below(12) {
+    match chance.below(13) {
         0 | 1 => set("hardness", number(chance, 0.0, 9.0)),
         2 => set("width", number(chance, 0.3, 1.1)),
         3 => set("height", number(chance, 0.9, 1.9)),
@@ -93,6 +96,23 @@ fn step(chance: &mut Chance) -> Step {
             }
             _ => Step::Clock(MOMENTS[chance.below(3)]),
         },
+        11 => {
+            let ahead =
+                format!("{},{}@{}", chance.metres(0.2, 11.8), chance.metres(0.2, 7.8), chance.below(360));
+            let what = ["gate", "puddle", "doorway 1", "doorway 2", "space 1", "window", &ahead];
+            let what = what[chance.below(what.len())].to_owned();
+            if chance.is(0.3) {
+                return Step::Edit(Edit::Open(what));
+            }
+            let until = chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned());
+            let some = || vec![ROBOT.to_owned()];
+            let (only, except) = match chance.below(4) {
+                0 => (some(), Vec::new()),
+                1 => (Vec::new(), some()),
+                _ => Default::default(),
+            };
+            Step::Edit(Edit::Close(Close { what, until, only, except }))
+        }
         _ => Step::File("map.toml", Some(map(chance.metres(2.0, 4.0)))),
     }
 }

@@ -57,9 +57,8 @@ impl Basis<'_> {
             Shut::Closed(boundary) => match graph.closer(boundary) {
                 Closer::Door(door) => door,
                 Closer::Doorway(doorway) => return Some(graph.building.why_closed(doorway)),
-                Closer::Fact(fact) => {
-                    let at = graph.graph().closed()[boundary].segment.middle();
-                    return Some(format!("({:.2}, {:.2}) is told to be closed (fact {fact})", at.x, at.y));
+                Closer::Line(line) => {
+                    return Some(graph.building.why_told_closed(&graph.building.lines[line]));
                 }
             },
         };

@@ -15,6 +15,12 @@ pub struct CloseArgs {
     /// A doorway, a space, an area or a named door by its name; a point `x,y`, or `x,y@90` where a robot was blocked
     #[arg(allow_hyphen_values = true)]
     pub what: String,
+    /// The robot that is kept out, and no other one; may be said again
+    #[arg(long, value_name = "ROBOT", conflicts_with = "except")]
+    pub only: Vec<String>,
+    /// The robot that comes through all the same; may be said again
+    #[arg(long, value_name = "ROBOT")]
+    pub except: Vec<String>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
@@ -43,7 +49,8 @@ pub struct OpenArgs {
 
 /// Lets nobody pass.
 pub fn close(args: &CloseArgs) -> Result<()> {
-    let edit = Edit::Close(Close { what: args.what.clone(), until: args.until.clone() });
+    let (only, except) = (args.only.clone(), args.except.clone());
+    let edit = Edit::Close(Close { what: args.what.clone(), until: args.until.clone(), only, except });
     apply(&build::open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
 }
 

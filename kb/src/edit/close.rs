@@ -14,10 +14,8 @@ use crate::error::{Code, Error, Result};
 use crate::graph::Building;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
+use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
 use crate::words::suggest::did_you_mean;
-
-/// The property that says that nobody passes.
-pub const CLOSED: &str = "closed";
 
 /// Something that is closed, as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,6 +24,10 @@ pub struct Close {
     pub what: String,
     /// When it ends, as [`KnowledgeBase::moment`] reads times.
     pub until: Option<String>,
+    /// The robots that are kept out; all where none is said.
+    pub only: Vec<String>,
+    /// The robots that come through all the same; `only` says nothing then.
+    pub except: Vec<String>,
 }
 
 impl Close {
@@ -33,11 +35,25 @@ impl Close {
     pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
         let what = self.what.trim();
         let class = class_of(tx, what)?;
+        let (property, value) = match (self.only.as_slice(), self.except.as_slice()) {
+            ([], []) => (CLOSED, "true".to_owned()),
+            (only, []) => (CLOSED_TO, only.join(", ")),
+            ([], except) => (OPEN_TO, except.join(", ")),
+            _ => {
+                let message = "it is closed to `only` some robots, or to all `except` some, not both";
+                return Err(Error::said(Code::TellUsage, message, None));
+            }
+        };
+        if property != CLOSED && !lists_robots(class, property) {
+            let message = format!("`{what}` is an area, and areas are closed to everybody");
+            let help = "close its doorways, or say in rules which robots are kept out".to_owned();
+            return Err(Error::said(Code::TellUsage, message, Some(help)));
+        }
         Ok(Tell {
             class: class.to_owned(),
             object: what.to_owned(),
-            property: CLOSED.to_owned(),
-            value: "true".to_owned(),
+            property: property.to_owned(),
+            value,
             until: self.until.clone(),
             new_property: false,
         })
@@ -51,7 +67,7 @@ pub(super) fn open(
     what: &str,
     author: &Author,
 ) -> Result<Edited> {
-    let tell = Close { what: what.to_owned(), until: None }.fact(tx)?;
+    let tell = Close { what: what.to_owned(), ..Close::default() }.fact(tx)?;
     let row = tell.row(tx, site, rules, author)?;
     let closes = |fact: &&Row| {
         let value = |name: &str| row.iter().find(|(column, _)| *column == name).map(|(_, cell)| cell.clone());
@@ -61,7 +77,7 @@ pub(super) fn open(
         };
         let ends = fact.segment.map_or([None; 4], |segment| segment.map(Some));
         fact.class == tell.class
-            && fact.property == CLOSED
+            && [CLOSED, CLOSED_TO, OPEN_TO].contains(&fact.property.as_str())
             && fact.key.as_deref().map(adit_db::Cell::from) == value("key")
             && is_same("x0", ends[0])
             && is_same("y0", ends[1])

@@ -13,6 +13,7 @@ use crate::graph::{Building, outline_of};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::classes;
 use crate::knowledge::told::attach::REACH;
+use crate::knowledge::told::closing::{self, lists_robots};
 use crate::knowledge::told::{Object, Told};
 use crate::site::clock::stored;
 use crate::words::number::number;
@@ -66,7 +67,11 @@ impl Tell {
             Some(kind) => Some(kind),
             None => concluded(tx, &class, &self.property)?,
         };
-        let (kind, value) = self.value(&class, kind)?;
+        let (kind, value) = if lists_robots(&class, &self.property) {
+            ("text", robots_of(&told, &self.value)?)
+        } else {
+            self.value(&class, kind)?
+        };
         let mut row = vec![
             ("class", Cell::from(class.as_str())),
             ("property", self.property.as_str().into()),
@@ -117,7 +122,7 @@ impl Tell {
             known.extend(named.map(|name| name.property.as_str()));
         }
         known.extend(KINDS.iter().filter(|(of, _, _)| *of == class).map(|(_, name, _)| *name));
-        if self.new_property || known.contains(&property) {
+        if self.new_property || known.contains(&property) || lists_robots(class, property) {
             return Ok(());
         }
         let message = format!("no rule reads {class}.{property}, and nothing gives it");
@@ -216,6 +221,21 @@ impl Tell {
         }
         Ok(stored(end))
     }
+}
+
+/// A list of robots, each of which there is.
+fn robots_of(told: &Told, list: &str) -> Result<Cell> {
+    let (robots, names) = (told.robots(), closing::names(list));
+    if names.is_empty() {
+        return Err(Error::said(Code::TellType, "no robot is named", None));
+    }
+    for name in names.iter().filter(|name| !robots.contains(name)) {
+        let help = did_you_mean(name, robots.iter().map(String::as_str));
+        let help = help.or_else(|| Some(format!("there are {}", robots.join(", "))));
+        let message = format!("there is no robot `{name}`");
+        return Err(Error::said(Code::TellUnknownObject, message, help));
+    }
+    Ok(names.join(", ").as_str().into())
 }
 
 /// That there is no such thing, and what may be meant.

@@ -4,6 +4,7 @@ use adit_db::Cell;
 use serde_json::Value;
 
 use super::{Done, Edit};
+use crate::knowledge::told::Whom;
 
 impl Edit {
     /// In a few words, what an edit did.
@@ -19,7 +20,12 @@ impl Edit {
             }
             Self::Close(close) => {
                 let until = close.until.as_ref().map_or_else(String::new, |until| format!(" until {until}"));
-                format!("{} is closed{until} (fact {key})", close.what)
+                let whom = match (close.only.as_slice(), close.except.as_slice()) {
+                    ([], []) => Whom::All,
+                    (only, []) => Whom::Only(only.to_vec()),
+                    (_, except) => Whom::Except(except.to_vec()),
+                };
+                format!("{} is closed{}{until} (fact {key})", close.what, whom.words())
             }
             Self::Open(what) => format!("{what} is open"),
             Self::Retract(_) => format!("fact {key} is taken back"),

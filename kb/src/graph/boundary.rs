@@ -24,8 +24,8 @@ pub enum Closer {
     Door(DoorIndex),
     /// A doorway, by its number.
     Doorway(i64),
-    /// A fact, by its number, where no doorway is found.
-    Fact(i64),
+    /// What a fact says, by its place among the [lines](super::Building::lines).
+    Line(usize),
 }
 
 impl SiteGraph {

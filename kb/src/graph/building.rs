@@ -6,31 +6,29 @@ use adit_db::told::Standing;
 use adit_planners::geometry::{Point, Segment};
 
 use crate::error::Result;
-use crate::knowledge::told::Fact;
+use crate::knowledge::told::{Fact, Line};
 
 /// Spaces and doorways, by number from 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Building {
     pub spaces: Vec<Space>,
     pub doorways: Vec<Doorway>,
-    /// What is told to be closed where no doorway is found: by fact, from x0, y0 to x1, y1.
-    pub lines: Vec<(i64, [f64; 4])>,
+    /// What is told to be closed for some robots only, or where no doorway is found.
+    pub lines: Vec<Line>,
 }
 
 impl Building {
     /// As the last build kept it.
     pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
-        let mut lines = Vec::new();
+        let (mut lines, doorways) = (Vec::new(), tx.doorways()?);
         let standings = tx.standings()?;
         for row in tx.facts_told()? {
-            let is_alone = |standing: &Standing| {
-                standing.told == row.id && standing.state == "attached" && standing.keys.is_empty()
-            };
-            if standings.iter().any(is_alone) {
-                lines.extend(Fact::of(&row)?.closes().map(|segment| (row.id, segment)));
+            let is_own = |standing: &&Standing| standing.told == row.id && standing.state == "attached";
+            if let Some(standing) = standings.iter().find(is_own) {
+                lines.extend(Fact::of(&row)?.lines(&standing.keys, &doorways));
             }
         }
-        Ok(Self { spaces: tx.spaces()?, doorways: tx.doorways()?, lines })
+        Ok(Self { spaces: tx.spaces()?, doorways, lines })
     }
 
     /// What people call a space, by its number.
@@ -56,13 +54,28 @@ impl Building {
 
     /// That a doorway is closed, and which spaces it is between.
     pub fn why_closed(&self, number: i64) -> String {
-        let Some(doorway) = self.doorways.iter().find(|doorway| doorway.doorway == number) else {
-            return format!("doorway {number} is closed");
-        };
+        match self.doorways.iter().find(|doorway| doorway.doorway == number) {
+            Some(doorway) => format!("{} is closed", self.place_of(doorway)),
+            None => format!("doorway {number} is closed"),
+        }
+    }
+
+    /// That a fact closes a boundary, and to whom.
+    pub fn why_told_closed(&self, Line { fact, segment, whom }: &Line) -> String {
+        let [x0, y0, x1, y1] = *segment;
+        let is_meant = |doorway: &&Doorway| [doorway.x0, doorway.y0, doorway.x1, doorway.y1] == *segment;
+        let place = self.doorways.iter().find(is_meant).map(|doorway| self.place_of(doorway));
+        let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
+        let place = place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"));
+        format!("{place} is told to be closed{} (fact {fact})", whom.words())
+    }
+
+    /// What a doorway is called, where it is, and between which spaces.
+    fn place_of(&self, doorway: &Doorway) -> String {
         let [one, other] =
             [doorway.space1, doorway.space2].map(|space| self.space(space).unwrap_or_default());
         let (name, x, y) = (Self::name(doorway), doorway.x, doorway.y);
-        format!("{name} at ({x:.2}, {y:.2}), between {one} and {other}, is closed")
+        format!("{name} at ({x:.2}, {y:.2}), between {one} and {other},")
     }
 
     /// The doorway of this name: what rules call it, or `doorway 3`.

@@ -145,7 +145,8 @@ impl SiteGraph {
     /// Whether no rule, fact or named door is passed by on a leg to a room.
     fn is_open(&self, layer: &Layer, gauge: &Gauge, leg: Segment, room: RoomIndex) -> bool {
         let closed = |segment: &Segment| segment.gap(&leg) <= TOUCHES_M;
-        if self.graph.closed().iter().any(|closed_at| closed(&closed_at.segment)) {
+        if self.graph.closed().iter().any(|closed_at| closed_at.holds_for(room) && closed(&closed_at.segment))
+        {
             return false;
         }
         let is_shut = |other: RoomIndex| !is_weighed(&self[other]) && goes_into(leg, self.outline(other));

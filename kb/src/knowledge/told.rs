@@ -1,9 +1,11 @@
 //! What is told to a derivation: tables as classes, and facts about single objects, by name or by a point.
 
 pub mod attach;
+pub mod closing;
 
 use std::hash::{Hash, Hasher};
 
+use adit_db::space::Doorway;
 use adit_db::told::{Standing, Told as Row};
 use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
@@ -15,6 +17,7 @@ use crate::site::clock::{Clock, stored};
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 pub use attach::Attached;
+pub use closing::{Line, Whom};
 
 /// Classes and facts that people, robots and tables tell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -111,13 +114,6 @@ impl Fact {
         })
     }
 
-    /// The segment that it closes, whatever doorway is found there now.
-    pub fn closes(&self) -> Option<[f64; 4]> {
-        let Object::Point(_, Some(segment)) = &self.object else { return None };
-        let is_closing = self.class == "DOORWAYS" && self.property == "closed";
-        (is_closing && self.value == Value::Truth(true)).then_some(*segment)
-    }
-
     /// That it no longer finds what it is about.
     pub fn lost(&self) -> String {
         let why = match &self.object {
@@ -133,7 +129,8 @@ impl Fact {
 impl Told {
     /// Adds what facts are about to the classes that rules may name.
     pub fn declare(&self, schema: &mut Schema) {
-        for fact in self.facts.iter().filter(|fact| schema.has(&fact.class)).collect::<Vec<_>>() {
+        let for_rules = |fact: &&Fact| schema.has(&fact.class) && !fact.is_for_some();
+        for fact in self.facts.iter().filter(for_rules).collect::<Vec<_>>() {
             if schema.kind(&fact.class, &fact.property).is_none() {
                 schema.add(&fact.class, &fact.property, fact.kind());
             }
@@ -202,10 +199,9 @@ impl Told {
         lost.map(Fact::lost).collect()
     }
 
-    /// What facts close where no doorway is found, by fact: from x0, y0 to x1, y1.
-    pub fn lines(&self, attached: &Attached) -> Vec<(i64, [f64; 4])> {
-        let alone = self.facts.iter().filter(|fact| attached.keys(fact.id).is_empty());
-        alone.filter_map(|fact| Some((fact.id, fact.closes()?))).collect()
+    /// What facts close where that is not for rules to say.
+    pub fn lines(&self, attached: &Attached, doorways: &[Doorway]) -> Vec<Line> {
+        self.facts.iter().flat_map(|fact| fact.lines(&attached.keys(fact.id), doorways)).collect()
     }
 
     /// Hours of what is no named area or door, in sentences: mostly a slip of the pen.

@@ -6,11 +6,13 @@ use adit_db::Derived;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::schema::{Part, Row};
+use adit_db::space::Doorway;
 use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use adit_planners::routes::{DoorIndex, RoomIndex};
 
 use crate::graph::Building;
+use crate::knowledge::told::Line;
 use crate::state::grounds::{Reason, Reasons};
 use crate::state::spaces;
 
@@ -110,8 +112,8 @@ impl Look<'_, '_> {
     /// Spaces and doorways with what rules say of them, where that may differ.
     ///
     /// # Arguments
-    /// `lines` are what is told to be closed where no doorway is found; `before` is what was said.
-    pub fn building(&self, lines: Vec<(i64, [f64; 4])>, before: &Building) -> Option<Building> {
+    /// `lines` are what facts close, where doorways are known; `before` is what was said.
+    pub fn building(&self, lines: impl Fn(&[Doorway]) -> Vec<Line>, before: &Building) -> Option<Building> {
         let said = [
             ("SPACES", "name"),
             ("SPACES", "kind"),
@@ -121,10 +123,13 @@ impl Look<'_, '_> {
         ];
         let may_differ = said.iter().any(|(class, property)| self.may_differ(class, property));
         let now = if may_differ {
-            Building { lines, ..spaces::known(self.knowledge) }
-        } else if lines == before.lines {
-            return None;
+            let known = spaces::known(self.knowledge);
+            Building { lines: lines(&known.doorways), ..known }
         } else {
+            let lines = lines(&before.doorways);
+            if lines == before.lines {
+                return None;
+            }
             Building { lines, ..before.clone() }
         };
         (now != *before).then_some(now)

@@ -24,7 +24,7 @@ impl Closed {
         Self { segment, only: None }
     }
 
-    fn holds_for(&self, room: RoomIndex) -> bool {
+    pub fn holds_for(&self, room: RoomIndex) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|rooms| rooms.contains(&room.index())))
     }
 

@@ -10,7 +10,7 @@ use adit_tests::oracle::random::Chance;
 use super::{author, crosses, faults, live};
 
 fn close(what: &str) -> Edit {
-    Edit::Close(Close { what: what.to_owned(), until: None })
+    Edit::Close(Close { what: what.to_owned(), ..Close::default() })
 }
 
 /// What is closed by random routes.
@@ -18,6 +18,8 @@ fn close(what: &str) -> Edit {
 enum What {
     /// A doorway on the way.
     Doorway,
+    /// A doorway on the way, for the robot that goes there and no other one.
+    DoorwayForOne,
     /// Whatever is ahead of a robot that stands somewhere on the way.
     Ahead,
 }
@@ -58,8 +60,14 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
         let robot = one(&mut chance, &robots);
         let before = live.route(&start, &goal, Some(&robot)).unwrap();
         let points: Vec<Point> = before.waypoints.iter().map(|point| Point::new(point.x, point.y)).collect();
+        let others = |live: &Live| {
+            let others = robots.iter().filter(|other| **other != robot);
+            let found = others.map(|other| live.route(&start, &goal, Some(other)).unwrap());
+            found.map(|route| (route.cost, route.steps, route.waypoints)).collect::<Vec<_>>()
+        };
+        let untouched = others(&live);
         let (edit, at) = match what {
-            What::Doorway => {
+            What::Doorway | What::DoorwayForOne => {
                 let is_passed =
                     |segment: [Point; 2]| points.windows(2).any(|leg| crosses(segment, leg[0], leg[1]));
                 let passed: Vec<&(String, [Point; 2])> =
@@ -68,7 +76,9 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
                     continue;
                 }
                 let (number, _) = passed[chance.below(passed.len())];
-                (close(&format!("doorway {number}")), None)
+                let only = if what == What::DoorwayForOne { vec![robot.clone()] } else { Vec::new() };
+                let what = format!("doorway {number}");
+                (Edit::Close(Close { what, only, ..Close::default() }), None)
             }
             What::Ahead => {
                 let legs: Vec<&[Point]> =
@@ -90,6 +100,9 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
         for route in [&after, &onward] {
             let found = faults(route, shut);
             assert!(found.is_empty(), "{start} to {goal:?}, {robot}, {edit:?}: {found:#?}");
+        }
+        if what == What::DoorwayForOne {
+            assert!(others(&live) == untouched, "another robot's route is another one: {edit:?}");
         }
         match after.cost {
             None => assert!(after.reason.is_some_and(|reason| reason.contains("closed")), "{edit:?}"),
@@ -119,6 +132,11 @@ fn on_the_depot_no_robot_passes_a_closed_doorway() {
 }
 
 #[test]
+fn on_the_depot_no_robot_but_the_one_that_is_kept_out_minds_a_closed_doorway() {
+    close_on_random_routes(&TestSite::example("depot").built(), (What::DoorwayForOne, 12, 5));
+}
+
+#[test]
 fn on_the_hospital_floor_no_route_passes_what_a_robot_reported_to_be_blocked() {
     close_on_random_routes(&TestSite::example("hospital").built(), (What::Ahead, 12, 3));
 }
@@ -133,7 +151,7 @@ fn on_the_clinic_no_route_passes_what_a_robot_reported_to_be_blocked() {
 #[ignore = "takes minutes: 200 doorways and 200 robots that are blocked on each shipped floor"]
 fn on_every_floor_two_hundred_closings_hold() {
     for (number, name) in ["clinic", "depot", "hospital"].into_iter().enumerate() {
-        for what in [What::Doorway, What::Ahead] {
+        for what in [What::Doorway, What::DoorwayForOne, What::Ahead] {
             let site = TestSite::example(name).built();
             let left = close_on_random_routes(&site, (what, 200, 10 + number as u64));
             println!("{name}: 200 closed, {left} left a way");
@@ -153,6 +171,37 @@ fn a_closed_space_is_not_come_into_and_says_so() {
     site.adit("open", &["ward 12"]).expect_status(0);
     assert_eq!(way()["waypoints"], before["waypoints"], "to the bit");
     assert_eq!(site.sqlite3("SELECT count(*) FROM doorways WHERE closed"), ["0"]);
+}
+
+#[test]
+fn who_is_kept_out_is_said_for_as_long_as_each_says() {
+    let site = TestSite::example("depot").built();
+    let robots = site.sqlite3("SELECT DISTINCT robot FROM robots ORDER BY robot");
+    let places = site.sqlite3("SELECT place FROM places ORDER BY place");
+    let reached = |robot: &str, at: &str| {
+        let ways = places[1..].iter().map(|goal| {
+            let robot = format!("--robot={robot}");
+            site.adit("route", &[&places[0], goal, &robot, "--at", at, "--json"]).json()["cost"].clone()
+        });
+        ways.collect::<Vec<_>>()
+    };
+    let open = robots.iter().map(|robot| reached(robot, "1h")).collect::<Vec<_>>();
+    let space = site.sqlite3(&format!(
+        "SELECT coalesce(s.name, 'space ' || s.space) FROM spaces s JOIN rooms r ON r.space = s.space
+         JOIN places p ON p.x BETWEEN r.x0 AND r.x1 AND p.y BETWEEN r.y0 AND r.y1 AND p.place = '{}'",
+        places[0]
+    ));
+    let (one, other) = (&robots[0], &robots[1]);
+    site.adit("close", &[&space[0], "--only", one, "--until", "2h"]).expect_status(0);
+    site.adit("close", &[&space[0], "--except", one, "--until", "4h"]).expect_status(0);
+    let list = site.adit("tell", &["--list"]).expecting(0).stdout;
+    assert!(list.contains("closed_to") && list.contains("open_to"), "{list}");
+    assert_ne!(reached(one, "1h"), open[0]);
+    assert_ne!(reached(other, "1h"), open[1]);
+    assert_eq!(reached(one, "3h"), open[0]);
+    assert_ne!(reached(other, "3h"), open[1]);
+    site.adit("open", &[&space[0]]).expect_status(0);
+    assert_eq!(robots.iter().map(|robot| reached(robot, "1h")).collect::<Vec<_>>(), open);
 }
 
 #[test]
@@ -204,6 +253,13 @@ fn what_cannot_be_closed_is_refused_with_what_was_meant() {
     ] {
         site.adit("close", &[what]).expecting(2).complains(&[said]);
     }
+    site.adit("close", &["ward 12", "--only", "porter"]).expecting(2).complains(&["no robot `porter`"]);
+    site.adit("close", &["ward 12", "--only", "a", "--except", "b"])
+        .expecting(2)
+        .complains(&["cannot be used"]);
+    site.adit("tell", &["SPACES", "ward 12", "open_to", " , "])
+        .expecting(2)
+        .complains(&["no robot is named"]);
     site.adit("close", &["ward 12", "--until", "2020-01-01"]).expecting(2).complains(&["that is over"]);
     site.adit("open", &["triagge"]).expecting(2).complains(&["did you mean `triage`?"]);
     assert!(site.sqlite3("SELECT * FROM told").is_empty());

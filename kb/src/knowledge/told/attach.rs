@@ -27,6 +27,9 @@ impl Attached {
     /// Notes that a fact is about the object in a row.
     pub fn add(&mut self, fact: &Fact, row: usize, key: Option<String>) {
         self.keys.entry(fact.id).or_default().extend(key);
+        if fact.is_for_some() {
+            return;
+        }
         let cell = (fact.class.clone(), row, fact.property.clone());
         self.cells.insert(cell, fact.clone());
     }

@@ -99,6 +99,12 @@ pub enum Wish {
     Close {
         /// Its name; or a point `x,y`, with the heading of a robot that was blocked there: `x,y@90`.
         what: String,
+        /// The robots that are kept out; all where none is said.
+        #[serde(default)]
+        only: Vec<String>,
+        /// The robots that come through all the same.
+        #[serde(default)]
+        except: Vec<String>,
         /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
         #[serde(default)]
         until: Option<String>,
@@ -167,9 +173,9 @@ impl Wish {
                 let value = value.text();
                 Edit::Tell(Tell { class, object, property, value, until, new_property: false })
             }
-            Self::Close { what, until, for_seconds } => {
+            Self::Close { what, only, except, until, for_seconds } => {
                 let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
-                Edit::Close(Close { what, until })
+                Edit::Close(Close { what, until, only, except })
             }
             Self::Open { what } => Edit::Open(what),
             Self::Retract { fact } => Edit::Retract(fact),
@@ -262,6 +268,12 @@ pub struct BlockedBody {
     y: f64,
     /// Where it was to go, degrees counterclockwise from +x.
     heading: f64,
+    /// The robots for which it is blocked; all where none is said.
+    #[serde(default)]
+    only: Vec<String>,
+    /// The robots that come through all the same.
+    #[serde(default)]
+    except: Vec<String>,
     /// When the way is free again: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
     #[serde(default)]
     until: Option<String>,
@@ -277,8 +289,8 @@ pub struct BlockedBody {
 #[utoipa::path(post, path = "/api/blocked", tag = "tables", request_body = BlockedBody,
     responses((status = 200, body = Edited)))]
 pub async fn blocked(site: Site, caller: Caller, Body(body): Body<BlockedBody>) -> Answered<Json<Edited>> {
-    let BlockedBody { x, y, heading, until, for_seconds, why } = body;
-    let wish = Wish::Close { what: format!("{x},{y}@{heading}"), until, for_seconds };
+    let BlockedBody { x, y, heading, only, except, until, for_seconds, why } = body;
+    let wish = Wish::Close { what: format!("{x},{y}@{heading}"), only, except, until, for_seconds };
     require(&caller, wish.role())?;
     make(&site, &caller, wish.edit()?, why.unwrap_or_default()).await.map(Json)
 }

@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use adit_planners::routes::{DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start};
+use adit_planners::routes::{
+    Closed, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start,
+};
 
 use super::path::reweigh;
 use super::{Path, Prober, Routes, Weights};
@@ -127,7 +129,15 @@ impl Corridor {
         let goal =
             Goal { rooms: of_run(runs.len().saturating_sub(1), &routes.goal.rooms), at: routes.goal.at };
         let mut own = RouteGraph::new(copied, copies);
-        own.close(graph.graph().closed().to_vec());
+        let own_rooms = |closed: &Closed| {
+            let held = rooms.iter().enumerate().filter(|(_, room)| closed.holds_for(**room));
+            held.map(|(own, _)| own..own + 1).collect()
+        };
+        let of_copies = |closed: &Closed| Closed {
+            only: closed.only.as_ref().map(|_| own_rooms(closed)),
+            ..closed.clone()
+        };
+        own.close(graph.graph().closed().iter().map(of_copies).collect());
         Self { graph: RefCell::new(own), start, goal, rooms, doors }
     }
 

@@ -1,7 +1,11 @@
 //! The best way through a room or a door: a search in two copies of the graph, one for what lies before it and one for
 //! what comes after. Who is in the second copy has passed it.
 
-use adit_planners::routes::{DoorIndex, Entry, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way};
+use std::ops::Range;
+
+use adit_planners::routes::{
+    Closed, DoorIndex, Entry, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way,
+};
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
@@ -87,7 +91,12 @@ impl<'g> Question<'g> {
         }
         let rooms = graph.rooms().iter().chain(graph.rooms()).cloned().collect();
         let mut both = RouteGraph::new(rooms, copies);
-        both.close(graph.closed().to_vec());
+        let twice = |rooms: &Range<usize>| [rooms.clone(), rooms.start + count..rooms.end + count];
+        let of_both = |closed: &Closed| Closed {
+            only: closed.only.as_ref().map(|only| only.iter().flat_map(twice).collect()),
+            ..closed.clone()
+        };
+        both.close(graph.closed().iter().map(of_both).collect());
         let in_second = |entry: &Entry| Entry { room: second(entry.room), ..*entry };
         let begin = |entry: &Entry| if via == Via::Room(entry.room) { in_second(entry) } else { *entry };
         let start = Start { rooms: self.start.rooms.iter().map(begin).collect(), at: self.start.at };
