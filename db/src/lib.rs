@@ -22,6 +22,7 @@ mod guard;
 pub mod history;
 pub mod hours;
 pub mod kept;
+pub mod laid;
 pub mod learned;
 pub mod load;
 mod migrate;

@@ -26,6 +26,7 @@ pub(crate) const OWN: &[&str] = &[
     "frames",
     "history",
     "hours",
+    "laid",
     "loads",
     "loads_in_force",
     "opening_hours",

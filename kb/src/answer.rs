@@ -92,7 +92,7 @@ impl State {
             knowledge: &self.site,
             graph: self.graph(),
             rules: &self.inputs.rule_names,
-            ground: Ground::Known(&self.inputs.world, &self.gauge),
+            ground: Ground::Known(&self.world, &self.gauge),
             within: self.within,
         }
     }

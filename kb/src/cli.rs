@@ -10,6 +10,7 @@ mod doctor;
 mod experiment;
 mod firm;
 mod fit;
+mod lay;
 mod learn;
 mod new;
 mod output;
@@ -58,6 +59,10 @@ pub enum Verb {
     Close(close::CloseArgs),
     /// Let everybody pass again what was closed
     Open(close::OpenArgs),
+    /// Lay an area or an obstacle over the map, until it is lifted
+    Lay(lay::LayArgs),
+    /// Take away what was laid over the map
+    Lift(lay::LiftArgs),
     /// Named sets of edits: list, set, switch on and off, preview, compare
     Tuning(tuning::TuningArgs),
     /// Lint rules, tables and map without building
@@ -110,6 +115,8 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Tell(args) => (args.site.json, tell::run(args).map(|()| 0)),
         Verb::Close(args) => (args.site.json, close::close(args).map(|()| 0)),
         Verb::Open(args) => (args.site.json, close::open(args).map(|()| 0)),
+        Verb::Lay(args) => (args.site.json, lay::lay(args).map(|()| 0)),
+        Verb::Lift(args) => (args.site.json, lay::lift(args).map(|()| 0)),
         Verb::Tuning(args) => (args.site.json, tuning::run(args).map(|()| 0)),
         Verb::Check(args) => (args.json, doctor::check(args).map(|sound| u8::from(!sound))),
         Verb::Test(args) => (args.json, test::run(args).map(|passed| u8::from(!passed))),

@@ -13,6 +13,7 @@ use crate::knowledge::tunings;
 
 mod cells;
 mod close;
+mod lay;
 mod place;
 pub mod rehearse;
 mod tell;
@@ -22,6 +23,7 @@ mod words;
 pub(crate) use cells::TUNABLE;
 use cells::{cell, cell_of, columns, explain, row};
 pub use close::Close;
+pub use lay::{Lay, Thing};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
 pub(crate) use words::change;
@@ -42,6 +44,10 @@ pub enum Edit {
     Close(Close),
     /// What is open again, by the name that people have for it.
     Open(String),
+    /// An area or an obstacle that lies over the map from now on.
+    Lay(Lay),
+    /// What no longer lies over the map, by name.
+    Lift(String),
     /// A fact, by its number, that is no longer told.
     Retract(i64),
     /// A cell of a named tuning: the tuning, then table, key, column, value.
@@ -108,6 +114,8 @@ impl Edit {
                 tx.add_row("told", &row, author)?
             }
             Self::Open(what) => close::open(tx, (site, rules), what, author)?,
+            Self::Lay(lay) => lay.apply(tx, (site, rules), author)?,
+            Self::Lift(name) => lay::lift(tx, name, author)?,
             Self::Retract(id) => {
                 let gone = tx.remove_row("told", &id.to_string(), author);
                 gone.map_err(|error| match error {

@@ -4,6 +4,7 @@
 pub(crate) mod classes;
 pub(crate) mod generation;
 pub(crate) mod inputs;
+pub mod laid;
 pub(crate) mod tables;
 pub(crate) mod told;
 pub(crate) mod tunings;
@@ -31,6 +32,7 @@ use jiff::tz::TimeZone;
 
 use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
+use crate::knowledge::laid::Laid;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
 use crate::site::clock::{Clock, stored};
@@ -253,6 +255,13 @@ impl KnowledgeBase {
         Ok(states)
     }
 
+    /// The map, with what the site and people lay over it.
+    pub(crate) fn world(&self, tx: &mut Tx<'_>) -> Result<World> {
+        let world = self.site.world()?;
+        let laid = Laid::read(tx, &self.clock())?;
+        Ok(if laid.is_empty() { world } else { laid.over(&world).0 })
+    }
+
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
     pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Told> {
         let classes = Facts::from([
@@ -287,16 +296,16 @@ impl KnowledgeBase {
 
     /// What holds at the moment only: opening hours, and facts that end.
     fn tell_by_the_clock(&self, tx: &mut Tx<'_>, told: &mut Told) -> Result<()> {
-        let clock = self.clock();
+        let clock = &self.clock();
         let mut hours = self.site.hours.clone();
         hours.extend(tx.hours()?);
         let opening = Opening::new(&hours)?;
-        told.classes.insert("HOURS".to_owned(), opening.class(&clock));
+        told.classes.insert("HOURS".to_owned(), opening.class(clock));
         if self.site.zone.is_none() && !hours.is_empty() {
             told.notes.push("opening hours are read in UTC, since site.toml names no `timezone`".to_owned());
         }
         let now = stored(clock.now());
-        let mut ends = Vec::from_iter(opening.next_change(&clock).map(stored));
+        let mut ends = Vec::from_iter(opening.next_change(clock).map(stored));
         for row in tx.facts_told()? {
             match &row.until {
                 Some(until) if *until <= now => told.expired.push(row.id),
@@ -306,6 +315,9 @@ impl KnowledgeBase {
                 }
             }
         }
+        let laid = tx.laid()?.into_iter();
+        ends.extend(laid.filter_map(|row| row.until).filter(|until| *until > now));
+        told.laid = Laid::read(tx, clock)?;
         told.valid_until = ends.into_iter().min();
         told.valid_from = clock.is_ahead().then_some(now);
         Ok(())

@@ -19,6 +19,7 @@ use std::time::Duration;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_engine::KnowledgeBase as Inference;
+use adit_planners::world::World;
 
 use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
@@ -47,6 +48,8 @@ pub struct Pending {
 pub struct State {
     pub(crate) site: Arc<KnowledgeBase>,
     pub(crate) inputs: Arc<Inputs>,
+    /// The map with what lies over it.
+    pub(crate) world: Arc<World>,
     /// What people, robots and tables tell.
     pub(crate) told: Told,
     /// Which objects facts are about.
@@ -79,6 +82,7 @@ impl State {
         let gauge = Arc::new(Gauge::new(&inputs.world, Sizes::new()));
         Self {
             site,
+            world: Arc::clone(&inputs.world),
             inputs,
             told: Told::default(),
             attached: Attached::default(),
@@ -100,6 +104,7 @@ impl State {
         Self {
             site: Arc::clone(&self.site),
             inputs: Arc::clone(&self.inputs),
+            world: Arc::clone(&self.world),
             told: self.told.clone(),
             attached: self.attached.clone(),
             planned: self.planned.clone(),

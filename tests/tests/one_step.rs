@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use adit::edit::{Close, Edit};
+use adit::edit::{Close, Edit, Lay, Thing};
 use adit::{KnowledgeBase, Live, Silent, Tell};
 use adit_db::Store;
 use adit_db::history::Author;
@@ -53,7 +53,7 @@ fn step(chance: &mut Chance) -> Step {
     let set = |column: &str, value: String| {
         Step::Edit(Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value))
     };
-    match chance.below(13) {
+    match chance.below(14) {
         0 | 1 => set("hardness", number(chance, 0.0, 9.0)),
         2 => set("width", number(chance, 0.3, 1.1)),
         3 => set("height", number(chance, 0.9, 1.9)),
@@ -112,6 +112,25 @@ fn step(chance: &mut Chance) -> Step {
                 _ => Default::default(),
             };
             Step::Edit(Edit::Close(Close { what, until, only, except }))
+        }
+        12 => {
+            let name = ["pallets", "spill"][chance.below(2)].to_owned();
+            if chance.is(0.3) {
+                return Step::Edit(Edit::Lift(name));
+            }
+            let is_area = name == "spill";
+            let (x, y) = (chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0));
+            let [right, above] = [0.3, 0.3].map(|least| chance.metres(least, 2.5));
+            let corners = vec![[x, y], [x + right, y], [x, y + above]];
+            let factor = ("hardness_factor".to_owned(), number(chance, 1.0, 4.0));
+            Step::Edit(Edit::Lay(Lay {
+                what: if is_area { Thing::Area } else { Thing::Obstacle },
+                name,
+                corners,
+                kind: (is_area && chance.is(0.5)).then(|| "keep-out".to_owned()),
+                properties: if is_area { vec![factor] } else { Vec::new() },
+                until: chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned()),
+            }))
         }
         _ => Step::File("map.toml", Some(map(chance.metres(2.0, 4.0)))),
     }

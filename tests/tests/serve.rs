@@ -1,6 +1,8 @@
 //! The service as an integrator, a robot and an attacker meet it.
 #![allow(clippy::unwrap_used)]
 
+#[path = "serve/closings.rs"]
+mod closings;
 #[path = "serve/described.rs"]
 mod described;
 #[path = "serve/disk.rs"]

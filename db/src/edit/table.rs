@@ -8,8 +8,18 @@ use crate::error::{Error, Result};
 use crate::relation::{self, RelationColumn};
 
 /// Tables of ours that people edit; the rest is derived from them. Tables of the user's own can be edited too.
-const EDITABLE: &[&str] =
-    &["robots", "changes", "loads", "places", "frames", "told", "hours", "tuning_cells", "active_tunings"];
+const EDITABLE: &[&str] = &[
+    "robots",
+    "changes",
+    "loads",
+    "places",
+    "frames",
+    "told",
+    "laid",
+    "hours",
+    "tuning_cells",
+    "active_tunings",
+];
 
 /// A table that may be edited.
 pub(super) struct Table<'t> {

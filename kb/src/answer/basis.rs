@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::laid::Laid;
 use crate::site::Site;
 
 /// What routes are found with.
@@ -26,17 +27,17 @@ pub(crate) struct Basis<'a> {
 /// The map, with what measures clearances in it.
 pub(crate) enum Ground<'a> {
     Known(&'a World, &'a Gauge),
-    /// For a single question: read where it needs the map, for robots of these sizes.
-    Later(&'a Site, Sizes, OnceCell<Box<(World, Gauge)>>),
+    /// For a single question: read where it needs the map, with what lies over it, for robots of these sizes.
+    Later(&'a Site, Laid, Sizes, OnceCell<Box<(World, Gauge)>>),
 }
 
 impl Ground<'_> {
     pub(super) fn get(&self) -> Result<(&World, &Gauge)> {
         match self {
             Self::Known(world, gauge) => Ok((world, gauge)),
-            Self::Later(site, sizes, read) => {
+            Self::Later(site, laid, sizes, read) => {
                 if read.get().is_none() {
-                    let world = site.world()?;
+                    let world = laid.over(&site.world()?).0;
                     let gauge = Gauge::new(&world, sizes.clone());
                     read.get_or_init(|| Box::new((world, gauge)));
                 }

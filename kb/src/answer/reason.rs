@@ -42,9 +42,9 @@ impl Basis<'_> {
                 Ok(format!("{}{more}", shut.join("; ")))
             }
             Blockage::Apart => {
-                let world = self.knowledge.site().world()?;
+                let world = self.ground.get()?.0;
                 let to = ends.goals[0].at.unwrap_or_else(|| graph.point(&ends.named[1]));
-                apart(&world, (ends.start.at, to), robot, self.knowledge)
+                apart(world, (ends.start.at, to), robot, self.knowledge)
             }
         }
     }

@@ -13,7 +13,7 @@ use crate::knowledge::KnowledgeBase;
 impl KnowledgeBase {
     /// What is to be seen of the site, with a route from start to goal where one is asked for.
     pub fn scene(&self, route: Option<(&str, &str)>, robot: Option<&str>) -> Result<Scene> {
-        let world = self.site().world()?;
+        let world = Store::open_read_only(self.database())?.snapshot(|tx| self.world(tx))?;
         let answer = route.map(|(start, goal)| self.route(start, goal, robot)).transpose()?;
         let mut scene =
             Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;

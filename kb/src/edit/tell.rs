@@ -62,11 +62,7 @@ impl Tell {
         let class = self.class(&schema)?;
         self.check_property(&class, &schema, rules)?;
         let object = self.find((tx, site), &class, &schema, &told)?;
-        let kind = schema.kind(&class, &self.property).or_else(|| fixed(&class, &self.property));
-        let kind = match kind {
-            Some(kind) => Some(kind),
-            None => concluded(tx, &class, &self.property)?,
-        };
+        let kind = self.kind(tx, &class, &schema)?;
         let (kind, value) = if lists_robots(&class, &self.property) {
             ("text", robots_of(&told, &self.value)?)
         } else {
@@ -92,9 +88,28 @@ impl Tell {
             }
         }
         if let Some(until) = &self.until {
-            row.push(("until", Self::end(site, until)?.as_str().into()));
+            row.push(("until", end(site, until)?.as_str().into()));
         }
         Ok(row)
+    }
+
+    /// The value as the property holds it, whatever object it is of: number, text or truth, and the cell.
+    pub(super) fn typed(
+        &self,
+        tx: &mut Tx<'_>,
+        site: &KnowledgeBase,
+        rules: &RuleBase,
+    ) -> Result<(&'static str, Cell)> {
+        let schema = site.schema(&site.told(tx, rules)?);
+        self.check_property(&self.class, &schema, rules)?;
+        let kind = self.kind(tx, &self.class, &schema)?;
+        self.value(&self.class, kind)
+    }
+
+    /// What values of the property are, as far as anybody says.
+    fn kind(&self, tx: &mut Tx<'_>, class: &str, schema: &Schema) -> Result<Option<Type>> {
+        let kind = schema.kind(class, &self.property).or_else(|| fixed(class, &self.property));
+        if kind.is_some() { Ok(kind) } else { concluded(tx, class, &self.property) }
     }
 
     fn class(&self, schema: &Schema) -> Result<String> {
@@ -143,7 +158,7 @@ impl Tell {
         if class == "DOORWAYS" {
             let building = Building::read(tx)?;
             if let Some(point) = place::split(text) {
-                return place::at(&site.site().world()?, &building, point);
+                return place::at(&site.world(tx)?, &building, point);
             }
             let doorway = building.doorway_named(text).or_else(|| {
                 let number: i64 = text.parse().ok()?;
@@ -207,20 +222,18 @@ impl Tell {
             None => Ok(truth.map(as_truth).or(found.map(as_number)).unwrap_or(("text", text.into()))),
         }
     }
+}
 
-    fn end(site: &KnowledgeBase, until: &str) -> Result<String> {
-        let clock = site.clock();
-        let end = clock.parse(until)?;
-        if end <= clock.now() {
-            let message = format!("--until {until} is {}, and that is over", stored(end));
-            return Err(Error::said(
-                Code::TellPast,
-                message,
-                Some("say when it will end, or leave it out".to_owned()),
-            ));
-        }
-        Ok(stored(end))
+/// When something ends that people say; in UTC.
+pub(super) fn end(site: &KnowledgeBase, until: &str) -> Result<String> {
+    let clock = site.clock();
+    let end = clock.parse(until)?;
+    if end <= clock.now() {
+        let message = format!("--until {until} is {}, and that is over", stored(end));
+        let help = "say when it will end, or leave it out".to_owned();
+        return Err(Error::said(Code::TellPast, message, Some(help)));
     }
+    Ok(stored(end))
 }
 
 /// A list of robots, each of which there is.
@@ -229,7 +242,7 @@ fn robots_of(told: &Told, list: &str) -> Result<Cell> {
     if names.is_empty() {
         return Err(Error::said(Code::TellType, "no robot is named", None));
     }
-    for name in names.iter().filter(|name| !robots.contains(name)) {
+    if let Some(name) = names.iter().find(|name| !robots.contains(name)) {
         let help = did_you_mean(name, robots.iter().map(String::as_str));
         let help = help.or_else(|| Some(format!("there are {}", robots.join(", "))));
         let message = format!("there is no robot `{name}`");

@@ -28,6 +28,11 @@ impl Edit {
                 format!("{} is closed{}{until} (fact {key})", close.what, whom.words())
             }
             Self::Open(what) => format!("{what} is open"),
+            Self::Lay(lay) => {
+                let until = lay.until.as_ref().map_or_else(String::new, |until| format!(" until {until}"));
+                format!("the {} `{key}` lies over the map{until}", lay.what.name())
+            }
+            Self::Lift(name) => format!("`{name}` no longer lies over the map"),
             Self::Retract(_) => format!("fact {key} is taken back"),
             Self::SetInTuning(tuning, [table, row, column, value]) => {
                 format!("tuning {tuning}: {table}.{row}.{column} = {value}")

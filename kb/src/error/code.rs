@@ -119,6 +119,15 @@ codes! {
     /// The hours of a named door or area cannot be read: days like `mon-fri`, times like `08:00`.
     HoursUnreadable = "hours/unreadable", UNPROCESSABLE_ENTITY;
 
+    /// Something of this name was laid over the map already.
+    LaidTaken = "laid/taken", CONFLICT;
+    /// Nothing of this name was laid over the map.
+    LaidUnknown = "laid/unknown", NOT_FOUND;
+    /// A row of the table `laid` cannot be read.
+    LaidUnreadable = "laid/unreadable", BAD_REQUEST;
+    /// What is laid over a map is an area, or an obstacle, which is of no kind; its corners are pairs of numbers.
+    LaidUsage = "laid/usage", BAD_REQUEST;
+
     /// The tables were edited meanwhile; try again.
     LiveStale = "live/stale", INTERNAL_SERVER_ERROR;
 

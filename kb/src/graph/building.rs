@@ -63,7 +63,9 @@ impl Building {
     /// That a fact closes a boundary, and to whom.
     pub fn why_told_closed(&self, Line { fact, segment, whom }: &Line) -> String {
         let [x0, y0, x1, y1] = *segment;
-        let is_meant = |doorway: &&Doorway| [doorway.x0, doorway.y0, doorway.x1, doorway.y1] == *segment;
+        let ends = segment.map(f64::to_bits);
+        let is_meant =
+            |doorway: &&Doorway| [doorway.x0, doorway.y0, doorway.x1, doorway.y1].map(f64::to_bits) == ends;
         let place = self.doorways.iter().find(is_meant).map(|doorway| self.place_of(doorway));
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
         let place = place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"));

@@ -25,7 +25,7 @@ pub struct Inputs {
     /// The tests beside them.
     pub tests: RuleTests,
     /// The map, with what the site lays over it.
-    pub world: World,
+    pub world: Arc<World>,
     /// What reading the map cost or gave of free space.
     pub map_report: MapReport,
     /// What the expert should know of both.
@@ -55,6 +55,6 @@ impl Inputs {
         let notes = ignored.chain(notes.into_iter().map(|note| note.to_string())).collect();
         let names = (1..).zip(rules.rules().iter().map(|rule| rule.name().to_owned()));
         let rule_names = names.collect();
-        Ok(Self { rules, rule_names, tests, world, map_report, notes, stage })
+        Ok(Self { rules, rule_names, tests, world: Arc::new(world), map_report, notes, stage })
     }
 }

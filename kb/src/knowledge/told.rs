@@ -12,6 +12,7 @@ use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
 use adit_planners::facts::{Column, Facts};
 
 use crate::error::{Code, Error, Result};
+use crate::knowledge::laid::Laid;
 use crate::knowledge::tunings::RowKeys;
 use crate::site::clock::{Clock, stored};
 use crate::words::number::number;
@@ -34,6 +35,8 @@ pub struct Told {
     pub valid_until: Option<String>,
     /// The moment that was asked about, where it is still to come; in UTC.
     pub valid_from: Option<String>,
+    /// What lies over the map.
+    pub laid: Laid,
     /// What the expert should know of tunings and hours.
     pub notes: Vec<String>,
 }
@@ -147,7 +150,7 @@ impl Told {
 
     /// Whether the same counts: classes and facts, whatever the clock says of the time after.
     pub fn counts_as(&self, other: &Self) -> bool {
-        self.classes == other.classes && self.facts == other.facts
+        self.classes == other.classes && self.facts == other.facts && self.laid == other.laid
     }
 
     /// The facts about a class.
@@ -238,8 +241,9 @@ impl Told {
         self.valid_until.as_ref().is_some_and(|until| *until <= stored(clock.now()))
     }
 
-    /// A number that stands for the facts.
+    /// A number that stands for the facts, and what lies over the map.
     pub fn hash(&self, hasher: &mut impl Hasher) {
+        self.laid.hash(hasher);
         for fact in &self.facts {
             (&fact.class, &fact.property, fact.value.to_string()).hash(hasher);
             match &fact.object {

@@ -18,6 +18,7 @@ use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
+use crate::knowledge::laid::Laid;
 use crate::site::robots::RobotFile;
 use crate::site::{lint, rules, states};
 use crate::words::progress::{Progress, Silent};
@@ -162,7 +163,7 @@ impl KnowledgeBase {
         let graph = SiteGraph::read(tx)?;
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let sizes = sizes_of(&states::in_force(tx)?);
-        let ground = Ground::Later(self.site(), sizes, OnceCell::new());
+        let ground = Ground::Later(self.site(), Laid::read(tx, &self.clock())?, sizes, OnceCell::new());
         let basis = Basis { knowledge: self, graph: &graph, rules: &rules, ground, within: self.within };
         let answer = basis.search(goals, answer);
         // nobody waits until all of it is given back

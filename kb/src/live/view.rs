@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use adit_planners::routes::Goal;
+use adit_planners::world::World;
 
 use super::memory::Memory;
 use super::report::PlaceCosts;
@@ -18,6 +19,7 @@ use crate::knowledge::{KnowledgeBase, tolerance};
 pub struct View {
     site: Arc<KnowledgeBase>,
     inputs: Arc<Inputs>,
+    world: Arc<World>,
     graph: Arc<SiteGraph>,
     gauge: Arc<Gauge>,
     robots: Arc<[String]>,
@@ -32,6 +34,7 @@ impl View {
         Self {
             site: Arc::clone(&memory.state.site),
             inputs: Arc::clone(&memory.state.inputs),
+            world: Arc::clone(&memory.state.world),
             graph: Arc::clone(memory.state.graph()),
             gauge: Arc::clone(&memory.state.gauge),
             robots: memory.state.robots().into(),
@@ -72,7 +75,7 @@ impl View {
             knowledge: &self.site,
             graph: &self.graph,
             rules: &self.inputs.rule_names,
-            ground: answer::Ground::Known(&self.inputs.world, &self.gauge),
+            ground: answer::Ground::Known(&self.world, &self.gauge),
             within: self.within,
         }
     }
@@ -106,9 +109,9 @@ impl View {
         &self.site
     }
 
-    /// The map and the rules.
-    pub(crate) fn inputs(&self) -> &Inputs {
-        &self.inputs
+    /// The map with what lies over it.
+    pub(crate) fn world(&self) -> &World {
+        &self.world
     }
 
     /// Rooms, doors and places.

@@ -1,6 +1,7 @@
 //! All routes of the service, and what every request passes. Their description is answered by one of them: a circle with
 //! `http/service`.
 
+mod areas;
 mod edits;
 mod experience;
 mod extract;
@@ -62,6 +63,8 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(edits::preview))
         .routes(routes!(facts::list, facts::tell))
         .routes(routes!(facts::retract))
+        .routes(routes!(areas::list, areas::lay))
+        .routes(routes!(areas::lift))
         .routes(routes!(history::history))
         .routes(routes!(why::why))
         .routes(routes!(why::why_not))

@@ -9,6 +9,7 @@ use adit_db::schema::Row as _;
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
+use adit_planners::world::World;
 
 use super::planned::{self, Planned};
 pub use super::planned::{Nothing, Recall};
@@ -27,6 +28,8 @@ use crate::words::progress::{Progress, Stage, Stopwatch};
 
 /// What a step changes. The state shows it once it is [accepted](State::accept).
 pub struct Step {
+    /// The map with what lies over it now.
+    world: Arc<World>,
     /// What is told now.
     pub told: Told,
     /// Which objects facts are about.
@@ -68,7 +71,7 @@ impl State {
         step
     }
 
-    fn follow(&mut self, told: Told, recall: &mut dyn Recall, progress: &dyn Progress) -> Result<Step> {
+    fn follow(&mut self, mut told: Told, recall: &mut dyn Recall, progress: &dyn Progress) -> Result<Step> {
         let inputs = Arc::clone(&self.inputs);
         if !has_same_columns(&self.told, &told) {
             self.site.vet(&inputs.rules, &inputs.tests, &told)?;
@@ -77,7 +80,14 @@ impl State {
         let mut attached = self.tell(&told)?;
         let mut changes = self.conclude()?;
         clock.lap("rules");
-        let given = self.ask_planners(&told, &mut changes, (recall, progress, &mut clock))?;
+        let (world, notes) = if told.laid == self.told.laid {
+            (Arc::clone(&self.world), Vec::new())
+        } else {
+            let (world, notes) = told.laid.over(&inputs.world);
+            (Arc::new(world), notes)
+        };
+        told.notes.extend(notes);
+        let given = self.ask_planners((&world, &told), &mut changes, (recall, progress, &mut clock))?;
         if given.is_any {
             attached = Attached::default();
             told.attach(&self.knowledge, |_| true, &mut attached);
@@ -115,10 +125,15 @@ impl State {
         }
         let needed = ["width", "height", "length"].map(|property| format!("ROBOTS.{property}"));
         let is_resized = needs_changed(&needed, &changes);
-        let gauge = is_resized.then(|| Arc::new(self.gauge.resized(sizes(&self.knowledge))));
+        let gauge = if Arc::ptr_eq(&world, &self.world) {
+            is_resized.then(|| Arc::new(self.gauge.resized(sizes(&self.knowledge))))
+        } else {
+            Some(Arc::new(Gauge::new(&world, sizes(&self.knowledge))))
+        };
         clock.lap("graph");
         let (planned, is_anew, stages) = (given.planned, given.is_any, clock.stages);
         Ok(Step {
+            world,
             told,
             attached,
             planned,
@@ -135,7 +150,8 @@ impl State {
 
     /// Makes what a step changed what is known.
     pub(crate) fn accept(&mut self, step: Step) {
-        (self.told, self.attached, self.planned) = (step.told, step.attached, step.planned);
+        (self.world, self.told, self.attached, self.planned) =
+            (step.world, step.told, step.attached, step.planned);
         if let Some(graph) = step.cut {
             self.twin = Twin::of(graph);
         } else if !step.weighed.is_empty() {
@@ -242,18 +258,19 @@ impl State {
     /// Has planners give facts anew, as far as what they work from is another, in the order in which it is there.
     fn ask_planners(
         &mut self,
-        told: &Told,
+        (world, told): (&Arc<World>, &Told),
         changes: &mut Changes,
         (recall, progress, clock): (&mut dyn Recall, &dyn Progress, &mut Stopwatch),
     ) -> Result<Given> {
-        let (site, inputs) = (Arc::clone(&self.site), Arc::clone(&self.inputs));
+        let site = Arc::clone(&self.site);
+        let is_laid_anew = !Arc::ptr_eq(world, &self.world);
         let planners = site.planners();
         let mut given = Given { planned: self.planned.clone(), rooms: None, doors: None, is_any: false };
         let is_new = |planner: &dyn Planner| !self.planned.fingerprints.contains_key(planner.name());
         let mut waiting: Vec<usize> = (0..planners.len())
             .filter(|&at| {
                 let planner = planners[at].as_ref();
-                is_new(planner) || needs_changed(&planner.signature().needs, changes)
+                is_laid_anew || is_new(planner) || needs_changed(&planner.signature().needs, changes)
             })
             .collect();
         let mut runs = 0;
@@ -264,7 +281,7 @@ impl State {
             let name = planner.name();
             progress.stage(name);
             let known = classes::known(&self.knowledge, &planner.signature().needs);
-            let fingerprint = planned::fingerprint(&inputs.world, &known);
+            let fingerprint = planned::fingerprint(world, &known);
             if given.planned.fingerprints.insert(name.to_owned(), fingerprint) == Some(fingerprint) {
                 clock.kept(name);
                 continue;
@@ -280,7 +297,7 @@ impl State {
                 self.tell_graph(told)?;
                 facts
             } else {
-                planned::facts(planner, &inputs.world, &known)?
+                planned::facts(planner, world, &known)?
             };
             for (class, table) in facts {
                 classes::assert(&mut self.knowledge, &class, &table)?;

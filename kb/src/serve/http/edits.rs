@@ -1,5 +1,6 @@
 //! Edits, and what they would change.
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use adit_db::history::Author;
@@ -9,7 +10,7 @@ use utoipa::ToSchema;
 
 use super::extract::Body;
 use super::extract::Site;
-use crate::edit::{Close, Done, Edit, Tell};
+use crate::edit::{Close, Done, Edit, Lay, Tell, Thing};
 use crate::error::Code;
 use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
@@ -114,6 +115,10 @@ pub enum Wish {
     },
     /// What was closed is open again.
     Open { what: String },
+    /// An area or an obstacle that lies over the map from now on.
+    Lay(LaidBody),
+    /// What no longer lies over the map.
+    Lift { name: String },
     /// A fact that is no longer told.
     Retract { fact: i64 },
     /// A cell of a named tuning.
@@ -146,7 +151,12 @@ impl Wish {
     /// The role that it takes.
     fn role(&self) -> Role {
         match self {
-            Self::Tell { .. } | Self::Close { .. } | Self::Open { .. } | Self::Retract { .. } => Role::Tell,
+            Self::Tell { .. }
+            | Self::Close { .. }
+            | Self::Open { .. }
+            | Self::Lay(_)
+            | Self::Lift { .. }
+            | Self::Retract { .. } => Role::Tell,
             _ => Role::Tune,
         }
     }
@@ -178,6 +188,22 @@ impl Wish {
                 Edit::Close(Close { what, until, only, except })
             }
             Self::Open { what } => Edit::Open(what),
+            Self::Lay(LaidBody { until: Some(_), for_seconds: Some(_), .. }) => {
+                let message = "it ends at `until` or after `for_seconds`, not both";
+                return Err(Fault::new(Code::TellUsage, message));
+            }
+            Self::Lay(LaidBody { what, name, corners, mut properties, until, for_seconds }) => {
+                let kind = properties.remove("kind").map(|kind| kind.text());
+                properties.retain(|_, value| !matches!(value, Scalar::None(())));
+                let what = match what {
+                    LaidThing::Area => Thing::Area,
+                    LaidThing::Obstacle => Thing::Obstacle,
+                };
+                let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
+                let properties = properties.into_iter().map(|(name, value)| (name, value.text())).collect();
+                Edit::Lay(Lay { what, name, corners, kind, properties, until })
+            }
+            Self::Lift { name } => Edit::Lift(name),
             Self::Retract { fact } => Edit::Retract(fact),
             Self::SetInTuning { tuning, table, key, column, value } => {
                 Edit::SetInTuning(tuning, [table, key, column, value.cell()])
@@ -189,6 +215,37 @@ impl Wish {
             Self::Undo { edit } => Edit::Undo(edit),
         })
     }
+}
+
+/// An area or an obstacle that people lay over the map.
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LaidBody {
+    #[serde(default)]
+    pub(super) what: LaidThing,
+    pub(super) name: String,
+    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle.
+    pub(super) corners: Vec<[f64; 2]>,
+    /// What is said of an area; `kind` is what it is: `wet`, `keep-out`.
+    #[serde(default)]
+    #[schema(value_type = std::collections::BTreeMap<String, serde_json::Value>)]
+    pub(super) properties: BTreeMap<String, Scalar>,
+    /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
+    #[serde(default)]
+    pub(super) until: Option<String>,
+    /// After how many seconds it ends, instead.
+    #[serde(default)]
+    pub(super) for_seconds: Option<u32>,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize, ToSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LaidThing {
+    /// A part of the floor with a name, of which rules speak.
+    #[default]
+    Area,
+    /// Something that no robot comes through.
+    Obstacle,
 }
 
 #[derive(Debug, Deserialize, ToSchema)]

@@ -109,7 +109,7 @@ pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Ans
 #[derive(Deserialize)]
 pub struct Why {
     #[serde(default)]
-    why: String,
+    pub why: String,
 }
 
 /// Takes a fact back.

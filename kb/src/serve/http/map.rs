@@ -96,7 +96,7 @@ struct DoorOf {
 #[utoipa::path(get, path = "/api/map", tag = "map", responses((status = 200, body = MapAnswer)))]
 pub async fn map(site: Site) -> Json<MapAnswer> {
     let seen = site.view.load();
-    let (graph, world) = (seen.view.graph(), &seen.view.inputs().world);
+    let (graph, world) = (seen.view.graph(), seen.view.world());
     let (layers, rooms) = rooms(graph);
     let b = world.bounds;
     Json(MapAnswer {

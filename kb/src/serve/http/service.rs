@@ -57,7 +57,7 @@ pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
     let seen = shared.view.load();
     let view = &seen.view;
     let (graph, site) = (view.graph(), view.site().site());
-    let bounds = view.inputs().world.bounds;
+    let bounds = view.world().bounds;
     Json(SiteAnswer {
         name: site.name.clone(),
         generation: view.generation(),

@@ -1,0 +1,140 @@
+//! Areas and obstacles laid over the map while the site is in use.
+
+use adit_db::edit::Edited;
+use adit_db::history::Author;
+use adit_db::laid::Laid as Row;
+use adit_db::{Cell, Tx};
+use adit_engine::RuleBase;
+use serde_json::{Map, Value};
+
+use super::tell::{self, Tell};
+use crate::error::{Code, Error, Result};
+use crate::knowledge::{KnowledgeBase, laid};
+use crate::site::clock::stored;
+
+/// What can be laid over the map.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Thing {
+    /// A part of the floor with a name, of which rules speak.
+    #[default]
+    Area,
+    /// Something that no robot comes through.
+    Obstacle,
+}
+
+impl Thing {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Area => "area",
+            Self::Obstacle => "obstacle",
+        }
+    }
+}
+
+/// Something that is laid over the map, as it is said.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lay {
+    pub what: Thing,
+    pub name: String,
+    /// Metres, in the order in which they follow one another; two are those of a rectangle.
+    pub corners: Vec<[f64; 2]>,
+    /// What an area is.
+    pub kind: Option<String>,
+    /// What else is said of an area: property and value.
+    pub properties: Vec<(String, String)>,
+    /// When it ends, as [`KnowledgeBase::moment`] reads times.
+    pub until: Option<String>,
+}
+
+impl Lay {
+    pub(super) fn apply(
+        &self,
+        tx: &mut Tx<'_>,
+        (site, rules): (&KnowledgeBase, &RuleBase),
+        author: &Author,
+    ) -> Result<Edited> {
+        let (name, what) = (self.name.trim(), self.what.name());
+        if self.what == Thing::Obstacle && (self.kind.is_some() || !self.properties.is_empty()) {
+            let message = format!("`{name}` is an obstacle: only an area has a kind and properties");
+            return Err(Error::said(Code::LaidUsage, message, None));
+        }
+        if let Some(row) = tx.laid()?.iter().find(|row| row.name == name) {
+            let message = format!("the {} `{name}` lies there already", row.what);
+            let help = format!("`adit lift SITE \"{name}\"` takes it away");
+            return Err(Error::said(Code::LaidTaken, message, Some(help)));
+        }
+        let row = Row {
+            name: name.to_owned(),
+            what: what.to_owned(),
+            kind: self.kind.clone(),
+            outline: self.outline()?,
+            properties: self.further(tx, site, rules)?,
+            until: self.until.as_deref().map(|until| tell::end(site, until)).transpose()?,
+            who: author.who.clone(),
+            why: author.why.clone(),
+            at: stored(site.clock().now()),
+        };
+        laid::check(&row, &mut site.world(tx)?)?;
+        let optional = |text: &Option<String>| text.as_deref().map_or(Cell::Null, Cell::from);
+        let cells = [
+            ("name", Cell::from(name)),
+            ("what", what.into()),
+            ("kind", optional(&row.kind)),
+            ("outline", row.outline.as_str().into()),
+            ("properties", row.properties.as_str().into()),
+            ("until", optional(&row.until)),
+            ("who", row.who.as_str().into()),
+            ("why", row.why.as_str().into()),
+            ("at", row.at.as_str().into()),
+        ];
+        Ok(tx.add_row("laid", &cells, author)?)
+    }
+
+    fn outline(&self) -> Result<String> {
+        let corners = match *self.corners {
+            [[x0, y0], [x1, y1]] => {
+                let (left, right, low, high) = (x0.min(x1), x0.max(x1), y0.min(y1), y0.max(y1));
+                vec![[left, low], [right, low], [right, high], [left, high]]
+            }
+            _ => self.corners.clone(),
+        };
+        if corners.iter().flatten().any(|metres| !metres.is_finite()) {
+            return Err(Error::said(Code::LaidUsage, "a corner is two finite numbers, metres", None));
+        }
+        Ok(Value::from(corners.iter().map(|corner| Value::from(corner.to_vec())).collect::<Vec<_>>())
+            .to_string())
+    }
+
+    /// The properties as JSON, each of the type that it has in AREAS.
+    fn further(&self, tx: &mut Tx<'_>, site: &KnowledgeBase, rules: &RuleBase) -> Result<String> {
+        let mut further = Map::new();
+        for (property, value) in &self.properties {
+            let tell = Tell {
+                class: "AREAS".to_owned(),
+                object: self.name.clone(),
+                property: property.clone(),
+                value: value.clone(),
+                ..Tell::default()
+            };
+            let value = match tell.typed(tx, site, rules)? {
+                ("truth", Cell::Integer(truth)) => Value::Bool(truth != 0),
+                (_, Cell::Real(number)) => Value::from(number),
+                (_, Cell::Text(text)) => Value::String(text),
+                (_, other) => Value::String(other.to_string()),
+            };
+            further.insert(property.clone(), value);
+        }
+        Ok(Value::Object(further).to_string())
+    }
+}
+
+/// Takes away what was laid over the map.
+pub(super) fn lift(tx: &mut Tx<'_>, name: &str, author: &Author) -> Result<Edited> {
+    let laid = tx.laid()?;
+    if !laid.iter().any(|row| row.name == name) {
+        let help = crate::words::suggest::did_you_mean(name, laid.iter().map(|row| row.name.as_str()));
+        let message = format!("nothing called `{name}` was laid over the map");
+        return Err(Error::said(Code::LaidUnknown, message, help));
+    }
+    Ok(tx.remove_row("laid", name, author)?)
+}

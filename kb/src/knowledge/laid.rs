@@ -1,0 +1,99 @@
+//! Areas and obstacles that people lay over the map while the site is in use: read and checked as those of `site.toml` are.
+
+use adit_db::Tx;
+use adit_db::laid::Laid as Row;
+use adit_planners::read::Overlay;
+use adit_planners::world::World;
+use serde_json::{Map, Value};
+
+use crate::error::{Code, Error, Result};
+use crate::site::clock::{Clock, stored};
+
+/// What lies over the map now, by name.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Laid(Vec<Item>);
+
+/// An area or an obstacle with its text in the map's own language.
+#[derive(Clone, Debug, PartialEq)]
+struct Item {
+    /// What people call it: ``the area `wet spot` ``.
+    name: String,
+    text: String,
+}
+
+impl Laid {
+    /// What has not ended.
+    pub fn read(tx: &mut Tx<'_>, clock: &Clock) -> Result<Self> {
+        let now = stored(clock.now());
+        let rows = tx.laid()?.into_iter();
+        let rows = rows.filter(|row| row.until.as_ref().is_none_or(|until| *until > now));
+        rows.map(|row| Item::of(&row)).collect::<Result<_>>().map(Self)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Lays all of it over a map. What does not fit there any more counts for nothing, and is said.
+    pub fn over(&self, world: &World) -> (World, Vec<String>) {
+        let (mut laid, mut notes) = (world.clone(), Vec::new());
+        for item in &self.0 {
+            if let Err(error) = item.lay(&mut laid) {
+                let name = &item.name;
+                notes.push(format!("{name}, laid over the map, counts for nothing: {error}"));
+            }
+        }
+        (laid, notes)
+    }
+
+    /// A number that stands for it.
+    pub fn hash(&self, hasher: &mut impl std::hash::Hasher) {
+        for item in &self.0 {
+            std::hash::Hash::hash(&item.text, hasher);
+        }
+    }
+}
+
+impl Item {
+    fn of(row: &Row) -> Result<Self> {
+        let name = format!("the {} `{}`", row.what, row.name);
+        let unreadable = |what: &str| {
+            Error::said(Code::LaidUnreadable, format!("{name} of the table `laid` has {what}"), None)
+        };
+        let corners: Vec<[f64; 2]> =
+            serde_json::from_str(&row.outline).map_err(|_| unreadable("no list of corners [[x,y],…]"))?;
+        let further: Map<String, Value> =
+            serde_json::from_str(&row.properties).map_err(|_| unreadable("no object of properties"))?;
+        let mut item = toml::Table::new();
+        if row.what == "area" {
+            item.insert("name".to_owned(), row.name.as_str().into());
+            item.extend(row.kind.as_deref().map(|kind| ("kind".to_owned(), kind.into())));
+        }
+        let polygon = corners.iter().map(|&[x, y]| toml::Value::from(vec![x, y]));
+        item.insert("polygon".to_owned(), polygon.collect::<Vec<_>>().into());
+        for (property, value) in further {
+            let value = match value {
+                Value::Bool(truth) => truth.into(),
+                Value::String(text) => text.into(),
+                Value::Number(number) => number.as_f64().unwrap_or(f64::NAN).into(),
+                _ => {
+                    return Err(unreadable(&format!(
+                        "a `{property}` that is no number, text or truth value"
+                    )));
+                }
+            };
+            item.insert(property, value);
+        }
+        Ok(Self { name, text: format!("[[{}]]\n{item}", row.what) })
+    }
+
+    fn lay(&self, world: &mut World) -> Result<()> {
+        let laid = Overlay::from_toml(&self.name, &self.text).and_then(|overlay| overlay.lay_over(world));
+        laid.map(drop).map_err(|errors| Error::all(errors.problems))
+    }
+}
+
+/// Whether something may be laid over a map, over which others lie already.
+pub fn check(row: &Row, world: &mut World) -> Result<()> {
+    Item::of(row)?.lay(world)
+}

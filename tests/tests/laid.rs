@@ -1,0 +1,101 @@
+//! Areas and obstacles that people lay over the map while a site is in use: ways heed them at once, until they end or are
+//! lifted, and the map's files stay as they are.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use adit_tests::TestSite;
+
+fn starter() -> TestSite {
+    TestSite::example("starter").with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n").built()
+}
+
+fn cost(site: &TestSite, at: &[&str]) -> Option<f64> {
+    let answer = site.adit("route", &[&["home", "window", "--json"], at].concat()).json();
+    answer["cost"].as_f64()
+}
+
+/// Rooms, doors and kept routes, and what was laid.
+fn content(site: &TestSite) -> Vec<String> {
+    ["rooms", "doors", "tree_rows", "laid"]
+        .iter()
+        .flat_map(|table| site.sqlite3(&format!("SELECT * FROM {table}")))
+        .collect()
+}
+
+#[test]
+fn an_obstacle_is_driven_around_until_it_ends_or_is_lifted() {
+    let site = starter();
+    let (free, before) = (cost(&site, &[]).unwrap(), content(&site));
+    let rooms = site.sqlite3("SELECT count(*) FROM rooms");
+    // beside the way through the doorway
+    site.adit("lay", &["obstacle", "pallets", "6.6,2 9,5.5", "--until", "2h", "--why", "delivery"])
+        .expect_status(0);
+    assert_ne!(site.sqlite3("SELECT count(*) FROM rooms"), rooms, "rooms are cut about it");
+    assert!(cost(&site, &[]).unwrap() > free + 0.01);
+    assert_eq!(cost(&site, &["--at", "3h"]), Some(free));
+    // beyond the doorway, from wall to wall
+    site.adit("lay", &["obstacle", "shelves", "6.2,2.5 6.4,4.5"]).expect_status(0);
+    assert_eq!(cost(&site, &[]), None);
+    site.adit("lift", &["shelves"]).expect_status(0);
+    site.adit("lift", &["pallets"]).expect_status(0);
+    assert_eq!(cost(&site, &[]), Some(free));
+    assert_eq!(content(&site), before);
+    let history = site.adit("history", &[]).expecting(0).stdout;
+    assert!(history.contains("pallets") && history.contains("delivery"), "{history}");
+}
+
+#[test]
+fn an_area_is_weighed_by_the_rules_as_one_of_the_map_is_and_taken_back_by_undo() {
+    let site = starter();
+    let (free, before) = (cost(&site, &[]).unwrap(), content(&site));
+    let wet = ["area", "wet floor", "6.5,0.1 9,0.1 9,7.9 6.5,7.9", "--with", "hardness_factor=3"];
+    let shown = site.adit("lay", &[&wet[..], &["--dry-run"]].concat()).expecting(0).stdout;
+    assert!(shown.contains("wet floor"), "{shown}");
+    assert_eq!((cost(&site, &[]), content(&site)), (Some(free), before.clone()), "nothing was changed");
+    site.adit("lay", &wet).expect_status(0);
+    assert!(cost(&site, &[]).unwrap() > free + 2.0, "two and a half metres weigh three times as much");
+    site.adit("close", &["wet floor"]).expect_status(0);
+    assert_eq!(cost(&site, &[]), None, "an area that was laid is closed by its name, too");
+    site.adit("undo", &[]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!((cost(&site, &[]), content(&site)), (Some(free), before));
+}
+
+#[test]
+fn what_was_laid_lies_there_after_the_map_changes_and_counts_for_nothing_where_it_no_longer_fits() {
+    let site = starter();
+    site.adit("lay", &["obstacle", "shelves", "6.2,2.5 6.4,4.5"]).expect_status(0);
+    site.edit("map.toml", "rect = [5.9, 0.0, 6.1, 3.0]", "rect = [5.8, 0.0, 6.2, 2.9]");
+    assert_eq!(cost(&site, &[]), None);
+    site.outside_edit("UPDATE laid SET outline = '[[50,50],[51,50],[51,51]]'");
+    let built = site.adit("build", &[]);
+    let said = format!("{}{}", built.stdout, built.stderr);
+    assert!(said.contains("the obstacle `shelves`, laid over the map, counts for nothing"), "{said}");
+    assert!(cost(&site, &[]).is_some());
+}
+
+#[test]
+fn what_cannot_be_laid_is_refused_in_words_and_nothing_is_kept() {
+    let site = starter();
+    let before = content(&site);
+    for (args, said) in [
+        (&["area", "bow", "1,1 3,3 3,1 1,3"][..], "crosses itself"),
+        (&["area", "line", "1,1 3,1 2,1"], "no area"),
+        (&["area", "away", "50,50 51,51"], "lies outside of the environment"),
+        (&["area", "home", "1,1 2,2"], "the map has a place `home` already"),
+        (&["area", "wet", "1,1 2,2", "--with", "hardnes_factor=2"], "did you mean `hardness_factor`?"),
+        (&["area", "wet", "1,1 2,2", "--with", "hardness_factor=much"], "holds numbers"),
+        (&["area", "wet", "1,1 2,2", "--until", "2020-01-01"], "that is over"),
+        (&["obstacle", "crate", "1,1 2,2", "--kind", "wet"], "only an area has a kind"),
+        (&["obstacle", "crate", "1,1"], "two corners or more"),
+        (&["obstacle", "crate", "1,1 2,x"], "is no corner"),
+        (&["wall", "crate", "1,1 2,2"], "invalid value 'wall'"),
+    ] {
+        site.adit("lay", args).expecting(2).complains(&[said]);
+    }
+    assert_eq!(content(&site), before);
+    site.adit("lay", &["obstacle", "crate", "1,1 1.5,1.5"]).expect_status(0);
+    site.adit("lay", &["area", "crate", "1,1 2,2"])
+        .expecting(2)
+        .complains(&["the obstacle `crate` lies there already"]);
+    site.adit("lift", &["crates"]).expecting(2).complains(&["did you mean `crate`?"]);
+}
