@@ -26,7 +26,7 @@ pub use close::Close;
 pub use lay::{Lay, Thing};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
-pub(crate) use words::change;
+pub(crate) use words::{change, entry};
 
 /// What is to be edited. Values are as people write them; the column says what they must be.
 #[derive(Clone, Debug, PartialEq)]

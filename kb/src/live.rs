@@ -12,7 +12,7 @@ pub mod watch;
 use std::sync::Arc;
 
 use adit_db::Store;
-use adit_db::history::Author;
+use adit_db::history::{Author, Edit as Entry};
 
 use crate::answer::Answer;
 use crate::edit::Tell;
@@ -37,6 +37,8 @@ pub struct Live {
     memory: Memory,
     /// Whether ways between any two rooms are kept ready.
     is_prepared: bool,
+    /// The newest entry of the history that is known.
+    newest: i64,
 }
 
 /// What an edit did.
@@ -58,7 +60,20 @@ pub struct Outcome {
     pub anew: bool,
     /// What was done, and how long it took.
     pub stages: Vec<Stage>,
+    pub meanwhile: Meanwhile,
 }
+
+/// What happened without this program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meanwhile {
+    /// What ended or began by itself, in sentences.
+    Ended(Vec<String>),
+    /// What others edited, the newest last; what they wrote past the history is not among it.
+    Edited(Vec<Entry>),
+}
+
+/// Entries of the history that are looked at after edits of others.
+const ENTRIES: u32 = 50;
 
 impl Live {
     /// Takes a site's knowledge into memory; builds the site where it is not built, or its tables were edited since.
@@ -73,7 +88,8 @@ impl Live {
             Some(memory) => memory,
             None => site.build_in(&mut store, &inputs, &Silent)?.0,
         };
-        let mut live = Self { site, store, memory, is_prepared: false };
+        let newest = store.snapshot(|tx| tx.history(1))?.first().map_or(0, |entry| entry.id);
+        let mut live = Self { site, store, memory, is_prepared: false, newest };
         live.ready();
         Ok(live)
     }
@@ -148,6 +164,16 @@ impl Live {
         Ok(Outcome { anew: true, ..outcome })
     }
 
+    /// Derives all anew, since others edited the tables; with what they did.
+    fn take_up(&mut self) -> Result<Outcome> {
+        let outcome = self.reopen()?;
+        let mut edits = self.store.snapshot(|tx| tx.history(ENTRIES))?;
+        edits.retain(|entry| entry.id > self.newest);
+        edits.reverse();
+        self.newest = edits.last().map_or(self.newest, |entry| entry.id);
+        Ok(Outcome { meanwhile: Meanwhile::Edited(edits), ..outcome })
+    }
+
     /// Writes what follows from an edit, or from the clock alone, in one transaction; `None` where somebody else edited the
     /// tables meanwhile.
     fn follow(&mut self, edit: Option<(&Edit, &Author)>) -> Result<Option<Outcome>> {
@@ -163,11 +189,15 @@ impl Live {
         match followed {
             Ok(None) => Ok(None),
             Ok(Some(followed)) => {
+                let over = memory.state.told.is_over(&site.clock()).then(|| memory.state.told.clone());
                 let accepted = memory.accept(followed);
+                let ended = over.map(|before| memory.state.told.ended_since(&before));
+                let meanwhile = Meanwhile::Ended(ended.unwrap_or_default());
+                self.newest = accepted.done.as_ref().map_or(self.newest, |done| done.id);
                 if accepted.anew {
                     self.ready();
                 }
-                Ok(Some(self.outcome(accepted)))
+                Ok(Some(Outcome { meanwhile, ..self.outcome(accepted) }))
             }
             Err(error) => {
                 memory.take_back()?;
@@ -181,14 +211,14 @@ impl Live {
     pub fn catch_up(&mut self) -> Result<Option<Outcome>> {
         let memory = &self.memory;
         if !self.store.snapshot(|tx| memory.is_of(tx))? {
-            return self.reopen().map(Some);
+            return self.take_up().map(Some);
         }
         if !memory.state.told.is_over(&self.site.clock()) {
             return Ok(None);
         }
         match self.follow(None)? {
             Some(outcome) => Ok(Some(outcome)),
-            None => self.reopen().map(Some),
+            None => self.take_up().map(Some),
         }
     }
 
@@ -241,6 +271,7 @@ impl Live {
             routes_due: self.memory.routes_due,
             anew,
             stages,
+            meanwhile: Meanwhile::Ended(Vec::new()),
         }
     }
 }
@@ -256,5 +287,6 @@ fn anew(report: Report) -> Outcome {
         routes_due: false,
         anew: true,
         stages: report.stages,
+        meanwhile: Meanwhile::Ended(Vec::new()),
     }
 }

@@ -6,12 +6,14 @@
 mod desk;
 mod event;
 mod fault;
+mod follower;
 mod gate;
 mod http;
 mod listen;
 mod meter;
 mod page;
 mod porter;
+mod question;
 pub(crate) mod role;
 mod routes;
 pub(crate) mod settings;

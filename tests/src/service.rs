@@ -3,6 +3,7 @@
 use std::io::{BufRead, BufReader, Lines, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use serde_json::Value;
@@ -138,9 +139,18 @@ impl Service {
 
     /// Live events for whoever sends this header.
     pub fn events_as(&self, header: &str) -> Events {
+        self.stream(header, "/api/events")
+    }
+
+    /// A route that is followed: `start=dock&goal=ward%2012`.
+    pub fn follow(&self, question: &str) -> Events {
+        self.stream("Accept: text/event-stream", &format!("/api/route/follow?{question}"))
+    }
+
+    /// A stream of events for whoever sends this header.
+    pub fn stream(&self, header: &str, path: &str) -> Events {
         let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
-        write!(stream, "GET /api/events HTTP/1.1\r\nHost: {}\r\n{header}\r\n\r\n", self.address)
-            .expect("asked");
+        write!(stream, "GET {path} HTTP/1.1\r\nHost: {}\r\n{header}\r\n\r\n", self.address).expect("asked");
         stream.set_read_timeout(Some(Duration::from_secs(15))).expect("a time");
         Events { lines: BufReader::new(stream).lines() }
     }
@@ -177,16 +187,38 @@ impl Events {
     /// Where none comes for 15 seconds.
     #[track_caller]
     pub fn next(&mut self, name: &str) -> Value {
+        match self.read(name) {
+            Ok(Some(data)) => data,
+            Ok(None) => panic!("the stream ends without an event `{name}`"),
+            Err(error) => panic!("no event `{name}` comes: {error}"),
+        }
+    }
+
+    /// Reads on a thread of its own: the events of this name, each with the moment at which it came.
+    #[must_use]
+    pub fn heard(mut self, name: &'static str) -> Receiver<(Instant, Value)> {
+        let (say, heard) = channel();
+        std::thread::spawn(move || {
+            while let Ok(Some(data)) = self.read(name) {
+                if say.send((Instant::now(), data)).is_err() {
+                    break;
+                }
+            }
+        });
+        heard
+    }
+
+    fn read(&mut self, name: &str) -> std::io::Result<Option<Value>> {
         let head = format!("event: {name}");
         let mut is_it = false;
         for line in self.lines.by_ref() {
-            let line = line.unwrap_or_else(|error| panic!("no event `{name}` comes: {error}"));
+            let line = line?;
             match line.strip_prefix("data: ").filter(|_| is_it) {
-                Some(data) => return serde_json::from_str(data).expect("data is JSON"),
+                Some(data) => return Ok(Some(serde_json::from_str(data).expect("data is JSON"))),
                 None => is_it |= line == head,
             }
         }
-        panic!("the stream ends without an event `{name}`");
+        Ok(None)
     }
 
     /// Waits until the service ends the stream.

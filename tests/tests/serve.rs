@@ -13,6 +13,8 @@ mod edits;
 mod events;
 #[path = "serve/failures.rs"]
 mod failures;
+#[path = "serve/follow.rs"]
+mod follow;
 #[path = "serve/follows.rs"]
 mod follows;
 #[path = "serve/hostile.rs"]

@@ -1,10 +1,12 @@
 //! What edits did, in words for people.
 
 use adit_db::Cell;
+use adit_db::history::Edit as Entry;
 use serde_json::Value;
 
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
+use crate::words::number::number;
 
 impl Edit {
     /// In a few words, what an edit did.
@@ -33,7 +35,9 @@ impl Edit {
                 format!("the {} `{key}` lies over the map{until}", lay.what.name())
             }
             Self::Lift(name) => format!("`{name}` no longer lies over the map"),
-            Self::Retract(_) => format!("fact {key} is taken back"),
+            Self::Retract(_) => {
+                format!("fact {key}{} is taken back", fact(old).unwrap_or_default())
+            }
             Self::SetInTuning(tuning, [table, row, column, value]) => {
                 format!("tuning {tuning}: {table}.{row}.{column} = {value}")
             }
@@ -42,8 +46,8 @@ impl Edit {
             }
             Self::Switch(tuning, on) => format!("tuning {tuning} is {}", if *on { "on" } else { "off" }),
             Self::Undo(_) => match (row(old), row(new)) {
-                (Some(_), None) => format!("undone: {key} is gone again"),
-                (None, Some(_)) => format!("undone: {key} is back"),
+                (Some(_), None) => format!("undone: {} is gone again", called(key, old)),
+                (None, Some(_)) => format!("undone: {} is back", called(key, new)),
                 _ => format!("undone: {key}: {old} → {new}"),
             },
         }
@@ -57,6 +61,43 @@ pub(crate) fn change(old: &Cell, new: &Cell) -> String {
         (Some(row), None) => format!("gone: {row}"),
         _ => format!("{old} → {new}"),
     }
+}
+
+/// An entry of the history.
+pub(crate) fn entry(Entry { table, key, column, old, new, .. }: &Entry) -> String {
+    match (fact(old), fact(new)) {
+        (None, Some(fact)) => format!("fact {key}{fact} is told"),
+        (Some(fact), None) => format!("fact {key}{fact} is taken back"),
+        _ => {
+            let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
+            format!("{table}.{key}{column}: {}", change(old, new))
+        }
+    }
+}
+
+/// A row by its key; a fact, of which that says nothing, with what it says.
+fn called(key: &str, row: &Cell) -> String {
+    fact(row).map_or_else(|| key.to_owned(), |fact| format!("fact {key}{fact}"))
+}
+
+/// What a fact says, where a row is one: ` (DOORS 5,2 passable = false)`.
+fn fact(row: &Cell) -> Option<String> {
+    let Cell::Text(text) = row else { return None };
+    let row: Value = serde_json::from_str(text).ok()?;
+    let text = |column: &str| row[column].as_str();
+    let number = |column: &str| row[column].as_f64().map(number);
+    let (class, property) = (text("class")?, text("property")?);
+    let object = match (text("key"), number("x"), number("y")) {
+        (Some(key), ..) => key.to_owned(),
+        (None, Some(x), Some(y)) => format!("{x},{y}"),
+        _ => return None,
+    };
+    let value = match (text("kind")?, &row["value"]) {
+        ("truth", value) => (value.as_i64() == Some(1)).to_string(),
+        (_, Value::String(text)) => text.clone(),
+        (_, value) => value.to_string(),
+    };
+    Some(format!(" ({class} {object} {property} = {value})"))
 }
 
 /// A row, which the history keeps as a JSON object, column by column; `None` for a cell.

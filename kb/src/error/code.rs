@@ -116,6 +116,9 @@ codes! {
     /// Several measures were taken; say which one is meant.
     FitWhichMeasure = "fit/which-measure", BAD_REQUEST;
 
+    /// Nobody of this name follows a route (any more); open the stream anew.
+    FollowUnknown = "follow/unknown", NOT_FOUND;
+
     /// The hours of a named door or area cannot be read: days like `mon-fri`, times like `08:00`.
     HoursUnreadable = "hours/unreadable", UNPROCESSABLE_ENTITY;
 

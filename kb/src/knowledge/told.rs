@@ -3,6 +3,7 @@
 pub mod attach;
 pub mod closing;
 
+use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
 
 use adit_db::space::Doorway;
@@ -151,6 +152,29 @@ impl Told {
     /// Whether the same counts: classes and facts, whatever the clock says of the time after.
     pub fn counts_as(&self, other: &Self) -> bool {
         self.classes == other.classes && self.facts == other.facts && self.laid == other.laid
+    }
+
+    /// What ended, opened or closed by itself since then, in sentences.
+    pub fn ended_since(&self, before: &Self) -> Vec<String> {
+        let is_new = |fact: &&Fact| self.expired.contains(&fact.id);
+        let facts = before.facts.iter().filter(is_new).map(|fact| format!("{} has ended", fact.name()));
+        let hours = |told: &Self| -> BTreeMap<String, bool> {
+            let hours = told.classes.get("HOURS");
+            match hours.map(|hours| (hours.column("name"), hours.column("open"))) {
+                Some((Some(Column::Text(names)), Some(Column::Truth(open)))) => {
+                    let rows = names.iter().cloned().zip(open.iter().copied());
+                    rows.filter_map(|(name, open)| Some((name?, open?))).collect()
+                }
+                _ => BTreeMap::new(),
+            }
+        };
+        let known = hours(before);
+        let now = hours(self);
+        let turned = now.iter().filter(|(name, open)| known.get(*name).is_some_and(|known| known != *open));
+        let turned = turned.map(|(name, open)| {
+            format!("`{name}` is {} by its hours", if *open { "open" } else { "closed" })
+        });
+        facts.chain(turned).collect()
     }
 
     /// The facts about a class.

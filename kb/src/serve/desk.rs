@@ -7,17 +7,17 @@ use std::sync::mpsc::Receiver;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use adit_db::history::Author;
+use adit_db::history::{Author, Edit as Entry};
 use adit_db::tree::TreeRow;
 use jiff::Timestamp;
 
 use super::event::{Changed, Event};
 use super::shared::{Job, Seen, Shared, Source};
-use crate::edit::Edit;
+use crate::edit::{Edit, entry};
 use crate::error::problem::Problem;
 use crate::error::{Code, Error, Result};
 use crate::live::watch::{Eye, Files};
-use crate::live::{Live, Outcome, Renewal};
+use crate::live::{Live, Meanwhile, Outcome, Renewal};
 use crate::site::clock::stored;
 
 /// Rules run here: their deepest nesting needs more than the usual stack.
@@ -38,6 +38,9 @@ pub struct Desk {
     taken: Option<Files>,
 }
 
+/// What is said of edits of others that the history does not tell.
+const EDITED: &str = "tables were edited";
+
 /// Who did something, why, and what, in a few words.
 pub struct Cause {
     pub who: String,
@@ -49,6 +52,26 @@ impl Cause {
     /// Something that nobody asked for.
     fn itself(who: &str, what: &str) -> Self {
         Self { who: who.to_owned(), why: String::new(), what: what.to_owned() }
+    }
+
+    /// What happened without the service.
+    fn of(outcome: &Outcome) -> Self {
+        match &outcome.meanwhile {
+            Meanwhile::Ended(ended) if ended.is_empty() => {
+                Self::itself("clock", "the time of a fact or of opening hours is over")
+            }
+            Meanwhile::Ended(ended) => Self::itself("clock", &ended.join("; ")),
+            Meanwhile::Edited(edits) if edits.is_empty() => Self::itself("another program", EDITED),
+            Meanwhile::Edited(edits) => {
+                let all = |of: fn(&Entry) -> String, between: &str| {
+                    let mut all: Vec<String> = edits.iter().map(of).filter(|text| !text.is_empty()).collect();
+                    all.dedup();
+                    all.join(between)
+                };
+                let who = all(|edit| edit.who.clone(), ", ");
+                Self { who, why: all(|edit| edit.why.clone(), "; "), what: all(entry, "; ") }
+            }
+        }
     }
 }
 
@@ -110,7 +133,14 @@ impl Desk {
     /// Makes an edit, and tells everyone.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         self.check_database()?;
-        let outcome = self.live.edit(edit, author)?;
+        // what others did before has its own cause
+        self.catch_up();
+        let edited = self.live.edit(edit, author);
+        if edited.is_err() && self.live.view().generation() != self.shared.view.load().view.generation() {
+            let outcome = self.live.reopen().map(Some);
+            self.report(outcome, &Cause::itself("another program", EDITED));
+        }
+        let outcome = edited?;
         let (who, why) = (author.who.clone(), author.why.clone());
         let what = outcome.done.as_ref().map_or_else(String::new, |done| edit.words(done));
         self.publish(&outcome, &Cause { who, why, what });
@@ -132,7 +162,7 @@ impl Desk {
             at: seen.since.clone(),
         };
         self.shared.show(seen);
-        self.shared.say(Event::new("changed", &changed));
+        self.shared.say(Event::changed(changed));
     }
 
     /// Keeps routes that were found anew; `false` where a change has overtaken them.
@@ -163,14 +193,15 @@ impl Desk {
         if let Err(error) = self.check_database() {
             return self.say_problems(Problem::all(error.problems()));
         }
+        self.catch_up();
+    }
+
+    /// Follows the clock and what other programs edited.
+    fn catch_up(&mut self) {
         match self.live.catch_up() {
-            Ok(Some(outcome)) if !outcome.anew => {
-                self.publish(
-                    &outcome,
-                    &Cause::itself("clock", "the time of a fact or of opening hours is over"),
-                );
-            }
-            outcome => self.report(outcome, &Cause::itself("another program", "tables were edited")),
+            Ok(Some(outcome)) => self.publish(&outcome, &Cause::of(&outcome)),
+            Ok(None) => {}
+            Err(error) => self.say_problems(Problem::all(error.problems())),
         }
     }
 

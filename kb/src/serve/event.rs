@@ -3,19 +3,26 @@
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use crate::answer::Answer;
 use crate::error::problem::Problem;
 
 /// Something that happened, as it goes over the stream: its name, and its data as JSON.
 #[derive(Clone, Debug)]
 pub struct Event {
-    /// hello, changed, routes or problems.
+    /// hello, changed, routes, problems or route.
     pub name: &'static str,
     pub data: String,
+    /// What is said, where it is that something changed.
+    pub changed: Option<Changed>,
 }
 
 impl Event {
     pub fn new(name: &'static str, data: &impl Serialize) -> Self {
-        Self { name, data: serde_json::to_string(data).unwrap_or_default() }
+        Self { name, data: serde_json::to_string(data).unwrap_or_default(), changed: None }
+    }
+
+    pub fn changed(changed: Changed) -> Self {
+        Self { changed: Some(changed.clone()), ..Self::new("changed", &changed) }
     }
 }
 
@@ -72,6 +79,21 @@ pub struct RouteCost {
     pub old: Option<f64>,
     /// Hardness of now; null: there is no route.
     pub new: Option<f64>,
+}
+
+/// `route`: the best route of whoever follows one, first and whenever it is another one.
+#[derive(Clone, Debug, Serialize, ToSchema)]
+pub struct Followed {
+    /// Names the follower, so that it can say where it now is: `POST /api/route/follow/{follower}`.
+    pub follower: String,
+    /// What became of the route, and why, for people.
+    pub words: String,
+    /// What the route cost before; null: there was none, or this is the first word.
+    pub cost_before: Option<f64>,
+    /// What was done since the route of before, the newest last; what nobody heard in time is left out.
+    pub changes: Vec<Changed>,
+    /// What `/api/route` answers.
+    pub route: Answer,
 }
 
 /// `problems`: what is wrong with files that were saved; the site goes on with those of before. Empty: mended.

@@ -6,6 +6,7 @@ mod edits;
 mod experience;
 mod extract;
 mod facts;
+mod follow;
 mod history;
 mod map;
 mod queries;
@@ -56,6 +57,8 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(map::map))
         .routes(routes!(map::weights))
         .routes(routes!(route::route))
+        .routes(routes!(follow::follow))
+        .routes(routes!(follow::moved))
         .routes(routes!(tables::tables))
         .routes(routes!(tables::tunings))
         .routes(routes!(edits::edit))
@@ -93,7 +96,7 @@ fn describe(api: &mut OpenApi) {
         "Routes of least hardness through a building, the tables and rules that they follow from, and why. Metres; \
          hardness has no unit. `generation` numbers the state of the knowledge base that an answer rests on. Every \
          answer with a status of 400 or more is a `Failure`. The data of events on `/api/events` are `Hello`, \
-         `Changed`, `Rerouted` and `Problems`."
+         `Changed`, `Rerouted` and `Problems`; those of `route` on `/api/route/follow` are `Followed`."
             .to_owned(),
     );
     let mut parts = api.components.take().unwrap_or_default();
@@ -105,6 +108,7 @@ fn describe(api: &mut OpenApi) {
     add(schemas::<event::Changed>());
     add(schemas::<event::Rerouted>());
     add(schemas::<event::Problems>());
+    add(schemas::<event::Followed>());
     let failure = Content::new(Some(Ref::from_schema_name("Failure")));
     let failure = ResponseBuilder::new().content("application/json", failure).build();
     for path in api.paths.paths.values_mut() {

@@ -21,6 +21,12 @@ const STACK: usize = 16 << 20;
 /// Connections that are open at once; more wait to be accepted.
 const CONNECTIONS: usize = 4_096;
 
+/// Bytes that wait for a reader that is slow, in the program and in the kernel. What waits cannot be taken back: whoever
+/// follows something and lags is to hear how things stand, not how they stood. An address may have 64 kB.
+const UNREAD: usize = 96 << 10;
+#[cfg(target_os = "linux")]
+const UNSENT: u32 = 16 << 10;
+
 /// How long a client may take over the head of a request, and keep an idle connection.
 const HEAD: Duration = Duration::from_secs(30);
 
@@ -48,7 +54,7 @@ pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()>
 async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
     let router = http::router(Arc::clone(shared));
     let mut server = hyper::server::conn::http1::Builder::new();
-    server.timer(TokioTimer::new()).header_read_timeout(HEAD);
+    server.timer(TokioTimer::new()).header_read_timeout(HEAD).max_buf_size(UNREAD);
     let open = GracefulShutdown::new();
     let places = Arc::new(Semaphore::new(CONNECTIONS));
     let mut end = std::pin::pin!(told_to_end());
@@ -65,6 +71,8 @@ async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
             () = &mut end => break,
         };
         stream.set_nodelay(true).ok();
+        #[cfg(target_os = "linux")]
+        socket2::SockRef::from(&stream).set_tcp_notsent_lowat(UNSENT).ok();
         let router = router.clone();
         let service = service_fn(move |request| router.clone().oneshot(request));
         let connection = open.watch(server.serve_connection(TokioIo::new(stream), service));

@@ -4,9 +4,11 @@
 //! made of it is shown here. What a job may touch is the desk, so its type cannot stand apart from both.
 
 use std::collections::BTreeMap;
+use std::num::NonZero;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread;
 use std::time::Duration;
 
 use adit_db::{Store, Tx};
@@ -17,6 +19,7 @@ use tokio::sync::{Semaphore, broadcast, oneshot, watch};
 use super::desk::Desk;
 use super::event::{Event, Problems};
 use super::fault::{Answered, Fault};
+use super::follower::Followers;
 use super::settings::Settings;
 use super::token::Tokens;
 use super::waiting::Waiting;
@@ -46,6 +49,9 @@ pub struct Shared {
     long: Arc<Semaphore>,
     /// Places of questions in SQL.
     queries: Arc<Semaphore>,
+    /// Places of routes that are found anew for whoever follows them.
+    renewals: Arc<Semaphore>,
+    pub followers: Followers,
     jobs: SyncSender<Job>,
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
@@ -94,6 +100,8 @@ impl Shared {
             places: Semaphore::new(settings.requests),
             long: Arc::new(Semaphore::new(LONG)),
             queries: Arc::new(Semaphore::new(QUERIES)),
+            renewals: Arc::new(Semaphore::new(thread::available_parallelism().map_or(1, NonZero::get))),
+            followers: Followers::default(),
             settings,
             jobs,
         }
@@ -146,6 +154,11 @@ impl Shared {
     ) -> Answered<T> {
         let shared = Arc::clone(self);
         at_a_place(&self.queries, move || shared.readers.with(work)).await
+    }
+
+    /// Finds a route anew for whoever follows it; no more at once than there are cores, since an edit concerns all followers.
+    pub async fn renew<T: Send + 'static>(&self, work: impl FnOnce() -> T + Send + 'static) -> Answered<T> {
+        at_a_place(&self.renewals, || Ok(work())).await
     }
 
     /// Closes all connections that read; requests must have ended.

@@ -1,7 +1,5 @@
 //! Routes between any two ends.
 
-use std::sync::Arc;
-
 use axum::Json;
 use axum::extract::RawQuery;
 use axum::http::header;
@@ -9,67 +7,9 @@ use axum::response::{IntoResponse, Response};
 
 use super::extract::Site;
 use crate::answer::Answer;
-use crate::error::Code;
-use crate::live::View;
-use crate::serve::fault::{Answered, Fault};
+use crate::serve::fault::Answered;
+use crate::serve::question::Question;
 use crate::serve::shared::beside;
-
-/// Goals that one question may name.
-const GOALS: usize = 100;
-struct Question {
-    start: String,
-    goals: Vec<String>,
-    robot: Option<String>,
-    within: Option<f64>,
-}
-
-impl Question {
-    fn read(query: &str) -> Answered<Self> {
-        let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
-        for (name, value) in form_urlencoded::parse(query.as_bytes()) {
-            match &*name {
-                "start" => start = Some(value.into_owned()),
-                "goal" => goals.push(value.into_owned()),
-                "robot" => robot = Some(value.into_owned()),
-                "within" => {
-                    let metres = value.parse().map_err(|_| {
-                        Fault::new(
-                            Code::RouteWithin,
-                            format!("`within` is `{value}`, and is a number of metres"),
-                        )
-                    })?;
-                    within = Some(metres);
-                }
-                other => {
-                    let message =
-                        format!("a route has `start`, `goal`, `robot` and `within`, and not `{other}`");
-                    return Err(Fault::new(Code::ServiceQuestion, message));
-                }
-            }
-        }
-        match start {
-            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot, within }),
-            _ => {
-                let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
-                Err(Fault::new(Code::ServiceQuestion, message).helped("/api/route?start=dock&goal=ward%206"))
-            }
-        }
-    }
-
-    /// The answer where it takes microseconds.
-    fn quick(&self, view: &View) -> Answered<Option<Response>> {
-        let text = view.quick_route(&self.start, &self.goals, self.robot.as_deref())?;
-        Ok(text.map(|text| ([(header::CONTENT_TYPE, "application/json")], text).into_response()))
-    }
-
-    fn answer(&self, view: &View) -> Answered<Response> {
-        let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
-        match answer.status.code() {
-            Some(code) => Err(Fault::new(code, answer.reason.unwrap_or_default())),
-            None => Ok(Json(answer).into_response()),
-        }
-    }
-}
 
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
 ///
@@ -84,11 +24,13 @@ impl Question {
     responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
-    let seen = Arc::clone(&site.view.load());
-    let view = seen.view.clone().within(question.within)?;
-    if let Some(response) = question.quick(&view)? {
-        return Ok(response);
+    let seen = site.view.load_full();
+    // over doors it takes microseconds
+    let quick = seen.view.clone().within(question.within)?;
+    let quick = quick.quick_route(&question.start, &question.goals, question.robot.as_deref())?;
+    if let Some(text) = quick {
+        return Ok(([(header::CONTENT_TYPE, "application/json")], text).into_response());
     }
     // over measured rooms it takes milliseconds, and so does the reason why there is no route
-    beside(move || question.answer(&view)).await
+    beside(move || question.answer(&seen.view)).await.map(|answer| Json(answer).into_response())
 }

@@ -1,0 +1,254 @@
+//! A route that is followed: what its follower holds, where it now is, and what it hears when another route is the best.
+
+mod words;
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+use adit_planners::geometry::{Point, Segment};
+use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::watch;
+
+use super::event::{Changed, Event, Followed};
+use super::fault::{Answered, Fault};
+use super::question::Question;
+use super::shared::{Shared, Subscription};
+use super::token::hex;
+use crate::answer::{Answer, Status};
+use crate::error::problem::Problem;
+use crate::error::{Code, Error, Result};
+use crate::graph::{Building, SiteGraph};
+use crate::live::View;
+
+/// Random bytes of a follower's name: whoever knows it may say where the follower is.
+const BYTES: usize = 16;
+
+/// Changes that one word about a route names; of more the newest.
+const NAMED: usize = 20;
+
+/// How long the word about a change may be behind the site that shows it.
+const BEHIND: Duration = Duration::from_millis(200);
+
+/// Who follows routes now, by name.
+#[derive(Default)]
+pub struct Followers(Mutex<BTreeMap<String, Known>>);
+
+/// What others may ask of a follower, and tell it.
+#[derive(Clone)]
+struct Known {
+    question: Arc<Question>,
+    held: Arc<watch::Sender<Arc<Held>>>,
+}
+
+/// The route that a follower holds.
+pub struct Held {
+    answer: Arc<Answer>,
+    /// Where something is closed to its robot, and the sentence that says so.
+    closed: Vec<(Segment, String)>,
+}
+
+/// A stream's side of it. Its name goes with it.
+pub struct Follower {
+    shared: Arc<Shared>,
+    name: String,
+    question: Arc<Question>,
+    subscription: Subscription,
+    held: Arc<Held>,
+    moved: watch::Receiver<Arc<Held>>,
+    /// What was heard last.
+    changes: VecDeque<Changed>,
+    /// The newest state of which it was heard.
+    heard: u64,
+}
+
+impl Followers {
+    fn all(&self) -> MutexGuard<'_, BTreeMap<String, Known>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A follower is elsewhere by now: the route from there, which it holds from now on.
+    pub fn moves(&self, name: &str, view: &View, to: Point) -> Answered<Arc<Answer>> {
+        let known = self.all().get(name).cloned().ok_or_else(|| {
+            Fault::new(Code::FollowUnknown, "nobody of this name follows a route")
+                .helped("open the stream anew, from where the robot now is")
+        })?;
+        let question = Question {
+            start: format!("{},{}", to.x, to.y),
+            goals: known.question.goals.clone(),
+            robot: known.question.robot.clone(),
+            within: known.question.within,
+        };
+        let held = Held::of(question.answer(view)?, view.graph());
+        let answer = Arc::clone(&held.answer);
+        known.held.send_replace(Arc::new(held));
+        Ok(answer)
+    }
+}
+
+impl Held {
+    fn of(answer: Answer, graph: &SiteGraph) -> Self {
+        let building = &graph.building;
+        let doorways = building
+            .closed()
+            .map(|doorway| (Building::segment(doorway), building.why_closed(doorway.doorway)));
+        let lines = building.lines.iter().filter(|line| line.whom.holds_for(&answer.robot)).map(|line| {
+            let [x0, y0, x1, y1] = line.segment;
+            (Segment::new(Point::new(x0, y0), Point::new(x1, y1)), building.why_told_closed(line))
+        });
+        Self { closed: doorways.chain(lines).collect(), answer: Arc::new(answer) }
+    }
+
+    /// The route from the same place as the site now is. Where its ends are none any more, that is why there is no way.
+    fn renewed(&self, question: &Question, view: &View) -> Self {
+        let Answer { start, robot, .. } = &*self.answer;
+        let found = view.clone().within(question.within);
+        let found = found.and_then(|view| view.route(start, &question.goals, Some(robot)));
+        let answer = found.unwrap_or_else(|error| {
+            let why = Problem::all(error.problems()).into_iter().next();
+            let (reason, nearest) = why.map_or((None, None), |why| (Some(why.message), why.nearest));
+            let blank = Answer::blank(robot, start, &question.goals, view.generation());
+            Answer { status: Status::NoRoute, reason, nearest, ..blank }
+        });
+        Self::of(answer, view.graph())
+    }
+
+    /// Whether it is the same route, whatever became of the rest of the site.
+    fn is_same(&self, now: &Self) -> bool {
+        Answer { generation: now.answer.generation, ..(*self.answer).clone() } == *now.answer
+    }
+
+    /// Whether its way passes a segment.
+    fn passes(&self, segment: &Segment) -> bool {
+        let point = |index: usize| {
+            let at = &self.answer.waypoints[index];
+            Point::new(at.x, at.y)
+        };
+        (1..self.answer.waypoints.len())
+            .any(|index| Segment::new(point(index - 1), point(index)).gap(segment) < 1e-6)
+    }
+}
+
+impl Follower {
+    /// Whoever asks, at a place among the subscribers; with the first word.
+    pub fn new(
+        shared: &Arc<Shared>,
+        subscription: Subscription,
+        question: Question,
+        view: &View,
+    ) -> Answered<(Self, Arc<Event>)> {
+        let answer = question.answer(view)?;
+        // whose route it is does not change when other robots come
+        let question = Arc::new(Question { robot: Some(answer.robot.clone()), ..question });
+        let held = Arc::new(Held::of(answer, view.graph()));
+        let name = name()?;
+        let (sender, moved) = watch::channel(Arc::clone(&held));
+        let known = Known { question: Arc::clone(&question), held: Arc::new(sender) };
+        shared.followers.all().insert(name.clone(), known);
+        let follower = Self {
+            shared: Arc::clone(shared),
+            name,
+            question,
+            subscription,
+            held,
+            moved,
+            changes: VecDeque::new(),
+            heard: view.generation(),
+        };
+        let first = follower.word(words::first(&follower.held.answer), None, Vec::new());
+        Ok((follower, first))
+    }
+
+    /// Waits until another route is the best: the word about it. `None` where the service ends.
+    pub async fn next(&mut self) -> Option<Arc<Event>> {
+        loop {
+            tokio::select! {
+                event = self.subscription.events.recv() => match event {
+                    Ok(event) => self.hear(&event),
+                    // who lags hears of the newest state, and of no more changes than there is place for
+                    Err(RecvError::Lagged(_)) => {}
+                    Err(RecvError::Closed) => return None,
+                },
+                // the route from there was the answer to whoever said so
+                _ = self.moved.changed() => {}
+            }
+            if let Some(word) = self.renew().await {
+                return Some(word);
+            }
+        }
+    }
+
+    /// Finds the route anew where the site is another one by now; a word where it is another route.
+    async fn renew(&mut self) -> Option<Arc<Event>> {
+        let seen = self.shared.view.load_full();
+        self.hear_up_to(seen.view.generation()).await;
+        self.held = Arc::clone(&self.moved.borrow_and_update());
+        if self.held.answer.generation == seen.view.generation() {
+            return None;
+        }
+        let (held, question) = (Arc::clone(&self.held), Arc::clone(&self.question));
+        let found = self.shared.renew(move || held.renewed(&question, &seen.view)).await;
+        let now = Arc::new(found.ok()?);
+        let before = std::mem::replace(&mut self.held, Arc::clone(&now));
+        let is_kept = self.shared.followers.all().get(&self.name).is_some_and(|known| {
+            known.held.send_if_modified(|held| {
+                // who has moved meanwhile holds the route from there
+                let is_here = Arc::ptr_eq(held, &before);
+                if is_here {
+                    *held = Arc::clone(&now);
+                }
+                is_here
+            })
+        });
+        if !is_kept || before.is_same(&now) {
+            return None;
+        }
+        let meanwhile = before.answer.generation + 1..=now.answer.generation;
+        let changes = self.changes.iter().filter(|change| meanwhile.contains(&change.generation));
+        let changes: Vec<Changed> = changes.cloned().collect();
+        let words = words::changed(&before, &now, &changes);
+        Some(self.word(words, before.answer.cost, changes))
+    }
+
+    fn word(&self, words: String, cost_before: Option<f64>, changes: Vec<Changed>) -> Arc<Event> {
+        let (follower, route) = (self.name.clone(), (*self.held.answer).clone());
+        Arc::new(Event::new("route", &Followed { follower, words, cost_before, changes, route }))
+    }
+
+    fn hear(&mut self, event: &Event) {
+        let Some(changed) = &event.changed else { return };
+        self.heard = changed.generation;
+        if self.changes.len() == NAMED {
+            self.changes.pop_front();
+        }
+        self.changes.push_back(changed.clone());
+    }
+
+    /// Hears all that was said, at least up to a state that is shown already: why it is so is said right after.
+    async fn hear_up_to(&mut self, generation: u64) {
+        loop {
+            let next = self.subscription.events.recv();
+            // what is there already comes at once, and nothing else is waited for
+            let patience = if self.heard < generation { BEHIND } else { Duration::ZERO };
+            match tokio::time::timeout(patience, next).await {
+                Ok(Ok(event)) => self.hear(&event),
+                Ok(Err(RecvError::Lagged(_))) => {}
+                Ok(Err(RecvError::Closed)) | Err(_) => return,
+            }
+        }
+    }
+}
+
+impl Drop for Follower {
+    fn drop(&mut self) {
+        self.shared.followers.all().remove(&self.name);
+    }
+}
+
+/// A name that nobody guesses.
+fn name() -> Result<String> {
+    let mut bytes = [0; BYTES];
+    getrandom::fill(&mut bytes)
+        .map_err(|error| Error::said(Code::TokensRandom, format!("no random numbers: {error}"), None))?;
+    Ok(hex(&bytes))
+}

@@ -1,0 +1,61 @@
+//! What a question for a route says behind its question mark.
+
+use crate::answer::Answer;
+use crate::error::Code;
+use crate::live::View;
+use crate::serve::fault::{Answered, Fault};
+
+/// Goals that one question may name.
+const GOALS: usize = 100;
+
+/// From where, where to, whose, and how far an end may be moved.
+pub struct Question {
+    pub start: String,
+    pub goals: Vec<String>,
+    pub robot: Option<String>,
+    pub within: Option<f64>,
+}
+
+impl Question {
+    pub fn read(query: &str) -> Answered<Self> {
+        let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
+        for (name, value) in form_urlencoded::parse(query.as_bytes()) {
+            match &*name {
+                "start" | "from" => start = Some(value.into_owned()),
+                "goal" | "to" => goals.push(value.into_owned()),
+                "robot" => robot = Some(value.into_owned()),
+                "within" => {
+                    let metres = value.parse().map_err(|_| {
+                        Fault::new(
+                            Code::RouteWithin,
+                            format!("`within` is `{value}`, and is a number of metres"),
+                        )
+                    })?;
+                    within = Some(metres);
+                }
+                other => {
+                    let message =
+                        format!("a route has `start`, `goal`, `robot` and `within`, and not `{other}`");
+                    return Err(Fault::new(Code::ServiceQuestion, message));
+                }
+            }
+        }
+        match start {
+            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot, within }),
+            _ => {
+                let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
+                Err(Fault::new(Code::ServiceQuestion, message).helped("/api/route?start=dock&goal=ward%206"))
+            }
+        }
+    }
+
+    /// The route; where an end is nothing, what is wrong with the question.
+    pub fn answer(&self, view: &View) -> Answered<Answer> {
+        let view = view.clone().within(self.within)?;
+        let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
+        match answer.status.code() {
+            Some(code) => Err(Fault::new(code, answer.reason.unwrap_or_default())),
+            None => Ok(answer),
+        }
+    }
+}
