@@ -224,13 +224,10 @@ impl Follower {
         self.changes.push_back(changed.clone());
     }
 
-    /// Hears all that was said, at least up to a state that is shown already: why it is so is said right after.
+    /// Hears why the site is as it is shown: that is said right after. What is newer is left, and heard in its turn.
     async fn hear_up_to(&mut self, generation: u64) {
-        loop {
-            let next = self.subscription.events.recv();
-            // what is there already comes at once, and nothing else is waited for
-            let patience = if self.heard < generation { BEHIND } else { Duration::ZERO };
-            match tokio::time::timeout(patience, next).await {
+        while self.heard < generation {
+            match tokio::time::timeout(BEHIND, self.subscription.events.recv()).await {
                 Ok(Ok(event)) => self.hear(&event),
                 Ok(Err(RecvError::Lagged(_))) => {}
                 Ok(Err(RecvError::Closed)) | Err(_) => return,

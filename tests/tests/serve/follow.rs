@@ -5,13 +5,16 @@ use std::time::{Duration, Instant};
 
 use adit_tests::TestSite;
 use adit_tests::oracle::random::Chance;
-use adit_tests::service::{Events, Service};
+use adit_tests::service::Service;
 use serde_json::{Value, json};
 
 use crate::{hardness, served};
 
 /// How soon after an edit a follower holds the route that is the best since.
 const SOON: Duration = Duration::from_millis(500);
+
+/// What is not heard of by then is missed.
+const MISSED: Duration = Duration::from_secs(5);
 
 /// The way that most tests follow.
 const WAY: &str = "start=dock&goal=ward%2012";
@@ -211,7 +214,7 @@ fn a_follower_that_reads_late_hears_of_the_newest_route_soon() {
     let heard = follower.heard("route");
     let mut words = 0;
     loop {
-        let (_, event) = heard.recv_timeout(Duration::from_secs(5)).unwrap();
+        let (_, event) = heard.recv_timeout(MISSED).unwrap();
         words += 1;
         if route(&event["route"]) == now {
             break;
@@ -226,64 +229,61 @@ fn a_follower_of_random_closings_always_holds_the_best_route() {
     let (site, service) = served("clinic");
     let delays = follow_closings(&site, &service, (WAY, 60, 1));
     assert!(delays.len() > 20, "{} of the closings changed the route", delays.len());
+    let soon = delays.iter().filter(|delay| **delay < SOON).count();
+    assert!(soon * 2 > delays.len(), "{soon} of {} were heard of soon", delays.len());
 }
 
+/// On a machine that has nothing else to do.
 #[test]
 #[ignore = "minutes; cargo test --workspace --test serve thousand -- --ignored --nocapture"]
 fn followers_of_a_thousand_random_closings_always_hold_the_best_route() {
-    for (example, question, seed) in [("clinic", WAY, 2), ("paper", "start=f&goal=e", 3), ("hospital", "", 4)]
-    {
+    for (example, question, seed) in [("clinic", WAY, 2), ("hospital", "start=dock&goal=ward%206", 3)] {
         let (site, service) = served(example);
-        let places = site.sqlite3("SELECT place FROM places ORDER BY place");
-        let between = |place: &str| place.replace(' ', "%20");
-        let any = format!("start={}&goal={}", between(&places[0]), between(&places[places.len() - 1]));
-        let question = if question.is_empty() { any.as_str() } else { question };
         let mut delays = follow_closings(&site, &service, (question, 1_000, seed));
         delays.sort();
         let at = |share: usize| delays[(delays.len() - 1) * share / 100].as_secs_f64() * 1e3;
         println!(
-            "{example}: 1,000 closings, {} other routes, heard after {:.1} ms (median), {:.1} ms (p99), {:.1} ms (most)",
+            "{example}: 1,000 closings, {} other routes, heard {:.1} ms (median), {:.1} ms (p99), {:.1} ms (most) \
+             after the edit was made",
             delays.len(),
             at(50),
             at(99),
             at(100)
         );
+        assert!(at(100) < SOON.as_secs_f64() * 1e3);
     }
 }
 
 /// Closes and opens doorways at random, and compares what the follower holds with what the service answers; how long after
-/// the edit was sent it was heard, where it was another route.
+/// the edit was answered the follower heard of it, where it led to another route.
 fn follow_closings(
     site: &TestSite,
     service: &Service,
     (question, count, seed): (&str, usize, u64),
 ) -> Vec<Duration> {
     let all = site.sqlite3("SELECT coalesce(name, 'doorway ' || doorway) FROM doorways ORDER BY doorway");
-    let follower: Events = service.follow(question);
-    let heard = follower.heard("route");
-    let (_, first) = heard.recv_timeout(Duration::from_secs(5)).unwrap();
+    let heard = service.follow(question).heard("route");
+    let (_, first) = heard.recv_timeout(MISSED).unwrap();
     let mut held = route(&first["route"]);
     let mut chance = Chance::new(seed);
     let (mut closed, mut delays): (Vec<String>, Vec<Duration>) = (Vec::new(), Vec::new());
     for round in 0..count {
-        let sent = Instant::now();
         let passed = doorways(&held);
-        if !closed.is_empty() && (held["status"] == "no_route" || chance.is(0.3 + closed.len() as f64 / 50.0))
-        {
-            let what = closed.remove(chance.below(closed.len()));
-            open(service, &what);
+        let is_shut = held["status"] == "no_route";
+        if !closed.is_empty() && (is_shut || chance.is(0.3 + closed.len() as f64 / 50.0)) {
+            open(service, &closed.remove(chance.below(closed.len())));
         } else {
             let on_way = !passed.is_empty() && chance.is(0.8);
             let from = if on_way { &passed } else { &all };
             let what = from[chance.below(from.len())].clone();
             close(service, &what);
-            if !closed.contains(&what) {
-                closed.push(what);
-            }
+            closed.retain(|known| *known != what);
+            closed.push(what);
         }
+        let made = Instant::now();
         let now = asked(service, question);
-        if let Some(came) = hold(&heard, &mut held, &now, sent) {
-            delays.push(came);
+        if let Some(at) = hold(&heard, &mut held, &now) {
+            delays.push(at.saturating_duration_since(made));
         }
         assert_eq!(held, now, "round {round}: {closed:?} is closed");
     }
@@ -291,20 +291,14 @@ fn follow_closings(
 }
 
 /// Hears until the route that is held is that of now; when it was. What is heard is another route than before.
-fn hold(
-    heard: &Receiver<(Instant, Value)>,
-    held: &mut Value,
-    now: &Value,
-    sent: Instant,
-) -> Option<Duration> {
+fn hold(heard: &Receiver<(Instant, Value)>, held: &mut Value, now: &Value) -> Option<Instant> {
     let mut came = None;
     while held != now {
-        let left = (sent + SOON).saturating_duration_since(Instant::now());
-        let (at, event) = heard.recv_timeout(left).expect("another route is heard of in time");
+        let (at, event) = heard.recv_timeout(MISSED).expect("another route is heard of");
         assert_ne!(route(&event["route"]), *held, "the same route is heard of twice: {}", event["words"]);
         assert!(!event["changes"].as_array().unwrap().is_empty(), "{}", event["words"]);
         *held = route(&event["route"]);
-        came = Some(at.saturating_duration_since(sent));
+        came = Some(at);
     }
     came
 }
