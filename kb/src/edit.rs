@@ -13,6 +13,7 @@ use crate::knowledge::tunings;
 
 mod cells;
 mod close;
+mod errand;
 mod lay;
 mod place;
 pub mod rehearse;
@@ -23,6 +24,7 @@ mod words;
 pub(crate) use cells::TUNABLE;
 use cells::{cell, cell_of, columns, explain, row};
 pub use close::Close;
+pub use errand::Errand;
 pub use lay::{Lay, Thing};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;

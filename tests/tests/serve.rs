@@ -9,6 +9,8 @@ mod described;
 mod disk;
 #[path = "serve/edits.rs"]
 mod edits;
+#[path = "serve/errands.rs"]
+mod errands;
 #[path = "serve/events.rs"]
 mod events;
 #[path = "serve/failures.rs"]

@@ -6,6 +6,7 @@ use super::args::WayArgs;
 use super::build::open;
 use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};
+use crate::edit::Errand;
 use crate::error::{Code, Result};
 
 #[derive(Args, Debug)]
@@ -21,6 +22,12 @@ pub struct RouteArgs {
     /// Move a start or goal at which the robot fits in no state by up to so many metres, to the nearest point
     #[arg(long, value_name = "METRES", allow_negative_numbers = true)]
     pub within: Option<f64>,
+    /// Keep away from a doorway, a space, an area, a kind of area or a point `x,y` on this way, as often as you like
+    #[arg(long, value_name = "NAME", allow_hyphen_values = true)]
+    pub avoid: Vec<String>,
+    /// What the robot carries on this way
+    #[arg(long, value_name = "NAME")]
+    pub load: Option<String>,
     /// The route as it would be at this time: `2026-11-21T18:00`, `18:00`, `2h`
     #[arg(long, value_name = "TIME")]
     pub at: Option<String>,
@@ -30,7 +37,13 @@ pub struct RouteArgs {
 pub fn run(args: &RouteArgs) -> Result<u8> {
     let goals: Vec<String> = std::iter::once(&args.way.goal).chain(&args.others).cloned().collect();
     let knowledge = open(&args.way.site)?.at(args.at.as_deref())?.within(args.within)?;
-    let answer = knowledge.route_to_nearest(&args.way.start, &goals, args.way.robot.as_deref())?;
+    let errand = Errand { avoid: args.avoid.clone(), load: args.load.clone(), at: args.at.clone() };
+    let (start, robot) = (&args.way.start, args.way.robot.as_deref());
+    let answer = if args.avoid.is_empty() && args.load.is_none() {
+        knowledge.route_to_nearest(start, &goals, robot)?
+    } else {
+        knowledge.route_on_errand(&errand, (start, &goals), robot)?
+    };
     for lost in knowledge.lost()? {
         remark(&format!("note: {lost}"));
     }

@@ -34,6 +34,12 @@ impl Laid {
         self.0.is_empty()
     }
 
+    /// What lay over the map then and does no longer, in sentences.
+    pub fn ended_since(&self, before: &Self) -> impl Iterator<Item = String> {
+        let gone = before.0.iter().filter(|item| self.0.iter().all(|known| known.name != item.name));
+        gone.map(|item| format!("{} has ended", item.name))
+    }
+
     /// Lays all of it over a map. What does not fit there any more counts for nothing, and is said.
     pub fn over(&self, world: &World) -> (World, Vec<String>) {
         let (mut laid, mut notes) = (world.clone(), Vec::new());

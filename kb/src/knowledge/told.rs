@@ -158,6 +158,7 @@ impl Told {
     pub fn ended_since(&self, before: &Self) -> Vec<String> {
         let is_new = |fact: &&Fact| self.expired.contains(&fact.id);
         let facts = before.facts.iter().filter(is_new).map(|fact| format!("{} has ended", fact.name()));
+        let laid = self.laid.ended_since(&before.laid);
         let hours = |told: &Self| -> BTreeMap<String, bool> {
             let hours = told.classes.get("HOURS");
             match hours.map(|hours| (hours.column("name"), hours.column("open"))) {
@@ -174,7 +175,7 @@ impl Told {
         let turned = turned.map(|(name, open)| {
             format!("`{name}` is {} by its hours", if *open { "open" } else { "closed" })
         });
-        facts.chain(turned).collect()
+        facts.chain(laid).chain(turned).collect()
     }
 
     /// The facts about a class.

@@ -7,11 +7,12 @@ use std::sync::Arc;
 use adit_db::history::Author;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
+use adit_engine::RuleBase;
 
 use super::memory::Memory;
 use super::report::Report;
 use crate::answer::{Answer, Basis, Ground, Status, pick_robot};
-use crate::edit::{Done, Edit};
+use crate::edit::{Done, Edit, Errand};
 use crate::error::{Code, Error, Finding, Result};
 use crate::graph::gauge::sizes_of;
 use crate::graph::{Rules, SiteGraph};
@@ -117,15 +118,34 @@ impl KnowledgeBase {
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         if self.asks_about_another_moment() {
-            return self.rehearsed(|tx| self.answer(tx, start, goals, robot));
+            return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, start, goals, robot));
         }
         self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
     }
 
-    /// Does `work` on what would be derived now, and takes all of it back.
-    pub(crate) fn rehearsed<T>(&self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
+    /// As [`route_to_nearest`](Self::route_to_nearest), for an errand; the site is left as it is.
+    pub fn route_on_errand(
+        &self,
+        errand: &Errand,
+        (start, goals): (&str, &[String]),
+        robot: Option<&str>,
+    ) -> Result<Answer> {
+        // names are those of the last build
+        drop(self.fresh()?);
+        let then = self.clone().at(errand.at.as_deref())?;
+        let tell = |tx: &mut Tx<'_>, rules: &RuleBase| errand.tell(tx, (&then, rules), robot);
+        then.rehearsed(tell, |tx| then.answer(tx, start, goals, robot))
+    }
+
+    /// Does `work` on what would be derived now, after something is told, and takes all of it back.
+    fn rehearsed<T>(
+        &self,
+        tell: impl FnOnce(&mut Tx<'_>, &RuleBase) -> Result<()>,
+        work: impl FnOnce(&mut Tx<'_>) -> Result<T>,
+    ) -> Result<T> {
         let inputs = self.inputs(&crate::words::progress::Silent)?;
         Store::open(self.database())?.rehearse(|tx| {
+            tell(tx, &inputs.rules)?;
             Memory::build(tx, &self.shared(), &inputs, &crate::words::progress::Silent)?;
             work(tx)
         })

@@ -16,6 +16,7 @@ use super::question::Question;
 use super::shared::{Shared, Subscription};
 use super::token::hex;
 use crate::answer::{Answer, Status};
+use crate::edit::Errand;
 use crate::error::problem::Problem;
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, SiteGraph};
@@ -78,6 +79,7 @@ impl Followers {
             goals: known.question.goals.clone(),
             robot: known.question.robot.clone(),
             within: known.question.within,
+            errand: Errand::default(),
         };
         let held = Held::of(question.answer(view)?, view.graph());
         let answer = Arc::clone(&held.answer);

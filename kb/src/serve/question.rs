@@ -1,12 +1,17 @@
 //! What a question for a route says behind its question mark.
 
 use crate::answer::Answer;
-use crate::error::Code;
+use crate::edit::Errand;
+use crate::error::{Code, Result};
 use crate::live::View;
 use crate::serve::fault::{Answered, Fault};
+use crate::state::State;
 
 /// Goals that one question may name.
 const GOALS: usize = 100;
+
+/// What one errand may keep away from.
+const AVOIDED: usize = 100;
 
 /// From where, where to, whose, and how far an end may be moved.
 pub struct Question {
@@ -14,11 +19,13 @@ pub struct Question {
     pub goals: Vec<String>,
     pub robot: Option<String>,
     pub within: Option<f64>,
+    pub errand: Errand,
 }
 
 impl Question {
     pub fn read(query: &str) -> Answered<Self> {
         let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
+        let mut errand = Errand::default();
         for (name, value) in form_urlencoded::parse(query.as_bytes()) {
             match &*name {
                 "start" | "from" => start = Some(value.into_owned()),
@@ -33,15 +40,25 @@ impl Question {
                     })?;
                     within = Some(metres);
                 }
+                "avoid" => errand.avoid.push(value.into_owned()),
+                "load" => errand.load = Some(value.into_owned()),
+                "at" => errand.at = Some(value.into_owned()),
                 other => {
-                    let message =
-                        format!("a route has `start`, `goal`, `robot` and `within`, and not `{other}`");
+                    let message = format!(
+                        "a route has `start`, `goal`, `robot`, `within`, `avoid`, `load` and `at`, and not `{other}`"
+                    );
                     return Err(Fault::new(Code::ServiceQuestion, message));
                 }
             }
         }
+        if errand.avoid.len() > AVOIDED {
+            let message = format!("a route has `avoid` up to {AVOIDED} times");
+            return Err(Fault::new(Code::ServiceQuestion, message));
+        }
         match start {
-            Some(start) if (1..=GOALS).contains(&goals.len()) => Ok(Self { start, goals, robot, within }),
+            Some(start) if (1..=GOALS).contains(&goals.len()) => {
+                Ok(Self { start, goals, robot, within, errand })
+            }
             _ => {
                 let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");
                 Err(Fault::new(Code::ServiceQuestion, message).helped("/api/route?start=dock&goal=ward%206"))
@@ -49,13 +66,23 @@ impl Question {
         }
     }
 
-    /// The route; where an end is nothing, what is wrong with the question.
+    /// The route where the errand is as any other; where an end is nothing, what is wrong with the question.
     pub fn answer(&self, view: &View) -> Answered<Answer> {
         let view = view.clone().within(self.within)?;
-        let answer = view.route(&self.start, &self.goals, self.robot.as_deref())?;
-        match answer.status.code() {
-            Some(code) => Err(Fault::new(code, answer.reason.unwrap_or_default())),
-            None => Ok(answer),
-        }
+        checked(view.route(&self.start, &self.goals, self.robot.as_deref())?)
+    }
+
+    /// The route on an errand of its own, on a copy of what is known.
+    pub fn answer_on_errand(&self, fork: State) -> Result<Answer> {
+        let robot = self.robot.as_deref();
+        fork.within(self.within)?.on_errand(&self.errand, robot)?.route(&self.start, &self.goals, robot)
+    }
+}
+
+/// An answer; where an end is nothing, what is wrong with the question.
+pub fn checked(answer: Answer) -> Answered<Answer> {
+    match answer.status.code() {
+        Some(code) => Err(Fault::new(code, answer.reason.unwrap_or_default())),
+        None => Ok(answer),
     }
 }

@@ -88,7 +88,7 @@ fn a_follower_hears_what_changed_and_why() {
     says(&follower.next("route"), &["there is a way again", "ward 12 is open (mopped)"]);
     open(&service, &door);
     let last = follower.next("route");
-    says(&last, &["another way", "is not closed any more"]);
+    says(&last, &["another way", "no longer: doorway "]);
     assert_eq!(route(&last["route"]), route(&first["route"]), "to the bit");
     // the same way, at another price
     let (_, edited) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 4.1)));
@@ -152,7 +152,7 @@ fn a_closing_that_ends_by_itself_is_heard_when_it_ends() {
     let again = follower.next("route");
     let late = Instant::now().saturating_duration_since(ends);
     assert!(late < SOON, "{late:?}");
-    says(&again, &["clock: fact 1 (DOORWAYS ", "closed = true) has ended", "is not closed any more"]);
+    says(&again, &["clock: fact 1 (DOORWAYS ", "closed = true) has ended", "no longer: doorway "]);
     assert_eq!(route(&again["route"]), route(&first["route"]));
 }
 

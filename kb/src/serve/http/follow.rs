@@ -14,6 +14,7 @@ use utoipa::ToSchema;
 use super::extract::{Body, Named, Site};
 use super::stream::{Over, sent};
 use crate::answer::Answer;
+use crate::error::Code;
 use crate::serve::event::Event;
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::follower::Follower;
@@ -37,6 +38,10 @@ pub async fn follow(
     headers: HeaderMap,
 ) -> Answered<impl IntoResponse> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
+    if !question.errand.is_none() {
+        let message = "a route that is followed has no `avoid`, `load` or `at`";
+        return Err(Fault::new(Code::ServiceQuestion, message).helped("ask `/api/route` for one errand"));
+    }
     let subscription = site.subscribe().ok_or_else(Fault::busy)?;
     // subscribed before the state is read, so that no change falls between both
     let seen = site.view.load_full();

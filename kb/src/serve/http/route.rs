@@ -8,10 +8,13 @@ use axum::response::{IntoResponse, Response};
 use super::extract::Site;
 use crate::answer::Answer;
 use crate::serve::fault::Answered;
-use crate::serve::question::Question;
+use crate::serve::question::{Question, checked};
 use crate::serve::shared::beside;
 
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
+///
+/// With `avoid`, `load` or `at` it is that of one errand, on a copy of the site: nothing is saved, and nobody else is led
+/// otherwise.
 ///
 /// What was edited or told before is known to it, also where routes kept in the database have yet to follow.
 #[utoipa::path(get, path = "/api/route", tag = "routes",
@@ -20,10 +23,18 @@ use crate::serve::shared::beside;
         ("goal" = String, Query, description = "A place, a room or `x,y`; may stand several times"),
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
         ("within" = Option<f64>, Query, description = "Metres by which a start or goal at which no state fits may be moved, to the nearest point at which one does; the answer's `taken` says where"),
+        ("avoid" = Option<String>, Query, description = "A doorway, a space, an area, a kind of area or a point `x,y` that is closed to this errand alone; may stand several times"),
+        ("load" = Option<String>, Query, description = "What the robot carries on this errand"),
+        ("at" = Option<String>, Query, description = "When the errand is: `18:00`, `2h`, `2026-11-21T18:00`; facts that end and opening hours are as they are then"),
     ),
     responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
+    if !question.errand.is_none() {
+        let fork = site.fork().await?;
+        let answer = site.at_length(move || question.answer_on_errand(fork)).await?;
+        return checked(answer).map(|answer| Json(answer).into_response());
+    }
     let seen = site.view.load_full();
     // over doors it takes microseconds
     let quick = seen.view.clone().within(question.within)?;

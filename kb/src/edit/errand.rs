@@ -1,0 +1,83 @@
+//! What holds for one errand only: what a robot keeps away from, what it carries, and when. Nothing of it is kept.
+
+use std::sync::Arc;
+
+use adit_db::{Store, Tx};
+use adit_engine::RuleBase;
+use adit_planners::facts::Column;
+
+use super::{Close, Edit};
+use crate::error::Result;
+use crate::knowledge::KnowledgeBase;
+use crate::knowledge::tables;
+use crate::state::{Nothing, State};
+use crate::words::progress::Silent;
+
+/// What holds for one errand only.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Errand {
+    /// What is closed to it: as edits close it, by name or at a point; or all areas of a kind.
+    pub avoid: Vec<String>,
+    /// What the robot carries.
+    pub load: Option<String>,
+    /// When it is, as [`KnowledgeBase::moment`] reads times.
+    pub at: Option<String>,
+}
+
+impl Errand {
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Has tables and facts say it, in a transaction that is taken back.
+    pub(crate) fn tell(
+        &self,
+        tx: &mut Tx<'_>,
+        (site, rules): (&KnowledgeBase, &RuleBase),
+        robot: Option<&str>,
+    ) -> Result<()> {
+        let mut edits = Vec::new();
+        for what in &self.avoid {
+            let closed = of_kind(tx, what)?.into_iter();
+            edits.extend(closed.map(|what| Edit::Close(Close { what, ..Close::default() })));
+        }
+        if let Some(load) = &self.load {
+            let key = robot.map_or_else(|| load.clone(), |robot| format!("{robot}/{load}"));
+            edits.push(Edit::Set("loads".to_owned(), key, "carried".to_owned(), "1".to_owned()));
+        }
+        for edit in edits {
+            edit.apply(tx, site, rules, &KnowledgeBase::nobody())?;
+        }
+        Ok(())
+    }
+}
+
+impl State {
+    /// As it is for an errand of a robot.
+    pub fn on_errand(mut self, errand: &Errand, robot: Option<&str>) -> Result<Self> {
+        if errand.at.is_some() {
+            self.site = KnowledgeBase::clone(&self.site).at(errand.at.as_deref())?.shared();
+        }
+        let (site, rules) = (Arc::clone(&self.site), &self.inputs.rules);
+        let told = Store::open(site.database())?.rehearse(|tx: &mut Tx<'_>| {
+            errand.tell(tx, (&site, rules), robot)?;
+            site.told(tx, rules)
+        })?;
+        let step = self.step(told, &mut Nothing, &Silent)?;
+        self.accept(step);
+        Ok(self)
+    }
+}
+
+/// The areas of a kind; of what is none, or has that name itself, only that.
+fn of_kind(tx: &mut Tx<'_>, what: &str) -> Result<Vec<String>> {
+    let areas = tables::kept(tx, "areas")?;
+    let (Some(Column::Text(names)), Some(Column::Text(kinds))) = (areas.column("area"), areas.column("kind"))
+    else {
+        return Ok(vec![what.to_owned()]);
+    };
+    let is_name = names.iter().flatten().any(|name| name == what);
+    let of_kind = names.iter().zip(kinds).filter(|(_, kind)| kind.as_deref() == Some(what));
+    let of_kind: Vec<String> = of_kind.filter_map(|(name, _)| name.clone()).collect();
+    Ok(if is_name || of_kind.is_empty() { vec![what.to_owned()] } else { of_kind })
+}

@@ -1,0 +1,96 @@
+//! What holds for one errand only: what is avoided, what is carried, and when. The site stays as it is.
+
+use adit_tests::TestSite;
+use adit_tests::service::Service;
+use serde_json::{Value, json};
+
+use crate::served;
+
+const WAY: &str = "start=dock&goal=ward%2012";
+
+fn asked(service: &Service, question: &str) -> Value {
+    let (status, answer) = service.ask("GET", &format!("/api/route?{question}"), None);
+    assert_eq!(status, 200, "{answer}");
+    answer
+}
+
+/// A route, whatever state of the site it rests on.
+fn way(answer: &Value) -> [&Value; 4] {
+    ["status", "cost", "steps", "waypoints"].map(|part| &answer[part])
+}
+
+fn edit(service: &Service, edit: &Value) {
+    let (status, answer) = service.ask("POST", "/api/edits", Some(&json!({"edit": edit})));
+    assert_eq!(status, 200, "{answer}");
+}
+
+#[test]
+fn what_one_errand_avoids_is_closed_to_it_and_open_to_everybody_else() {
+    let (site, service) = served("clinic");
+    let before = asked(&service, WAY);
+    let doorways = before["steps"].as_array().unwrap().iter().filter_map(|step| step["doorway"].as_str());
+    // the first and the last are the only ones of their rooms
+    let doorway = doorways.clone().nth(1).unwrap();
+    for (what, status) in [(doorway, "ok"), ("ward 12", "no_route"), ("hall 19", "no_route")] {
+        let generation = asked(&service, WAY)["generation"].clone();
+        let avoided = asked(&service, &format!("{WAY}&avoid={}", what.replace(' ', "%20")));
+        assert_eq!((&avoided["generation"], &avoided["status"]), (&generation, &json!(status)), "{what}");
+        assert_eq!(way(&asked(&service, WAY)), way(&before), "nothing of it is kept");
+        edit(&service, &json!({"kind": "close", "what": what}));
+        assert_eq!(way(&avoided), way(&asked(&service, WAY)), "{what} is avoided as it is closed");
+        edit(&service, &json!({"kind": "undo"}));
+    }
+    let all = format!("{WAY}&avoid={}&avoid=ward%2012", doorway.replace(' ', "%20"));
+    assert_eq!(asked(&service, &all)["status"], "no_route");
+    let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&avoid=triagge"), None);
+    assert_eq!((status, &refused["error"]["help"]), (404, &json!("did you mean `triage`?")), "{refused}");
+    let none = site.adit("route", &["dock", "ward 12", "--avoid", "ward 12"]).expecting(1).stdout;
+    assert!(none.contains("and ward 12, is closed"), "{none}");
+    let way = site.adit("route", &["dock", "ward 12", "--avoid", doorway, "--json"]).expecting(0).json();
+    assert!(way["cost"].as_f64() > before["cost"].as_f64());
+    site.adit("route", &["dock", "ward 12", "--avoid", "triagge"]).expecting(2).complains(&["`triage`?"]);
+    assert!(site.sqlite3("SELECT * FROM told").is_empty());
+}
+
+#[test]
+fn a_kind_of_area_is_avoided_by_its_name() {
+    let site = TestSite::example("starter");
+    let area = "[[area]]\nname = \"east\"\nkind = \"wet\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    site.write("site.toml", format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{area}"));
+    let site = site.built();
+    let service = Service::start(&site);
+    assert_eq!(asked(&service, "start=home&goal=11,2")["status"], "ok");
+    for what in ["wet", "east"] {
+        assert_eq!(asked(&service, &format!("start=home&goal=11,2&avoid={what}"))["status"], "no_route");
+        site.adit("route", &["home", "11,2", "--avoid", what]).expect_status(1);
+    }
+    site.adit("route", &["home", "11,2"]).expect_status(0);
+}
+
+#[test]
+fn an_errand_later_is_led_as_it_is_then() {
+    let (_site, service) = served("clinic");
+    let before = asked(&service, WAY);
+    edit(&service, &json!({"kind": "close", "what": "ward 12", "until": "2h"}));
+    assert_eq!(asked(&service, WAY)["status"], "no_route");
+    assert_eq!(way(&asked(&service, &format!("{WAY}&at=3h"))), way(&before));
+    assert_eq!(asked(&service, &format!("{WAY}&at=1h"))["status"], "no_route");
+    let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&at=soon"), None);
+    assert_eq!(status, 400, "{refused}");
+}
+
+#[test]
+fn what_is_carried_on_one_errand_closes_what_it_does_not_fit_through() {
+    let (site, service) = served("depot");
+    let way = "start=dock&goal=gate&robot=cart";
+    let before = asked(&service, way);
+    let loaded = asked(&service, &format!("{way}&load=crate"));
+    assert_eq!(loaded["status"], "no_route");
+    assert!(loaded["reason"].as_str().unwrap().contains("1.6 m"), "{loaded}");
+    assert_eq!(asked(&service, way), before, "it is off again");
+    let (status, refused) = service.ask("GET", &format!("/api/route?{way}&load=piano"), None);
+    assert!((400..500).contains(&status) && refused.to_string().contains("piano"), "{refused}");
+    let cli = ["dock", "gate", "--robot", "cart", "--load", "crate"];
+    assert!(site.adit("route", &cli).expecting(1).stdout.contains("1.6 m"));
+    assert_eq!(site.sqlite3("SELECT max(carried) FROM loads"), ["0"]);
+}
