@@ -19,7 +19,6 @@ use rayon::prelude::*;
 use crate::geometry::polygon::to_geo;
 use crate::geometry::{Point, Segment};
 use crate::layers::{Lattice, Solid, squared_gaps};
-use crate::search::grid::beside;
 use crate::world::{Occupancy, World};
 
 pub(crate) use located::{Located, NEEDS as OF_SPACES};
@@ -138,13 +137,16 @@ fn all(floor: &Occupancy, of_cell: &[u32]) -> Vec<Space> {
     // where another space begins, or a wall
     let is_rim = |column: usize, row: usize| {
         let cell = row * floor.columns + column;
-        let others = beside(cell, (floor.columns, floor.rows)).map(|next| of_cell[next]);
-        of_cell[cell] == 0 || others.filter(|other| *other > 0).any(|other| other < of_cell[cell])
+        let others = || [cell - 1, cell + 1, cell - floor.columns, cell + floor.columns];
+        let is_lower = |next: usize| (1..of_cell[cell]).contains(&of_cell[next]);
+        of_cell[cell] == 0 || others().into_iter().any(is_lower)
     };
     let gaps = squared_gaps((floor.columns, floor.rows), is_rim);
-    for (cell, &space) in of_cell.iter().enumerate().filter(|(_, space)| **space > 0) {
-        let (column, row) = (cell % floor.columns, cell / floor.columns);
-        let of = &mut found[space as usize - 1];
+    let rows = (0..floor.rows).flat_map(|row| (0..floor.columns).map(move |column| (column, row)));
+    for (cell, (column, row)) in rows.enumerate() {
+        let Some(of) = (of_cell[cell] as usize).checked_sub(1).map(|index| &mut found[index]) else {
+            continue;
+        };
         let [x0, y0, x1, y1] = &mut of.within;
         (*x0, *y0) = ((*x0).min(column), (*y0).min(row));
         (*x1, *y1) = ((*x1).max(column), (*y1).max(row));

@@ -1,14 +1,15 @@
 //! Floor cut at saddles of the clearance: each cell climbs to where it is furthest from walls, and two summits are of one
 //! space unless the pass between them is a narrowing.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use std::mem::replace;
 
 use petgraph::unionfind::UnionFind;
 use rayon::prelude::*;
 
 use crate::layers::squared_gaps;
-use crate::search::grid::{around, beside};
+use crate::search::grid::{AROUND, BESIDE, step};
 use crate::world::Occupancy;
 
 /// A pass at least so high, by the lower summit, is no narrowing.
@@ -32,7 +33,7 @@ pub(super) fn basins(floor: &Occupancy, closed: &Occupancy) -> Vec<u32> {
     let size = (closed.columns, closed.rows);
     let gaps = squared_gaps(size, |column, row| closed.is_blocked(column, row));
     let clear: Vec<f64> = gaps
-        .iter()
+        .par_iter()
         .zip(&closed.blocked)
         .map(|(gap, blocked)| if *blocked { 0.0 } else { f64::from(*gap).sqrt() + 1.0 })
         .collect();
@@ -47,46 +48,60 @@ pub(super) fn basins(floor: &Occupancy, closed: &Occupancy) -> Vec<u32> {
 
 /// For each cell the summit that it climbs to, from 1; and the cell of each summit.
 fn climb(floor: &Occupancy, gaps: &[u32], clear: &[f64]) -> (Vec<u32>, Vec<usize>) {
-    let size = (floor.columns, floor.rows);
-    let height = |cell: usize| (clear[cell], cell);
+    let around = AROUND.map(|by| (on(by, floor), f64::from(step(by))));
     let steepest = |cell: usize| {
-        let rise = |&(next, step): &(usize, u32)| (clear[next] - clear[cell]) / f64::from(step);
-        let higher = |a: (f64, usize), b: (f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-        around(cell, size)
-            .filter(|(next, _)| higher(height(*next), height(cell)) == Ordering::Greater)
-            .max_by(|a, b| rise(a).total_cmp(&rise(b)).then(a.0.cmp(&b.0)))
-            .map_or(cell, |(next, _)| next)
+        let mut best = (cell, 0.0);
+        for (on, step) in around {
+            let next = cell.wrapping_add_signed(on);
+            let rise = (clear[next] - clear[cell]) / step;
+            // of cells that are as far from walls, the later one is the higher
+            let is_higher = rise > 0.0 || rise == 0.0 && next > cell;
+            if is_higher && rise.total_cmp(&best.1).then(next.cmp(&best.0)).is_gt() {
+                best = (next, rise);
+            }
+        }
+        best.0
     };
-    let free = || (0..clear.len()).into_par_iter().filter(|&cell| clear[cell] > 0.0);
-    let mut up: Vec<usize> = (0..clear.len())
-        .into_par_iter()
-        .map(|cell| if clear[cell] > 0.0 { steepest(cell) } else { cell })
-        .collect();
+    let is_floor = |cell: usize| clear[cell] > 0.0;
+    let cells = || (0..clear.len()).into_par_iter();
+    let mut up: Vec<usize> = cells().map(|cell| if is_floor(cell) { steepest(cell) } else { cell }).collect();
+    let mut summits: Vec<usize> = cells().filter(|&cell| is_floor(cell) && up[cell] == cell).collect();
     // the furthest from walls first, of equals the last
-    let mut order: Vec<(u32, usize)> = free().map(|cell| (gaps[cell], cell)).collect();
-    order.par_sort_unstable_by(|one, other| other.cmp(one));
-    let (mut summit_of, mut summits) = (vec![NONE; clear.len()], vec![0]);
-    for (_, cell) in order {
-        up[cell] = if up[cell] == cell { cell } else { up[up[cell]] };
-        if up[cell] == cell {
-            summits.push(cell);
-            summit_of[cell] = summits.len() as u32 - 1;
-        } else {
-            summit_of[cell] = summit_of[up[cell]];
+    summits.sort_unstable_by_key(|&cell| Reverse((gaps[cell], cell)));
+    summits.insert(0, 0);
+    let mut number = vec![NONE; clear.len()];
+    for (at, &cell) in summits.iter().enumerate().skip(1) {
+        number[cell] = at as u32;
+    }
+    for cell in (0..clear.len()).filter(|&cell| is_floor(cell)) {
+        let mut top = cell;
+        while up[top] != top {
+            top = up[top];
+        }
+        // those behind it come to the top at once
+        let mut here = cell;
+        while up[here] != top {
+            here = replace(&mut up[here], top);
         }
     }
-    (summit_of, summits)
+    (cells().map(|cell| number[up[cell]]).collect(), summits)
+}
+
+/// Where the neighbour of a cell lies among the cells, from the cell on. A floor has a rim of solid cells.
+fn on((dx, dy): (i32, i32), floor: &Occupancy) -> isize {
+    dx as isize + dy as isize * floor.columns as isize
 }
 
 /// For each summit the number of the one that stands for it.
 fn join(floor: &Occupancy, clear: &[f64], summit_of: &[u32], summits: &[usize]) -> Vec<u32> {
-    let size = (floor.columns, floor.rows);
     let cell_area = floor.resolution * floor.resolution;
+    let onward = AROUND.map(|by| on(by, floor)).into_iter().filter(|on| *on > 0);
+    let onward: Vec<usize> = onward.map(isize::unsigned_abs).collect();
     let mut passes: BTreeMap<(u32, u32), f64> = BTreeMap::new();
     let mut area = vec![0.0; summits.len()];
     for (cell, &summit) in summit_of.iter().enumerate().filter(|(_, summit)| **summit != NONE) {
         area[summit as usize] += cell_area;
-        for (next, _) in around(cell, size).filter(|(next, _)| *next > cell) {
+        for next in onward.iter().map(|on| cell + on) {
             let other = summit_of[next];
             if other != NONE && other != summit {
                 let pass = passes.entry((summit.min(other), summit.max(other))).or_insert(0.0);
@@ -123,12 +138,17 @@ fn join(floor: &Occupancy, clear: &[f64], summit_of: &[u32], summits: &[usize]) 
 
 /// Cells of the floor in no space, as where openings were closed, are of the space that is nearest by steps.
 fn flood(floor: &Occupancy, of_cell: &mut [u32]) {
-    let size = (floor.columns, floor.rows);
-    let mut front: Vec<usize> = (0..of_cell.len()).filter(|&cell| of_cell[cell] != NONE).collect();
+    let beside = BESIDE.map(|by| on(by, floor));
+    let around = move |cell: usize| beside.map(|on| cell.wrapping_add_signed(on));
+    let is_left = |cell: usize| of_cell[cell] == NONE && !floor.blocked[cell];
+    let left = (0..of_cell.len()).filter(|&cell| is_left(cell));
+    let mut front: Vec<usize> = left.flat_map(around).filter(|&cell| of_cell[cell] != NONE).collect();
+    front.sort_unstable();
+    front.dedup();
     while !front.is_empty() {
         let mut next = Vec::new();
         for cell in front {
-            for to in beside(cell, size) {
+            for to in around(cell) {
                 if of_cell[to] == NONE && !floor.blocked[to] {
                     of_cell[to] = of_cell[cell];
                     next.push(to);
@@ -141,16 +161,16 @@ fn flood(floor: &Occupancy, of_cell: &mut [u32]) {
 
 /// Small spaces join others, the smallest first; then numbers run from 1, by the first cell of each.
 fn absorb(floor: &Occupancy, of_cell: &mut [u32]) {
-    let size = (floor.columns, floor.rows);
     let count = of_cell.iter().max().map_or(0, |&most| most as usize) + 1;
     let mut area = vec![0.0; count];
     let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
     for (cell, &space) in of_cell.iter().enumerate().filter(|(_, space)| **space != NONE) {
         area[space as usize] += floor.resolution * floor.resolution;
-        for next in beside(cell, size) {
+        for next in [cell + 1, cell + floor.columns] {
             let other = of_cell[next];
             if other != NONE && other != space {
                 *borders.entry((space, other)).or_insert(0) += 1;
+                *borders.entry((other, space)).or_insert(0) += 1;
             }
         }
     }
@@ -175,12 +195,15 @@ fn absorb(floor: &Occupancy, of_cell: &mut [u32]) {
         sets.union(small, other);
         area[sets.find_mut(small) as usize] = both;
     }
-    let mut numbers: BTreeMap<u32, u32> = BTreeMap::new();
+    let roots: Vec<usize> = sets.into_labeling().into_iter().map(|root| root as usize).collect();
+    let (mut numbers, mut next) = (vec![NONE; count], NONE);
     for space in of_cell.iter_mut().filter(|space| **space != NONE) {
-        let root = sets.find_mut(*space);
+        let root = roots[*space as usize];
         // what is too small and has no neighbour is none
-        let is_any = area[root as usize] >= LEAST_M2 / 8.0;
-        let next = numbers.len() as u32 + 1;
-        *space = if is_any { *numbers.entry(root).or_insert(next) } else { NONE };
+        if numbers[root] == NONE && area[root] >= LEAST_M2 / 8.0 {
+            next += 1;
+            numbers[root] = next;
+        }
+        *space = numbers[root];
     }
 }

@@ -5,6 +5,8 @@
 //! [`DEPTH_M`], goes on past an end of it (Mora et al. 2022 look for narrow passages beside protruding walls). Of two
 //! lines that share a tip the much shorter one is meant, and of some that lie beside each other one.
 
+use rayon::prelude::*;
+
 use super::outline::{outlines, simplified};
 use crate::geometry::{Point, Segment};
 use crate::world::Occupancy;
@@ -69,20 +71,15 @@ pub(super) fn openings(floor: &Occupancy) -> Vec<Segment> {
     let walls: Vec<Segment> =
         outlines.iter().flat_map(|outline| crate::geometry::polygon::sides(outline)).collect();
     let widest = WIDEST_M / floor.resolution;
-    let mut lines = Vec::new();
-    for (number, tip) in tips.iter().enumerate() {
-        let near = |p: Point| (2.0..=widest).contains(&tip.at.distance(p));
-        for other in tips[number + 1..].iter().filter(|other| near(other.at)) {
-            lines.extend(opening(floor, tip, other.at, Some(other)));
-        }
-        for wall in &walls {
-            let foot = wall.nearest_to(tip.at);
-            if foot != wall.a && foot != wall.b && near(foot) {
-                lines.extend(opening(floor, tip, foot, None));
-            }
-        }
-    }
-    chosen(lines, floor.resolution)
+    let lines = tips.par_iter().enumerate().flat_map_iter(|(number, tip)| {
+        let near = move |p: Point| (2.0..=widest).contains(&tip.at.distance(p));
+        let others = tips[number + 1..].iter().filter(move |other| near(other.at));
+        let to_tips = others.filter_map(move |other| opening(floor, tip, other.at, Some(other)));
+        let feet = walls.iter().map(move |wall| (wall, wall.nearest_to(tip.at)));
+        let feet = feet.filter(move |(wall, foot)| *foot != wall.a && *foot != wall.b && near(*foot));
+        to_tips.chain(feet.filter_map(move |(_, foot)| opening(floor, tip, foot, None)))
+    });
+    chosen(lines.collect(), floor.resolution)
 }
 
 fn tips(outline: &[Point]) -> impl Iterator<Item = Tip> + '_ {
