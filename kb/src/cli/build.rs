@@ -98,7 +98,7 @@ const LISTED: usize = 10;
 pub fn changes(report: &Report) {
     if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
-    } else {
+    } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {
         line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
         for change in report.changes.iter().take(LISTED) {
             let action = match (&change.old_action, &change.new_action) {
@@ -115,6 +115,12 @@ pub fn changes(report: &Report) {
             line(&format!("  and {} more", report.changes.len() - LISTED));
         }
     }
+    for closing in report.closings.iter().take(LISTED) {
+        line(closing);
+    }
+    if report.closings.len() > LISTED {
+        line(&format!("and {} more", report.closings.len() - LISTED));
+    }
     match (report.routes.changed, report.routes.rerouted) {
         (Some(changed), Some(rerouted)) => line(&format!(
             "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way",
@@ -124,7 +130,8 @@ pub fn changes(report: &Report) {
     }
     let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot);
     for change in report.routes.changes.iter().take(LISTED) {
-        let way = if change.other_way == Some(true) { ", another way" } else { "" };
+        let are_both = change.old.is_some() && change.new.is_some();
+        let way = if are_both && change.other_way == Some(true) { ", another way" } else { "" };
         let whose = if several { format!(" ({})", change.robot) } else { String::new() };
         let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
         let (old, new) = (cost(change.old), cost(change.new));

@@ -2,7 +2,7 @@
 
 use adit_db::Cell;
 use adit_db::history::Edit as Entry;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
@@ -36,7 +36,8 @@ impl Edit {
             }
             Self::Lift(name) => format!("`{name}` no longer lies over the map"),
             Self::Retract(_) => {
-                format!("fact {key}{} is taken back", fact(old).unwrap_or_default())
+                let fact = fact(old).map_or_else(String::new, |fact| format!(" ({fact})"));
+                format!("fact {key}{fact} is taken back")
             }
             Self::SetInTuning(tuning, [table, row, column, value]) => {
                 format!("tuning {tuning}: {table}.{row}.{column} = {value}")
@@ -56,7 +57,8 @@ impl Edit {
 
 /// What became of a cell or a row, of which the history keeps what it was and what it is.
 pub(crate) fn change(old: &Cell, new: &Cell) -> String {
-    match (row(old), row(new)) {
+    let said = |cell: &Cell| fact(cell).or_else(|| laid(cell)).or_else(|| row(cell));
+    match (said(old), said(new)) {
         (None, Some(row)) => format!("new: {row}"),
         (Some(row), None) => format!("gone: {row}"),
         _ => format!("{old} → {new}"),
@@ -66,8 +68,8 @@ pub(crate) fn change(old: &Cell, new: &Cell) -> String {
 /// An entry of the history.
 pub(crate) fn entry(Entry { table, key, column, old, new, .. }: &Entry) -> String {
     match (fact(old), fact(new)) {
-        (None, Some(fact)) => format!("fact {key}{fact} is told"),
-        (Some(fact), None) => format!("fact {key}{fact} is taken back"),
+        (None, Some(fact)) => format!("fact {key} ({fact}) is told"),
+        (Some(fact), None) => format!("fact {key} ({fact}) is taken back"),
         _ => {
             let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
             format!("{table}.{key}{column}: {}", change(old, new))
@@ -77,37 +79,58 @@ pub(crate) fn entry(Entry { table, key, column, old, new, .. }: &Entry) -> Strin
 
 /// A row by its key; a fact, of which that says nothing, with what it says.
 fn called(key: &str, row: &Cell) -> String {
-    fact(row).map_or_else(|| key.to_owned(), |fact| format!("fact {key}{fact}"))
+    fact(row).map_or_else(|| key.to_owned(), |fact| format!("fact {key} ({fact})"))
 }
 
-/// What a fact says, where a row is one: ` (DOORS 5,2 passable = false)`.
+/// What a fact says, where a row is one: `DOORS 5,2 passable = false`.
 fn fact(row: &Cell) -> Option<String> {
-    let Cell::Text(text) = row else { return None };
-    let row: Value = serde_json::from_str(text).ok()?;
-    let text = |column: &str| row[column].as_str();
-    let number = |column: &str| row[column].as_f64().map(number);
+    let row = object(row)?;
+    let text = |column: &str| row.get(column)?.as_str();
+    let number = |column: &str| row.get(column)?.as_f64().map(number);
     let (class, property) = (text("class")?, text("property")?);
     let object = match (text("key"), number("x"), number("y")) {
         (Some(key), ..) => key.to_owned(),
         (None, Some(x), Some(y)) => format!("{x},{y}"),
         _ => return None,
     };
-    let value = match (text("kind")?, &row["value"]) {
+    let value = match (text("kind")?, row.get("value")?) {
         ("truth", value) => (value.as_i64() == Some(1)).to_string(),
         (_, Value::String(text)) => text.clone(),
         (_, value) => value.to_string(),
     };
-    Some(format!(" ({class} {object} {property} = {value})"))
+    let until = text("until").map_or_else(String::new, |until| format!(" until {until}"));
+    Some(format!("{class} {object} {property} = {value}{until}"))
+}
+
+/// What was laid over the map, where a row is such: `area 2,1 4,1 4,3, kind wet, hardness_factor 2`.
+fn laid(row: &Cell) -> Option<String> {
+    let row = object(row)?;
+    let text = |column: &str| row.get(column)?.as_str();
+    let corners: Vec<[f64; 2]> = serde_json::from_str(text("outline")?).ok()?;
+    let corners = corners.iter().map(|&[x, y]| format!("{},{}", number(x), number(y)));
+    let mut said = vec![format!("{} {}", text("what")?, corners.collect::<Vec<_>>().join(" "))];
+    said.extend(text("kind").map(|kind| format!("kind {kind}")));
+    let further: Map<String, Value> = serde_json::from_str(text("properties")?).ok()?;
+    said.extend(further.iter().map(|(property, value)| pair(property, value)));
+    said.extend(text("until").map(|until| format!("until {until}")));
+    Some(said.join(", "))
+}
+
+fn object(row: &Cell) -> Option<Map<String, Value>> {
+    let Cell::Text(text) = row else { return None };
+    serde_json::from_str(text).ok()
+}
+
+fn pair(name: &str, value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("{name} {text}"),
+        value => format!("{name} {value}"),
+    }
 }
 
 /// A row, which the history keeps as a JSON object, column by column; `None` for a cell.
 fn row(cell: &Cell) -> Option<String> {
-    let Cell::Text(text) = cell else { return None };
-    let Value::Object(row) = serde_json::from_str(text).ok()? else { return None };
+    let row = object(cell)?;
     let columns = row.iter().filter(|(_, value)| !value.is_null() && *value != "");
-    let said = columns.map(|(column, value)| match value {
-        Value::String(text) => format!("{column} {text}"),
-        value => format!("{column} {value}"),
-    });
-    Some(said.collect::<Vec<_>>().join(", "))
+    Some(columns.map(|(column, value)| pair(column, value)).collect::<Vec<_>>().join(", "))
 }

@@ -61,15 +61,45 @@ impl Building {
     }
 
     /// That a fact closes a boundary, and to whom.
-    pub fn why_told_closed(&self, Line { fact, segment, whom }: &Line) -> String {
+    pub fn why_told_closed(&self, line: &Line) -> String {
+        let (place, whom) = (self.place_of_line(line), line.whom.words());
+        format!("{place} is told to be closed{whom} (fact {})", line.fact)
+    }
+
+    fn place_of_line(&self, Line { segment, .. }: &Line) -> String {
         let [x0, y0, x1, y1] = *segment;
         let ends = segment.map(f64::to_bits);
-        let is_meant =
-            |doorway: &&Doorway| [doorway.x0, doorway.y0, doorway.x1, doorway.y1].map(f64::to_bits) == ends;
+        let is_meant = |doorway: &&Doorway| ends_of(doorway).map(f64::to_bits) == ends;
         let place = self.doorways.iter().find(is_meant).map(|doorway| self.place_of(doorway));
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
-        let place = place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"));
-        format!("{place} is told to be closed{} (fact {fact})", whom.words())
+        place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"))
+    }
+
+    /// What is closed now and was not before, or no longer is, in sentences.
+    pub fn turned(&self, before: &Self) -> Vec<String> {
+        let is_same = |one: &Doorway, other: &Doorway| {
+            ends_of(one).map(f64::to_bits) == ends_of(other).map(f64::to_bits)
+        };
+        let is_closed = |doorway: &Doorway| doorway.closed == Some(true);
+        let doorways = self.doorways.iter().filter_map(|now| {
+            let was = before.doorways.iter().find(|was| is_same(was, now)).is_some_and(is_closed);
+            let is = is_closed(now);
+            (is != was).then(|| format!("{} is {}", self.place_of(now), if is { "closed" } else { "open" }))
+        });
+        let differ = |some: &Self, others: &Self| -> Vec<Line> {
+            let known = |line: &Line| {
+                others.lines.iter().any(|other| {
+                    (other.segment.map(f64::to_bits), &other.whom)
+                        == (line.segment.map(f64::to_bits), &line.whom)
+                })
+            };
+            some.lines.iter().filter(|line| !known(line)).cloned().collect()
+        };
+        let said =
+            |line: Line, is: &str| format!("{} is {is}{}", self.place_of_line(&line), line.whom.words());
+        let closed = differ(self, before).into_iter().map(|line| said(line, "closed"));
+        let opened = differ(before, self).into_iter().map(|line| said(line, "no longer closed"));
+        doorways.chain(closed).chain(opened).collect()
     }
 
     /// What a doorway is called, where it is, and between which spaces.
@@ -110,6 +140,11 @@ impl Building {
     pub fn closed(&self) -> impl Iterator<Item = &Doorway> {
         self.doorways.iter().filter(|doorway| doorway.closed == Some(true))
     }
+}
+
+/// From x0, y0 to x1, y1.
+fn ends_of(doorway: &Doorway) -> [f64; 4] {
+    [doorway.x0, doorway.y0, doorway.x1, doorway.y1]
 }
 
 /// Whether a name is that of a kind with a number.

@@ -213,6 +213,8 @@ pub struct Report {
     pub doors: Counts,
     /// The rooms and doors that changed; none where all were cut anew.
     pub changes: Vec<Change>,
+    /// What is closed now and was not before, or no longer is, in sentences.
+    pub closings: Vec<String>,
     /// Whether rooms were cut anew.
     pub cut_anew: bool,
     /// Routes.
@@ -274,6 +276,7 @@ impl Report {
             rooms,
             doors,
             changes,
+            closings: graph.building.turned(&before.graph.building),
             cut_anew: weighed.is_none(),
             routes,
             stages,
@@ -294,6 +297,7 @@ impl Report {
             "doors": self.doors,
             "cut_anew": self.cut_anew,
             "changes": self.changes,
+            "closings": self.closings,
             "routes": self.routes,
             "stages": self.stages.iter().map(stage).collect::<Vec<_>>(),
             "free_space_m2": {
