@@ -1,11 +1,13 @@
 //! Whatever people close by the name that they have for it stays shut: doorways, spaces, areas, and the place where a robot
 //! was blocked.
 
+use std::path::{Path, PathBuf};
+
 use adit::Live;
 use adit::edit::{Close, Edit};
 use adit_planners::geometry::Point;
-use adit_tests::TestSite;
 use adit_tests::oracle::random::Chance;
+use adit_tests::{TestSite, shared};
 
 use super::{author, crosses, faults, live};
 
@@ -47,11 +49,15 @@ fn doorways(site: &TestSite) -> Vec<(String, [Point; 2])> {
 fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u64)) -> usize {
     let mut live: Live = live(site);
     let doorways = doorways(site);
-    let places = site.sqlite3("SELECT place FROM places ORDER BY place");
+    let mut places = site.sqlite3("SELECT place FROM places ORDER BY place");
+    if places.is_empty() {
+        // where the map names none, from the middle of a space to that of another
+        places = site.sqlite3("SELECT x || ',' || y FROM spaces WHERE area > 1.0 ORDER BY space");
+    }
     let robots = site.sqlite3("SELECT DISTINCT robot FROM robots ORDER BY robot");
     let mut chance = Chance::new(seed);
     let (mut closed, mut left) = (0, 0);
-    for _ in 0..20 * count {
+    for _ in 0..60 * count {
         if closed == count {
             break;
         }
@@ -155,6 +161,78 @@ fn on_every_floor_two_hundred_closings_hold() {
             let site = TestSite::example(name).built();
             let left = close_on_random_routes(&site, (what, 200, 10 + number as u64));
             println!("{name}: 200 closed, {left} left a way");
+        }
+    }
+}
+
+const TWO_ROBOTS: &str = r#"
+[[robots]]
+robot = "walker"
+state = "STAND"
+action = "WALK"
+height = 1.7
+width = 0.45
+hardness = 1.0
+
+[[robots]]
+robot = "walker"
+state = "SIDE"
+action = "SIDE-WALK"
+height = 1.7
+width = 0.25
+hardness = 2.0
+
+[[robots]]
+robot = "cart"
+state = "DRIVE"
+action = "DRIVE"
+height = 1.2
+width = 0.5
+hardness = 1.0
+"#;
+
+/// So many closings of each kind on a map of others.
+fn close_on(map: &Path, count: usize) {
+    let text = format!("map = \"{}\"\nstarts = []\n", map.display());
+    let site = TestSite::empty().with("robots.toml", TWO_ROBOTS).with("site.toml", &text).built();
+    let has_doorways = doorways(&site).len() > 3;
+    for what in [What::Doorway, What::DoorwayForOne, What::Ahead] {
+        if has_doorways || what == What::Ahead {
+            let left = close_on_random_routes(&site, (what, count, 100));
+            println!("{}: {count} closed, {left} left a way", map.display());
+        }
+    }
+}
+
+#[test]
+fn on_maps_of_others_closings_hold() {
+    for name in [
+        "room-segmentation/office_a_furnitures.yaml",
+        "room-segmentation/lab_d_scan.yaml",
+        "mir_robot/maze.yaml",
+    ] {
+        if let Some(map) = shared(&format!("data/{name}")) {
+            close_on(&map, 2);
+        }
+    }
+}
+
+#[test]
+#[ignore = "takes long: 200 closings of each kind on every map of others"]
+fn on_every_map_of_others_two_hundred_closings_hold() {
+    for folder in ["aws-robomaker", "mir_robot", "nav2", "room-segmentation", "stage", "turtlebot3"] {
+        let Some(folder) = shared(&format!("data/{folder}")) else { continue };
+        let files = std::fs::read_dir(folder).unwrap().map(|file| file.unwrap().path());
+        let is_map = |path: &PathBuf| {
+            let name = path.to_string_lossy();
+            // the others lay rules over a map, and are none
+            path.extension().is_some_and(|end| end == "yaml")
+                && !["keepout", "speed", "virtual_walls"].iter().any(|no| name.contains(no))
+        };
+        let mut maps: Vec<PathBuf> = files.filter(is_map).collect();
+        maps.sort();
+        for map in maps {
+            close_on(&map, 200);
         }
     }
 }
