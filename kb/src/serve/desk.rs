@@ -162,7 +162,7 @@ impl Desk {
             at: seen.since.clone(),
         };
         self.shared.show(seen);
-        self.shared.say(Event::changed(changed));
+        self.shared.say(Event::changed(&changed));
     }
 
     /// Keeps routes that were found anew; `false` where a change has overtaken them.

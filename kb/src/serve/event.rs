@@ -21,8 +21,8 @@ impl Event {
         Self { name, data: serde_json::to_string(data).unwrap_or_default(), changed: None }
     }
 
-    pub fn changed(changed: Changed) -> Self {
-        Self { changed: Some(changed.clone()), ..Self::new("changed", &changed) }
+    pub fn changed(changed: &Changed) -> Self {
+        Self { changed: Some(changed.clone()), ..Self::new("changed", changed) }
     }
 }
 

@@ -14,11 +14,11 @@ use super::event::{Changed, Event, Followed};
 use super::fault::{Answered, Fault};
 use super::question::Question;
 use super::shared::{Shared, Subscription};
-use super::token::hex;
+use super::token;
 use crate::answer::{Answer, Status};
 use crate::edit::Errand;
+use crate::error::Code;
 use crate::error::problem::Problem;
-use crate::error::{Code, Error, Result};
 use crate::graph::{Building, SiteGraph};
 use crate::live::View;
 
@@ -143,7 +143,7 @@ impl Follower {
         // whose route it is does not change when other robots come
         let question = Arc::new(Question { robot: Some(answer.robot.clone()), ..question });
         let held = Arc::new(Held::of(answer, view.graph()));
-        let name = name()?;
+        let name = token::random::<BYTES>()?;
         let (sender, moved) = watch::channel(Arc::clone(&held));
         let known = Known { question: Arc::clone(&question), held: Arc::new(sender) };
         shared.followers.all().insert(name.clone(), known);
@@ -242,12 +242,4 @@ impl Drop for Follower {
     fn drop(&mut self) {
         self.shared.followers.all().remove(&self.name);
     }
-}
-
-/// A name that nobody guesses.
-fn name() -> Result<String> {
-    let mut bytes = [0; BYTES];
-    getrandom::fill(&mut bytes)
-        .map_err(|error| Error::said(Code::TokensRandom, format!("no random numbers: {error}"), None))?;
-    Ok(hex(&bytes))
 }

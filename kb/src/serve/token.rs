@@ -101,10 +101,7 @@ impl Tokens {
                 Some(help),
             ));
         }
-        let mut bytes = [0; BYTES];
-        getrandom::fill(&mut bytes)
-            .map_err(|error| Error::said(Code::TokensRandom, format!("no random numbers: {error}"), None))?;
-        let text = format!("adit_{}", hex(&bytes));
+        let text = format!("adit_{}", random::<BYTES>()?);
         let mut roles = roles.to_vec();
         roles.sort_unstable();
         roles.dedup();
@@ -137,6 +134,14 @@ impl Tokens {
 
 fn hash(text: &str) -> String {
     hex(&Sha256::digest(text.as_bytes()))
+}
+
+/// So many random bytes in hexadecimal digits: nobody guesses them.
+pub fn random<const COUNT: usize>() -> Result<String> {
+    let mut bytes = [0; COUNT];
+    getrandom::fill(&mut bytes)
+        .map_err(|error| Error::said(Code::TokensRandom, format!("no random numbers: {error}"), None))?;
+    Ok(hex(&bytes))
 }
 
 /// Bytes in hexadecimal digits.

@@ -202,8 +202,13 @@ fn a_stream_of_events_ends_with_the_token_that_opened_it() {
     let service = Service::start(&site);
     let mut events = service.events_as(&anna);
     events.next("hello");
+    let mut follower = service.stream(&anna, "/api/route/follow?start=f&goal=e");
+    follower.next("route");
     site.adit("token", &["remove", "anna"]).expect_status(0);
     events.end();
+    follower.end();
+    let (status, _) = service.ask("GET", "/api/route/follow?start=f&goal=e", None);
+    assert_eq!(status, 401);
 }
 
 #[test]

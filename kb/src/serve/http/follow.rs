@@ -57,12 +57,13 @@ pub async fn follow(
 type Place = (Option<Arc<Event>>, Follower, Over);
 
 async fn next((first, mut follower, mut over): Place) -> Option<(Arc<Event>, Place)> {
-    let word = match first {
-        Some(first) => first,
-        None => tokio::select! {
+    let word = if let Some(first) = first {
+        first
+    } else {
+        tokio::select! {
             word = follower.next() => word?,
             () = over.come() => return None,
-        },
+        }
     };
     Some((word, (None, follower, over)))
 }
