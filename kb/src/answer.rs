@@ -94,6 +94,7 @@ impl State {
             rules: &self.inputs.rule_names,
             ground: Ground::Known(&self.world, &self.gauge),
             within: self.within,
+            ends_in: [None; 2],
         }
     }
 }

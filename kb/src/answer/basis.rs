@@ -22,6 +22,8 @@ pub(crate) struct Basis<'a> {
     pub ground: Ground<'a>,
     /// How far an end may be moved to where something fits, metres; `None`: not at all.
     pub within: Option<f64>,
+    /// In which state the robot starts, and in which it arrives; `None`: in whichever is cheapest.
+    pub ends_in: [Option<&'a str>; 2],
 }
 
 /// The map, with what measures clearances in it.

@@ -1,5 +1,8 @@
 //! Where a route that is asked for starts and leads to; where nothing fits there, the nearest point instead.
 
+use std::collections::BTreeSet;
+
+use adit_db::room::Room;
 use adit_planners::routes::{Goal, Start};
 
 use super::basis::Basis;
@@ -34,10 +37,20 @@ impl Basis<'_> {
             named.push(end);
         }
         let (mut goals, mut taken) = (Vec::with_capacity(named.len()), Vec::new());
+        let mut unfit = Vec::new();
         for (index, end) in named.iter().enumerate() {
-            let (goal, instead) = self.entered(end, index, answer)?;
+            let (mut goal, instead) = self.entered(end, index, answer)?;
+            if let Some(state) = self.ends_in[usize::from(index > 0)] {
+                unfit.extend(self.keep_state(state, &mut goal, (end, index), &answer.robot)?);
+            }
             goals.push(goal);
             taken.extend(instead.map(|instead| (index, instead)));
+        }
+        let is_start = |(index, _): &&(usize, String)| *index == 0;
+        let no_goal = || unfit.first().filter(|_| unfit.len() == names.len());
+        if let Some((_, reason)) = unfit.iter().find(is_start).or_else(no_goal) {
+            (answer.status, answer.reason) = (Status::NoRoute, Some(reason.clone()));
+            return Ok(None);
         }
         let first = goals.remove(0);
         let start = Start { rooms: first.rooms, at: first.at.unwrap_or_else(|| graph.point(&named[0])) };
@@ -75,6 +88,37 @@ impl Basis<'_> {
         Ok((Goal { rooms: Vec::new(), at: Some(at) }, None))
     }
 
+    /// Leaves the rooms of one state to an end; where that does not fit there and another one does, its number, and that in
+    /// words.
+    fn keep_state(
+        &self,
+        state: &str,
+        goal: &mut Goal,
+        (end, index): (&End, usize),
+        robot: &str,
+    ) -> Result<Option<(usize, String)>> {
+        let graph = self.graph;
+        if graph.rooms.iter().all(|room| state_of(room, robot) != Some(state)) {
+            let known = graph.rooms.iter().filter_map(|room| state_of(room, robot)).collect::<BTreeSet<_>>();
+            let help = did_you_mean(state, known.into_iter());
+            let message = format!("no room of `{robot}` is one of a state `{state}`");
+            return Err(Error::said(Code::RouteUnknownState, message, help));
+        }
+        let others = goal.rooms.iter().filter_map(|entry| state_of(&graph[entry.room], robot));
+        let others = others.map(str::to_owned).collect::<BTreeSet<_>>();
+        goal.rooms.retain(|entry| state_of(&graph[entry.room], robot) == Some(state));
+        if !goal.rooms.is_empty() || others.is_empty() {
+            return Ok(None);
+        }
+        let (what, at) = (if index == 0 { "start" } else { "goal" }, graph.point(end));
+        let others = others.into_iter().collect::<Vec<_>>().join(", ");
+        let reason = format!(
+            "{state} does not fit at the {what} ({:.2}, {:.2}), from which ways lead on for {others}",
+            at.x, at.y
+        );
+        Ok(Some((index, reason)))
+    }
+
     /// Why nobody can be at a point, whatever the size; of places the map's reader makes sure.
     fn refused(&self, end: &End) -> Result<Option<(Code, String)>> {
         let End::Point(point) = end else { return Ok(None) };
@@ -88,4 +132,10 @@ impl Basis<'_> {
         let is_solid = gauge.is_solid(world, *point);
         Ok(is_solid.then(|| (Code::RouteSolid, format!("{named} is inside an obstacle"))))
     }
+}
+
+/// Of which state of a robot a room is one.
+fn state_of<'r>(room: &'r Room, robot: &str) -> Option<&'r str> {
+    let layer = room.layer.as_ref().filter(|(of, _)| of == robot);
+    layer.map(|(_, state)| state.as_str())
 }

@@ -28,6 +28,12 @@ pub struct RouteArgs {
     /// What the robot carries on this way
     #[arg(long, value_name = "NAME")]
     pub load: Option<String>,
+    /// In which state the robot starts; unless said, in whichever is cheapest
+    #[arg(long, value_name = "STATE")]
+    pub start_state: Option<String>,
+    /// In which state it arrives
+    #[arg(long, value_name = "STATE")]
+    pub goal_state: Option<String>,
     /// The route as it would be at this time: `2026-11-21T18:00`, `18:00`, `2h`
     #[arg(long, value_name = "TIME")]
     pub at: Option<String>,
@@ -37,9 +43,16 @@ pub struct RouteArgs {
 pub fn run(args: &RouteArgs) -> Result<u8> {
     let goals: Vec<String> = std::iter::once(&args.way.goal).chain(&args.others).cloned().collect();
     let knowledge = open(&args.way.site)?.at(args.at.as_deref())?.within(args.within)?;
-    let errand = Errand { avoid: args.avoid.clone(), load: args.load.clone(), at: args.at.clone() };
+    let errand = Errand {
+        avoid: args.avoid.clone(),
+        load: args.load.clone(),
+        at: args.at.clone(),
+        start_state: args.start_state.clone(),
+        goal_state: args.goal_state.clone(),
+    };
     let (start, robot) = (&args.way.start, args.way.robot.as_deref());
-    let answer = if args.avoid.is_empty() && args.load.is_none() {
+    // another moment alone needs no names of the last build
+    let answer = if errand == (Errand { at: errand.at.clone(), ..Errand::default() }) {
         knowledge.route_to_nearest(start, &goals, robot)?
     } else {
         knowledge.route_on_errand(&errand, (start, &goals), robot)?

@@ -7,6 +7,7 @@ use adit_engine::RuleBase;
 use adit_planners::facts::Column;
 
 use super::{Close, Edit};
+use crate::answer::{self, Answer, Basis};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
@@ -22,11 +23,20 @@ pub struct Errand {
     pub load: Option<String>,
     /// When it is, as [`KnowledgeBase::moment`] reads times.
     pub at: Option<String>,
+    /// In which state it begins; in the cheapest where none is said.
+    pub start_state: Option<String>,
+    /// In which state it ends.
+    pub goal_state: Option<String>,
 }
 
 impl Errand {
     pub fn is_none(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// In which states it begins and ends.
+    pub(crate) fn ends_in(&self) -> [Option<&str>; 2] {
+        [self.start_state.as_deref(), self.goal_state.as_deref()]
     }
 
     /// Has tables and facts say it, in a transaction that is taken back.
@@ -53,8 +63,13 @@ impl Errand {
 }
 
 impl State {
-    /// As it is for an errand of a robot.
-    pub fn on_errand(mut self, errand: &Errand, robot: Option<&str>) -> Result<Self> {
+    /// The route on an errand; nothing but this copy is changed.
+    pub fn route_on_errand(
+        mut self,
+        errand: &Errand,
+        (start, goals): (&str, &[String]),
+        robot: Option<&str>,
+    ) -> Result<Answer> {
         if errand.at.is_some() {
             self.site = KnowledgeBase::clone(&self.site).at(errand.at.as_deref())?.shared();
         }
@@ -65,7 +80,9 @@ impl State {
         })?;
         let step = self.step(told, &mut Nothing, &Silent)?;
         self.accept(step);
-        Ok(self)
+        let robot = answer::pick(&self.robots(), robot)?;
+        let blank = Answer::blank(&robot, start, goals, self.generation);
+        Basis { ends_in: errand.ends_in(), ..self.basis() }.search(goals, blank)
     }
 }
 

@@ -200,6 +200,8 @@ codes! {
     RouteUnknownRobot = "route/unknown-robot", NOT_FOUND;
     /// The start is no place, no room and no point.
     RouteUnknownStart = "route/unknown-start", NOT_FOUND;
+    /// No room is one of this state of the robot.
+    RouteUnknownState = "route/unknown-state", NOT_FOUND;
     /// The site has several robots; say which one is meant.
     RouteWhichRobot = "route/which-robot", BAD_REQUEST;
     /// How far a start or goal may be moved is a number of metres from 0 to 100.

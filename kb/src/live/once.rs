@@ -118,9 +118,9 @@ impl KnowledgeBase {
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         if self.asks_about_another_moment() {
-            return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, start, goals, robot));
+            return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }
-        self.fresh()?.snapshot(|tx| self.answer(tx, start, goals, robot))
+        self.fresh()?.snapshot(|tx| self.answer(tx, (start, goals), robot, [None; 2]))
     }
 
     /// As [`route_to_nearest`](Self::route_to_nearest), for an errand; the site is left as it is.
@@ -134,7 +134,7 @@ impl KnowledgeBase {
         drop(self.fresh()?);
         let then = self.clone().at(errand.at.as_deref())?;
         let tell = |tx: &mut Tx<'_>, rules: &RuleBase| errand.tell(tx, (&then, rules), robot);
-        then.rehearsed(tell, |tx| then.answer(tx, start, goals, robot))
+        then.rehearsed(tell, |tx| then.answer(tx, (start, goals), robot, errand.ends_in()))
     }
 
     /// Does `work` on what would be derived now, after something is told, and takes all of it back.
@@ -169,10 +169,17 @@ impl KnowledgeBase {
         Ok(store)
     }
 
-    fn answer(&self, tx: &mut Tx<'_>, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+    fn answer(
+        &self,
+        tx: &mut Tx<'_>,
+        (start, goals): (&str, &[String]),
+        robot: Option<&str>,
+        ends_in: [Option<&str>; 2],
+    ) -> Result<Answer> {
         let robot = pick_robot(tx, robot)?;
         let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
-        if let Some(route) = kept(tx, &robot, start, goals)? {
+        let kept = if ends_in == [None; 2] { kept(tx, &robot, start, goals)? } else { None };
+        if let Some(route) = kept {
             answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
             (answer.cost, answer.distance) = (route.cost, route.distance);
             answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
@@ -184,7 +191,8 @@ impl KnowledgeBase {
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let sizes = sizes_of(&states::in_force(tx)?);
         let ground = Ground::Later(self.site(), Laid::read(tx, &self.clock())?, sizes, OnceCell::new());
-        let basis = Basis { knowledge: self, graph: &graph, rules: &rules, ground, within: self.within };
+        let basis =
+            Basis { knowledge: self, graph: &graph, rules: &rules, ground, within: self.within, ends_in };
         let answer = basis.search(goals, answer);
         // nobody waits until all of it is given back
         rayon::spawn(|| drop(graph));

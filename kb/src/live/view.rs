@@ -77,6 +77,7 @@ impl View {
             rules: &self.inputs.rule_names,
             ground: answer::Ground::Known(&self.world, &self.gauge),
             within: self.within,
+            ends_in: [None; 2],
         }
     }
 

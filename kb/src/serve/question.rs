@@ -43,9 +43,12 @@ impl Question {
                 "avoid" => errand.avoid.push(value.into_owned()),
                 "load" => errand.load = Some(value.into_owned()),
                 "at" => errand.at = Some(value.into_owned()),
+                "start_state" => errand.start_state = Some(value.into_owned()),
+                "goal_state" => errand.goal_state = Some(value.into_owned()),
                 other => {
                     let message = format!(
-                        "a route has `start`, `goal`, `robot`, `within`, `avoid`, `load` and `at`, and not `{other}`"
+                        "a route has `start`, `goal`, `robot`, `within`, `avoid`, `load`, `at`, `start_state` and \
+                         `goal_state`, and not `{other}`"
                     );
                     return Err(Fault::new(Code::ServiceQuestion, message));
                 }
@@ -74,8 +77,8 @@ impl Question {
 
     /// The route on an errand of its own, on a copy of what is known.
     pub fn answer_on_errand(&self, fork: State) -> Result<Answer> {
-        let robot = self.robot.as_deref();
-        fork.within(self.within)?.on_errand(&self.errand, robot)?.route(&self.start, &self.goals, robot)
+        let ends = (self.start.as_str(), self.goals.as_slice());
+        fork.within(self.within)?.route_on_errand(&self.errand, ends, self.robot.as_deref())
     }
 }
 

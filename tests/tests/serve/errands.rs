@@ -94,3 +94,28 @@ fn what_is_carried_on_one_errand_closes_what_it_does_not_fit_through() {
     assert!(site.adit("route", &cli).expecting(1).stdout.contains("1.6 m"));
     assert_eq!(site.sqlite3("SELECT max(carried) FROM loads"), ["0"]);
 }
+
+#[test]
+fn a_robot_starts_and_arrives_in_the_states_that_are_said() {
+    let (site, service) = served("clinic");
+    let before = asked(&service, WAY);
+    let states = |answer: &Value| {
+        let points = answer["waypoints"].as_array().unwrap();
+        [&points[0], &points[points.len() - 1]].map(|point| point["state"].as_str().unwrap().to_owned())
+    };
+    let [start, goal] = states(&before);
+    let all = site.sqlite3("SELECT DISTINCT state FROM rooms WHERE x0 < 2 AND x1 > 2 AND y0 < 2 AND y1 > 2");
+    let other = all.iter().find(|state| **state != start).unwrap();
+    let answer = asked(&service, &format!("{WAY}&start_state={other}"));
+    assert_eq!(states(&answer), [other.clone(), goal.clone()]);
+    assert!(answer["cost"].as_f64() > before["cost"].as_f64());
+    let both = asked(&service, &format!("{WAY}&start_state={other}&goal_state={other}"));
+    assert_eq!(states(&both), [other.clone(), other.clone()]);
+    let said = ["dock", "ward 12", "--start-state", other, "--goal-state", other, "--json"];
+    let cli = site.adit("route", &said).expecting(0).json();
+    assert_eq!((states(&cli), &cli["cost"]), (states(&both), &both["cost"]));
+    let same = asked(&service, &format!("{WAY}&start_state={start}&goal_state={goal}"));
+    assert_eq!(way(&same), way(&before));
+    let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&goal_state=FLY"), None);
+    assert_eq!((status, &refused["error"]["code"]), (404, &json!("route/unknown-state")));
+}

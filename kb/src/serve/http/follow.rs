@@ -39,7 +39,7 @@ pub async fn follow(
 ) -> Answered<impl IntoResponse> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     if !question.errand.is_none() {
-        let message = "a route that is followed has no `avoid`, `load` or `at`";
+        let message = "a route that is followed has no `avoid`, `load`, `at` or states";
         return Err(Fault::new(Code::ServiceQuestion, message).helped("ask `/api/route` for one errand"));
     }
     let subscription = site.subscribe().ok_or_else(Fault::busy)?;

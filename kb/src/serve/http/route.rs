@@ -13,7 +13,7 @@ use crate::serve::shared::beside;
 
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
 ///
-/// With `avoid`, `load` or `at` it is that of one errand, on a copy of the site: nothing is saved, and nobody else is led
+/// With `avoid`, `load`, `at` or a state it is that of one errand, on a copy of the site: nothing is saved, and nobody else is led
 /// otherwise.
 ///
 /// What was edited or told before is known to it, also where routes kept in the database have yet to follow.
@@ -26,6 +26,8 @@ use crate::serve::shared::beside;
         ("avoid" = Option<String>, Query, description = "A doorway, a space, an area, a kind of area or a point `x,y` that is closed to this errand alone; may stand several times"),
         ("load" = Option<String>, Query, description = "What the robot carries on this errand"),
         ("at" = Option<String>, Query, description = "When the errand is: `18:00`, `2h`, `2026-11-21T18:00`; facts that end and opening hours are as they are then"),
+        ("start_state" = Option<String>, Query, description = "In which state the robot starts; unless said, in whichever is cheapest"),
+        ("goal_state" = Option<String>, Query, description = "In which state it arrives"),
     ),
     responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
