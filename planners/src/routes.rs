@@ -9,6 +9,7 @@
 //! Where rooms weigh their metres, a [`Way`] is measured as it is driven: from point to point, straight where nothing
 //! is in the way. The search is any-angle over the mesh of rooms, and what it finds is pulled tight.
 
+mod berth;
 mod blocked;
 mod by_hierarchy;
 mod closed;
@@ -41,9 +42,18 @@ pub use blocked::{Blockage, Shut, blockage};
 pub use compact::{CompactGraph, CompactTree};
 pub use graph::{Closed, RouteGraph};
 pub use on_doors::{Arrival, Tree};
-pub use parts::{Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
+pub use parts::{Berth, Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteRoom, Start, Walking};
 pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
+
+/// How far off walls a way keeps.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Drawn {
+    /// As far as it must.
+    Tight,
+    /// As far as rooms ask for.
+    Wide,
+}
 
 impl RouteGraph {
     /// The best way to the goal that costs least, with that goal's index.
@@ -55,7 +65,19 @@ impl RouteGraph {
     /// Where all hardness lies on the doors, and ways are [prepared](Self::prepare), nothing is looked at but what lies
     /// above start and goal in the hierarchy; elsewhere [`tree`](Self::tree) finds the way. Both cost the same; where
     /// several ways do, they may give different ones.
+    ///
+    /// Where rooms ask for a [`Berth`], the way keeps off walls, and costs more than [the tightest](Self::tightest_way) by no
+    /// more than they allow.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
+        self.way_at(start, goals, Drawn::Wide)
+    }
+
+    /// As [`way`](Self::way), whatever berth rooms ask for. It is by what these cost that ways are chosen.
+    pub fn tightest_way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
+        self.way_at(start, goals, Drawn::Tight)
+    }
+
+    fn way_at(&self, start: &Start, goals: &[Goal], drawn: Drawn) -> Option<(usize, Way)> {
         if let Some(hierarchy) = self.hierarchy.as_ref().filter(|_| self.is_on_doors()) {
             return self.way_by(hierarchy, start, goals);
         }
@@ -65,12 +87,13 @@ impl RouteGraph {
             return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
         }
         if let Some(cut) = self.cut() {
-            return cut.way(start, goals);
+            return cut.way(start, goals, drawn);
         }
         let outcome = Search::find(self, start, goals, Wanted::One);
         let ways = (0..goals.len())
             .filter_map(|goal| Some((goal, self.best(&outcome, start, (goal, goals[goal].at))?)));
-        ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))
+        let (goal, way) = ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))?;
+        Some((goal, if drawn == Drawn::Tight { way } else { self.with_berth(way) }))
     }
 
     /// The best of the ways to a goal that were found, pulled tight.
@@ -96,12 +119,11 @@ impl RouteGraph {
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
         let outcome = Search::find(self, start, goals, wanted);
         let way = |found: &Option<taut::Found>| {
-            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found))
+            found.as_ref().map(|found| self.with_berth(trace(self, &outcome.nodes, (start, None), found)))
         };
-        Ways {
-            goals: (0..goals.len()).map(|goal| self.best(&outcome, start, (goal, goals[goal].at))).collect(),
-            rooms: outcome.rooms.iter().map(way).collect(),
-        }
+        let to =
+            |goal: usize| self.best(&outcome, start, (goal, goals[goal].at)).map(|way| self.with_berth(way));
+        Ways { goals: (0..goals.len()).map(to).collect(), rooms: outcome.rooms.iter().map(way).collect() }
     }
 
     /// The rooms that open doors join with one of these.

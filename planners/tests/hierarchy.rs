@@ -3,7 +3,7 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{
-    DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+    Berth, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
 };
 use petgraph::algo::dijkstra;
 use petgraph::visit::EdgeRef;
@@ -17,7 +17,12 @@ fn rooms(is_entered: &[bool]) -> Vec<RouteRoom> {
     let room = |(index, &is_entered): (usize, &bool)| {
         let (x, y) = ((index % SIDE) as f64, (index / SIDE) as f64);
         let walking = if is_entered { Walking::OnDoors } else { Walking::Unknown };
-        RouteRoom { outline: Rect::new(x, y, x + 1.0, y + 1.0).into(), radius: None, walking }
+        RouteRoom {
+            outline: Rect::new(x, y, x + 1.0, y + 1.0).into(),
+            radius: None,
+            berth: Berth::default(),
+            walking,
+        }
     };
     is_entered.iter().enumerate().map(room).collect()
 }
@@ -201,6 +206,7 @@ fn floor(side: usize, draw: &mut impl FnMut(u64) -> u64) -> RouteGraph {
         RouteRoom {
             outline: Rect::new(x, y, x + 1.0, y + 1.0).into(),
             radius: None,
+            berth: Berth::default(),
             walking: Walking::OnDoors,
         }
     };

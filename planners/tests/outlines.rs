@@ -3,6 +3,7 @@
 
 mod outlines {
     mod arcs;
+    mod berth;
     mod floors;
     mod triangles;
     mod turned;

@@ -3,7 +3,8 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::routes::{
-    Blockage, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Shut, Start, Walking, blockage,
+    Berth, Blockage, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Shut, Start, Walking,
+    blockage,
 };
 use petgraph::algo::{bellman_ford, dijkstra, kosaraju_scc, tarjan_scc};
 use petgraph::visit::{EdgeCount, EdgeRef, IntoEdgeReferences, IntoEdgesDirected};
@@ -25,7 +26,12 @@ fn door(door: u32, room1: usize, room2: usize, hardness: f64) -> RouteDoor {
 
 fn rooms(count: usize) -> Vec<RouteRoom> {
     vec![
-        RouteRoom { outline: Rect::new(0.0, 0.0, 1.0, 1.0).into(), radius: None, walking: Walking::OnDoors };
+        RouteRoom {
+            outline: Rect::new(0.0, 0.0, 1.0, 1.0).into(),
+            radius: None,
+            berth: Berth::default(),
+            walking: Walking::OnDoors
+        };
         count
     ]
 }
@@ -164,6 +170,7 @@ fn metres_are_weighed_from_crossing_point_to_crossing_point() {
     let room = |x0, hardness| RouteRoom {
         outline: Rect::new(x0, 0.0, x0 + 10.0, 10.0).into(),
         radius: None,
+        berth: Berth::default(),
         walking: Walking::PerMetre(hardness),
     };
     let wall = RouteDoor { crossing: Rect::new(10.0, 8.0, 10.0, 10.0).into(), ..door(1, 0, 1, 0.5) };
@@ -183,6 +190,7 @@ fn the_shape_is_changed_where_that_is_cheapest_not_where_it_is_first_possible() 
     let room = |x0, x1, hardness| RouteRoom {
         outline: Rect::new(x0, 0.0, x1, 2.0).into(),
         radius: None,
+        berth: Berth::default(),
         walking: Walking::PerMetre(hardness),
     };
     let rooms = vec![room(0.0, 9.0, 1.0), room(10.0, 20.0, 1.0), room(0.0, 20.0, 4.0)];

@@ -5,8 +5,8 @@
 use adit_planners::geometry::{Point, Rect, Segment};
 use adit_planners::layers::{Kind, State, cut_layers};
 use adit_planners::routes::{
-    Blockage, Closed, Crossing, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking,
-    Way, blockage,
+    Berth, Blockage, Closed, Crossing, DoorIndex, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start,
+    Walking, Way, blockage,
 };
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use proptest::prelude::*;
@@ -44,6 +44,7 @@ fn graph_of(world: &World, states: &[(State, f64)], change: f64) -> RouteGraph {
     let weigh = |room: &adit_planners::layers::Room| RouteRoom {
         outline: room.outline.clone(),
         radius: None,
+        berth: Berth::default(),
         walking: Walking::PerMetre(states[room.state].1),
     };
     let door = |(index, crossing): (usize, &adit_planners::layers::Crossing)| RouteDoor {

@@ -4,7 +4,9 @@
 
 use adit_engine::{Class, KnowledgeBase, RuleBase, SourceFile};
 use adit_planners::geometry::{Convex, Point, Rect};
-use adit_planners::routes::{CompactGraph, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking};
+use adit_planners::routes::{
+    Berth, CompactGraph, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking,
+};
 use petgraph::algo::dijkstra;
 use petgraph::visit::{EdgeRef, IntoEdges};
 
@@ -45,7 +47,11 @@ fn a_route_over_a_hundred_thousand_rooms_weighs_the_doors_of_settled_rooms_only(
 
     let graph = |hardness: &[Option<f64>]| {
         let outline = Convex::from(Rect::new(0.0, 0.0, 1.0, 1.0));
-        let rooms = vec![RouteRoom { outline, radius: None, walking: Walking::OnDoors }; SIDE * SIDE];
+        let rooms =
+            vec![
+                RouteRoom { outline, radius: None, berth: Berth::default(), walking: Walking::OnDoors };
+                SIDE * SIDE
+            ];
         let door = |(door, &(room1, room2)): (usize, &(usize, usize))| RouteDoor {
             door: door as u32 + 1,
             room1: RoomIndex::new(room1),

@@ -1,14 +1,19 @@
 //! A building of square rooms.
 
 use adit_planners::geometry::Rect;
-use adit_planners::routes::{RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
+use adit_planners::routes::{Berth, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
 
 /// Rooms of 4 m in a square of `side` by `side`, each joined to its right and its upper neighbour.
 pub fn building(side: usize, walking: Walking) -> RouteGraph {
     let corner = |i: usize| 4.0 * i as f64;
     let square = |x: usize, y: usize| Rect::new(corner(x), corner(y), corner(x + 1), corner(y + 1));
     let rooms = (0..side * side)
-        .map(|i| RouteRoom { outline: square(i % side, i / side).into(), radius: None, walking })
+        .map(|i| RouteRoom {
+            outline: square(i % side, i / side).into(),
+            radius: None,
+            berth: Berth::default(),
+            walking,
+        })
         .collect();
     let mut doors = Vec::new();
     for room in 0..side * side {

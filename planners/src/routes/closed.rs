@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use super::Drawn;
 use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
@@ -16,7 +17,7 @@ use crate::geometry::{Convex, Point, Rect};
 const NO_DOOR: u32 = u32::MAX;
 
 /// So near to a closed boundary no shape is changed, metres.
-const CLEAR_M: f64 = 0.01;
+pub(super) const CLEAR_M: f64 = 0.01;
 
 impl Closed {
     /// For whoever comes along.
@@ -200,9 +201,9 @@ impl Cut {
         }
     }
 
-    pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
+    pub fn way(&self, start: &Start, goals: &[Goal], drawn: Drawn) -> Option<(usize, Way)> {
         let goals: Vec<Goal> = goals.iter().map(|goal| self.goal(goal)).collect();
-        let (goal, way) = self.graph.way(&self.start(start), &goals)?;
+        let (goal, way) = self.graph.way_at(&self.start(start), &goals, drawn)?;
         Some((goal, self.whole(&way)))
     }
 

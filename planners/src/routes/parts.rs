@@ -17,7 +17,17 @@ pub struct RouteRoom {
     /// Of the disc whose middle may be anywhere in it, metres: about corners of walls it may come nearer than to the outline.
     /// `None` for what is no disc.
     pub radius: Option<f64>,
+    pub berth: Berth,
     pub walking: Walking,
+}
+
+/// How much farther off walls than they must ways keep where that costs little.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Berth {
+    /// Beyond the outline, metres.
+    pub metres: f64,
+    /// What it may cost at most, as a share of what the best way costs.
+    pub share: f64,
 }
 
 impl RouteRoom {

@@ -427,7 +427,7 @@ impl Chain<'_> {
 }
 
 /// Whether a way turns at a point.
-fn turns(before: Point, at: Point, after: Point) -> bool {
+pub(super) fn turns(before: Point, at: Point, after: Point) -> bool {
     let (come, go) = (before.distance(at), at.distance(after));
     come > EPSILON && go > EPSILON && cross(before, at, after).abs() > EPSILON * come.max(1.0) * go.max(1.0)
 }
@@ -459,14 +459,14 @@ fn least(segment: &Segment, cost: impl Fn(Point) -> f64) -> Point {
 }
 
 /// A door as one comes to it.
-struct Opening {
-    segment: Segment,
-    left: Point,
-    right: Point,
+pub(super) struct Opening {
+    pub segment: Segment,
+    pub left: Point,
+    pub right: Point,
 }
 
 /// Where the shortest way between two points passes doors, in their order.
-fn taut(from: Point, doors: &[Opening], to: Point) -> Vec<Point> {
+pub(super) fn taut(from: Point, doors: &[Opening], to: Point) -> Vec<Point> {
     let mut passed = vec![from; doors.len()];
     let (mut apex, mut done) = (from, 0);
     while done < doors.len() {

@@ -14,9 +14,13 @@ const TURN: f64 = TAU / 24.0;
 /// The arc about a corner of a wall, where the tangents at both of its ends meet in the end of doors.
 pub(super) struct Arc {
     /// Where the tangents meet.
-    at: Point,
-    /// What the wall takes of the directions about there, radians.
-    wall: f64,
+    pub at: Point,
+    /// The corner of the wall.
+    pub centre: Point,
+    /// How far the arc keeps from the corner, metres.
+    pub radius: f64,
+    /// What the wall takes of the directions about there.
+    wall: Sector,
     /// Corners about the arc, counterclockwise.
     corners: Vec<Point>,
     /// The doors that end there, each with the direction in which it leads away: counterclockwise, radians from the wall.
@@ -46,18 +50,10 @@ impl RouteGraph {
         if !doors.iter().all(|&door| self.is_free(door)) {
             return None;
         }
-        let mut around: Vec<RoomIndex> =
-            doors.iter().flat_map(|&door| [self[door].room1, self[door].room2]).collect();
-        around.sort_unstable();
-        around.dedup();
-        let sectors = around.iter().filter_map(|&room| self[room].outline.sector_at(at));
-        let wall = Sector::widest_gap(sectors)?;
-        if wall.turn >= PI {
-            return None;
-        }
-        let foot = radius / (wall.turn / 2.0).tan();
+        let around = self.rooms_of(doors);
+        let wall = self.wall_between(&around, at).filter(|wall| wall.turn < PI)?;
         let first = wall.from + wall.turn;
-        let feet = [first, wall.from].map(|angle| at + Point::towards(angle) * foot);
+        let feet = feet(at, wall, radius);
         let is_straight = |foot: Point| {
             let sides = || around.iter().flat_map(|&room| self[room].outline.sides());
             sides().any(|side| side.distance(at) <= SNAP_M && side.distance(foot) <= 2.0 * SNAP_M)
@@ -66,18 +62,47 @@ impl RouteGraph {
             return None;
         }
         let centre = at + wall.middle() * (radius / (wall.turn / 2.0).sin());
-        let count = ((PI - wall.turn) / TURN).ceil().max(1.0);
-        let step = (PI - wall.turn) / count;
-        let from = (feet[0] - centre).angle() + step / 2.0;
-        let reach = radius / (step / 2.0).cos();
-        let corner = |number: u32| centre + Point::towards(from + step * f64::from(number)) * reach;
-        let corners: Vec<Point> = (0..count as u32).map(corner).collect();
+        let normals = Sector { from: (feet[0] - centre).angle(), turn: PI - wall.turn };
+        let corners = tangents(centre, normals, radius);
         let segments = doors.iter().filter_map(|&door| self[door].crossing.segment());
         let doors =
             segments.map(|door| (((far(door, at) - at).angle() - first).rem_euclid(TAU), door)).collect();
-        let arc = Arc { at, wall: wall.turn, corners, doors };
+        let arc = Arc { at, centre, radius, wall, corners, doors };
         arc.is_clear_of(self.walls_of(self[door].room1)).then_some(arc)
     }
+
+    /// The rooms that some doors join.
+    pub(super) fn rooms_of(&self, doors: &[DoorIndex]) -> Vec<RoomIndex> {
+        let mut rooms: Vec<RoomIndex> =
+            doors.iter().flat_map(|&door| [self[door].room1, self[door].room2]).collect();
+        rooms.sort_unstable();
+        rooms.dedup();
+        rooms
+    }
+
+    /// What of the directions about a point some rooms leave to a wall; `None` where none of them has a corner or a side there.
+    pub(super) fn wall_between(&self, rooms: &[RoomIndex], at: Point) -> Option<Sector> {
+        Sector::widest_gap(rooms.iter().filter_map(|&room| self[room].outline.sector_at(at)))
+    }
+}
+
+/// Where the arc about a corner of a wall begins and ends on the wall's sides, which meet at a point.
+fn feet(at: Point, wall: Sector, radius: f64) -> [Point; 2] {
+    let foot = radius / (wall.turn / 2.0).tan();
+    [wall.from + wall.turn, wall.from].map(|angle| at + Point::towards(angle) * foot)
+}
+
+/// Corners about an arc, counterclockwise.
+///
+/// # Arguments
+/// `normals` are the directions from the centre to the arc.
+pub(super) fn tangents(centre: Point, normals: Sector, radius: f64) -> Vec<Point> {
+    let count = (normals.turn / TURN).ceil().max(1.0);
+    let step = normals.turn / count;
+    let from = normals.from + step / 2.0;
+    let reach = radius / (step / 2.0).cos();
+    let corner = |number: u32| centre + Point::towards(from + step * f64::from(number)) * reach;
+    (0..count as u32).map(corner).collect()
 }
 
 /// The end of a door that is not here.
@@ -86,6 +111,24 @@ fn far(door: Segment, here: Point) -> Point {
 }
 
 impl Arc {
+    /// The triangle in which the ground between the arc and its tangents lies.
+    pub fn dent(&self) -> Convex {
+        let [first, last] = feet(self.at, self.wall, self.radius);
+        Convex::new(vec![self.at, last, first])
+    }
+
+    /// Whether a point lies between the arc and its tangents, where the ground is free.
+    pub fn holds(&self, p: Point) -> bool {
+        let is_near = p.squared_distance(self.at) <= self.at.squared_distance(self.centre);
+        is_near && self.leaves_free(Segment::new(p, p)) && self.dent().distance(p) <= SNAP_M
+    }
+
+    /// Whether a straight way does not come nearer to the corner than the arc.
+    pub fn leaves_free(&self, way: Segment) -> bool {
+        // rooms keep off by as much more as two points are told apart
+        way.distance(self.centre) >= self.radius - SNAP_M
+    }
+
     /// Whether no boundary lies between the arc and its tangents.
     fn is_clear_of<'w>(&self, walls: impl Iterator<Item = &'w Segment>) -> bool {
         let mut walls = walls.peekable();
@@ -150,11 +193,11 @@ impl Arc {
     fn met(&self, angle: f64) -> (f64, Point) {
         let (first, last) = (self.corners[0], self.corners[self.corners.len() - 1]);
         // carried on, it leads into the wall, from one of its sides to the other
-        let share = (angle - (PI - self.wall)) / self.wall;
+        let share = (angle - (PI - self.wall.turn)) / self.wall.turn;
         if share <= 0.0 {
             return (-0.5, first);
         }
-        let along = (first - self.at).rotated(Point::towards(-share * self.wall));
+        let along = (first - self.at).rotated(Point::towards(-share * self.wall.turn));
         let side = |p: Point| cross(self.at, self.at + along, p);
         let met = self.corners.windows(2).position(|ends| side(ends[0]) >= 0.0 && side(ends[1]) < 0.0);
         let Some(number) = met.filter(|_| share < 1.0) else {

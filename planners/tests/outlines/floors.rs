@@ -3,7 +3,7 @@
 use adit_planners::geometry::{Point, Rect, Segment};
 use adit_planners::layers::{Crossing, Kind, Room, State, cut_layers};
 use adit_planners::routes::{
-    Crossing as Where, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+    Berth, Crossing as Where, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
 };
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use petgraph::algo::dijkstra;
@@ -64,6 +64,7 @@ pub fn graph(world: &World, shapes: &[(State, f64)], change: f64) -> RouteGraph 
     let weigh = |room: &Room| RouteRoom {
         outline: room.outline.clone(),
         radius: None,
+        berth: Berth::default(),
         walking: Walking::PerMetre(shapes[room.state].1),
     };
     let door = |(index, crossing): (usize, &Crossing)| RouteDoor {

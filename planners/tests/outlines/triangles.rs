@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_planners::geometry::{Convex, Point, Segment};
-use adit_planners::routes::{Crossing, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
+use adit_planners::routes::{Berth, Crossing, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking};
 use proptest::prelude::*;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
@@ -64,6 +64,7 @@ impl Hall {
         let room = |room: &Room| RouteRoom {
             outline: Convex::new(room.iter().map(|&corner| self.points[corner]).collect()),
             radius: None,
+            berth: Berth::default(),
             walking: Walking::PerMetre(1.0),
         };
         let mut doors = Vec::new();
