@@ -122,7 +122,7 @@ impl State {
             truncated: false,
         };
         let Some(path) = routes.best(&prober.present) else { return Ok(firm) };
-        firm.cost = Some(path.cost(&prober.present));
+        firm.cost = routes.driven_cost(&prober.present);
         let same = corridor::SameWay::new(&prober, &routes, path);
         let deadline = Instant::now() + PATIENCE;
         let levers = prober.levers()?;

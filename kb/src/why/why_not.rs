@@ -9,7 +9,6 @@ mod through;
 use std::time::{Duration, Instant};
 
 use adit_engine::Rejected;
-use adit_planners::routes::Way;
 use serde::Serialize;
 
 use crate::answer::{self, Answer};
@@ -19,7 +18,7 @@ use crate::state::State;
 use crate::why::Reasoned;
 use crate::why::firm::{Path, Prober, Routes, Through, Turn, scale};
 use crate::why::subject::Subject;
-use through::{Passing, Question, Via};
+use through::{Choice, Passing, Question, Via};
 
 /// How long is looked for a cell that would decide otherwise.
 const PATIENCE: Duration = Duration::from_secs(10);
@@ -104,18 +103,19 @@ impl State {
         };
         let best = question.best();
         let (way, passing) = via.map(|via| question.passing(via)).unzip();
-        let is_through = |way: &Way| passing.as_ref().is_some_and(|passing| passing.holds_way(way));
+        let is_through =
+            |way: &Choice| passing.as_ref().is_some_and(|passing| passing.holds_way(&way.driven));
         let way = best.clone().filter(is_through).or(way.flatten());
         let is_to_point = question.is_to_point();
         let (rejected, truncated) = self.rejected(&subject);
         let named = Subject { property: None, ..subject.clone() };
         let (conclusions, _) = self.conclusions(&named)?;
         let door = self.graph().door(key).map(|door| &self.graph()[door]);
-        let costs = (best.as_ref().map(|best| best.cost), way.as_ref().map(|way| way.cost));
+        let costs = Choice::costs(best.as_ref(), way.as_ref());
         let reason = contrast::reason(&subject, door, (start, goal), costs);
-        let answer = |way: &Way| -> Result<Answer> {
+        let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
-            self.basis().along(way, is_to_point, &mut answer)?;
+            self.basis().along(&way.driven, is_to_point, &mut answer)?;
             Ok(answer)
         };
         let route = way.as_ref().map(answer).transpose()?;
@@ -138,8 +138,8 @@ impl State {
             route,
         };
         match (best, way) {
-            (Some(best), Some(way)) if !contrast::is_best(best.cost, way.cost) => {
-                let paths = (Path::of(&best), Path::of(&way));
+            (Some(best), Some(way)) if !contrast::is_best(best.tight.cost, way.tight.cost) => {
+                let paths = (Path::of(&best.tight), Path::of(&way.tight));
                 if let Some(passing) = passing {
                     answer.contrast(self, paths, &passing)?;
                 }

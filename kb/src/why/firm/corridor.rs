@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use adit_planners::routes::{
-    Closed, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start,
+    Closed, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Way,
 };
 
 use super::path::reweigh;
@@ -29,6 +29,9 @@ struct Corridor {
     doors: Vec<DoorIndex>,
 }
 
+/// What finds a best way.
+type Find = fn(&RouteGraph, &Start, &[Goal]) -> Option<(usize, Way)>;
+
 impl SameWay {
     /// Of the best way at present.
     pub fn new(prober: &Prober, routes: &Routes, path: Path) -> Self {
@@ -49,8 +52,17 @@ impl SameWay {
     pub fn cost(&self, weights: &Weights) -> f64 {
         match &self.corridor {
             None => self.path.cost(weights),
-            Some(corridor) => corridor.cost(weights).unwrap_or(f64::INFINITY).min(self.path.cost(weights)),
+            Some(corridor) => corridor
+                .cost(weights, RouteGraph::tightest_way)
+                .unwrap_or(f64::INFINITY)
+                .min(self.path.cost(weights)),
         }
+    }
+
+    /// What it costs as it is driven, off walls.
+    pub fn driven_cost(&self, weights: &Weights) -> f64 {
+        let driven = self.corridor.as_ref().and_then(|corridor| corridor.cost(weights, RouteGraph::way));
+        driven.unwrap_or_else(|| self.cost(weights))
     }
 
     /// Whether no way that costs `best` is better.
@@ -141,14 +153,15 @@ impl Corridor {
         Self { graph: RefCell::new(own), start, goal, rooms, doors }
     }
 
-    fn cost(&self, weights: &Weights) -> Option<f64> {
+    /// What the way that a search finds costs.
+    fn cost(&self, weights: &Weights, find: Find) -> Option<f64> {
         let mut graph = self.graph.borrow_mut();
         let own = Weights {
             rooms: self.rooms.iter().map(|&room| weights[room]).collect(),
             doors: self.doors.iter().map(|&door| weights[door]).collect(),
         };
         reweigh(&mut graph, &own);
-        graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
+        find(&graph, &self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
     }
 }
 

@@ -81,7 +81,20 @@ impl Routes {
         matches!(self.searched, Searched::OnDoors(_))
     }
 
-    /// The best way where everything weighs so; `None` where there is none.
+    /// What the best way costs as it is driven, off walls.
+    pub fn driven_cost(&self, weights: &Weights) -> Option<f64> {
+        match &self.searched {
+            Searched::OnDoors(_) => Some(self.best(weights)?.cost(weights)),
+            Searched::Measured(graph) => {
+                let mut graph = graph.borrow_mut();
+                reweigh(&mut graph, weights);
+                graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
+            }
+        }
+    }
+
+    /// The best way where everything weighs so; `None` where there is none. How far off walls it keeps turns no choice, and
+    /// is not looked at.
     pub fn best(&self, weights: &Weights) -> Option<Path> {
         match &self.searched {
             Searched::OnDoors(graph) => {
@@ -92,7 +105,9 @@ impl Routes {
             Searched::Measured(graph) => {
                 let mut graph = graph.borrow_mut();
                 reweigh(&mut graph, weights);
-                graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| Path::of(&way))
+                graph
+                    .tightest_way(&self.start, std::slice::from_ref(&self.goal))
+                    .map(|(_, way)| Path::of(&way))
             }
         }
     }

@@ -30,7 +30,7 @@ pub(super) fn beyond(
     takeover: &Takeover,
 ) -> Result<Beyond> {
     let cost = match prober.at(lever, end)? {
-        Probe::Weighs(weights) => same.cost(&weights),
+        Probe::Weighs(weights) => same.driven_cost(&weights),
         Probe::CutAnew | Probe::Refused => f64::INFINITY,
     };
     let (way, at) = match takeover {

@@ -7,6 +7,7 @@ use adit_planners::routes::{
     Closed, DoorIndex, Entry, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way,
 };
 
+use super::contrast;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::state::State;
@@ -38,6 +39,35 @@ pub(super) struct Passing {
     routes: Routes,
 }
 
+/// A best way: as it is chosen, and as it is driven, farther off walls.
+#[derive(Clone)]
+pub(super) struct Choice {
+    pub tight: Way,
+    pub driven: Way,
+}
+
+impl Choice {
+    fn of(graph: &RouteGraph, start: &Start, goal: &Goal) -> Option<Self> {
+        let goals = std::slice::from_ref(goal);
+        let ((_, tight), (_, driven)) = (graph.tightest_way(start, goals)?, graph.way(start, goals)?);
+        Some(Self { tight, driven })
+    }
+
+    /// What the best way and one through costs as they are driven; as they are chosen where keeping off walls costs the best
+    /// one more than the whole difference.
+    pub(super) fn costs(best: Option<&Self>, way: Option<&Self>) -> (Option<f64>, Option<f64>) {
+        let driven = |way: &Self| way.driven.cost;
+        let (Some(one), Some(other)) = (best, way) else { return (best.map(driven), way.map(driven)) };
+        if contrast::is_best(one.tight.cost, other.tight.cost) {
+            (Some(driven(one)), Some(driven(one)))
+        } else if contrast::is_best(driven(one), driven(other)) {
+            (Some(one.tight.cost), Some(other.tight.cost))
+        } else {
+            (Some(driven(one)), Some(driven(other)))
+        }
+    }
+}
+
 impl<'g> Question<'g> {
     pub(super) fn new(fork: &'g State, start: &str, goal: &str, robot: &str) -> Result<Self> {
         let (start, goal) = (fork.end(start)?, fork.end(goal)?);
@@ -47,9 +77,8 @@ impl<'g> Question<'g> {
         Ok(Self { graph, start, goal })
     }
 
-    pub(super) fn best(&self) -> Option<Way> {
-        let goals = std::slice::from_ref(&self.goal);
-        self.graph.graph().way(&self.start, goals).map(|(_, way)| way)
+    pub(super) fn best(&self) -> Option<Choice> {
+        Choice::of(self.graph.graph(), &self.start, &self.goal)
     }
 
     /// Whether the goal is a point, so that something is walked in the last room.
@@ -58,7 +87,7 @@ impl<'g> Question<'g> {
     }
 
     /// The best way through a room or a door, and what finds it at other weights.
-    pub(super) fn passing(&self, via: Via) -> (Option<Way>, Passing) {
+    pub(super) fn passing(&self, via: Via) -> (Option<Choice>, Passing) {
         let graph = self.graph.graph();
         let count = graph.rooms().len();
         let is_entry = |door: &RouteDoor, index: DoorIndex| match via {
@@ -101,13 +130,15 @@ impl<'g> Question<'g> {
         let begin = |entry: &Entry| if via == Via::Room(entry.room) { in_second(entry) } else { *entry };
         let start = Start { rooms: self.start.rooms.iter().map(begin).collect(), at: self.start.at };
         let goal = Goal { rooms: self.goal.rooms.iter().map(in_second).collect(), ..self.goal };
-        let way = both.way(&start, std::slice::from_ref(&goal)).map(|(_, way)| {
+        let of_site = |way: Way| {
             let leg = |leg: &Leg| {
                 let door = leg.door.map(|door| doors[door.index()]);
                 Leg { room: RoomIndex::new(leg.room.index() % count), door, ..*leg }
             };
             Way { legs: way.legs.iter().map(leg).collect(), cost: way.cost }
-        });
+        };
+        let way = Choice::of(&both, &start, &goal);
+        let way = way.map(|way| Choice { tight: of_site(way.tight), driven: of_site(way.driven) });
         let entries = graph.doors().iter().zip(graph.door_indices());
         let entries = entries.map(|(door, index)| is_entry(door, index)).collect();
         let routes = Routes::between(&both, start, goal);
