@@ -28,6 +28,10 @@ pub struct Room {
     pub outline: Option<String>,
     /// Of the disc whose middle may be anywhere in it, metres; `None` for a body, and in the paper's modes.
     pub radius: Option<f64>,
+    /// How much farther off walls than its outline ways keep where they may, metres.
+    pub berth: Option<f64>,
+    /// What that may cost at most, as a share of what the best way costs.
+    pub berth_cost: Option<f64>,
     /// Metres; `None` is unlimited.
     pub height: Option<f64>,
     /// Its breadth, metres: of a rectangle the smaller side.
@@ -68,6 +72,8 @@ impl Row for Room {
         column!(Cut Real "y1" rect[3]),
         column!(Cut Text "outline" outline),
         column!(Cut Real "radius" radius),
+        column!(Cut Real "berth" berth),
+        column!(Cut Real "berth_cost" berth_cost),
         column!(Cut Real "height" height),
         column!(Cut Real "width" width),
         column!(Cut Integer "space" space),

@@ -22,7 +22,7 @@ use adit_db::weight::Weight;
 use adit_planners::geometry::{Convex, Point, Segment};
 use adit_planners::rooms::outline;
 use adit_planners::routes::{
-    Closed, Crossing, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking,
+    Berth, Closed, Crossing, DoorIndex, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Walking,
 };
 use rayon::prelude::*;
 
@@ -94,6 +94,7 @@ impl SiteGraph {
             route_rooms.extend(outline.map(|outline| RouteRoom {
                 outline,
                 radius: room.radius,
+                berth: Berth { metres: room.berth.unwrap_or(0.0), share: room.berth_cost.unwrap_or(0.0) },
                 walking: walking_in(room),
             }));
             is_kept

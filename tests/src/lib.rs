@@ -111,6 +111,14 @@ impl TestSite {
         self.write(name, text.replacen(from, to, 1));
     }
 
+    /// The site with the shipped rules for rooms by state, but for ways that keep no farther off walls than they must.
+    #[must_use]
+    pub fn without_berth(self) -> Self {
+        self.copy_rules("by-state");
+        self.edit("rules/states.rhai", "state.berth      = 0.05;", "state.berth      = 0.0;");
+        self
+    }
+
     /// Copies a shipped rule base into the site's folder `rules`.
     pub fn copy_rules(&self, base: &str) {
         for entry in fs::read_dir(repository().join("rules/rooms").join(base)).expect("a rule base") {

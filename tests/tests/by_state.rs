@@ -30,6 +30,54 @@ fn from_the_dock_to_ward_6_the_robot_goes_sideways_through_the_narrow_door_unles
     assert!(knees[0] < 18.5 && knees[1] > 20.5 && knees[2] > 11.15 && knees[3] < 14.85, "{knees:?}");
 }
 
+/// The way about the end of a wall: what it costs, and how near its waypoints say that it comes to walls between its ends.
+fn about_the_wall(site: &TestSite) -> (f64, f64) {
+    let route = site.adit("route", &["west", "east", "--json"]).expecting(0).json();
+    let legs = route["waypoints"].as_array().unwrap().iter().skip(1);
+    let clearances = legs.map(|waypoint| waypoint["clearance"].as_f64().unwrap());
+    (route["cost"].as_f64().unwrap(), clearances.fold(f64::INFINITY, f64::min))
+}
+
+/// A hall with a wall half across it, and one robot 0.6 m wide.
+fn half_a_wall() -> TestSite {
+    let map = "width = 12.0\ndepth = 8.0\n[[obstacle]]\nrect = [5.9, 0.0, 6.1, 4.0]\n\
+               [[place]]\nname = \"west\"\nat = [1.0, 2.0]\n[[place]]\nname = \"east\"\nat = [11.0, 2.0]\n";
+    let robots =
+        "[[robots]]\nstate = \"DRIVE\"\naction = \"DRIVE\"\nheight = 1.0\nwidth = 0.6\nhardness = 1.0\n";
+    TestSite::empty()
+        .with("map.toml", map)
+        .with("robots.toml", robots)
+        .with("site.toml", "name = \"half a wall\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\n")
+}
+
+#[test]
+fn a_way_keeps_off_walls_where_that_costs_little_as_a_rule_says_and_whoever_tells_otherwise() {
+    let site = half_a_wall().built();
+    let (cost, clear) = about_the_wall(&site);
+    assert!(clear > 0.0499, "5 cm by the shipped rule, not {clear}");
+    let kept: f64 =
+        site.sqlite3("SELECT cost FROM route WHERE start = 'west' AND goal = 'east'")[0].parse().unwrap();
+    assert!((kept - cost).abs() < 1e-9 * cost, "the kept route costs {kept}");
+    site.adit("tell", &["ROBOTS", "robot/DRIVE", "berth", "0"]).expect_status(0);
+    let (tight, touches) = about_the_wall(&site);
+    assert!(touches < 1e-5 && tight < cost && cost <= 1.01 * tight, "{tight}, then {cost}");
+    site.adit("tell", &["ROBOTS", "robot/DRIVE", "berth", "0.3"]).expect_status(0);
+    let (most, _) = about_the_wall(&site);
+    assert!(most > cost && most <= 1.01 * tight, "as far as one in a hundred allows: {most} for {tight}");
+    site.adit("tell", &["ROBOTS", "robot/DRIVE", "berth_cost", "0.2"]).expect_status(0);
+    assert!(about_the_wall(&site).1 > 0.299, "{}", about_the_wall(&site).1);
+    site.adit("tell", &["ROBOTS", "robot/DRIVE", "berth_cost", "-1"])
+        .expecting(2)
+        .complains(&["the berth_cost of `DRIVE` is -1", "it is finite and not negative"]);
+}
+
+#[test]
+fn a_rule_without_a_berth_gives_the_shortest_way() {
+    let (tight, touches) = about_the_wall(&half_a_wall().without_berth().built());
+    let (cost, _) = about_the_wall(&half_a_wall().built());
+    assert!(touches < 1e-5 && tight < cost, "{tight} and {cost}");
+}
+
 #[test]
 fn the_costs_of_the_steps_add_up() {
     let site = TestSite::example("hospital").built();

@@ -110,6 +110,7 @@ fn nearest_to_the_pit(site: &TestSite) -> f64 {
 fn nothing_of_the_robot_comes_into_an_area_to_keep_out_of_unless_its_middle_alone_is_meant() {
     let pit = |more: &str| {
         hall(&format!("[[area]]\nname = \"pit\"\nkind = \"keep-out\"\nrect = [8.0, 1.0, 9.0, 3.0]\n{more}"))
+            .without_berth()
             .built()
     };
     let body = nearest_to_the_pit(&pit(""));

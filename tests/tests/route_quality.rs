@@ -9,6 +9,8 @@ mod many_maps;
 mod metamorphic;
 #[path = "route_quality/occupancy_maps.rs"]
 mod occupancy_maps;
+#[path = "route_quality/off_walls.rs"]
+mod off_walls;
 #[path = "route_quality/random_maps.rs"]
 mod random_maps;
 #[path = "route_quality/turned_images.rs"]

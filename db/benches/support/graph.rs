@@ -153,6 +153,8 @@ fn room(index: usize) -> Room {
         rect: [x, y, x + 3.0, y + 3.0],
         outline: None,
         radius: None,
+        berth: None,
+        berth_cost: None,
         height: None,
         width: 3.0,
         space: None,

@@ -45,6 +45,8 @@ fn room(number: i64) -> Room {
         rect: [x, -0.0, x + 0.1, 1.0],
         outline: (number % 13 == 0).then(|| format!("[[{x:?},0.0],[{:?},0.0],[{x:?},1.0]]", x + 0.1)),
         radius: (number % 3 == 0).then_some(0.35),
+        berth: (number % 4 == 0).then_some(0.05),
+        berth_cost: (number % 4 == 0).then_some(0.01),
         height: (number % 3 > 0).then_some(2.5),
         width: 0.1,
         space: (number % 4 > 0).then_some(number % 4),

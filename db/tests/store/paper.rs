@@ -91,6 +91,8 @@ pub fn rooms() -> Vec<Room> {
         rect,
         outline: None,
         radius: None,
+        berth: None,
+        berth_cost: None,
         height,
         width,
         space: None,

@@ -36,7 +36,9 @@ pub struct Tell {
 }
 
 /// What values of these properties must be, whatever rules say.
-const KINDS: [(&str, &str, Type); 9] = [
+const KINDS: [(&str, &str, Type); 11] = [
+    ("ROBOTS", "berth", Type::Number),
+    ("ROBOTS", "berth_cost", Type::Number),
     ("SPACES", "closed", Type::Truth),
     ("DOORWAYS", "closed", Type::Truth),
     ("PRIME_AREAS", "open", Type::Truth),

@@ -74,12 +74,14 @@ pub fn class<R: Row>(name: &str, rows: &[R]) -> Class {
     R::columns_of(Part::Cut).fold(Class::new(name, &[R::COLUMNS[0].name]), with)
 }
 
-/// Rooms as rows, without what rules say; a planner that knows of no outlines makes rectangles, and of no discs or spaces
-/// none.
+/// Rooms as rows, without what rules say; a planner that knows of no outlines makes rectangles, and of no discs,
+/// berths or spaces none.
 pub fn rooms(table: &Table) -> Result<Vec<Room>> {
     let bare = [
         ("outline", facts::Column::Text(vec![None; table.len()])),
         ("radius", facts::Column::Number(vec![None; table.len()])),
+        ("berth", facts::Column::Number(vec![None; table.len()])),
+        ("berth_cost", facts::Column::Number(vec![None; table.len()])),
         ("space", facts::Column::Number(vec![None; table.len()])),
     ];
     let mut table = Cow::Borrowed(table);

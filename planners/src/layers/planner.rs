@@ -5,6 +5,7 @@ use crate::facts::Facts;
 use crate::overlays::{AREAS, MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::rooms::{DoorRow, GIVES, RoomRow, facts};
+use crate::routes::Berth;
 use crate::spaces::{Located, OF_SPACES};
 use crate::world::World;
 
@@ -30,8 +31,8 @@ impl Planner for RoomsByState {
     }
 
     fn signature(&self) -> Signature {
-        let of_robots =
-            ["robot", "state", "height", "width", "length", "moves"].map(|p| format!("ROBOTS.{p}"));
+        let of_robots = ["robot", "state", "height", "width", "length", "moves", "berth?", "berth_cost?"]
+            .map(|p| format!("ROBOTS.{p}"));
         let of_areas = ["area", "whole_body"].map(|p| format!("{AREAS}.{p}?"));
         let of_spaces = OF_SPACES.map(str::to_owned);
         let needs: Vec<String> = of_robots.into_iter().chain(of_areas).chain(of_spaces).collect();
@@ -44,7 +45,7 @@ impl Planner for RoomsByState {
             let class = class.to_owned();
             move |what: String| PlannerError::Fact { planner: NAME.to_owned(), class, what }
         };
-        let states = moving_states(known).map_err(fact("ROBOTS"))?;
+        let (states, berths) = moving_states(known, world.clearance).map_err(fact("ROBOTS"))?;
         let whole = for_the_whole_body(world, known).map_err(fact(AREAS))?;
         let layers = cut_layers_anew(world, &states, &whole, &self.known)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
@@ -54,6 +55,7 @@ impl Planner for RoomsByState {
             facing: room.facing,
             outline: room.outline.clone(),
             radius: room.radius,
+            berth: berths[room.state],
             height: room.height,
         };
         let door = |crossing: &Crossing| DoorRow {
@@ -85,12 +87,16 @@ fn for_the_whole_body(world: &World, known: &Facts) -> Result<Vec<usize>, String
     Ok((0..world.areas.len()).filter(|&area| is_whole(&world.areas[area].name)).collect())
 }
 
-/// The states that move, by robot and then in the table's order.
-fn moving_states(known: &Facts) -> Result<Vec<State>, String> {
+/// The states that move, by robot and then in the table's order, each with how much farther off walls than the clearance that
+/// is kept anyway its ways keep.
+fn moving_states(known: &Facts, clearance: f64) -> Result<(Vec<State>, Vec<Option<Berth>>), String> {
     let table = known.get("ROBOTS").ok_or("the class is missing")?;
     let (robots, names) = (table.texts("robot")?, table.texts("state")?);
     let (heights, widths) = (table.numbers("height")?, table.numbers("width")?);
     let (lengths, moves) = (table.numbers("length")?, table.truths("moves")?);
+    let [berths, costs] =
+        ["berth", "berth_cost"].map(|name| table.column(name).map(|_| table.numbers(name)).transpose());
+    let (berths, costs) = (berths?, costs?);
     let mut order: Vec<&Option<String>> = Vec::new();
     let mut states = Vec::new();
     for row in 0..table.len() {
@@ -102,14 +108,24 @@ fn moving_states(known: &Facts) -> Result<Vec<State>, String> {
         if !order.contains(&&robots[row]) {
             order.push(&robots[row]);
         }
-        states.push(State {
+        let least =
+            |property: &str, values: Option<&[Option<f64>]>| match values.and_then(|values| values[row]) {
+                Some(value) if !(value.is_finite() && value >= 0.0) => {
+                    Err(format!("the {property} of `{name}` is {value}; it is finite and not negative"))
+                }
+                value => Ok(value),
+            };
+        let berth = least("berth", berths)?.zip(least("berth_cost", costs)?);
+        let berth = berth.map(|(metres, share)| Berth { metres: (metres - clearance).max(0.0), share });
+        let state = State {
             robot: robots[row].clone(),
             state: name.to_owned(),
             height: heights[row].ok_or_else(|| unknown("height"))?,
             width: widths[row].ok_or_else(|| unknown("width"))?,
             length: lengths[row],
-        });
+        };
+        states.push((state, berth));
     }
-    states.sort_by_key(|state| order.iter().position(|robot| **robot == state.robot));
-    Ok(states)
+    states.sort_by_key(|(state, _)| order.iter().position(|robot| **robot == state.robot));
+    Ok(states.into_iter().unzip())
 }

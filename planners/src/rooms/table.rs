@@ -7,6 +7,7 @@ use crate::facts::{Column, Facts, Table};
 use crate::geometry::{Convex, Point, Rect, Segment};
 use crate::known::{keys, with_edges};
 use crate::names::room_name;
+use crate::routes::Berth;
 use crate::spaces::Located;
 
 use super::{Room, outline};
@@ -24,6 +25,8 @@ pub(crate) const GIVES: &[&str] = &[
     "ROOMS.y1",
     "ROOMS.outline: text",
     "ROOMS.radius",
+    "ROOMS.berth",
+    "ROOMS.berth_cost",
     "ROOMS.height",
     "ROOMS.width",
     "ROOMS.space",
@@ -56,6 +59,8 @@ pub(crate) struct RoomRow {
     pub outline: Convex,
     /// Of the disc whose middle may be anywhere in it; `None` for what is no disc.
     pub radius: Option<f64>,
+    /// How much farther off walls than that ways keep, and as what share of their cost.
+    pub berth: Option<Berth>,
     pub height: Option<f64>,
 }
 
@@ -112,6 +117,7 @@ pub(crate) fn room_facts(rooms: &[Room], spaces: &Located) -> Facts {
         facing: None,
         outline: room.rect.into(),
         radius: None,
+        berth: None,
         height: room.height,
     };
     facts(&rooms.iter().map(row).collect::<Vec<_>>(), &edges.map(door).collect::<Vec<_>>(), spaces)
@@ -128,6 +134,8 @@ fn room_table(rooms: &[RoomRow]) -> Table {
     with_edges(table, &rects)
         .with("outline", rooms.iter().map(|room| outline::write(&room.outline)).collect::<Column>())
         .with("radius", rooms.iter().map(|room| room.radius).collect::<Column>())
+        .with("berth", rooms.iter().map(|room| Some(room.berth?.metres)).collect::<Column>())
+        .with("berth_cost", rooms.iter().map(|room| Some(room.berth?.share)).collect::<Column>())
         .with("height", rooms.iter().map(|room| room.height).collect::<Column>())
         .with("width", rooms.iter().map(|room| room.outline.breadth()).collect::<Column>())
 }

@@ -28,6 +28,8 @@ fn floor(side: usize) -> SiteGraph {
         ],
         outline: None,
         radius: None,
+        berth: None,
+        berth_cost: None,
         height: None,
         width: 4.1,
         // of the last one no outline tells
