@@ -66,8 +66,8 @@ impl RouteGraph {
     /// above start and goal in the hierarchy; elsewhere [`tree`](Self::tree) finds the way. Both cost the same; where
     /// several ways do, they may give different ones.
     ///
-    /// Where rooms ask for a [`Berth`], the way keeps off walls, and costs more than [the tightest](Self::tightest_way) by no
-    /// more than they allow.
+    /// Where rooms ask for a [`Berth`], a way to a point keeps off walls, and costs more than
+    /// [the tightest](Self::tightest_way) by no more than they allow.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
         self.way_at(start, goals, Drawn::Wide)
     }
@@ -93,7 +93,12 @@ impl RouteGraph {
         let ways = (0..goals.len())
             .filter_map(|goal| Some((goal, self.best(&outcome, start, (goal, goals[goal].at))?)));
         let (goal, way) = ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))?;
-        Some((goal, if drawn == Drawn::Tight { way } else { self.with_berth(way) }))
+        Some((goal, if drawn == Drawn::Tight { way } else { self.off_walls(way, &goals[goal]) }))
+    }
+
+    /// A way as it is driven to a goal. Nobody drives to a room as such: a way into one stays tight.
+    fn off_walls(&self, tight: Way, goal: &Goal) -> Way {
+        if goal.at.is_some() { self.with_berth(tight) } else { tight }
     }
 
     /// The best of the ways to a goal that were found, pulled tight.
@@ -119,10 +124,12 @@ impl RouteGraph {
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
         let outcome = Search::find(self, start, goals, wanted);
         let way = |found: &Option<taut::Found>| {
-            found.as_ref().map(|found| self.with_berth(trace(self, &outcome.nodes, (start, None), found)))
+            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found))
         };
-        let to =
-            |goal: usize| self.best(&outcome, start, (goal, goals[goal].at)).map(|way| self.with_berth(way));
+        let to = |goal: usize| {
+            let best = self.best(&outcome, start, (goal, goals[goal].at));
+            best.map(|way| self.off_walls(way, &goals[goal]))
+        };
         Ways { goals: (0..goals.len()).map(to).collect(), rooms: outcome.rooms.iter().map(way).collect() }
     }
 

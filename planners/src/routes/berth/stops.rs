@@ -15,13 +15,13 @@ impl RouteGraph {
     /// Where the stop between two legs may lie instead, with more room beside it.
     pub(super) fn roomier_stop(&self, before: &Leg, after: &Leg) -> Point {
         let at = before.to;
-        let roomier = self.off_walls(before, after.room);
+        let roomier = self.moved_off_walls(before, after.room);
         let is_closed = |wall: &Segment| wall.distance(roomier) < CLEAR_M;
         let is_clear = |room: RoomIndex| !self.walls_of(room).any(is_closed);
         if is_clear(before.room) && is_clear(after.room) { roomier } else { at }
     }
 
-    fn off_walls(&self, before: &Leg, after: RoomIndex) -> Point {
+    fn moved_off_walls(&self, before: &Leg, after: RoomIndex) -> Point {
         let at = before.to;
         let Some(door) = before.door else { return at };
         let crossing = &self[door].crossing;
