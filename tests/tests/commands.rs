@@ -61,7 +61,11 @@ const PAGES: [Page; 5] = [
         databases: &[("journal", "missions.db"), ("floor_regions", "flat.db")],
     },
     Page { file: "kb/ADAPT.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
-    Page { file: "kb/SERVICE.md", blocks: &[("\"error\"", Use::Shown)], databases: &[] },
+    Page {
+        file: "kb/SERVICE.md",
+        blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
+        databases: &[],
+    },
 ];
 
 /// What is not run, and why.

@@ -1,12 +1,13 @@
 //! A route that is followed: what its follower holds, where it now is, and what it hears when another route is the best.
 
+mod held;
 mod words;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use adit_planners::geometry::{Point, Segment};
+use adit_planners::geometry::Point;
 use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::watch;
 
@@ -15,12 +16,11 @@ use super::fault::{Answered, Fault};
 use super::question::Question;
 use super::shared::{Shared, Subscription};
 use super::token;
-use crate::answer::{Answer, Status};
+use crate::answer::Answer;
 use crate::edit::Errand;
 use crate::error::Code;
-use crate::error::problem::Problem;
-use crate::graph::{Building, SiteGraph};
 use crate::live::View;
+use held::Held;
 
 /// Random bytes of a follower's name: whoever knows it may say where the follower is.
 const BYTES: usize = 16;
@@ -40,13 +40,6 @@ pub struct Followers(Mutex<BTreeMap<String, Known>>);
 struct Known {
     question: Arc<Question>,
     held: Arc<watch::Sender<Arc<Held>>>,
-}
-
-/// The route that a follower holds.
-pub struct Held {
-    answer: Arc<Answer>,
-    /// Where something is closed to its robot, and the sentence that says so.
-    closed: Vec<(Segment, String)>,
 }
 
 /// A stream's side of it. Its name goes with it.
@@ -85,49 +78,6 @@ impl Followers {
         let answer = Arc::clone(&held.answer);
         known.held.send_replace(Arc::new(held));
         Ok(answer)
-    }
-}
-
-impl Held {
-    fn of(answer: Answer, graph: &SiteGraph) -> Self {
-        let building = &graph.building;
-        let doorways = building
-            .closed()
-            .map(|doorway| (Building::segment(doorway), building.why_closed(doorway.doorway)));
-        let lines = building.lines.iter().filter(|line| line.whom.holds_for(&answer.robot)).map(|line| {
-            let [x0, y0, x1, y1] = line.segment;
-            (Segment::new(Point::new(x0, y0), Point::new(x1, y1)), building.why_told_closed(line))
-        });
-        Self { closed: doorways.chain(lines).collect(), answer: Arc::new(answer) }
-    }
-
-    /// The route from the same place as the site now is. Where its ends are none any more, that is why there is no way.
-    fn renewed(&self, question: &Question, view: &View) -> Self {
-        let Answer { start, robot, .. } = &*self.answer;
-        let found = view.clone().within(question.within);
-        let found = found.and_then(|view| view.route(start, &question.goals, Some(robot)));
-        let answer = found.unwrap_or_else(|error| {
-            let why = Problem::all(error.problems()).into_iter().next();
-            let (reason, nearest) = why.map_or((None, None), |why| (Some(why.message), why.nearest));
-            let blank = Answer::blank(robot, start, &question.goals, view.generation());
-            Answer { status: Status::NoRoute, reason, nearest, ..blank }
-        });
-        Self::of(answer, view.graph())
-    }
-
-    /// Whether it is the same route, whatever became of the rest of the site.
-    fn is_same(&self, now: &Self) -> bool {
-        Answer { generation: now.answer.generation, ..(*self.answer).clone() } == *now.answer
-    }
-
-    /// Whether its way passes a segment.
-    fn passes(&self, segment: &Segment) -> bool {
-        let point = |index: usize| {
-            let at = &self.answer.waypoints[index];
-            Point::new(at.x, at.y)
-        };
-        (1..self.answer.waypoints.len())
-            .any(|index| Segment::new(point(index - 1), point(index)).gap(segment) < 1e-6)
     }
 }
 

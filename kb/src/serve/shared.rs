@@ -1,7 +1,8 @@
 //! What all requests share: the view that they read, the way to the one who writes, and the stream of events.
 //!
-//! This file and [`desk`](super::desk) know each other in a circle: a job is left here for the desk, and what the desk
-//! made of it is shown here. What a job may touch is the desk, so its type cannot stand apart from both.
+//! This file, [`desk`](super::desk) and [`follower`](super::follower) know each other in a circle: a job is left here for the
+//! desk, and what the desk made of it is shown here. What a job may touch is the desk, so its type cannot stand apart from
+//! both. A follower is one of those that requests may ask for, and looks at what is shown.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;

@@ -2,7 +2,7 @@
 
 use adit_db::route::Step;
 
-use super::Held;
+use super::held::Held;
 use crate::answer::Answer;
 use crate::serve::event::Changed;
 use crate::words::number::number;
