@@ -53,6 +53,13 @@ fn the_starter_builds_routes_and_draws() {
 }
 
 #[test]
+fn the_way_across_the_clinic_is_the_one_that_is_shown() {
+    let route =
+        TestSite::example("clinic").built().adit("route", &["dock", "ward 12"]).expecting(0).stdout.clone();
+    assert_eq!(route, block("text", "dock to ward 12, hardness"));
+}
+
+#[test]
 fn the_sql_answers() {
     let rows = starter().sqlite3(&block("sql", "action_sequence"));
     assert!(rows.len() > 3, "{rows:?}");

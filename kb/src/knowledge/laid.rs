@@ -64,7 +64,8 @@ impl Item {
     fn of(row: &Row) -> Result<Self> {
         let name = format!("the {} `{}`", row.what, row.name);
         let unreadable = |what: &str| {
-            Error::said(Code::LaidUnreadable, format!("{name} of the table `laid` has {what}"), None)
+            let help = format!("`adit lift SITE \"{}\"` takes it away", row.name);
+            Error::said(Code::LaidUnreadable, format!("{name} of the table `laid` has {what}"), Some(help))
         };
         let corners: Vec<[f64; 2]> =
             serde_json::from_str(&row.outline).map_err(|_| unreadable("no list of corners [[x,y],…]"))?;
