@@ -2,7 +2,7 @@
 
 import { post } from './api.js';
 import { button, byId, debounced, el, fill } from './dom.js';
-import { cost, count, list, value } from './format.js';
+import { cost, count, list, number, value } from './format.js';
 import { askFirm, firmWithin } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -57,6 +57,7 @@ const inOneWord = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', 
 export function summary(preview) {
   const parts = [];
   const { rooms, doors, routes } = preview;
+  if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
   else if (!preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
@@ -91,6 +92,15 @@ export function thisRoute(preview) {
 const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();
 const leadsElsewhere = (one, other) => through(one) !== through(other);
 
+function conclusionList(conclusions) {
+  if (!conclusions?.length) return null;
+  const items = conclusions.slice(0, MOST_ROUTES).map(({ what, property, old, new: now }) => el('li', {}, `${what}: ${property.replaceAll('_', ' ')} `, el('s', { text: shown(old) }), ' ', el('b', { text: shown(now) })));
+  const more = conclusions.length > MOST_ROUTES ? el('li', { text: `and ${conclusions.length - MOST_ROUTES} more` }) : null;
+  return el('ul', { class: 'plain' }, ...items, more);
+}
+
+const shown = (of) => (typeof of === 'number' ? number(of) : value(of));
+
 function routeList(routes) {
   if (!routes?.list?.length) return null;
   const items = routes.list.slice(0, MOST_ROUTES).map(({ start, goal, old, new: now, other_way: other }) => el('li', {}, `${start} to ${goal}: `, el('s', { text: cost(old) }), ' ', el('b', { text: cost(now) }), other ? ' another way' : ''));
@@ -121,7 +131,7 @@ function makeCard() {
 function told(cells) {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
   return cells.every(([, cell]) => cell.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 

@@ -15,6 +15,8 @@ mod latency;
 mod live;
 #[path = "page/rules.rs"]
 mod rules;
+#[path = "page/shop.rs"]
+mod shop;
 #[path = "page/sql.rs"]
 mod sql;
 #[path = "page/tune.rs"]

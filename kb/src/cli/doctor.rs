@@ -21,7 +21,14 @@ pub struct DoctorArgs {
 
 /// Lints rules, tables and map; `false` where something is wrong.
 pub fn check(args: &SiteArgs) -> Result<bool> {
-    let (found, sound) = match open(args).and_then(|knowledge| knowledge.check()) {
+    let mut what = "rules, tables and map";
+    let checked = open(args).and_then(|knowledge| {
+        if !knowledge.site().has_map() {
+            what = "rules and tables";
+        }
+        knowledge.check()
+    });
+    let (found, sound) = match checked {
         Ok(found) => {
             let sound =
                 found.iter().all(|problem| problem.diagnostic().severity() == Some(miette::Severity::Advice));
@@ -33,10 +40,10 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         json(&as_json(&found))?;
     } else {
         problems(&found);
-        line(if sound {
-            "rules, tables and map are in order"
+        line(&if sound {
+            format!("{what} are in order")
         } else {
-            "something is wrong; the site is as it was"
+            "something is wrong; the site is as it was".to_owned()
         });
     }
     Ok(sound)

@@ -52,7 +52,7 @@ pub fn run(args: &NewArgs) -> Result<()> {
         None => starter(&args.dir, "map.toml", &mut made)?,
     };
     let rules = args.dir.join(Site::RULES);
-    made.folder(&rules)?;
+    made.folder(&rules.join("tests"))?;
     let beneath = mode.rule_base().unwrap_or_default();
     made.file(&rules.join("own.rhai"), own_rules(beneath))?;
     starter(&args.dir, "robots.toml", &mut made)?;

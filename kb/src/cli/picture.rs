@@ -45,6 +45,7 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     check(&args.output)?;
     let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
+    knowledge.site().needs_map()?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
     let scene = knowledge.scene(route, args.robot.as_deref())?;
     let states: Vec<&String> = scene.rooms.iter().filter_map(|room| room.state.as_ref()).collect();

@@ -10,7 +10,7 @@ use adit_db::place::Frame;
 use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::weight::Weight;
-use adit_engine::RuleBase;
+use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase};
 use adit_planners::facts::{Facts, Table};
 use adit_planners::planner::Planner;
 
@@ -351,6 +351,13 @@ fn untabled(rules: &RuleBase) -> impl Iterator<Item = (&str, &str)> {
     let names = rules.concluded().into_iter();
     let names = names.map(|name| (name.class.as_str(), name.property.as_str()));
     names.filter(|name| !TABLED.contains(name))
+}
+
+/// What rules conclude of classes without a table of ours, of the objects that a step touched.
+pub fn touched(knowledge: &Inference, rules: &RuleBase, changes: &Changes) -> Vec<Derivation> {
+    let mut reasons = Reasons::new(knowledge, rules);
+    let mut look = Look { knowledge, rules, which: Which::Touched(changes), reasons: Some(&mut reasons) };
+    untabled(rules).flat_map(|(class, property)| derivations_of(&mut look, class, property)).collect()
 }
 
 /// Values that rules concluded of one property that has no column of ours.
