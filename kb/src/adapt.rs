@@ -13,6 +13,8 @@ mod explain;
 mod figures;
 mod judge;
 mod keep;
+mod keeping;
+mod kept;
 mod recall;
 pub(crate) mod scenario;
 mod session;

@@ -15,6 +15,7 @@ use adit_planners::random::Random;
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
+use super::keeping::Keeping;
 use super::{keep, recall};
 use crate::error::{Code, Error, Result};
 use crate::site::whole::Whole;
@@ -42,9 +43,7 @@ pub struct Session {
     described: Cell,
     adapt: Adapt,
     judge: RuleJudge,
-    store: Option<Store>,
-    seed: u64,
-    copied_from: Option<String>,
+    keeping: Option<Keeping>,
 }
 
 /// A task that was done, or tried.
@@ -100,12 +99,13 @@ impl Session {
         };
         let cell = described.after(adapt.progress().tasks as usize);
         let described = described.clone();
-        let mut session = Self { cell, described, adapt, judge, store, seed, copied_from };
+        let keeping = store.map(|store| Keeping::new(store, seed, copied_from));
+        let mut session = Self { cell, described, adapt, judge, keeping };
         for goal in beginning.goals {
             session.cell.goal(goal)?;
         }
         let changed = session.take_in()?;
-        session.keep(kept.is_none(), None)?;
+        session.keep(kept.is_none())?;
         made.keep();
         Ok((session, changed))
     }
@@ -134,9 +134,10 @@ impl Session {
         let tasks = self.adapt.progress().tasks as usize;
         let mut changed = None;
         if self.described.change.as_ref().is_some_and(|change| change.after_task == tasks) {
+            self.settle()?;
             self.cell = self.described.after(tasks);
             changed = self.take_in()?;
-            self.keep(false, None)?;
+            self.keep(false)?;
         }
         let mut done = Done {
             goal: goal.clone(),
@@ -151,9 +152,14 @@ impl Session {
         };
         for at in self.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
-            let reason = reason(goal, &report);
+            let reason = reason(&goal.name, &report);
             let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
-            self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
+            self.trust_rules()?;
+            let task = keep::task(&goal.name, Some(&at), &report, reason.clone());
+            match &mut self.keeping {
+                Some(keeping) => keeping.task(&self.cell, &mut self.adapt, task)?,
+                None => drop(self.adapt.take_noted()),
+            }
             (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
             if !is_elsewhere {
                 break;
@@ -195,30 +201,36 @@ impl Session {
         found
     }
 
-    /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
-    fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
-        // What the planner did then rests on no rule.
-        if let Some(trouble) = self.judge.trouble() {
-            return Err(Error::said(Code::PlanRules, trouble.to_owned(), None));
-        }
+    /// Writes the tasks that are not yet written. One that is done is written within a tenth of a second of further
+    /// planning, or now.
+    pub fn settle(&mut self) -> Result<()> {
+        self.keeping.as_mut().map_or(Ok(()), |keeping| keeping.settle(&self.cell, &mut self.adapt))
+    }
+
+    /// Keeps a change of the cell; `is_new` where nothing was kept before.
+    fn keep(&mut self, is_new: bool) -> Result<()> {
+        self.trust_rules()?;
         let considered = self.judge.take_considered();
-        let mut step =
-            keep::step(&self.cell, self.seed, self.copied_from.as_deref(), &mut self.adapt, &considered);
-        let Some(store) = &mut self.store else { return Ok(()) };
-        if is_new {
-            step.objects = Some(keep::objects(&self.adapt));
+        match &mut self.keeping {
+            Some(keeping) => keeping.write(&self.cell, &mut self.adapt, &considered, is_new),
+            None => {
+                self.adapt.take_noted();
+                Ok(())
+            }
         }
-        let has_changed = is_new || task.is_some() || !step.object_changes.is_empty();
-        step.tasks.extend(task);
-        if has_changed {
-            store.transaction(|tx| tx.keep_step(&step)).map_err(|error| self.cell.not_kept(error))?;
+    }
+
+    /// What the planner did after rules failed rests on no rule.
+    fn trust_rules(&self) -> Result<()> {
+        match self.judge.trouble() {
+            Some(trouble) => Err(Error::said(Code::PlanRules, trouble.to_owned(), None)),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
-/// A database to which each task is written: others may read meanwhile, and no task waits for the disk.
-fn open(db: &Path) -> Result<Store> {
+/// A database to which tasks are written: others may read meanwhile, and no task waits for the disk.
+pub(super) fn open(db: &Path) -> Result<Store> {
     let mut store = Store::open_for_worlds(db)?;
     store.share()?;
     store.sync_each(false)?;
@@ -268,8 +280,7 @@ fn experience(
 }
 
 /// Why a task ended without a path.
-fn reason(goal: &Goal, report: &Report) -> Option<String> {
-    let name = &goal.name;
+pub(super) fn reason(name: &str, report: &Report) -> Option<String> {
     match &report.outcome {
         Outcome::Found => None,
         Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),

@@ -1,6 +1,7 @@
 //! `adit plan` on a cell: tasks of a robot that learns.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use adit_engine::RuleBase;
 use serde_json::json;
@@ -51,6 +52,11 @@ pub fn run(args: &PlanArgs, cell: &Cell, rules: &Arc<RuleBase>) -> Result<bool> 
         bar.step();
     }
     drop(bar);
+    let written = Instant::now();
+    session.settle()?;
+    if let Some(last) = tasks.last_mut() {
+        last.took += written.elapsed();
+    }
     let explained = session.explained();
     if let Some(output) = &args.output {
         picture::save(render_cell(&drawn(&session, &tasks)), output, picture::WIDTH)?;

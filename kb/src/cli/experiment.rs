@@ -150,7 +150,10 @@ fn show(outcome: &ExperimentOutcome) {
             format!("{:.3}", row.ratio),
             number(row.path_length),
             format!("{:.3}", row.seconds * 1e3),
+            format!("{:.3}", row.seconds_ratio),
         ]
     });
-    table(&["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds"], cells);
+    let head =
+        ["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds", "ratio of time"];
+    table(&head, cells);
 }

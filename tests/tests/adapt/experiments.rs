@@ -27,7 +27,7 @@ fn rows(csv: &str) -> Rows {
     let mut lines = csv.lines();
     assert_eq!(
         lines.next(),
-        Some("scenario,strategy,task,evaluations,evaluations_sd,ratio,path_length,seconds")
+        Some("scenario,strategy,task,evaluations,evaluations_sd,ratio,path_length,seconds,seconds_ratio")
     );
     let row = |line: &str| {
         let cells: Vec<&str> = line.split(',').collect();
