@@ -8,6 +8,7 @@ pub mod area;
 pub mod backup;
 mod block;
 mod bulk;
+pub mod carried_out;
 pub mod cell;
 pub mod conclusion;
 mod connection;

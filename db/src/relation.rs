@@ -14,6 +14,7 @@ pub(crate) const OWN: &[&str] = &[
     "active_tunings",
     "attachments",
     "blocks",
+    "carried_out",
     "cells_in_force",
     "changes",
     "changes_in_force",

@@ -20,6 +20,7 @@ use crate::script::over;
 use crate::script::read::{Draft, Read, read, version};
 use crate::script::resolve::resolve;
 use crate::script::source::SourceFile;
+use crate::told::NamesTold;
 
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
@@ -107,6 +108,11 @@ impl RuleBase {
         let order = order(&rules, &declared).map_err(Diagnostics)?;
         let id = COMPILED.fetch_add(1, Ordering::Relaxed);
         Ok(Self { id, rules, order, declared, warnings, replaced })
+    }
+
+    /// The classes of which rules that react tell new objects, in order.
+    pub fn tells(&self) -> impl Iterator<Item = &str> {
+        NamesTold::of(&self.rules).classes.into_keys()
     }
 
     pub fn rules(&self) -> &[Rule] {
@@ -200,12 +206,11 @@ fn read_all(bases: &[&[SourceFile]]) -> All {
     let replaced = covered.into_iter().map(|covered| {
         // what is wrong with a rule that does not count is nobody's trouble
         let beneath = finished(covered.draft, &mut vec![]);
-        let by = match covered.without {
-            Some((file, line)) => Instead::Without { file, line },
-            None => {
-                let above = rules.iter().find(|rule| rule.name() == beneath.name());
-                Instead::Rule(Standing::of(above.unwrap_or(&beneath)))
-            }
+        let by = if let Some((file, line)) = covered.without {
+            Instead::Without { file, line }
+        } else {
+            let above = rules.iter().find(|rule| rule.name() == beneath.name());
+            Instead::Rule(Standing::of(above.unwrap_or(&beneath)))
         };
         Replaced { rule: beneath.name.clone(), beneath: Standing::of(&beneath), by }
     });

@@ -26,6 +26,7 @@ function inForce() {
   const { site, weights } = model;
   byId('site-name').textContent = site.name;
   document.body.dataset.rooms = site.rooms_mode;
+  if (site.rooms_mode === 'none') for (const name of document.querySelectorAll("nav a[href='#map'], #map > h1")) name.textContent = 'Tables';
   document.title = `${site.name} – adit`;
   const since = site.changed_at ? `, in force since ${moment(site.changed_at)}` : '';
   byId('in-force').textContent = `generation ${weights?.generation ?? site.generation}${since}`;

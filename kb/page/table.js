@@ -35,7 +35,7 @@ function build(table, open) {
   const cells = new Map();
   const results = [];
   const concluded = Object.hasOwn(TITLES, table.table) ? [] : table.concluded ?? [];
-  const head = el('tr', {}, ...columns.map(({ name, unit }) => el('th', { scope: 'col' }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
+  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
   const wanted = rowsOf(table);
   const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });

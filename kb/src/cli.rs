@@ -1,6 +1,7 @@
 //! The command line `adit`: its verbs, and what they print.
 
 mod args;
+mod ask;
 mod build;
 mod cell;
 mod close;
@@ -74,6 +75,8 @@ pub enum Verb {
     Test(SiteArgs),
     /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
     Watch(SiteArgs),
+    /// What a value is; what rules lack to conclude it is asked, question by question
+    Ask(ask::AskArgs),
     /// Why something is as it is: the rule and the facts behind it
     Why(why::WhyArgs),
     /// Why the route does not lead through a room or door: what that would cost, and what rules rejected there
@@ -125,6 +128,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Rules(args) => (args.site.json, rules::run(args).map(|()| 0)),
         Verb::Test(args) => (args.json, test::run(args).map(|passed| u8::from(!passed))),
         Verb::Watch(args) => (args.json, watch::run(args).map(|()| 0)),
+        Verb::Ask(args) => (args.site.json, ask::run(args).map(|known| u8::from(!known))),
         Verb::Why(args) => (args.site.json, why::why(args).map(|()| 0)),
         Verb::WhyNot(args) => (args.way.site.json, why::why_not(args).map(|()| 0)),
         Verb::Firm(args) => (args.site.json, firm::run(args).map(|()| 0)),

@@ -16,9 +16,11 @@ mod close;
 mod errand;
 mod lay;
 mod place;
+pub(crate) mod react;
 pub mod rehearse;
 mod tell;
 mod tuning;
+mod undo;
 mod words;
 
 pub(crate) use cells::TUNABLE;
@@ -131,9 +133,9 @@ impl Edit {
             Self::SetInTuning(tuning, cell) => tuning::set(tx, tuning, cell, author)?,
             Self::UnsetInTuning(tuning, cell) => tuning::unset(tx, tuning, cell, author)?,
             Self::Switch(tuning, on) => tuning::switch(tx, tuning, *on, author)?,
-            Self::Undo(Some(id)) => tx.undo(*id, author)?,
+            Self::Undo(Some(id)) => undo::undo(tx, rules, *id, author)?,
             Self::Undo(None) => match tx.undoable(1)?.first() {
-                Some(id) => tx.undo(*id, author)?,
+                Some(id) => undo::undo(tx, rules, *id, author)?,
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),
             },
         };

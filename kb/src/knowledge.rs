@@ -328,6 +328,9 @@ impl KnowledgeBase {
                 let relation = tx.read_table(&table.name)?;
                 let read = tables::read(&relation)?;
                 row_keys.insert(class.clone(), tables::keys(&relation));
+                if tables::is_numbered(&relation) {
+                    told.numbered.insert(class.clone());
+                }
                 told.classes.insert(class, read);
             }
         }
@@ -376,7 +379,7 @@ impl KnowledgeBase {
         Ok(facts.iter().map(Fact::lost).collect())
     }
 
-    fn planned_classes(&self) -> Vec<String> {
+    pub(crate) fn planned_classes(&self) -> Vec<String> {
         let gives = self.planners.iter().flat_map(|planner| planner.signature().gives);
         let mut classes: Vec<String> = gives.map(|given| classes::split(&given).0.to_owned()).collect();
         classes.dedup();
@@ -400,6 +403,7 @@ impl KnowledgeBase {
         for planner in &self.planners {
             classes::declare(&mut schema, &planner.signature().gives);
         }
+        classes::declare(&mut schema, &classes::ROUTES_GIVE.map(str::to_owned));
         told.declare(&mut schema);
         schema
     }
@@ -433,6 +437,12 @@ impl KnowledgeBase {
             problems.into_iter().filter(|problem| problem.severity == adit_engine::Severity::Error).collect();
         if !errors.is_empty() {
             return Err(Error::all(errors));
+        }
+        let mut given = self.planned_classes();
+        given.extend(tables::unbuilt().into_keys().chain([classes::ROUTES.to_owned()]));
+        let amiss = lint::reactions(rules, &given, classes::ROUTES);
+        if !amiss.is_empty() {
+            return Err(Error::all(amiss));
         }
         tests.run_within(rules, &schema, limits).map_err(|problems| Error::all(problems.0))
     }

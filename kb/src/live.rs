@@ -60,6 +60,8 @@ pub struct Outcome {
     pub anew: bool,
     /// What was done, and how long it took.
     pub stages: Vec<Stage>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     pub meanwhile: Meanwhile,
 }
 
@@ -194,6 +196,10 @@ impl Live {
                 let ended = over.map(|before| memory.state.told.ended_since(&before));
                 let meanwhile = Meanwhile::Ended(ended.unwrap_or_default());
                 self.newest = accepted.done.as_ref().map_or(self.newest, |done| done.id);
+                if !accepted.reacted.is_empty() {
+                    let last = self.store.snapshot(|tx| tx.history(1))?;
+                    self.newest = last.first().map_or(self.newest, |entry| entry.id);
+                }
                 if accepted.anew {
                     self.ready();
                 }
@@ -258,7 +264,7 @@ impl Live {
     }
 
     fn outcome(&self, accepted: Accepted) -> Outcome {
-        let Accepted { done, weighed, tree_rows, anew, stages, .. } = accepted;
+        let Accepted { done, weighed, tree_rows, anew, stages, reacted, .. } = accepted;
         let graph = self.memory.state.graph();
         let all = (graph.rooms.len(), graph.doors.len());
         let (rooms, doors) = weighed.map_or(all, |weighed| (weighed.rooms.len(), weighed.doors.len()));
@@ -271,6 +277,7 @@ impl Live {
             routes_due: self.memory.routes_due,
             anew,
             stages,
+            reacted,
             meanwhile: Meanwhile::Ended(Vec::new()),
         }
     }
@@ -287,6 +294,7 @@ fn anew(report: Report) -> Outcome {
         routes_due: false,
         anew: true,
         stages: report.stages,
+        reacted: report.reacted,
         meanwhile: Meanwhile::Ended(Vec::new()),
     }
 }

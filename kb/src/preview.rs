@@ -135,7 +135,9 @@ impl State {
         let robots = self.robots();
         let concluded = (!self.site.site().has_map()).then(|| self.knowledge.fork());
         let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
-        let of = |knowledge: &adit_engine::KnowledgeBase| keep::touched(knowledge, &self.inputs.rules, &step.changes);
+        let of = |knowledge: &adit_engine::KnowledgeBase| {
+            keep::touched(knowledge, &self.inputs.rules, &step.changes)
+        };
         let conclusions = concluded.map(|before| Concluded::between(&of(&before), &of(&self.knowledge)));
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         self.accept(step);

@@ -23,7 +23,7 @@ use adit_planners::world::World;
 
 use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
-use crate::graph::pairs::Known;
+use crate::graph::pairs::{self, From, Known};
 use crate::graph::{Building, SiteGraph};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
@@ -140,6 +140,23 @@ impl State {
     /// Keeps ways between any two rooms ready.
     pub(crate) fn prepare(&mut self) {
         self.twin.prepare();
+    }
+
+    /// What routes between places cost once a step is accepted: robot, start, goal and cost.
+    pub(crate) fn place_costs(&self, step: &Step) -> Vec<(String, String, String, f64)> {
+        let (graph, robots) = (self.graph_after(step), step.told.robots());
+        let places = graph.places.len();
+        let all: Vec<From> =
+            (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
+        let rows = pairs::rows((graph, self.gauge_after(step)), &robots, &all, None);
+        let name = |place: usize| graph.places[place].place.clone();
+        let costs = rows.iter().flat_map(|((robot, start), row)| {
+            let robot = robots[*robot].clone();
+            row.iter().enumerate().filter_map(move |(goal, found)| {
+                Some((robot.clone(), name(*start), name(goal), found.as_ref()?.cost))
+            })
+        });
+        costs.collect()
     }
 
     /// The robots, in the order of their names.

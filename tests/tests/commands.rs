@@ -44,6 +44,8 @@ const PAGES: [Page; 5] = [
             ("revise \"wet floors are slippery\"", Use::File("my-site/rules/wet.rhai")),
             ("rule \"a raised arm", Use::File("my-site/rules/arm.rhai")),
             ("a metre weighs what the state weighs", Use::File("my-site/rules/tests/metre.toml")),
+            ("a robot found blocked", Use::File("my-site/rules/blocked.rhai")),
+            ("presents are wrapped", Use::File("my-shop/rules/presents.rhai")),
             ("timezone = ", Use::Shown),
             ("distance,measured", Use::File("runs.csv")),
         ],

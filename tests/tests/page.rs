@@ -7,6 +7,8 @@ mod accessible;
 mod ask;
 #[path = "page/experience.rs"]
 mod experience;
+#[path = "page/find_out.rs"]
+mod find_out;
 #[path = "page/keyboard.rs"]
 mod keyboard;
 #[path = "page/latency.rs"]

@@ -211,13 +211,11 @@ impl Session {
     fn keep(&mut self, is_new: bool) -> Result<()> {
         self.trust_rules()?;
         let considered = self.judge.take_considered();
-        match &mut self.keeping {
-            Some(keeping) => keeping.write(&self.cell, &mut self.adapt, &considered, is_new),
-            None => {
-                self.adapt.take_noted();
-                Ok(())
-            }
-        }
+        let Some(keeping) = &mut self.keeping else {
+            self.adapt.take_noted();
+            return Ok(());
+        };
+        keeping.write(&self.cell, &mut self.adapt, &considered, is_new)
     }
 
     /// What the planner did after rules failed rests on no rule.

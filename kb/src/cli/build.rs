@@ -67,6 +67,7 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
         })
         .collect();
     line(&format!("  {}", stages.join(", ")));
+    reacted(report);
     notes(report);
 }
 
@@ -99,6 +100,19 @@ pub fn notes(report: &Report) {
     }
 }
 
+/// What rules that react told.
+fn reacted(report: &Report) {
+    for said in report.reacted.iter().take(LISTED) {
+        line(said);
+    }
+    if report.reacted.len() > LISTED {
+        line(&format!(
+            "and {} more that rules told; `adit undo --list` has all",
+            report.reacted.len() - LISTED
+        ));
+    }
+}
+
 /// What rules say otherwise of other things than rooms and doors.
 fn conclusions(report: &Report) {
     let said = |cell: &Cell| match cell {
@@ -123,6 +137,7 @@ fn conclusions(report: &Report) {
 const LISTED: usize = 10;
 
 pub fn changes(report: &Report) {
+    reacted(report);
     conclusions(report);
     if report.rooms.total == 0 {
         return;

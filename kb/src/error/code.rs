@@ -211,7 +211,7 @@ codes! {
     RuleHardness = "rule/hardness", UNPROCESSABLE_ENTITY;
     /// A row of a table that a rule can never choose, since another comes before it wherever it fits.
     RuleNeverChosen = "rule/never-chosen", UNPROCESSABLE_ENTITY;
-    /// A rule that reacts, where reactions are not carried out.
+    /// A rule that reacts and cannot do what it says, or stands in a world, where reactions are not carried out.
     RuleNotCarriedOut = "rule/not-carried-out", UNPROCESSABLE_ENTITY;
     /// A file or folder that looks like rules and does not count.
     RuleNotRead = "rule/not-read", UNPROCESSABLE_ENTITY;

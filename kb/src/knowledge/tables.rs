@@ -79,6 +79,13 @@ pub fn keys(relation: &Relation) -> Vec<String> {
     (0..rows).map(key).collect()
 }
 
+/// Whether SQLite numbers the rows of a table: its key is a whole number, which comes first.
+pub fn is_numbered(relation: &Relation) -> bool {
+    let is_key = |column: &RelationColumn| column.key > 0;
+    let first = relation.columns.first().is_some_and(|first| is_key(first) && first.declared == "INTEGER");
+    first && relation.columns.iter().filter(|column| is_key(column)).count() == 1
+}
+
 fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     let declared = column.declared.as_str();
     if declared.contains("BOOL") {

@@ -12,6 +12,7 @@ use adit_db::stale::Mark;
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
+use crate::edit::react::{Recalled, make_tables};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
 use crate::graph::{Building, layout};
@@ -20,7 +21,7 @@ use crate::knowledge::generation::{self, Basis};
 use crate::knowledge::inputs::Inputs;
 use crate::state::before::Before;
 use crate::state::keep::{Kept, LastBuild, Written, differing, keep_standings};
-use crate::state::{Nothing, State, Step, Weighed};
+use crate::state::{State, Step, Weighed};
 use crate::words::progress::{Progress, Silent, Stage, Stopwatch};
 
 /// The mark of routes that have yet to follow.
@@ -78,6 +79,8 @@ pub struct Accepted {
     pub tree_rows: usize,
     /// What rules say otherwise of other things than rooms and doors.
     pub conclusions: Vec<Concluded>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     /// The kept routes, where all were looked at.
     pub routes: Option<Routes>,
     /// Whether planners gave facts anew.
@@ -122,11 +125,13 @@ impl Memory {
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
         let starts = tx.starts()?;
+        make_tables(tx, &inputs.rules)?;
         let told = site.told(tx, &inputs.rules)?;
         let mut state = State::new(Arc::clone(site), Arc::clone(inputs), cut(tx)?);
         let graph = Arc::clone(state.graph());
         let before = Before { graph: &graph, starts: &starts };
-        let step = state.step(told, &mut LastBuild(tx), progress)?;
+        let mut step = state.step_and_react(tx, told, Recalled::OfLastBuild, progress)?;
+        let reacted = std::mem::take(&mut step.reacted);
         let mut clock = Stopwatch::new();
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
         let (kept, plan, routes, generation) =
@@ -138,6 +143,7 @@ impl Memory {
         state.generation = generation;
         let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
         report.concluded = kept.derivations().len();
+        report.reacted = reacted;
         Ok((Self::of(state, kept, plan, basis), report))
     }
 
@@ -155,12 +161,12 @@ impl Memory {
         let graph = Arc::clone(memory.state.graph());
         let starts = memory.routes.plan().starts.clone();
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
-        let Accepted { weighed, conclusions, routes, mut stages, .. } = memory.accept(followed);
+        let Accepted { weighed, conclusions, reacted, routes, mut stages, .. } = memory.accept(followed);
         stages.insert(0, inputs.stage.clone());
         let before = Before { graph: &graph, starts: &starts };
         let routes = routes.unwrap_or_default();
         let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
-        report.conclusions = conclusions;
+        (report.conclusions, report.reacted) = (conclusions, reacted);
         report.concluded = memory.kept.derivations().len();
         // nobody waits until all of it is given back
         rayon::spawn(|| drop((memory, graph)));
@@ -195,7 +201,7 @@ impl Memory {
         let site = Arc::clone(&self.state.site);
         let told = site.told(tx, &self.state.inputs.rules)?;
         clock.lap("edit");
-        let step = self.state.step(told, &mut Nothing, progress)?;
+        let step = self.state.step_and_react(tx, told, Recalled::Nothing, progress)?;
         clock.skip();
         clock.stages.extend(step.stages.iter().cloned());
         let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));
@@ -243,13 +249,13 @@ impl Memory {
     /// Makes a committed edit part of what is known.
     pub fn accept(&mut self, followed: Followed) -> Accepted {
         let Followed { done, step, kept, routes, generation, clock } = followed;
-        let anew = step.is_anew;
+        let (anew, reacted) = (step.is_anew, step.reacted.clone());
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
         self.state.accept(step);
         self.state.generation = generation;
         let conclusions = match kept {
             KeptNow::Rows(written) => {
-                let conclusions = Concluded::between(written.gone(), written.new());
+                let conclusions = Concluded::between(written.gone(), written.added());
                 self.kept.accept(written);
                 conclusions
             }
@@ -275,7 +281,7 @@ impl Memory {
         if anew {
             self.layout = OnceLock::new();
         }
-        Accepted { done, weighed, tree_rows, conclusions, routes, anew, stages: clock.stages }
+        Accepted { done, weighed, tree_rows, conclusions, reacted, routes, anew, stages: clock.stages }
     }
 
     /// Forgets what was written and not committed.

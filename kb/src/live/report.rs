@@ -219,6 +219,8 @@ pub struct Report {
     pub concluded: usize,
     /// What rules say otherwise of them.
     pub conclusions: Vec<Concluded>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     /// What is closed now and was not before, or no longer is, in sentences.
     pub closings: Vec<String>,
     /// Whether rooms were cut anew.
@@ -321,6 +323,7 @@ impl Report {
             changes,
             concluded: 0,
             conclusions: Vec::new(),
+            reacted: Vec::new(),
             closings: graph.building.turned(&before.graph.building),
             cut_anew: weighed.is_none(),
             routes,
@@ -344,6 +347,7 @@ impl Report {
             "changes": self.changes,
             "concluded": self.concluded,
             "conclusions": self.conclusions,
+            "reacted": self.reacted,
             "closings": self.closings,
             "routes": self.routes,
             "stages": self.stages.iter().map(stage).collect::<Vec<_>>(),

@@ -76,7 +76,7 @@ pub(super) fn compare(
         (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
     let old = known.rows(before, robots, &wanted, began + patience / 2);
     let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
-    let new = pairs::rows(after, robots, &wanted, began + patience);
+    let new = pairs::rows(after, robots, &wanted, Some(began + patience));
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
             let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);

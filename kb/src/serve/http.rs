@@ -69,6 +69,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(areas::list, areas::lay))
         .routes(routes!(areas::lift))
         .routes(routes!(history::history))
+        .routes(routes!(why::ask))
         .routes(routes!(why::why))
         .routes(routes!(why::why_not))
         .routes(routes!(experience::firm))

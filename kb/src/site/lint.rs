@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, Instead, Replaced, RuleBase, Standing};
+use adit_engine::{Dominated, Instead, Replaced, Rule, RuleBase, Standing};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::NamedSource;
@@ -72,7 +72,6 @@ pub fn ignored(
     planners: &[Arc<dyn Planner>],
 ) -> Vec<Finding> {
     let mut found = unread(site, rules, planners);
-    found.extend(not_carried_out(rules, "sites", Finding::warning));
     let bases = rules::bases(site, instead);
     found.extend(bases.iter().filter_map(Base::folder).flat_map(not_read));
     found
@@ -91,6 +90,33 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
             format!("the site has {count} {what}, and no rule reads {rooms}: they change nothing")
         })
         .collect()
+}
+
+/// Rules that make objects which are not for rules to make, and rules that read routes, which follow from what they conclude:
+/// only rules that react may, and those that conclude something of routes alone.
+///
+/// # Arguments
+/// `given` are the classes whose objects planners and tables give; `routes` is the class of routes.
+pub fn reactions(rules: &RuleBase, given: &[String], routes: &str) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for class in rules.tells().filter(|class| given.iter().any(|of| of == class)) {
+        let message = format!(
+            "a rule tells new objects of {class}, and which of those there are is not for rules to say"
+        );
+        let help = "set a property of one that is there, or tell of a class of your own".to_owned();
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help)));
+    }
+    let reads = |rule: &&Rule| rule.classes().any(|class| class == routes);
+    let concludes = |rule: &&Rule| !rule.reacts() && rule.sets().any(|set| set.class != routes);
+    for rule in rules.rules().iter().filter(concludes).filter(reads) {
+        let (text, span) = rule.place();
+        let message =
+            format!("rule \"{}\" reads {routes}, which follow from what rules conclude", rule.name());
+        let help = "say it with `on`: rules that react are carried out once routes are known".to_owned();
+        let source = NamedSource::new(text.name(), text.text().to_owned());
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help)).at(source, span));
+    }
+    found
 }
 
 /// The rules that react: they wait in vain, since what they would do is carried out by nobody yet.

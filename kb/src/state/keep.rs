@@ -16,7 +16,7 @@ use adit_planners::planner::Planner;
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::knowledge::classes;
+use crate::knowledge::classes::{self, ROUTES};
 use crate::knowledge::tables::{self, content};
 use crate::knowledge::told::{Attached, Told};
 use crate::state::grounds::Reasons;
@@ -284,7 +284,7 @@ impl Written {
     }
 
     /// What is concluded of them now and was not before.
-    pub fn new(&self) -> &[Derivation] {
+    pub fn added(&self) -> &[Derivation] {
         &self.new
     }
 
@@ -346,11 +346,12 @@ fn witnesses(facts: BTreeMap<i64, String>, is_wanted: impl Fn(i64) -> bool) -> V
     wanted.map(|(witness, facts)| Witness { witness, facts }).collect()
 }
 
-/// What rules conclude that has no column of ours.
+/// What rules conclude that has no column of ours. Routes are told once a step is over, so that what is concluded of them is
+/// of the moment.
 fn untabled(rules: &RuleBase) -> impl Iterator<Item = (&str, &str)> {
     let names = rules.concluded().into_iter();
     let names = names.map(|name| (name.class.as_str(), name.property.as_str()));
-    names.filter(|name| !TABLED.contains(name))
+    names.filter(|name| !TABLED.contains(name) && name.0 != ROUTES)
 }
 
 /// What rules conclude of classes without a table of ours, of the objects that a step touched.

@@ -50,6 +50,8 @@ pub struct Step {
     pub facts: BTreeMap<i64, String>,
     /// What was done, in order.
     pub stages: Vec<Stage>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     gauge: Option<Arc<Gauge>>,
 }
 
@@ -144,6 +146,7 @@ impl State {
             changes,
             facts,
             stages,
+            reacted: Vec::new(),
             gauge,
         })
     }
@@ -177,7 +180,7 @@ impl State {
         let told = self.told.clone();
         self.tell_of_planned(&attached, &self.attached.clone(), &told)?;
         for (class, table) in &told.classes {
-            classes::assert(&mut self.knowledge, class, table)?;
+            classes::assert(&mut self.knowledge, class, table, told.numbered.contains(class))?;
             told.tell(&mut self.knowledge, class, &mut Attached::default())?;
         }
         self.knowledge.update(&self.inputs.rules);
@@ -210,7 +213,7 @@ impl State {
         for (class, table) in &told.classes {
             let is_same = self.told.classes.get(class) == Some(table);
             if !is_same || !self.told.facts_of(class).eq(told.facts_of(class)) {
-                classes::assert(&mut self.knowledge, class, table)?;
+                classes::assert(&mut self.knowledge, class, table, told.numbered.contains(class))?;
             }
             told.tell(&mut self.knowledge, class, &mut attached)?;
         }
@@ -300,7 +303,7 @@ impl State {
                 planned::facts(planner, world, &known)?
             };
             for (class, table) in facts {
-                classes::assert(&mut self.knowledge, &class, &table)?;
+                classes::assert(&mut self.knowledge, &class, &table, false)?;
                 told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
                 given.take(class, table)?;
             }
