@@ -10,7 +10,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
-import { showSaved } from './saved.js';
+import { andRules, showSaved } from './saved.js';
 
 const USUAL = {
   doorway: { text: 'Nobody passes a doorway', class: 'DOORWAYS', property: 'closed', value: 'true', object: 'name of the doorway, or x,y' },
@@ -59,7 +59,7 @@ async function tell() {
     const answer = await post('/api/facts', fact);
     byId('fact-object').value = '';
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
     await refresh(answer.generation);
     await load();
   } catch (error) {

@@ -8,7 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
-import { focusSaved, showSaved } from './saved.js';
+import { andRules, focusSaved, showSaved } from './saved.js';
 
 const WAIT = 120;
 const QUICK = 30;
@@ -184,12 +184,14 @@ async function saveAll(isKnown) {
   const why = card.why.value.trim() || undefined;
   const done = [];
   const words = [];
+  const answers = [];
   let generation;
   for (const edit of edits(true)) {
     const id = cellId(edit.table, edit.key, edit.column);
     try {
       const answer = await post('/api/edits', { edit, why });
       done.push(answer.done.id);
+      answers.push(answer);
       words.push(inOneWord(model.pending.get(id) ?? edit));
       generation = answer.generation;
       const pending = new Map(model.pending);
@@ -201,7 +203,7 @@ async function saveAll(isKnown) {
     }
   }
   if (done.length) {
-    showSaved(`Saved: ${list(words)}.`, done);
+    showSaved(`Saved: ${list(words)}.${andRules(answers)}`, done);
     if (hadFocus) focusSaved();
   }
   const keepRefusal = refused;

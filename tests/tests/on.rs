@@ -47,6 +47,7 @@ fn a_robot_that_reports_a_doorway_closes_it_for_an_hour() {
     assert!(!passes(&after), "{after:#}");
     assert!(after["cost"].as_f64().unwrap_or(f64::INFINITY) > before["cost"].as_f64().unwrap());
 
+    assert!(told.1["reacted"][0].as_str().unwrap().contains("closed = true until"), "{:#}", told.1);
     let said = events.next("changed");
     let what = said["what"].as_str().unwrap();
     assert!(
@@ -91,6 +92,17 @@ fn what_was_carried_out_is_known_to_the_next_program_and_comes_again_when_it_is_
         ["1"],
         "it is met anew"
     );
+}
+
+#[test]
+fn an_edit_that_is_taken_back_takes_back_what_rules_did_of_it() {
+    let site = depot(REPORTS);
+    let doorway = doorway_on_the_way(&site);
+    site.adit("tell", &["DOORWAYS", &doorway, "blocked", "true"]).expect_status(0);
+    let report = site.sqlite3("SELECT min(id) FROM history").remove(0);
+    site.adit("undo", &[&report]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM facts_told"), ["0"]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM history WHERE undone IS NOT NULL"), ["3"], "all of it");
 }
 
 const CHARGING: &str = r#"property ROUTES.charges from rule, default false

@@ -248,7 +248,7 @@ impl Tables {
 pub(crate) fn make_tables(tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
     let known: BTreeSet<String> =
         tx.relations()?.into_iter().map(|known| known.name.to_uppercase()).collect();
-    for class in rules.tells().filter(|class| !known.contains(*class)) {
+    for class in rules.tells().filter(|class| !known.contains(&class.to_uppercase())) {
         tx.replace_user_table(&class.to_lowercase(), &[("row", "INTEGER")], &["row"], [])?;
     }
     Ok(())
