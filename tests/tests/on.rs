@@ -183,3 +183,29 @@ fn a_rule_that_cannot_do_what_it_says_is_named_and_nothing_is_half_done() {
     told.complains(&["rule \"gone\" cannot do what it says", "DOORWAYS is no table of the site's own"]);
     assert_eq!(site.sqlite3("SELECT count(*) FROM facts_told"), ["0"]);
 }
+
+#[test]
+fn what_is_told_of_a_table_of_ones_own_is_taken_back_by_a_rule_like_anything_else() {
+    let site = TestSite::example("depot");
+    for folder in ["rules", "tables"] {
+        std::fs::create_dir_all(site.path().join(folder)).unwrap();
+    }
+    site.write("tables/carts.csv", "cart,at,battery\ncart 1,dock,0.9\n");
+    site.write(
+        "rules/own.rhai",
+        r#"property CARTS.stuck from table, default false
+           on "a stuck cart is noted" each cart in CARTS where cart.stuck
+           then { tell("NOTES", #{ cart: cart.cart }); cart.stuck = (); cart.at = "here"; }"#,
+    );
+    let site = site.built();
+    // one cell is told, too: what the rule sets counts from then on
+    site.adit("tell", &["CARTS", "cart 1", "at", "gate"]).expect_status(0);
+    let told = site.adit("tell", &["CARTS", "cart 1", "stuck", "true"]).expecting(0).stdout;
+    assert!(!told.contains("→ nothing"), "what is told is not what rules no longer say: {told}");
+    assert_eq!(site.sqlite3("SELECT cart FROM notes"), ["cart 1"]);
+    assert_eq!(site.sqlite3("SELECT at FROM carts"), ["here"]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT at FROM carts"), ["dock"]);
+    assert_eq!(site.sqlite3("SELECT property FROM told ORDER BY id"), ["at", "stuck"]);
+}

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use rhai::{Dynamic, Engine, ImmutableString, Map};
+use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, Map};
 
 use super::interpreter::bare;
 
@@ -66,11 +66,14 @@ pub(crate) fn reactor() -> &'static Engine {
             })
             .register_fn("forget", |object: Object| write(Write::Gone { variable: object.0 }))
             .register_type_with_name::<Lasting>("value with an end")
-            .register_fn("lasting", |value: Dynamic, seconds: f64| Lasting { value, seconds })
-            .register_fn("lasting", |value: Dynamic, seconds: i64| Lasting {
-                value,
-                seconds: seconds as f64,
-            });
+            .register_fn(
+                "lasting",
+                |value: Dynamic, seconds: Dynamic| -> Result<Lasting, Box<EvalAltResult>> {
+                    let number = seconds.as_float().or_else(|_| seconds.as_int().map(|whole| whole as f64));
+                    let wrong = |_| format!("a value lasts for a number of seconds, not `{seconds}`");
+                    Ok(Lasting { value, seconds: number.map_err(wrong)? })
+                },
+            );
         engine
     })
 }

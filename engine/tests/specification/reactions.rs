@@ -493,6 +493,8 @@ fn a_value_may_last_for_some_time_which_the_host_counts() {
         run.diagnostics.first().map(|problem| problem.message.clone()).unwrap_or_default()
     };
     assert_eq!(wrong("lasting(1, -1)"), "rule \"r\": `spare` cannot last -1 s");
+    let said = wrong("lasting(1, \"an hour\")");
+    assert!(said.contains("a value lasts for a number of seconds, not `an hour`"), "{said}");
     assert_eq!(wrong("lasting(\"long\", 5)"), "LAMPS.spare holds numbers, and this gives texts");
     let one = RuleBase::compile(&[adit_engine::SourceFile::new(
         "a.rhai",

@@ -159,26 +159,19 @@ impl State {
             }
             Done::Value { class, key, property, value, lasts } => {
                 let table = tables.own(class).ok().filter(|_| lasts.is_none());
-                if let Some(table) = table {
-                    if let Some(value) = value {
-                        tables.widen(tx, &table, property, value)?;
-                    }
-                    let value = value.as_ref().map_or(Cell::Null, cell);
-                    if value != Cell::Null && tx.cell(&table, key, property)? == value {
-                        return Ok(None);
-                    }
-                    let edited = tx.set_cell((&table, key, property), &value, author)?;
-                    return Ok(Some(format!(
-                        "{table}.{}.{property}: {} → {}",
-                        edited.key, edited.old, edited.new
-                    )));
-                }
-                let own_only = value.is_some().then_some(author.who.as_str());
-                for id in facts_about(&tx.facts_told()?, step, (class, key, property), own_only) {
+                // what is told of the property stands before its cell, and before what this rule told earlier
+                let is_all = value.is_none() || table.is_some();
+                let who = (!is_all).then_some(author.who.as_str());
+                let over = facts_about(&tx.facts_told()?, step, (class, key, property), who);
+                for id in &over {
                     tx.remove_row("told", &id.to_string(), author)?;
                 }
+                if let Some(table) = table {
+                    return tables.set(tx, (&table, key, property), value.as_ref(), author);
+                }
                 let Some(value) = value else {
-                    return Ok(Some(format!("nothing is told of {class} {key} {property} any more")));
+                    let words = format!("nothing is told of {class} {key} {property} any more");
+                    return Ok((!over.is_empty()).then_some(words));
                 };
                 let now = self.site.clock().now();
                 let until = lasts.and_then(|seconds| {
@@ -227,6 +220,29 @@ impl Tables {
             );
             Error::said(Code::EditUnknownTable, message, None)
         })
+    }
+
+    /// Sets a cell; in words what that changed. What is no column has no value to take back.
+    fn set(
+        &mut self,
+        tx: &mut Tx<'_>,
+        (table, key, property): (&str, &str, &str),
+        value: Option<&Value>,
+        author: &Author,
+    ) -> Result<Option<String>> {
+        match value {
+            Some(value) => self.widen(tx, table, property, value)?,
+            None if self.columns.get(table).is_none_or(|columns| !columns.contains(property)) => {
+                return Ok(Some(format!("nothing is told of {table} {key} {property} any more")));
+            }
+            None => {}
+        }
+        let value = value.map_or(Cell::Null, cell);
+        if tx.cell(table, key, property)? == value {
+            return Ok(None);
+        }
+        let edited = tx.set_cell((table, key, property), &value, author)?;
+        Ok(Some(format!("{table}.{}.{property}: {} → {}", edited.key, edited.old, edited.new)))
     }
 
     /// Adds a column where there is none of this name.

@@ -251,9 +251,7 @@ impl Memory {
         let Followed { done, step, kept, routes, generation, clock } = followed;
         let (anew, reacted) = (step.is_anew, step.reacted.clone());
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
-        self.state.accept(step);
-        self.state.generation = generation;
-        let conclusions = match kept {
+        let mut conclusions = match kept {
             KeptNow::Rows(written) => {
                 let conclusions = Concluded::between(written.gone(), written.added());
                 self.kept.accept(written);
@@ -265,6 +263,11 @@ impl Memory {
                 Concluded::between(&gone, &new)
             }
         };
+        // that somebody told something instead, or no longer does, the edit itself says
+        let told = [&self.state.attached, &step.attached];
+        conclusions.retain(|of| of.is_of_rules_alone(&self.state.knowledge, told));
+        self.state.accept(step);
+        self.state.generation = generation;
         let (tree_rows, routes) = match routes {
             RoutesNow::Renewed(renewed) => {
                 let rows = renewed.rows();

@@ -8,12 +8,13 @@ use adit_db::conclusion::Derivation;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Dominated};
+use adit_engine::{Conclusions, Dominated, KnowledgeBase as Inference};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
 
 use crate::graph::SiteGraph;
+use crate::knowledge::told::Attached;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::progress::Stage;
@@ -275,6 +276,18 @@ impl Concluded {
         };
         found.extend(before.into_iter().map(lost));
         found
+    }
+
+    /// Whether rules said it before and say it now, or nobody told anything in their place.
+    pub(crate) fn is_of_rules_alone(&self, knowledge: &Inference, told: [&Attached; 2]) -> bool {
+        if self.old != Cell::Null && self.new != Cell::Null {
+            return true;
+        }
+        let Some((class, key)) = self.what.split_once(' ') else { return true };
+        let class = class.to_uppercase();
+        let Some(row) = knowledge.row(&class, key) else { return true };
+        let cell = (class, row, self.property.clone());
+        !told.iter().any(|told| told.cells().contains_key(&cell))
     }
 }
 
