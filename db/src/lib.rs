@@ -12,6 +12,7 @@ pub mod carried_out;
 pub mod cell;
 pub mod conclusion;
 mod connection;
+pub mod course;
 pub mod doctor;
 pub mod door;
 mod dynamic;

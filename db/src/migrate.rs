@@ -77,6 +77,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v8/10-laid.sql")]),
     Step::of_all(&[include_str!("../sql/v9/10-berth.sql")]),
     Step::of_all(&[include_str!("../sql/v10/10-carried-out.sql")]),
+    Step::of_all(&[include_str!("../sql/v11/10-courses.sql")]),
 ];
 
 /// The newest schema version.

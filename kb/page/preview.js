@@ -57,10 +57,12 @@ const inOneWord = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', 
 export function summary(preview) {
   const parts = [];
   const { rooms, doors, routes } = preview;
-  if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
+  if (model.site.layout_kind) {
+    // there are no rooms that could change
+  } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
-  else if (!preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
+  else if (!model.site.layout_kind && !preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
   // Where there are too many to compare while somebody types, the service says how many it did.
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);

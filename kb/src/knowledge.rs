@@ -14,6 +14,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use adit_db::history::Author;
+use adit_db::place::Place;
 use adit_db::robot::State;
 use adit_db::{Store, Tx};
 use adit_engine::{Limits, RuleBase, RuleTests, Schema, TestOutcome, Type};
@@ -35,6 +36,8 @@ use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
+use crate::plan;
+use crate::plan::course::Course;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
@@ -42,6 +45,7 @@ use crate::site::lint;
 use crate::site::over;
 use crate::site::rules::{self, Rules};
 use crate::site::states;
+use crate::site::tables::TableFile;
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
 use crate::words::progress::Progress;
@@ -49,6 +53,12 @@ use crate::words::progress::Progress;
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
+
+/// Under which key the database says what the map is, where it is not cut into rooms.
+pub(crate) const LAYOUT: &str = "layout";
+
+/// The places of a map that is not cut into rooms, as a class.
+const PLACES: &str = "PLACES";
 
 /// A start or goal is moved by at most so many metres: who allows more does not mean the point.
 const MOST_M: f64 = 100.0;
@@ -128,6 +138,7 @@ impl Beneath {
 pub struct KnowledgeBase {
     site: Site,
     planners: Vec<Arc<dyn Planner>>,
+    course: Option<Arc<dyn Course>>,
     overlays: Arc<OverlaysOf>,
     database: PathBuf,
     pub(crate) rules: Option<PathBuf>,
@@ -144,9 +155,22 @@ impl KnowledgeBase {
         let mode = site.rooms;
         let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
         let planners: Vec<Arc<dyn Planner>> =
-            if site.has_map() { vec![overlays.clone()] } else { Vec::new() };
-        let mut knowledge =
-            Self { site, planners, overlays, database, rules: None, reseed: false, at: None, within: None };
+            if site.has_rooms() { vec![overlays.clone()] } else { Vec::new() };
+        let course = site.layout.map(|_| plan::course_of(&site.map)).transpose()?;
+        let mut knowledge = Self {
+            site,
+            planners,
+            course: None,
+            overlays,
+            database,
+            rules: None,
+            reseed: false,
+            at: None,
+            within: None,
+        };
+        if let Some(course) = course {
+            knowledge.register_course(course);
+        }
         if mode != Rooms::Nothing {
             knowledge.register(Box::new(SpacesAndDoorways));
         }
@@ -172,6 +196,33 @@ impl KnowledgeBase {
     /// Adds a planner. What it gives, rules use by name.
     pub fn register(&mut self, planner: Box<dyn Planner>) {
         self.planners.push(planner.into());
+    }
+
+    /// Gives the planner of a map that is not cut into rooms. What it gives rules use by name, and it asks them on its way.
+    pub fn register_course(&mut self, course: Box<dyn Course>) {
+        let course: Arc<dyn Course> = course.into();
+        self.planners.extend(course.planner());
+        self.course = Some(course);
+    }
+
+    pub(crate) fn course(&self) -> Option<&Arc<dyn Course>> {
+        self.course.as_ref()
+    }
+
+    /// The tables that the map's file fills.
+    pub(crate) fn tables_of_map(&self) -> Vec<TableFile> {
+        self.course.as_ref().map_or_else(Vec::new, |course| course.tables())
+    }
+
+    /// The places that the map's file and `site.toml` name, where the map is not cut into rooms.
+    pub(crate) fn places_of_map(&self) -> Option<Vec<Place>> {
+        let course = self.course.as_ref()?;
+        let of_site =
+            self.site.places().map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y });
+        let mut places = course.places();
+        places.retain(|place| self.site.places().all(|of_site| of_site.name != place.place));
+        places.extend(of_site);
+        Some(places)
     }
 
     /// Keeps the database in another file than `site.db` of the site's folder.
@@ -321,9 +372,16 @@ impl KnowledgeBase {
             row_keys.insert(class.clone(), keys(table, classes::key_of(class)));
         }
         let planned = self.planned_classes();
+        let of_map: Vec<String> = self.tables_of_map().into_iter().map(|of| of.name).collect();
+        if self.course.is_some() {
+            let places = tables::places(&tx.places()?);
+            row_keys.insert(PLACES.to_owned(), keys(&places, &["place"]));
+            told.classes.insert(PLACES.to_owned(), places);
+        }
         for table in tx.user_tables()? {
             let class = table.name.to_uppercase();
-            let named = rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
+            let named = of_map.contains(&table.name)
+                || rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
             if named && !planned.contains(&class) {
                 let relation = tx.read_table(&table.name)?;
                 let read = tables::read(&relation)?;
@@ -404,6 +462,12 @@ impl KnowledgeBase {
             classes::declare(&mut schema, &planner.signature().gives);
         }
         classes::declare(&mut schema, &classes::ROUTES_GIVE.map(str::to_owned));
+        for asked in self.course.iter().flat_map(|course| course.asks()) {
+            schema = schema.class(asked.name, &asked.told);
+        }
+        if let Some(course) = &self.course {
+            course.declare(&mut schema, &told.classes);
+        }
         told.declare(&mut schema);
         schema
     }
@@ -454,7 +518,10 @@ impl KnowledgeBase {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
         } else {
-            (Told { classes: tables::unbuilt(), ..Told::default() }, 0)
+            let of_map = self.tables_of_map().into_iter();
+            let mut classes = tables::unbuilt();
+            classes.extend(of_map.map(|table| (table.name.to_uppercase(), table.class())));
+            (Told { classes, ..Told::default() }, 0)
         };
         let limits = Limits::default();
         let outcomes = self.run_tests(&base, &tests, &told, limits)?;
@@ -487,10 +554,13 @@ impl KnowledgeBase {
         tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
+        tx.set_site_value(LAYOUT, self.course.as_ref().map(|course| course.name()))?;
         let own: Vec<String> = tx.user_tables()?.into_iter().map(|table| table.name).collect();
+        let of_map: Vec<String> = self.tables_of_map().into_iter().map(|of| of.name).collect();
         let read = |table: &&String| {
             let class = table.to_uppercase();
-            rules.rules().iter().any(|rule| rule.classes().any(|name| name == class))
+            of_map.contains(table)
+                || rules.rules().iter().any(|rule| rule.classes().any(|name| name == class))
         };
         let watched: Vec<&str> = own.iter().filter(read).map(String::as_str).collect();
         tx.watch_tables(&watched)?;

@@ -130,10 +130,11 @@ impl State {
             route.map(answer).transpose()
         };
         let before_route = answer(&self)?;
+        let before_courses = self.courses.clone();
         let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
         let gauge = Arc::clone(&self.gauge);
         let robots = self.robots();
-        let concluded = (!self.site.site().has_map()).then(|| self.knowledge.fork());
+        let concluded = (!self.site.site().has_rooms()).then(|| self.knowledge.fork());
         let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
         let of = |knowledge: &adit_engine::KnowledgeBase| {
             keep::touched(knowledge, &self.inputs.rules, &step.changes)
@@ -143,7 +144,9 @@ impl State {
         self.accept(step);
         let after = Arc::clone(self.graph());
         let same = !layout_changed && weighed.is_empty();
-        let routes = if same {
+        let routes = if let (Some(before), Some(after)) = (&before_courses, &self.courses) {
+            routes::between(before, after)
+        } else if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
             let (before, after) = ((&*before, &*gauge), (&*after, &*self.gauge));

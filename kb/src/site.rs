@@ -20,7 +20,7 @@ use adit_planners::geometry::Rect;
 use adit_planners::read::{
     Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map, read_world,
 };
-use adit_planners::world::World;
+use adit_planners::world::{Place, World};
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
@@ -85,6 +85,8 @@ pub struct Site {
     pub rules: Vec<Base>,
     /// How the map is cut into rooms.
     pub rooms: Rooms,
+    /// What the map is, where it is not cut into rooms.
+    pub layout: Option<Layout>,
     /// From where routes are kept; `None`: not said.
     pub starts: Option<Starts>,
     /// When what is open, as the file says.
@@ -95,6 +97,54 @@ pub struct Site {
     overlay: Overlay,
     text: String,
 }
+
+/// What a map is that is not cut into rooms: the table that its file has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Channels through which a robot drives.
+    Corridor,
+    /// Channels through which a part leaves another one.
+    Assembly,
+    /// Walls, between which a robot walks from region to region.
+    FloorPlan,
+}
+
+impl Layout {
+    const TABLES: [(&'static str, Self); 3] =
+        [("corridor", Self::Corridor), ("assembly", Self::Assembly), ("floor_plan", Self::FloorPlan)];
+
+    /// What the map in a file is; `None` where it is cut into rooms, or cannot be read.
+    pub fn of(map: &Path) -> Option<Self> {
+        if map.extension().is_none_or(|extension| extension != "toml") {
+            return None;
+        }
+        let text = fs::read_to_string(map).ok()?;
+        let document = Document::parse("map", &text).ok()?;
+        let fields = document.fields("the map");
+        Self::TABLES.into_iter().find(|(table, _)| fields.get(table).is_some()).map(|(_, layout)| layout)
+    }
+
+    /// The file that a map of walls names, where it has them in a file of their own.
+    pub fn beside(map: &Path) -> Option<PathBuf> {
+        let text = fs::read_to_string(map).ok()?;
+        let document = Document::parse("map", &text).ok()?;
+        let whole = document.fields("the map");
+        let fields = whole.table("floor_plan", "[floor_plan]", &mut Vec::new())?;
+        let file = ["file", "map"].into_iter().find(|key| fields.get(key).is_some())?;
+        Some(map.with_file_name(fields.string(file, &mut Vec::new())?.value))
+    }
+
+    /// The shipped rule base that goes with it.
+    pub const fn rule_base(self) -> &'static str {
+        match self {
+            Self::Corridor | Self::Assembly => "channels/corrected",
+            Self::FloorPlan => "navigation",
+        }
+    }
+}
+
+/// The keys of a site whose map is not cut into rooms.
+const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours", "timezone", "place"];
 
 /// The keys of a site without a map.
 const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
@@ -126,24 +176,31 @@ impl Site {
         let document = Document::parse(&name, &text).map_err(|error| Error::all(error.problems))?;
         let fields = document.fields("site.toml");
         let mut problems = Vec::new();
-        let rooms = rooms(&fields, &mut problems);
+        let path =
+            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
+        let mut rooms = rooms(&fields, &mut problems);
+        let map = path(optional_text(&fields, "map", &mut problems), "map.toml");
+        let layout = if rooms == Rooms::Nothing { None } else { Layout::of(&map) };
         if rooms == Rooms::Nothing {
             fields.refuse_unknown(&KEYS_WITHOUT_MAP, &mut problems);
+        } else if layout.is_some() {
+            fields.refuse_unknown(&KEYS_WITHOUT_ROOMS, &mut problems);
+            rooms = Rooms::Nothing;
         } else {
             fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
         }
-        let path =
-            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
-        let shipped = || rooms.rule_base().map(str::to_owned).into_iter().collect();
+        let base = layout.map(Layout::rule_base).or_else(|| rooms.rule_base());
+        let shipped = || base.map(str::to_owned).into_iter().collect();
         let beneath = named_rules(&fields, &mut problems).unwrap_or_else(shipped);
         let site = Self {
             folder: folder.to_owned(),
             name: optional_text(&fields, "name", &mut problems)
                 .unwrap_or_else(|| folder.display().to_string()),
-            map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
+            map,
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
             rules: bases(folder, &beneath),
             rooms,
+            layout,
             starts: starts(&fields, &mut problems),
             hours: hours::read(&fields, &mut problems),
             zone: zone(&fields, &mut problems),
@@ -178,15 +235,24 @@ impl Site {
         self.folder.join("tables")
     }
 
-    /// Whether there is a map, and so rooms, robots and routes.
-    pub fn has_map(&self) -> bool {
+    /// Whether there is a map that is cut into rooms, and so states of robots.
+    pub fn has_rooms(&self) -> bool {
         self.rooms != Rooms::Nothing
     }
 
-    /// Refuses what needs a map where there is none.
-    pub fn needs_map(&self) -> Result<()> {
-        if self.has_map() {
+    /// The places that `site.toml` names.
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        self.overlay.places()
+    }
+
+    /// Refuses what needs rooms where there are none.
+    pub fn needs_rooms(&self) -> Result<()> {
+        if self.has_rooms() {
             return Ok(());
+        }
+        if self.layout.is_some() {
+            let message = format!("the map of {} is not cut into rooms, as this needs it to be", self.name);
+            return Err(Error::said(error::Code::CourseUnfit, message, None));
         }
         let message = format!("{} has no map: it has tables and rules, and no rooms or routes", self.name);
         let help =
@@ -198,7 +264,9 @@ impl Site {
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = vec![self.folder.join("site.toml")];
         files.extend(tables::files(&self.tables()));
-        if !self.has_map() {
+        files.extend(self.layout.map(|_| self.map.clone()));
+        files.extend(self.layout.and_then(|_| Layout::beside(&self.map)));
+        if !self.has_rooms() {
             return files;
         }
         files.extend([self.map.clone(), self.robots.clone()]);
@@ -237,7 +305,7 @@ impl Site {
 
     /// Reads the map and lays over it what `site.toml` says.
     pub fn world(&self) -> Result<World> {
-        if !self.has_map() {
+        if !self.has_rooms() {
             return Ok(World::empty(Rect::new(0.0, 0.0, 1.0, 1.0)));
         }
         let read = read_world(&self.map, &self.settings);
@@ -248,7 +316,7 @@ impl Site {
 
     /// As [`world`](Self::world), with what it cost or gave of free space to read it so, and notes.
     pub fn measured_world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
-        if !self.has_map() {
+        if !self.has_rooms() {
             return Ok((self.world()?, MapReport::default(), Vec::new()));
         }
         let (mut world, report) =

@@ -1,6 +1,7 @@
 //! Why something is as it is: the rule behind each conclusion, what it chose, and the values that it read there.
 
 pub mod ask;
+mod course;
 mod facts;
 pub mod firm;
 pub(crate) mod subject;
@@ -67,6 +68,11 @@ impl Live {
 impl State {
     /// As [`Live::why`].
     pub fn why(&self, what: &str) -> Result<Why> {
+        if let Some(courses) = &self.courses
+            && let Some(why) = course::why(courses, what, self.generation)?
+        {
+            return Ok(why);
+        }
         let subject = Subject::find(self, what)?;
         let told = told::told(self, &subject)?;
         let (mut conclusions, facts) = match self.conclusions(&subject) {

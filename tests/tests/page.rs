@@ -5,6 +5,8 @@
 mod accessible;
 #[path = "page/ask.rs"]
 mod ask;
+#[path = "page/drawn.rs"]
+mod drawn;
 #[path = "page/experience.rs"]
 mod experience;
 #[path = "page/find_out.rs"]

@@ -43,8 +43,14 @@ pub fn run(args: &BuildArgs) -> Result<()> {
 }
 
 pub fn show(knowledge: &KnowledgeBase, report: &Report) {
-    if !knowledge.site().has_map() {
-        let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
+    let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
+    if let Some(map) = &report.course {
+        let starts = report.routes.starts;
+        line(&format!("{name}: {map}, routes from {starts} starts (generation {generation})"));
+        reacted(report);
+        return notes(report);
+    }
+    if !knowledge.site().has_rooms() {
         let s = if values == 1 { "" } else { "s" };
         line(&format!("{name}: {values} value{s} concluded (generation {generation})"));
         return notes(report);
@@ -128,7 +134,7 @@ fn conclusions(report: &Report) {
     if report.conclusions.len() > LISTED {
         line(&format!("and {} more", report.conclusions.len() - LISTED));
     }
-    if report.conclusions.is_empty() && report.rooms.total == 0 {
+    if report.conclusions.is_empty() && report.rooms.total == 0 && report.course.is_none() {
         line("no rule concludes anything else than before");
     }
 }
@@ -139,10 +145,12 @@ const LISTED: usize = 10;
 pub fn changes(report: &Report) {
     reacted(report);
     conclusions(report);
-    if report.rooms.total == 0 {
+    if report.rooms.total == 0 && report.course.is_none() {
         return;
     }
-    if report.cut_anew {
+    if report.course.is_some() {
+        // there are no rooms that could change
+    } else if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
     } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {
         line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
@@ -181,6 +189,10 @@ pub fn changes(report: &Report) {
         let whose = if several { format!(" ({})", change.robot) } else { String::new() };
         let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
         let (old, new) = (cost(change.old), cost(change.new));
+        if report.course.is_some() && old == new && way.is_empty() {
+            line(&format!("  {} to {}{whose}: {old}, driven otherwise", change.start, change.goal));
+            continue;
+        }
         line(&format!("  {} to {}{whose}: {old} → {new}{way}", change.start, change.goal));
     }
     if report.routes.changes.len() > LISTED {

@@ -23,7 +23,7 @@ pub struct DoctorArgs {
 pub fn check(args: &SiteArgs) -> Result<bool> {
     let mut what = "rules, tables and map";
     let checked = open(args).and_then(|knowledge| {
-        if !knowledge.site().has_map() {
+        if !knowledge.site().has_rooms() {
             what = "rules and tables";
         }
         knowledge.check()

@@ -134,7 +134,7 @@ fn drive(
 ) -> Result<bool> {
     let mut plans = Plans::default();
     for corridor in gaps(args, corridor, Corridor::with_gap)? {
-        let answer = corridor.explained(turns);
+        let answer = corridor.explained(turns, None);
         if let Ok(driven) = &answer.path {
             let gap = corridor.wanted.gap.to_string();
             plans.panels.push(ChannelPanel::drive(&gap, &corridor.corridors, corridor.robot, &driven.drive));

@@ -5,6 +5,7 @@ use adit_db::cell::Cell;
 use adit_db::relation::RelationColumn;
 
 use crate::error::{Code, Error, Result};
+use crate::knowledge::LAYOUT;
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::suggest::did_you_mean;
 
@@ -48,13 +49,15 @@ const DERIVED: [&str; 19] = [
 /// The columns of a table that may be edited, its key's first.
 pub(super) fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
-    if DERIVED.contains(&table) {
+    // where the map is not cut into rooms, its places stand in the table alone
+    let is_map = table == "places" && tx.site_value(LAYOUT)?.is_some();
+    if DERIVED.contains(&table) && !is_map {
         let message =
             format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
         let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
         return Err(Error::said(Code::EditDerived, message, Some(help)));
     }
-    if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {
+    if !TUNABLE.contains(&table) && !is_map && !own.iter().any(|known| known == table) {
         let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
         return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{table}`"), help));
     }

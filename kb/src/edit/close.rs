@@ -12,10 +12,14 @@ use super::place;
 use super::tell::Tell;
 use crate::error::{Code, Error, Result};
 use crate::graph::Building;
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
 use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
+use crate::knowledge::{KnowledgeBase, LAYOUT};
+use crate::plan::course::numbered;
 use crate::words::suggest::did_you_mean;
+
+/// What a channel is called, before its number.
+const CHANNEL: &str = "channel";
 
 /// Something that is closed, as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,7 +55,9 @@ impl Close {
         }
         Ok(Tell {
             class: class.to_owned(),
-            object: what.to_owned(),
+            object: numbered(what, CHANNEL)
+                .filter(|_| class == "CHANNELS")
+                .map_or_else(|| what.to_owned(), |number| number.to_string()),
             property: property.to_owned(),
             value,
             until: self.until.clone(),
@@ -104,6 +110,9 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     if place::split(what).is_some() {
         return Ok("DOORWAYS");
     }
+    if tx.site_value(LAYOUT)?.is_some() {
+        return of_map(tx, what);
+    }
     let (areas, doors) = (names(tx, "areas", "area")?, names(tx, "named_doors", "door")?);
     let building = Building::read(tx)?;
     if doors.iter().any(|door| door == what) {
@@ -128,6 +137,28 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
         format!("the site has nothing called `{what}` that could be closed"),
         help,
     ))
+}
+
+/// Of a map that is not cut into rooms, what can be closed: a channel.
+fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
+    let mut is_channel = |number: &usize| -> Result<bool> {
+        let channels = tx.read_table("channels")?;
+        let has_closed = channels.columns.iter().any(|column| column.name == CLOSED);
+        Ok(has_closed
+            && channels.columns.first().is_some_and(|keys| keys.values.contains(&(*number as i64).into())))
+    };
+    match numbered(what, CHANNEL) {
+        Some(number) if is_channel(&number)? => Ok("CHANNELS"),
+        None if Building::read(tx)?.doorway_named(what).is_some() => Ok("DOORWAYS"),
+        _ => {
+            let message = format!("the site has nothing called `{what}` that could be closed");
+            Err(Error::said(
+                Code::TellUnknownObject,
+                message,
+                Some("say `channel 2` or `doorway 2`, as the map has them".to_owned()),
+            ))
+        }
+    }
 }
 
 /// The names of what planners gave of a class.

@@ -57,6 +57,11 @@ codes! {
     /// The database was removed or replaced while it was served; start the service again.
     DatabaseReplaced = "database/replaced", INTERNAL_SERVER_ERROR;
 
+    /// The tables of a map that is not cut into rooms make no map.
+    CourseTable = "course/table", BAD_REQUEST;
+    /// What is asked needs a map that is cut into rooms.
+    CourseUnfit = "course/unfit", BAD_REQUEST;
+
     /// A picture is written as .svg or .png.
     DrawFormat = "draw/format", BAD_REQUEST;
     /// There is no route to draw between these ends.

@@ -19,7 +19,7 @@ use crate::words::progress::Stage;
 /// The map and the rules, read and compiled.
 pub struct Inputs {
     /// The rules.
-    pub rules: RuleBase,
+    pub rules: Arc<RuleBase>,
     /// Their names, by number.
     pub rule_names: Rules,
     /// The tests beside them.
@@ -55,6 +55,7 @@ impl Inputs {
         let notes = ignored.chain(notes.into_iter().map(|note| note.to_string())).collect();
         let names = (1..).zip(rules.rules().iter().map(|rule| rule.name().to_owned()));
         let rule_names = names.collect();
+        let rules = Arc::new(rules);
         Ok(Self { rules, rule_names, tests, world: Arc::new(world), map_report, notes, stage })
     }
 }

@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use adit_db::load::Load;
+use adit_db::place::Place;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
@@ -31,6 +32,14 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("from_state", changes.iter().map(|row| row.from_state.clone()).collect::<Column>())
         .with("to_state", changes.iter().map(|row| row.to_state.clone()).collect::<Column>())
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
+}
+
+/// The places as a class.
+pub fn places(places: &[Place]) -> Table {
+    Table::default()
+        .with("place", places.iter().map(|row| row.place.clone()).collect::<Column>())
+        .with("x", places.iter().map(|row| row.x).collect::<Column>())
+        .with("y", places.iter().map(|row| row.y).collect::<Column>())
 }
 
 /// The class HOURS of a site where nothing has hours.

@@ -9,6 +9,7 @@ use adit_db::history::Author;
 use adit_db::room::Room;
 use adit_db::stale::Mark;
 
+use super::courses;
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
@@ -206,7 +207,7 @@ impl Memory {
         clock.stages.extend(step.stages.iter().cloned());
         let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));
         let renewed = match (step.is_anew, promptness) {
-            (false, Promptness::Later) => self.routes.renew(&graph, &step.weighed),
+            (false, Promptness::Later) if step.courses.is_none() => self.routes.renew(&graph, &step.weighed),
             _ => None,
         };
         let before = Before { graph: state.graph(), starts: &self.routes.plan().starts };
@@ -228,7 +229,10 @@ impl Memory {
             } else {
                 KeptSoFar::Of(state.graph(), self.routes.plan())
             };
-            let (plan, routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
+            let (plan, mut routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
+            if let Some(now) = &step.courses {
+                routes = courses::keep(tx, state.courses.as_deref(), now)?;
+            }
             RoutesNow::All(plan, routes)
         };
         let generation = generation::renew(tx, step.weighed.is_empty(), &self.basis.with(&step.told))?;
@@ -317,7 +321,10 @@ fn write_all(
     clock.lap("database");
     progress.stage("routes");
     let so_far = if step.is_cut_anew { KeptSoFar::OfAnotherCut } else { KeptSoFar::Stored };
-    let (plan, routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
+    let (plan, mut routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
+    if let Some(now) = &step.courses {
+        routes = courses::keep(tx, state.courses.as_deref(), now)?;
+    }
     clock.lap("routes");
     let is_same = !step.is_cut_anew && step.weighed.is_empty() && routes.changed == Some(0);
     let generation = generation::renew(tx, is_same, &basis.with(&step.told))?;

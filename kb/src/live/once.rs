@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::history::Author;
+use adit_db::place::Place;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
@@ -55,13 +56,18 @@ impl KnowledgeBase {
         progress: &dyn Progress,
     ) -> Result<(Memory, Report)> {
         let (site, again) = (self.site(), self.reseed);
-        let seed = if site.has_map() { Some(RobotFile::read(&site.robots)?) } else { None };
-        let tables = tables::read(&site.tables())?;
+        let seed = if site.has_rooms() { Some(RobotFile::read(&site.robots)?) } else { None };
+        let mut tables = self.tables_of_map();
+        tables.extend(tables::read(&site.tables())?);
+        let places = self.places_of_map();
         store.transaction(|tx| {
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
                 notes.extend(table.seed(tx, again)?);
+            }
+            if let Some(places) = &places {
+                notes.extend(seed_places(tx, places, again)?);
             }
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
@@ -127,11 +133,29 @@ impl KnowledgeBase {
     /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        self.site().needs_map()?;
+        if !self.site().has_rooms() && self.course().is_none() {
+            self.site().needs_rooms()?;
+        }
         if self.asks_about_another_moment() {
             return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }
         self.fresh()?.snapshot(|tx| self.answer(tx, (start, goals), robot, [None; 2]))
+    }
+
+    /// A map that is not cut into rooms as an SVG text, with a route where one is asked for; and what there is of what.
+    pub(crate) fn course_picture(
+        &self,
+        route: Option<(&str, &str)>,
+        robot: Option<&str>,
+    ) -> Result<(String, String)> {
+        let inputs = self.inputs(&Silent)?;
+        let memory = self.fresh()?.snapshot(|tx| Memory::open(tx, &self.shared(), &inputs))?;
+        let courses = memory.and_then(|memory| memory.state.courses);
+        let courses = courses
+            .ok_or_else(|| Error::said(Code::LiveStale, "the site's tables were edited meanwhile", None))?;
+        let robot = crate::answer::pick(&courses.robots(), robot)?;
+        let route = route.map(|(start, goal)| [robot.as_str(), start, goal]);
+        Ok((courses.picture(&self.site().name, route)?, courses.summary()))
     }
 
     /// As [`route_to_nearest`](Self::route_to_nearest), for an errand; the site is left as it is.
@@ -141,6 +165,7 @@ impl KnowledgeBase {
         (start, goals): (&str, &[String]),
         robot: Option<&str>,
     ) -> Result<Answer> {
+        self.site().needs_rooms()?;
         // names are those of the last build
         drop(self.fresh()?);
         let then = self.clone().at(errand.at.as_deref())?;
@@ -187,6 +212,18 @@ impl KnowledgeBase {
         robot: Option<&str>,
         ends_in: [Option<&str>; 2],
     ) -> Result<Answer> {
+        if self.course().is_some() {
+            let inputs = self.inputs(&Silent)?;
+            let memory = Memory::open(tx, &self.shared(), &inputs)?;
+            let memory = memory.ok_or_else(|| {
+                Error::said(
+                    Code::LiveStale,
+                    "the site's tables were edited meanwhile",
+                    Some("try again".to_owned()),
+                )
+            })?;
+            return memory.state.route(start, goals, robot);
+        }
         let robot = pick_robot(tx, robot)?;
         let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
         let kept = if ends_in == [None; 2] { kept(tx, &robot, start, goals)? } else { None };
@@ -209,6 +246,21 @@ impl KnowledgeBase {
         rayon::spawn(|| drop(graph));
         answer
     }
+}
+
+/// Fills the places of a map that is not cut into rooms the first time, or when asked; otherwise says where file and table
+/// differ.
+fn seed_places(tx: &mut Tx<'_>, places: &[Place], again: bool) -> Result<Option<String>> {
+    let kept = tx.places()?;
+    if again || kept.is_empty() {
+        tx.replace_places(places)?;
+        return Ok(None);
+    }
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|one, other| one.place.cmp(&other.place));
+    let note =
+        "the files name other places than the table places; the database counts (--reseed takes the files)";
+    Ok((kept != sorted).then(|| note.to_owned()))
 }
 
 /// Whether no build has ever come to its end in the database, nor is at work there now.

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
+use adit_planners::floor_plan::Way;
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
 use adit_planners::navigation::learn::{Guide, OpeningFacts};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
@@ -11,6 +12,7 @@ use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, State
 use super::told::{self, Told};
 use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
 use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
+use crate::plan::course::Asked;
 
 /// What rules are told of a situation.
 const SITUATIONS: [Property<StateFacts>; 31] = [
@@ -85,7 +87,7 @@ pub(crate) fn classes() -> [Class; 4] {
     [
         Class::new("SITUATIONS", SITUATIONS, &["next", "action"]),
         Class::new("SEGMENTS", SEGMENTS, OF_SEGMENTS),
-        Class { name: "WAYS", told: told::ways(), asked: &["weight", "passable"] },
+        Class { name: "WAYS", told: told::ways(), asked: &["weight", "passable", "action"] },
         Class::new("OPENINGS", OPENINGS, &["explore", "worth"]),
     ]
 }
@@ -110,13 +112,26 @@ impl RuleJudge {
 
     /// Makes ready for a world that tells this of its doorways and regions.
     pub fn with(rules: &Arc<RuleBase>, told: &Told) -> Result<Self, ClassError> {
+        Self::made(told, |class, told, asked| Consultation::new(Arc::clone(rules), class, told, asked))
+    }
+
+    /// Makes ready for a site, whose rules may look at all that is known of it.
+    pub fn by(asked: &Asked<'_>, told: &Told) -> crate::error::Result<Self> {
+        Self::made(told, |class, told, outputs| asked.about(class, told, outputs))
+    }
+
+    fn made<E>(
+        told: &Told,
+        ready: impl Fn(&str, &[(&str, Type)], &[&str]) -> Result<Consultation, E>,
+    ) -> Result<Self, E> {
         let [situations, segments, ways, openings] = classes();
         let of_ways: Vec<(&str, Type)> = ways.told.iter().copied().chain(told.further()).collect();
+        let made = |class: &Class| ready(class.name, &class.told, class.asked);
         Ok(Self {
-            situations: situations.consultation(rules)?,
-            segments: segments.consultation(rules)?,
-            ways: Consultation::new(Arc::clone(rules), ways.name, &of_ways, ways.asked)?,
-            openings: openings.consultation(rules)?,
+            situations: made(&situations)?,
+            segments: made(&segments)?,
+            ways: ready(ways.name, &of_ways, ways.asked)?,
+            openings: made(&openings)?,
             of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
             told: told.clone(),
             trouble: None,
@@ -126,6 +141,17 @@ impl RuleJudge {
     /// Whether the rules look at one object alone, so that they are asked at full speed.
     pub const fn is_direct(&self) -> bool {
         self.situations.is_direct() && self.segments.is_direct() && self.ways.is_direct()
+    }
+
+    /// What the robot does on the way that was asked about last, if rules say so.
+    pub fn action(&self) -> Option<Arc<str>> {
+        self.ways.text(2)
+    }
+
+    /// The rule by which a way is weighed.
+    pub fn rule_of(&mut self, way: &Way) -> Option<Considered> {
+        self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+        self.ways.considered("weight").into_iter().find(|rule| rule.miss.is_none())
     }
 
     /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they

@@ -8,6 +8,9 @@ use super::refusal::NoPath;
 use super::said::{Answer, Said};
 use super::steps::Steps;
 
+/// What the part that moves is called.
+const PART: &str = "part";
+
 /// A part in channels, and what is asked of its path.
 #[derive(Clone, Debug)]
 pub struct Assembly<const D: usize> {
@@ -32,8 +35,8 @@ impl<const D: usize> Assembly<D> {
         let mut said = Vec::new();
         let path = self.path(|facts| {
             let decision = steps.decide(facts, self.wanted.at(facts.number));
-            let (considered, facts_said) = (steps.considered(), steps.facts());
-            said.push(Said { junction: facts.number, considered, facts: facts_said });
+            let (considered, facts_said, action) = (steps.considered(), steps.facts(), steps.action());
+            said.push(Said { junction: facts.number, considered, facts: facts_said, action });
             decision
         });
         Answer { path, said }
@@ -98,7 +101,7 @@ pub(super) fn read<const D: usize>(
     problems: &mut Vec<Problem>,
 ) -> Option<Assembly<D>> {
     fields.refuse_unknown(&[&KEYS[..], &Wanted::<D>::KEYS].concat(), problems);
-    let wanted = Wanted::read(fields, problems);
+    let wanted = Wanted::read(PART, fields, problems);
     let female_moves = match fields.get("moves").and_then(|_| fields.string("moves", problems)) {
         None => false,
         Some(moves) if moves.value == "male" => false,

@@ -121,6 +121,8 @@ impl<const N: usize> Asked<N> {
 /// What a world asks for at one junction, besides its geometry.
 #[derive(Clone, Copy, Debug)]
 pub struct Wishes<'a, const N: usize> {
+    /// The name of what moves.
+    pub mover: &'a str,
     pub gap: &'a Asked<N>,
     /// Whether the part, or the load, must not be scratched.
     pub fragile: bool,
@@ -131,6 +133,8 @@ pub struct Wishes<'a, const N: usize> {
 /// What a world asks for at all of its junctions.
 #[derive(Clone, Debug)]
 pub struct Wanted<const N: usize> {
+    /// The name of what moves.
+    pub mover: String,
     pub gap: Asked<N>,
     /// Where it is another one: the number of the junction.
     pub gaps: BTreeMap<usize, Asked<N>>,
@@ -144,8 +148,9 @@ impl<const N: usize> Wanted<N> {
     /// The keys of it in a world.
     pub(super) const KEYS: [&str; 4] = ["gap", "junction", "fragile", "hurry"];
 
-    pub(super) fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
+    pub(super) fn read(mover: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
         Self {
+            mover: mover.to_owned(),
             gap: Asked::read(fields, problems),
             gaps: gaps_of_junctions(fields, problems),
             fragile: flag(fields, "fragile", problems),
@@ -155,7 +160,7 @@ impl<const N: usize> Wanted<N> {
 
     /// What is asked for where no junction is meant.
     pub fn general(&self) -> Wishes<'_, N> {
-        Wishes { gap: &self.gap, fragile: self.fragile, hurry: self.hurry }
+        Wishes { mover: &self.mover, gap: &self.gap, fragile: self.fragile, hurry: self.hurry }
     }
 
     /// What is asked for at a junction.
@@ -166,7 +171,7 @@ impl<const N: usize> Wanted<N> {
     /// The same with another gap everywhere.
     #[must_use]
     pub fn with_gap(&self, gap: Asked<N>) -> Self {
-        Self { gap, gaps: BTreeMap::new(), fragile: self.fragile, hurry: self.hurry }
+        Self { gap, gaps: BTreeMap::new(), ..self.clone() }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use adit_engine::{RuleBase, Schema, Severity};
+use adit_engine::{RuleBase, Schema, Severity, Type};
 
 use super::consult::Class;
 use crate::error::{Code, Error, Finding, Result};
@@ -60,7 +60,12 @@ impl Kind {
     /// The classes and properties that rules may name.
     pub fn schema(self) -> Schema {
         let add = |schema: Schema, class: Class| schema.class(class.name, &class.told);
-        self.classes().into_iter().fold(Schema::default(), add)
+        let mut schema = self.classes().into_iter().fold(Schema::default(), add);
+        if self == Self::Navigation {
+            // what sites know of doorways besides
+            schema = schema.class("DOORWAYS", &[("doorway", Type::Number), ("called", Type::Text)]);
+        }
+        schema
     }
 }
 

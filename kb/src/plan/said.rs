@@ -1,5 +1,7 @@
 //! What rules said at each junction of a path, and the answer that comes of it: a path, or why there is none.
 
+use std::sync::Arc;
+
 use adit_db::plan::{Considered, Fact as FactRow, PathStep, Plan};
 use adit_engine::{Consultation, Type, Value};
 use serde::Serialize;
@@ -16,6 +18,9 @@ pub struct Said {
     /// Told and concluded.
     #[serde(skip)]
     pub facts: Vec<Fact>,
+    /// What is done there, if rules say so.
+    #[serde(skip)]
+    pub action: Option<Arc<str>>,
 }
 
 impl Said {

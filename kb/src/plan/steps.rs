@@ -12,6 +12,7 @@ use super::said::Fact;
 
 /// What rules are told of a step of a part: it is about to enter a junction.
 const STEPS: &[(&str, Type)] = &[
+    ("part", Type::Text),
     ("dimensions", Type::Number),
     ("junction", Type::Number),
     ("next", Type::Number),
@@ -47,11 +48,13 @@ const STEPS: &[(&str, Type)] = &[
     ("hurry", Type::Truth),
 ];
 
-const OUTPUTS: [&str; 8] = ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
+const OUTPUTS: [&str; 9] =
+    ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal", "action"];
 const RULE: usize = 0;
 const MARGIN: usize = 1;
 const GAP: usize = 4;
 const REFUSAL: usize = 7;
+const ACTION: usize = 8;
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What rules are told of steps, and what they are asked.
@@ -65,7 +68,17 @@ pub struct Steps(Consultation);
 
 impl Steps {
     pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
-        Ok(Self(class().consultation(rules)?))
+        Ok(Self::of(class().consultation(rules)?))
+    }
+
+    /// Of rules that are ready to be asked about steps.
+    pub const fn of(steps: Consultation) -> Self {
+        Self(steps)
+    }
+
+    /// What the part does on its way into the last step's junction, if rules say so.
+    pub fn action(&self) -> Option<Arc<str>> {
+        self.0.text(ACTION)
     }
 
     /// What the rules say of a step.
@@ -139,6 +152,7 @@ pub(super) const fn named<const D: usize>(axis: usize) -> usize {
 
 fn object<'a, const D: usize>(facts: &StepFacts<D>, wishes: Wishes<'a, D>) -> [Datum<'a>; STEPS.len()] {
     let mut object = [Datum::Unknown; STEPS.len()];
+    object[const { place("part") }] = Datum::Text(wishes.mover);
     object[const { place("dimensions") }] = Datum::Number(D as f64);
     object[const { place("junction") }] = Datum::Number(facts.number as f64);
     object[const { place("entering") }] = Datum::Text(AXES[named::<D>(facts.entering)]);

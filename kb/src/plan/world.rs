@@ -9,9 +9,13 @@ use adit_planners::read::{Document, Problem};
 
 use super::assembly::Assembly;
 use super::corridor::Corridor;
+use super::course::Course;
+use super::drives::CorridorsOf;
+use super::parts::PartsOf;
 use super::rules::{self, Kind};
 use crate::adapt::{self, Cell};
 use crate::error::{Code, Error, Result};
+use crate::navigation::course::FloorOf;
 use crate::navigation::floor::Floor;
 use crate::navigation::reading;
 
@@ -97,6 +101,22 @@ impl World {
         let rules = rules.unwrap_or_else(|| task.kind().shipped()[0].to_owned());
         Ok(Self { name, folder, rules, task })
     }
+}
+
+/// The planner of a map that is not cut into rooms.
+pub fn course(map: &Path) -> Result<Box<dyn Course>> {
+    let world = World::read(map)?;
+    let file = map.to_owned();
+    Ok(match world.task {
+        Task::Corridor(corridor) => Box::new(CorridorsOf { file, corridor }),
+        Task::Assembly(assembly) => Box::new(PartsOf { file, assembly }),
+        Task::SolidAssembly(assembly) => Box::new(PartsOf { file, assembly }),
+        Task::FloorPlan(floor) => Box::new(FloorOf { file, floor: *floor }),
+        Task::Cell(_) => {
+            let message = format!("{} is no map of a site", map.display());
+            return Err(Error::said(Code::CourseUnfit, message, None));
+        }
+    })
 }
 
 const KINDS: [&str; 4] = ["assembly", "corridor", "floor_plan", "cell"];

@@ -7,6 +7,8 @@ use serde::Serialize;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
 use crate::graph::pairs::{self, Found, From, Known};
+use crate::plan::course::Found as Course;
+use crate::state::Courses;
 
 /// How many rooms, doors or routes are listed.
 pub(super) const LISTED: usize = 5_000;
@@ -101,6 +103,44 @@ pub(super) fn compare(
     };
     all.list.sort_by(|one, two| by(two).total_cmp(&by(one)));
     all.list.truncate(LISTED);
+    all
+}
+
+/// Compares the routes over a map that is not cut into rooms.
+pub(super) fn between(before: &Courses, after: &Courses) -> PlaceRoutes {
+    let mut all =
+        PlaceRoutes { total: after.kept().len(), compared: after.kept().len(), ..PlaceRoutes::default() };
+    let way = |found: &Course| found.row.steps.iter().map(|step| step.place.clone()).collect::<Vec<_>>();
+    for new in after.kept() {
+        let row = &new.row;
+        let is_it = |old: &&Course| {
+            (&old.row.robot, &old.row.start, &old.row.goal) == (&row.robot, &row.start, &row.goal)
+        };
+        let old = before.kept().iter().find(is_it);
+        if old.is_some_and(|old| old.row == *row) {
+            continue;
+        }
+        let costs = (old.and_then(|old| old.row.cost), row.cost);
+        let other_way = old.map(way) != Some(way(new));
+        all.changed += 1;
+        match costs {
+            (Some(_), None) => all.lost += 1,
+            (None, Some(_)) => all.found += 1,
+            (Some(old), Some(new)) if new > old => all.longer += 1,
+            (Some(old), Some(new)) if new < old => all.shorter += 1,
+            _ => {}
+        }
+        all.rerouted += usize::from(other_way && costs.0.is_some() && costs.1.is_some());
+        let (robot, start, goal) = (row.robot.clone(), row.start.clone(), row.goal.clone());
+        all.list.push(PlaceRoute {
+            robot,
+            start,
+            goal,
+            old: costs.0,
+            new: costs.1,
+            other_way: Some(other_way),
+        });
+    }
     all
 }
 

@@ -56,6 +56,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(service::metrics))
         .routes(routes!(map::map))
         .routes(routes!(map::weights))
+        .routes(routes!(map::picture))
         .routes(routes!(route::route))
         .routes(routes!(follow::follow))
         .routes(routes!(follow::moved))

@@ -34,7 +34,7 @@ const READ_BY_ROUTES: [&str; 11] = [
 /// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people
 /// to read.
 pub fn unread(site: &Site, rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
-    if !site.has_map() {
+    if !site.has_rooms() {
         return Vec::new();
     }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);

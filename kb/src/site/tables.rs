@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use adit_db::relation::Relation;
 use adit_db::{Cell, Tx};
+use adit_planners::facts::{Column, Table};
 use miette::NamedSource;
 
 use crate::error::{Code, Error, Finding, Result};
@@ -137,6 +138,33 @@ impl TableFile {
         }
         let columns = names.into_iter().zip(kinds).collect();
         Ok(Self { path: path.to_owned(), name, columns, key, rows: read })
+    }
+
+    /// A table that another file fills: that of a map.
+    ///
+    /// # Arguments
+    /// `columns` are those of the key first, `key` how many these are.
+    pub fn of_map(
+        path: &Path,
+        name: &str,
+        (columns, key): (&[(&str, &'static str)], usize),
+        rows: Vec<Vec<Cell>>,
+    ) -> Self {
+        let columns = columns.iter().map(|(name, kind)| ((*name).to_owned(), *kind)).collect();
+        Self { path: path.to_owned(), name: name.to_owned(), columns, key: (0..key).collect(), rows }
+    }
+
+    /// As a class without objects: what its columns hold.
+    pub fn class(&self) -> Table {
+        let column = |(name, kind): &(String, &'static str)| {
+            let none = match *kind {
+                "BOOLEAN" => Column::Truth(Vec::new()),
+                "TEXT" => Column::Text(Vec::new()),
+                _ => Column::Number(Vec::new()),
+            };
+            (name.clone(), none)
+        };
+        Table { columns: self.columns.iter().map(column).collect() }
     }
 
     /// Fills the table the first time, or when asked; otherwise says where file and table differ.

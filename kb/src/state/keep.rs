@@ -159,7 +159,9 @@ impl Kept {
         tx.replace_rooms(&graph.rooms)?;
         tx.replace_doors(&graph.doors)?;
         tx.replace_spaces(&graph.building.spaces, &graph.building.doorways)?;
-        tx.replace_places(&graph.places)?;
+        if state.site.course().is_none() {
+            tx.replace_places(&graph.places)?;
+        }
         let frame = Frame {
             frame: "map".to_owned(),
             x: world.frame.at.x,

@@ -15,7 +15,7 @@ use super::planned::{self, Planned};
 pub use super::planned::{Nothing, Recall};
 use super::twin::Twin;
 use super::weighed::{Look, Weighed, Which, is_same_cut};
-use super::{Pending, State};
+use super::{Courses, Pending, State};
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
@@ -50,6 +50,8 @@ pub struct Step {
     pub facts: BTreeMap<i64, String>,
     /// What was done, in order.
     pub stages: Vec<Stage>,
+    /// Routes over a map that is not cut into rooms.
+    pub courses: Option<Arc<Courses>>,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
     gauge: Option<Arc<Gauge>>,
@@ -133,6 +135,10 @@ impl State {
             Some(Arc::new(Gauge::new(&world, sizes(&self.knowledge))))
         };
         clock.lap("graph");
+        let courses = self.courses_now()?.map(Arc::new);
+        if courses.is_some() {
+            clock.lap("routes");
+        }
         let (planned, is_anew, stages) = (given.planned, given.is_any, clock.stages);
         Ok(Step {
             world,
@@ -146,6 +152,7 @@ impl State {
             changes,
             facts,
             stages,
+            courses,
             reacted: Vec::new(),
             gauge,
         })
@@ -163,6 +170,7 @@ impl State {
         if let Some(gauge) = step.gauge {
             self.gauge = gauge;
         }
+        self.courses = step.courses;
         self.known = Arc::default();
         self.pending = None;
     }

@@ -133,14 +133,16 @@ fn table_2_as_printed_ends_where_its_point_is_off_the_circle_and_says_by_how_muc
 }
 
 #[test]
-fn a_gap_beyond_the_safest_is_driven_and_remarked_on_unless_a_wall_is_hit() {
+fn a_gap_beyond_the_safest_is_driven_and_remarked_on_and_where_a_wall_would_be_hit_the_safest_is() {
     let found = answer(S, &["--gap", "1.0"]);
     expect_close("clearance", &found["min_clearance"], &json!(0.864_009));
     let remark = found["remarks"][0].as_str().expect("a remark");
     assert!(remark.contains("beyond the safest one, 0.929688"), "{remark}");
     assert_eq!(answer(S, &["--gap", "safest"])["remarks"], json!([]));
-    let hit = plan_text(S, &["--gap", "1.6"]).expect_status(1);
-    assert!(hit.stdout.contains("no path: junction 1"), "{}", hit.stdout);
+    let hit = answer(S, &["--gap", "1.6"]);
+    let said = "at junction 1 the gap of 1.6 m cannot be kept; the safest, 0.93 m, is driven";
+    assert!(hit["remarks"].as_array().expect("remarks").contains(&json!(said)), "{hit}");
+    expect_close("clearance", &hit["min_clearance"], &json!(0.929_688));
 }
 
 #[test]

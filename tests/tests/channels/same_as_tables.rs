@@ -1,7 +1,7 @@
 //! The shipped rules say at every step what the tables say that the planners' property tests steer by (no collision, the
 //! clearance that a gap promises, no error within the bounds): what holds there holds for the rules.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
@@ -34,7 +34,13 @@ fn world<const D: usize>(chain: &Chain<D>) -> Assembly<D> {
             (index + 1, Asked::Gap(std::array::from_fn(|axis| shares[axis] * bound(axis))))
         });
     Assembly {
-        wanted: Wanted { gap: Asked::Safest, gaps: gaps.collect(), fragile: false, hurry: false },
+        wanted: Wanted {
+            mover: "part".to_owned(),
+            gap: Asked::Safest,
+            gaps: gaps.collect(),
+            fragile: false,
+            hurry: false,
+        },
         geometry,
         female_moves: false,
         displacement: None,
@@ -98,7 +104,7 @@ proptest! {
             safest: 0.9,
             robot: Robot { width: 1.0, length: 1.5 },
         };
-        let wishes = Wishes { gap: &Asked::Gap([0.25]), fragile: false, hurry: false };
+        let wishes = Wishes { mover: "robot", gap: &Asked::Gap([0.25]), fragile: false, hurry: false };
         let (by_rules, remark) = turns.decide(&facts, wishes).expect("a rule speaks");
         prop_assert_eq!(Ok(by_rules), corrected(&facts, 0.25));
         prop_assert_eq!(remark, None);
@@ -124,7 +130,15 @@ fn a_path_through_a_network_is_what_its_table_gives() {
             start: Point::new(start.0, start.1),
             heading: None,
             goal: Point::new(goal.0, goal.1),
-            wanted: Wanted { gap: Asked::Gap([0.4]), gaps: BTreeMap::new(), fragile: false, hurry: false },
+            places: Vec::new(),
+            closed: BTreeSet::new(),
+            wanted: Wanted {
+                mover: "robot".to_owned(),
+                gap: Asked::Gap([0.4]),
+                gaps: BTreeMap::new(),
+                fragile: false,
+                hurry: false,
+            },
         };
         let by_rules = world.plan(&mut turns).expect("a path");
         let route = corridors

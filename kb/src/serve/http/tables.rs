@@ -11,8 +11,8 @@ use utoipa::ToSchema;
 use super::extract::Site;
 use crate::edit;
 use crate::error::Result;
-use crate::knowledge::generation;
 use crate::knowledge::tunings;
+use crate::knowledge::{LAYOUT, generation};
 use crate::serve::fault::Answered;
 
 #[derive(Serialize, ToSchema)]
@@ -75,8 +75,9 @@ pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
 
 fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
     let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
-    let names: Vec<String> =
-        edit::TUNABLE.iter().map(ToString::to_string).chain(own.map(|table| table.name)).collect();
+    let of_map = tx.site_value(LAYOUT)?.map(|_| "places".to_owned());
+    let names = edit::TUNABLE.iter().map(ToString::to_string).chain(of_map);
+    let names: Vec<String> = names.chain(own.map(|table| table.name)).collect();
     let in_force = tunings::in_force(tx)?;
     let derivations = tx.read_table("derivations")?;
     let mut tables = Vec::new();

@@ -1,0 +1,120 @@
+//! Routes over a map that is not cut into rooms, as they are at one moment.
+
+use std::collections::BTreeMap;
+
+use adit_db::course::Course as Row;
+use adit_db::place::Place;
+
+use super::State;
+use crate::error::{Code, Error, Result};
+use crate::plan::course::{Asked, Found, NoEnd, Pathfinder};
+use crate::site::Starts;
+use crate::words::suggest::did_you_mean;
+
+/// The routes that are kept, between all ends of the map, and who finds others.
+pub struct Courses {
+    finder: Box<dyn Pathfinder>,
+    kept: Vec<Found>,
+    starts: usize,
+}
+
+/// Costs of routes, by robot, start and goal; `None`: there is none.
+pub type Costs<'c> = BTreeMap<[&'c str; 3], Option<f64>>;
+
+impl State {
+    /// The routes over the map as the inference has it now; `None` where it is cut into rooms, or there is none.
+    pub(super) fn courses_now(&self) -> Result<Option<Courses>> {
+        let Some(course) = self.site.course() else { return Ok(None) };
+        let asked = Asked { rules: &self.inputs.rules, known: &self.knowledge };
+        let finder = course.pathfinder(&asked)?;
+        let ends: Vec<String> = finder.ends().into_iter().map(|end| end.place).collect();
+        let starts = match &self.site.site().starts {
+            Some(Starts::Named(names)) => known(names, &ends)?,
+            Some(Starts::All) | None => ends.iter().map(String::as_str).collect(),
+        };
+        let mut kept = Vec::new();
+        for robot in finder.robots() {
+            for start in &starts {
+                for goal in ends.iter().filter(|goal| goal != start) {
+                    kept.push(finder.find(&robot, start, goal).map_err(no_end)?);
+                }
+            }
+        }
+        let starts = starts.len();
+        Ok(Some(Courses { finder, kept, starts }))
+    }
+}
+
+/// The names that `starts` in `site.toml` has, as far as they are ends.
+fn known<'n>(names: &'n [String], ends: &[String]) -> Result<Vec<&'n str>> {
+    match names.iter().find(|name| !ends.contains(name)) {
+        None => Ok(names.iter().map(String::as_str).collect()),
+        Some(unknown) => {
+            let help = did_you_mean(unknown, ends.iter().map(String::as_str));
+            let message = format!("`starts` names `{unknown}`, which is no place");
+            Err(Error::said(Code::SiteUnknownStart, message, help))
+        }
+    }
+}
+
+fn no_end(end: NoEnd) -> Error {
+    Error::said(Code::CourseTable, end.reason, None)
+}
+
+impl Courses {
+    pub fn robots(&self) -> Vec<String> {
+        self.finder.robots()
+    }
+
+    /// How many ends routes are kept from.
+    pub const fn starts(&self) -> usize {
+        self.starts
+    }
+
+    /// What there is of what, in words.
+    pub fn summary(&self) -> String {
+        self.finder.summary()
+    }
+
+    /// Between what routes lead.
+    pub fn ends(&self) -> Vec<Place> {
+        self.finder.ends()
+    }
+
+    pub fn kept(&self) -> &[Found] {
+        &self.kept
+    }
+
+    /// The kept routes as rows.
+    pub fn rows(&self) -> Vec<Row> {
+        self.kept.iter().map(|found| found.row.clone()).collect()
+    }
+
+    pub fn costs(&self) -> Costs<'_> {
+        let of = |Found { row, .. }: &'_ Found| row.cost;
+        self.kept
+            .iter()
+            .map(|found| {
+                let Row { robot, start, goal, .. } = &found.row;
+                ([robot.as_str(), start, goal], of(found))
+            })
+            .collect()
+    }
+
+    /// A route, one of the kept ones where it is.
+    pub fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
+        let is_it = |Found { row, .. }: &&Found| row.robot == robot && row.start == start && row.goal == goal;
+        let kept = self.kept.iter().find(is_it);
+        kept.map_or_else(|| self.finder.find(robot, start, goal), |found| Ok(found.clone()))
+    }
+
+    /// The map as a picture, with a route.
+    pub fn picture(&self, title: &str, route: Option<[&str; 3]>) -> Result<String> {
+        Ok(self.finder.picture(title, route)?)
+    }
+
+    /// The best route through something.
+    pub fn find_through(&self, robot: &str, ends: [&str; 2], through: &str) -> Result<Found> {
+        self.finder.find_through(robot, ends, through)
+    }
+}

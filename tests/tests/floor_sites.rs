@@ -1,0 +1,167 @@
+//! Floor plans (Crowley) as sites: built, asked by SQL, closed, tuned, asked why, undone and served like any other.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use adit_tests::service::Service;
+use adit_tests::{Ran, TestSite, adit};
+use serde_json::{Value, json};
+
+fn world() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../kb/worlds/flat.toml")
+}
+
+/// A site of the flat, as `adit new --map` makes it.
+fn flat() -> TestSite {
+    let site = TestSite::empty();
+    let folder = site.path().join("new");
+    let made = Command::new(adit()).arg("new").arg(&folder).arg("--map").arg(world()).output().unwrap();
+    Ran::new(&made).expect_status(0);
+    for file in ["site.toml", "rules/own.rhai", "flat.toml", "flat.json"] {
+        site.write(file, std::fs::read(folder.join(file)).unwrap());
+    }
+    site
+}
+
+fn planned(start: &str, goal: &str) -> Value {
+    let ran = Command::new(adit()).arg("plan").arg(world()).args([start, goal, "--json"]).output().unwrap();
+    Ran::new(&ran).expecting(0).json()
+}
+
+const PLACES: [&str; 7] = ["bed", "bath", "desk", "hall", "kitchen", "living room", "store"];
+
+#[test]
+fn all_routes_of_a_flat_are_those_of_plan() {
+    let site = flat();
+    let built = site.adit("build", &[]).expecting(0);
+    assert!(
+        built.stdout.contains("11 regions, 12 doorways, 24 adits, routes from 7 starts"),
+        "{}",
+        built.stdout
+    );
+    assert!(!built.stderr.contains("waits for"), "{}", built.stderr);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM route WHERE status = 'ok'"), ["42"]);
+    for (start, goal) in PLACES.into_iter().zip(PLACES.into_iter().skip(1)) {
+        let plan = planned(start, goal);
+        let kept = site.sqlite3(&format!(
+            "SELECT cost - {}, distance - {} FROM route WHERE start = '{start}' AND goal = '{goal}'",
+            plan["weight"], plan["length"]
+        ));
+        let [cost, metres] =
+            kept[0].split('|').map(|text| text.parse::<f64>().unwrap()).collect::<Vec<_>>()[..]
+        else {
+            panic!("{kept:?}")
+        };
+        assert!(cost.abs() < 1e-9 && metres.abs() < 1e-9, "{start} to {goal}: {kept:?}");
+        let points = site.sqlite3(&format!(
+            "SELECT x, y FROM waypoints WHERE start = '{start}' AND goal = '{goal}' ORDER BY waypoint"
+        ));
+        assert_eq!(points.len(), plan["waypoints"].as_array().unwrap().len(), "{start} to {goal}");
+        let doorways = site.sqlite3(&format!(
+            "SELECT place FROM action_sequence WHERE start = '{start}' AND goal = '{goal}' AND kind = 'doorway'
+             ORDER BY step"
+        ));
+        let by_plan: Vec<String> =
+            plan["doorways"].as_array().unwrap().iter().map(|number| format!("doorway {number}")).collect();
+        assert_eq!(doorways, by_plan, "{start} to {goal}");
+        let sum = site.sqlite3(&format!(
+            "SELECT abs(sum(hardness) - max(cost)) < 1e-6 FROM action_sequence WHERE start = '{start}' AND goal = '{goal}'"
+        ));
+        assert_eq!(sum, ["1"], "{start} to {goal}: what steps weigh adds up");
+    }
+    let near = site.sqlite3("SELECT min(clearance) > -1e-9 FROM waypoints");
+    assert_eq!(near, ["1"], "no way comes nearer to a wall than the robot is wide");
+    let said = site.sqlite3("SELECT DISTINCT action, rule FROM action_sequence WHERE kind = 'region'");
+    assert_eq!(said, ["DRIVE|a way weighs its length"]);
+}
+
+#[test]
+fn a_doorway_is_closed_where_it_is_and_a_wall_is_moved() {
+    let site = flat().built();
+    let route = "SELECT status, round(cost, 3) FROM route WHERE start = 'store' AND goal = 'desk'";
+    let before = site.sqlite3(route);
+    let closed = site.adit("close", &["doorway 5", "--until", "2h"]).expecting(0).stdout;
+    assert!(closed.contains("doorway 5 at (9.00, 1.70) is closed"), "{closed}");
+    let round = site.sqlite3(route);
+    assert_ne!(round, before);
+    let why = site.adit("why", &["doorway 5"]).expecting(0).stdout;
+    assert!(why.contains("closed is true until"), "{why}");
+    let not = site.adit("why-not", &["store", "desk", "--through", "doorway 5"]).expecting(0).stdout;
+    assert!(not.contains("no way leads through doorway 5"), "{not}");
+    // numbers of doorways may become others; the closing stays where it was told
+    site.adit("tune", &["vehicles", "robot", "radius", "0.2"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT doorway FROM doorways WHERE closed"), ["5"]);
+    site.adit("undo", &[]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3(route), before);
+    let all = "SELECT * FROM route; SELECT * FROM action_sequence; SELECT * FROM waypoints";
+    let edited = site.sqlite3(all);
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(site.sqlite3(all), edited, "what was edited is what is built");
+    let other = site.adit("why-not", &["bed", "bath", "--through", "doorway 0"]).expecting(0).stdout;
+    assert!(!other.is_empty());
+    site.adit("check", &[]).expect_status(0);
+    site.adit("doctor", &[]).expect_status(0);
+}
+
+#[test]
+fn what_is_marked_at_a_doorway_is_told_to_the_rules_about_the_way_through_it() {
+    let site = flat()
+        .with(
+            "rules/wet.rhai",
+            "rule \"nobody crosses what is wet\" priority 2
+                 each way in WAYS where way.floor == \"wet\"
+                 then { way.passable = false; }\n",
+        )
+        .with("tables/notes.csv", "note,text\n1,none\n");
+    // a rule may speak of what no mark says yet only once one does
+    site.adit("build", &[]).expecting(2).complains(&["floor"]);
+    std::fs::remove_file(site.path().join("rules/wet.rhai")).unwrap();
+    site.adit("build", &[]).expect_status(0);
+    let cost = "SELECT status, round(cost, 3) FROM route WHERE start = 'store' AND goal = 'desk'";
+    let dry = site.sqlite3(cost);
+    let mark = ["marks", "1", "--add", "what=doorway", "x=9", "y=1.7", "property=squeaks", "value=true"];
+    let added = site.adit("tune", &mark).expecting(0).stdout;
+    assert!(added.contains("store to desk: 5.025"), "{added}");
+    assert_ne!(site.sqlite3(cost), dry, "a door that squeaks weighs more");
+    let far = ["marks", "2", "--add", "what=doorway", "x=1", "y=1", "property=squeaks", "value=true"];
+    site.adit("tune", &far).expecting(2).complains(&["no doorway is within 0.5 m of (1, 1)"]);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3(cost), dry);
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let site = flat().built();
+    let before = site.sqlite3("SELECT * FROM route; SELECT * FROM walls");
+    for (edit, words) in [
+        (["walls", "1", "x1", "0.2"], "its outline is open"),
+        (["vehicles", "robot", "radius", "2"], "too wide for each of the 12 doorways"),
+        (["places", "bed", "x", "nowhere"], "numbers"),
+    ] {
+        site.adit("tune", &edit).expecting(2).complains(&[words]);
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM route; SELECT * FROM walls"), before);
+    site.adit("route", &["bed", "bat"]).expecting(2).complains(&["`bat` is no place and no point `x,y`"]);
+    let none = site.adit("route", &["bed", "0.01,0.01"]).expecting(1).stdout;
+    assert!(none.contains("cannot stand at the goal"), "{none}");
+}
+
+#[test]
+fn a_flat_is_served_and_drawn() {
+    let site = flat().built();
+    site.adit("draw", &["-o", site.path().join("flat.svg").to_str().unwrap(), "--route", "bed", "bath"])
+        .expect_status(0);
+    assert!(site.read("flat.svg").contains("<svg"));
+    let service = Service::start(&site);
+    let (status, route) = service.ask("GET", "/api/route?start=bed&goal=bath", None);
+    assert_eq!((status, &route["status"]), (200, &json!("ok")), "{route}");
+    let close = json!({"edit": {"kind": "close", "what": "doorway 5"}});
+    let (status, done) = service.ask("POST", "/api/edits", Some(&close));
+    assert_eq!(status, 200, "{done}");
+    let (_, around) = service.ask("GET", "/api/route?start=store&goal=desk", None);
+    assert!(!around["steps"].to_string().contains("doorway 5\""), "{around}");
+    let (status, of) = service.ask("GET", "/api/site", None);
+    assert_eq!((status, &of["layout_kind"]), (200, &json!("floor plan")), "{of}");
+}
