@@ -1,6 +1,6 @@
 //! Routes on maps that are not cut into rooms: the tables `courses`, `course_steps` and `course_waypoints`.
 
-use sqlx::SqliteConnection;
+use sqlx::{Row as _, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
 use crate::error::Result;
@@ -18,6 +18,8 @@ pub struct Course {
     pub goal: String,
     /// Why there is none; `None` where there is one.
     pub reason: Option<String>,
+    /// What is worth a look, in sentences.
+    pub remarks: Vec<String>,
     /// What its steps weigh together.
     pub cost: Option<f64>,
     /// Metres.
@@ -38,6 +40,7 @@ impl Course {
             start: start.to_owned(),
             goal: goal.to_owned(),
             reason: None,
+            remarks: Vec::new(),
             cost: None,
             distance: None,
             clearance: None,
@@ -50,7 +53,7 @@ impl Course {
 impl Record for &Course {
     const TABLE: &'static str = "courses";
     const COLUMNS: &'static [&'static str] =
-        &["robot", "start", "goal", "status", "reason", "cost", "distance", "clearance", "steps"];
+        &["robot", "start", "goal", "status", "reason", "remarks", "cost", "distance", "clearance", "steps"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);
@@ -58,6 +61,7 @@ impl Record for &Course {
         values.text(&*self.goal);
         values.text(if self.reason.is_none() { "ok" } else { "no_route" });
         values.text(self.reason.as_deref());
+        values.text(&*self.remarks.join("\n"));
         values.real(self.cost);
         values.real(self.distance);
         values.real(self.clearance);
@@ -153,7 +157,45 @@ async fn replace(connection: &mut SqliteConnection, by: &[Course]) -> Result<()>
     Ok(())
 }
 
+async fn robots(connection: &mut SqliteConnection) -> Result<Vec<String>> {
+    let rows = sqlx::query_scalar("SELECT DISTINCT robot FROM courses ORDER BY robot");
+    Ok(rows.fetch_all(connection).await?)
+}
+
+async fn remarks(connection: &mut SqliteConnection, key: [&str; 3]) -> Result<Vec<String>> {
+    let query = sqlx::query_scalar("SELECT remarks FROM courses WHERE robot = ? AND start = ? AND goal = ?");
+    let query = key.into_iter().fold(query, |query, part| query.bind(part.to_owned()));
+    let lines: Option<String> = query.fetch_optional(connection).await?;
+    Ok(lines.iter().flat_map(|lines| lines.lines()).map(str::to_owned).collect())
+}
+
+/// Robot, start and goal of a route.
+type Key = (String, String, String);
+
+async fn costs(connection: &mut SqliteConnection) -> Result<Vec<(Key, Option<f64>)>> {
+    let rows = sqlx::query("SELECT robot, start, goal, cost FROM courses").fetch_all(connection).await?;
+    let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<(Key, Option<f64>)> {
+        Ok(((row.try_get(0)?, row.try_get(1)?, row.try_get(2)?), row.try_get(3)?))
+    };
+    Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
+}
+
 impl Tx<'_> {
+    /// The robots of which courses are kept.
+    pub fn course_robots(&mut self) -> Result<Vec<String>> {
+        self.run(robots)
+    }
+
+    /// What is worth a look of a course, in sentences.
+    pub fn course_remarks(&mut self, robot: &str, start: &str, goal: &str) -> Result<Vec<String>> {
+        self.run(async |connection| remarks(connection, [robot, start, goal]).await)
+    }
+
+    /// What all courses cost; `None`: there is none.
+    pub fn course_costs(&mut self) -> Result<Vec<(Key, Option<f64>)>> {
+        self.run(costs)
+    }
+
     /// Replaces all courses by these.
     pub fn replace_courses(&mut self, by: &[Course]) -> Result<()> {
         self.run(async |connection| replace(connection, by).await)

@@ -88,7 +88,7 @@ export function thisRoute(preview) {
       : Math.abs(was - becomes) < 5e-7 * Math.max(1, was) ? `The way that you look at stays at ${cost(was)}.`
         : null;
   if (text) return el('p', { text });
-  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? ', another way (hatched in amber)' : ', the same way');
+  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? (model.site.layout_kind ? ', another way' : ', another way (hatched in amber)') : ', the same way');
 }
 
 const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();

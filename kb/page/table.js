@@ -25,7 +25,7 @@ function rowsOf(table) {
 // The order of rows is no number to tune, and columns in which nothing stands only take room.
 function columnsOf(table) {
   const names = table.columns.map((column, index) => ({ ...column, index }));
-  const used = ({ index, required }) => required || rowsOf(table).some(({ at }) => table.rows[at][index] !== null);
+  const used = ({ index, required }) => required || Boolean(model.site.layout_kind) || rowsOf(table).some(({ at }) => table.rows[at][index] !== null);
   const oneRobot = (column) => column.key && column.name === 'robot' && table.columns.filter(({ key }) => key).length > 1 && new Set(rowsOf(table).map(({ at }) => table.rows[at][column.index])).size <= 1;
   return names.filter((column) => used(column) && !oneRobot(column) && !(table.table === 'robots' && column.name === 'position'));
 }

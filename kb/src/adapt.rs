@@ -6,6 +6,7 @@
 
 mod answer;
 mod cell;
+mod course;
 mod draft;
 mod drawn;
 mod experiment;
@@ -23,6 +24,7 @@ pub(crate) mod world;
 
 pub use answer::{change_json, change_line, task_json};
 pub use cell::{Cell, is_scenario};
+pub use course::CellOf;
 pub use drawn::drawn;
 pub use experiment::{
     Outcome as ExperimentOutcome, Row, method_of, method_word, run as experiment, write_csv,

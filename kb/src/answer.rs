@@ -143,8 +143,7 @@ pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
             Err(Error::said(Code::RouteUnknownRobot, format!("there is no robot `{name}`"), help))
         }
         None if robots.len() > 1 => {
-            let message =
-                format!("the site has several robots: say which with --robot ({})", robots.join(", "));
+            let message = format!("the site has several robots; say which one: {}", robots.join(", "));
             Err(Error::said(Code::RouteWhichRobot, message, None))
         }
         None => robots.first().cloned().ok_or_else(|| {

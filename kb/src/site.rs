@@ -107,11 +107,17 @@ pub enum Layout {
     Assembly,
     /// Walls, between which a robot walks from region to region.
     FloorPlan,
+    /// Objects, among which an arm or a disc moves from goal to goal.
+    Cell,
 }
 
 impl Layout {
-    const TABLES: [(&'static str, Self); 3] =
-        [("corridor", Self::Corridor), ("assembly", Self::Assembly), ("floor_plan", Self::FloorPlan)];
+    const TABLES: [(&'static str, Self); 4] = [
+        ("corridor", Self::Corridor),
+        ("assembly", Self::Assembly),
+        ("floor_plan", Self::FloorPlan),
+        ("cell", Self::Cell),
+    ];
 
     /// What the map in a file is; `None` where it is cut into rooms, or cannot be read.
     pub fn of(map: &Path) -> Option<Self> {
@@ -134,11 +140,27 @@ impl Layout {
         Some(map.with_file_name(fields.string(file, &mut Vec::new())?.value))
     }
 
+    /// The rule bases that lie beneath the site's own, the lowest first: those that the map's file names, or the shipped one.
+    fn rule_bases(self, map: &Path) -> Vec<String> {
+        let text = fs::read_to_string(map).unwrap_or_default();
+        let named = Document::parse("map", &text).ok().and_then(|document| {
+            let fields = document.fields("the map");
+            fields.get("rules")?;
+            Some(fields.string("rules", &mut Vec::new())?.value)
+        });
+        match named.as_deref() {
+            None | Some("corrected" | "navigation" | "adapt") => vec![self.rule_base().to_owned()],
+            Some("printed") => vec![self.rule_base().to_owned(), "channels/printed".to_owned()],
+            Some(folder) => vec![folder.to_owned()],
+        }
+    }
+
     /// The shipped rule base that goes with it.
     pub const fn rule_base(self) -> &'static str {
         match self {
             Self::Corridor | Self::Assembly => "channels/corrected",
             Self::FloorPlan => "navigation",
+            Self::Cell => "adapt",
         }
     }
 }
@@ -189,8 +211,9 @@ impl Site {
         } else {
             fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
         }
-        let base = layout.map(Layout::rule_base).or_else(|| rooms.rule_base());
-        let shipped = || base.map(str::to_owned).into_iter().collect();
+        let of_layout = layout.map(|layout| layout.rule_bases(&map));
+        let shipped =
+            || of_layout.unwrap_or_else(|| rooms.rule_base().map(str::to_owned).into_iter().collect());
         let beneath = named_rules(&fields, &mut problems).unwrap_or_else(shipped);
         let site = Self {
             folder: folder.to_owned(),
@@ -238,6 +261,11 @@ impl Site {
     /// Whether there is a map that is cut into rooms, and so states of robots.
     pub fn has_rooms(&self) -> bool {
         self.rooms != Rooms::Nothing
+    }
+
+    /// From where routes over rooms are kept; `None`: not said.
+    pub fn starts_in_rooms(&self) -> Option<&Starts> {
+        self.starts.as_ref().filter(|_| self.has_rooms())
     }
 
     /// The places that `site.toml` names.

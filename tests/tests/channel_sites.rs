@@ -287,3 +287,93 @@ fn a_site_of_corridors_is_served() {
     let (status, no) = service.ask("GET", "/api/route?start=start&goal=gaol", None);
     assert_eq!(status, 404, "{no}");
 }
+
+#[test]
+fn no_way_through_a_channel_is_better_than_the_route_and_none_is_found_where_there_is_no_route() {
+    let site = site_of("corridors.toml").built();
+    let service = Service::start(&site);
+    let (mut routes, mut refused) = (0, 0);
+    // points of all channels, some of them close to walls
+    let points = [
+        "1.2,2", "1.5,18.8", "8,17.9", "29,19", "27.9,7", "20,3.7", "5,3.8", "14.5,14", "15.2,4.1", "22,10",
+        "26,11.2",
+    ];
+    for (place, start) in points.iter().enumerate() {
+        let goal = points[(place * 4 + 3) % points.len()];
+        if *start == goal {
+            continue;
+        }
+        let (status, route) = service.ask("GET", &format!("/api/route?start={start}&goal={goal}"), None);
+        assert_eq!(status, 200, "{route}");
+        let best = route["cost"].as_f64();
+        for channel in 1..=6 {
+            let asked = format!("/api/why-not?start={start}&goal={goal}&through=channel%20{channel}");
+            let (status, not) = service.ask("GET", &asked, None);
+            assert_eq!(status, 200, "{not}");
+            match (best, not["cost"].as_f64()) {
+                (Some(best), Some(cost)) => assert!(cost >= best - 1e-9, "{start} to {goal}: {not}"),
+                (None, Some(_)) => panic!("{start} to {goal}: {route} {not}"),
+                (_, None) => {}
+            }
+        }
+        routes += usize::from(best.is_some());
+        refused += usize::from(best.is_none());
+    }
+    assert!(routes >= 8, "{routes} found, {refused} refused");
+}
+
+#[test]
+fn rules_that_fail_are_refused_and_what_they_do_not_say_closes_one_channel_alone() {
+    let site = site_of("corridors.toml").built();
+    let before = site.sqlite3("SELECT * FROM route");
+    site.write(
+        "rules/own.rhai",
+        "rule \"stop\" priority 9 each p in PASSAGES where p.channel == 2
+             then { if p.length > 1 { throw \"x\"; } p.passable = false; }\n",
+    );
+    site.adit("build", &[]).expecting(2).complains(&["own.rhai", "x"]);
+    assert_eq!(site.sqlite3("SELECT * FROM route"), before, "nothing is half done");
+    site.write(
+        "rules/own.rhai",
+        "rule \"disagree\" each p in PASSAGES where p.channel == 2 then { p.weight = 1.0; }\n",
+    );
+    site.adit("build", &[]).expect_status(0);
+    let round = site.sqlite3("SELECT round(cost, 1) FROM route WHERE start = 'start' AND goal = 'goal'");
+    assert_eq!(round, ["58.5"], "the other channels stay");
+    site.write("rules/own.rhai", "");
+    site.adit("build", &[]).expect_status(0);
+    for (value, cell) in [("true", "1"), ("no", "0"), ("yes", "1"), ("0", "0")] {
+        site.adit("tune", &["channels", "2", "closed", value]).expect_status(0);
+        assert_eq!(site.sqlite3("SELECT closed FROM channels WHERE channel = 2"), [cell]);
+    }
+    site.adit("tune", &["channels", "2", "closed", "maybe"]).expecting(2).complains(&["is true or false"]);
+    let text = site.read("site.toml");
+    site.write("site.toml", format!("starts = [\"start\"]\n{text}"));
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT start, goal FROM route"), ["start|goal"]);
+    site.adit("tuning", &["n", "set", "channels", "2", "closed", "yes"]).expect_status(0);
+    let compared = site.adit("tuning", &["compare", "base", "n"]).expecting(0).stdout;
+    assert!(compared.contains("49") && compared.contains("58.5"), "{compared}");
+    site.adit("lay", &["obstacle", "x", "0.1,0.1 0.5,0.5"]).expecting(2).complains(&["not cut into rooms"]);
+}
+
+#[test]
+fn what_is_open_is_not_opened_again_and_a_blocked_robot_closes_where_it_is() {
+    let site = site_of("corridors.toml").built();
+    let cost = "SELECT round(cost, 2) FROM route WHERE start = 'start' AND goal = 'goal'";
+    let free = site.sqlite3(cost);
+    site.adit("tune", &["channels", "2", "closed", "1"]).expect_status(0);
+    site.adit("open", &["channel 2"]).expect_status(0);
+    assert_eq!(site.sqlite3(cost), free);
+    site.adit("open", &["channel 2"]).expecting(2).complains(&["is told to be open already"]);
+    assert_eq!(site.sqlite3(cost), free, "it does not close what is open");
+    let blocked = site.adit("close", &["8,18@0"]).expecting(0).stdout;
+    assert!(blocked.contains("start to goal"), "{blocked}");
+    assert_ne!(site.sqlite3(cost), free);
+    site.adit("close", &["1.5,18"]).expecting(2).complains(&["lies in channel 1 and in channel 2"]);
+    site.adit("close", &["channel 2", "--only", "robot"])
+        .expecting(2)
+        .complains(&["rule of PASSAGES or WAYS"]);
+    let channel = site.adit("why", &["channel 1 from start to goal"]).expecting(0).stdout;
+    assert!(channel.contains("weight is"), "{channel}");
+}

@@ -135,13 +135,19 @@ fn what_is_marked_at_a_doorway_is_told_to_the_rules_about_the_way_through_it() {
 fn what_cannot_be_is_refused() {
     let site = flat().built();
     let before = site.sqlite3("SELECT * FROM route; SELECT * FROM walls");
-    for (edit, words) in [
-        (["walls", "1", "x1", "0.2"], "its outline is open"),
-        (["vehicles", "robot", "radius", "2"], "too wide for each of the 12 doorways"),
-        (["places", "bed", "x", "nowhere"], "numbers"),
-    ] {
+    for (edit, words) in
+        [(["walls", "1", "x1", "0.2"], "its outline is open"), (["places", "bed", "x", "nowhere"], "numbers")]
+    {
         site.adit("tune", &edit).expecting(2).complains(&[words]);
     }
+    assert_eq!(site.sqlite3("SELECT * FROM route; SELECT * FROM walls"), before);
+    // a robot that fits nowhere has no routes, and another one keeps its own
+    site.adit("tune", &["vehicles", "wide", "--add", "radius=2"]).expect_status(0);
+    let reasons = site.sqlite3("SELECT DISTINCT robot, status, reason FROM route ORDER BY robot");
+    assert_eq!(reasons.len(), 2, "{reasons:?}");
+    assert!(reasons[0].starts_with("robot|ok"), "{reasons:?}");
+    assert!(reasons[1].contains("too wide for each of the 12 doorways"), "{reasons:?}");
+    site.adit("undo", &[]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT * FROM route; SELECT * FROM walls"), before);
     site.adit("route", &["bed", "bat"]).expecting(2).complains(&["`bat` is no place and no point `x,y`"]);
     let none = site.adit("route", &["bed", "0.01,0.01"]).expecting(1).stdout;

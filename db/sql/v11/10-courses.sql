@@ -1,18 +1,19 @@
 -- Routes on maps that are not cut into rooms, as the planner of such a map finds them: through corridors, of a part out of
 -- another one and into it. The views of routes have them beside those over rooms.
 
--- status: ok or no_route. cost: what its steps weigh together. clearance: the least metres from anything solid.
+-- remarks: what is worth a look, as a line each. status: ok or no_route. cost: what its steps weigh together. clearance: the least metres from anything solid.
 CREATE TABLE courses (
   robot     TEXT NOT NULL,
   start     TEXT NOT NULL,
   goal      TEXT NOT NULL,
   status    TEXT NOT NULL CHECK (status IN ('ok', 'no_route')),
   reason    TEXT,
+  remarks   TEXT NOT NULL,
   cost      REAL,
   distance  REAL,
   clearance REAL,
   steps     INTEGER,
-  PRIMARY KEY (robot, start, goal)
+  PRIMARY KEY (start, goal, robot)
 ) STRICT, WITHOUT ROWID;
 
 -- kind: line, arc or move. x, y, z: where the step ends.
@@ -32,7 +33,7 @@ CREATE TABLE course_steps (
   z        REAL,
   heading  REAL,
   rule     TEXT,
-  PRIMARY KEY (robot, start, goal, step)
+  PRIMARY KEY (start, goal, robot, step)
 ) STRICT, WITHOUT ROWID;
 
 -- centre_x, centre_y, turn: of the arc on which one comes there, and to which side it turns.
@@ -53,7 +54,7 @@ CREATE TABLE course_waypoints (
   centre_x  REAL,
   centre_y  REAL,
   turn      TEXT CHECK (turn IN ('left', 'right')),
-  PRIMARY KEY (robot, start, goal, waypoint)
+  PRIMARY KEY (start, goal, robot, waypoint)
 ) STRICT, WITHOUT ROWID;
 
 DROP VIEW route;

@@ -15,7 +15,8 @@ fn scans(store: &Store, condition: &str) -> Vec<String> {
         lines.iter().any(|line| line.contains("SEARCH t USING PRIMARY KEY (tree=? AND node=?)")),
         "{lines:#?}"
     );
-    let harmless = ["SCAN CONSTANT ROW", "SCAN walk", "SCAN j VIRTUAL TABLE"];
+    // the last one reads the few rows that both parts of the view give
+    let harmless = ["SCAN CONSTANT ROW", "SCAN walk", "SCAN j VIRTUAL TABLE", "SCAN action_sequence"];
     lines
         .into_iter()
         .filter(|line| line.starts_with("SCAN") && !harmless.iter().any(|start| line.starts_with(start)))

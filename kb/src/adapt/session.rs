@@ -110,6 +110,16 @@ impl Session {
         Ok((session, changed))
     }
 
+    /// Of a planner that is made ready; nothing is kept of it.
+    pub const fn of(cell: Cell, described: Cell, adapt: Adapt, judge: RuleJudge) -> Self {
+        Self { cell, described, adapt, judge, keeping: None }
+    }
+
+    /// Puts the robot somewhere else.
+    pub fn put(&mut self, at: Configuration) {
+        self.adapt.put(at);
+    }
+
     pub const fn cell(&self) -> &Cell {
         &self.cell
     }

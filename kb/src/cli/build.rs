@@ -8,6 +8,7 @@ use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::{Concluded, Report};
+use crate::site::robots::ONLY_ROBOT;
 use crate::words::progress::Spinner;
 
 #[derive(Args, Debug)]
@@ -182,7 +183,8 @@ pub fn changes(report: &Report) {
         )),
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
     }
-    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot);
+    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
+        || report.course.is_some() && report.routes.changes.iter().any(|change| change.robot != ONLY_ROBOT);
     for change in report.routes.changes.iter().take(LISTED) {
         let are_both = change.old.is_some() && change.new.is_some();
         let way = if are_both && change.other_way == Some(true) { ", another way" } else { "" };

@@ -114,7 +114,8 @@ fn without_rooms(args: &NewArgs, map: &Path, layout: Layout) -> Result<()> {
             &serde_json::json!({"site": args.dir, "map": name, "rooms": null, "layout": course.name()}),
         );
     }
-    let tables: Vec<String> = course.tables().into_iter().map(|table| table.name).collect();
+    let mut tables: Vec<String> = course.tables().into_iter().map(|table| table.name).collect();
+    tables.extend((!course.places().is_empty()).then(|| "places".to_owned()));
     line(&format!("{} is a site now ({}):", args.dir.display(), course.name()));
     line(&format!("  {name}  fills the tables {} once; from then on they are the map", tables.join(", ")));
     line(&format!("  rules/  your own rules, over those that the program carries ({})", layout.rule_base()));
@@ -132,7 +133,7 @@ map  = {map}                # fills tables once; from then on `adit tune` change
 # rules = "{base}"  # what lies beneath the folder rules; a folder, or a list of some; "rules": nothing does
 "#
     );
-    if layout != Layout::Assembly {
+    if matches!(layout, Layout::Corridor | Layout::FloorPlan) {
         text.push_str(
             r#"# starts = ["dock"]      # from where routes are kept; every place without this line
 # [[place]]                # in the map's coordinates

@@ -77,6 +77,17 @@ pub(super) fn cell_of(table: &str, column: &str, value: &str, columns: &[Relatio
         let message = format!("`{column}` of `{table}` holds numbers, and `{value}` is none");
         return Err(Error::said(Code::EditNotANumber, message, None));
     }
+    if known.declared.contains("BOOL") {
+        return match value.to_lowercase().as_str() {
+            "" => Ok(Cell::Null),
+            "true" | "yes" | "1" => Ok(Cell::Integer(1)),
+            "false" | "no" | "0" => Ok(Cell::Integer(0)),
+            _ => {
+                let message = format!("`{column}` of `{table}` is true or false, and `{value}` is neither");
+                Err(Error::said(Code::EditNotANumber, message, None))
+            }
+        };
+    }
     Ok(cell)
 }
 
@@ -101,7 +112,7 @@ pub(super) fn row(
     }
     let mut row: Vec<(String, Cell)> = Vec::new();
     for (name, part) in keys.iter().zip(parts) {
-        row.push(((*name).to_owned(), cell(&part)));
+        row.push(((*name).to_owned(), cell_of(table, name, &part, &columns)?));
     }
     for (name, value) in cells {
         let cell = cell_of(table, name, value, &columns)?;

@@ -4,9 +4,11 @@
 use adit_db::Tx;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
+use adit_db::space::Doorway;
 use adit_db::told::Told as Row;
 use adit_engine::RuleBase;
 use adit_planners::facts::Column;
+use adit_planners::geometry::Rect;
 
 use super::place;
 use super::tell::Tell;
@@ -20,6 +22,9 @@ use crate::words::suggest::did_you_mean;
 
 /// What a channel is called, before its number.
 const CHANNEL: &str = "channel";
+
+/// How far a doorway may be from where a robot was blocked, metres.
+const NEAR_M: f64 = 1.5;
 
 /// Something that is closed, as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -38,7 +43,11 @@ impl Close {
     /// The fact that says it.
     pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
         let what = self.what.trim();
-        let class = class_of(tx, what)?;
+        let (class, object) = if tx.site_value(LAYOUT)?.is_some() {
+            of_map(tx, what)?
+        } else {
+            (class_of(tx, what)?, what.to_owned())
+        };
         let (property, value) = match (self.only.as_slice(), self.except.as_slice()) {
             ([], []) => (CLOSED, "true".to_owned()),
             (only, []) => (CLOSED_TO, only.join(", ")),
@@ -48,6 +57,11 @@ impl Close {
                 return Err(Error::said(Code::TellUsage, message, None));
             }
         };
+        if property != CLOSED && tx.site_value(LAYOUT)?.is_some() {
+            let message = format!("`{what}` is closed to everybody, or to nobody");
+            let help = "which robots are kept out is for a rule of PASSAGES or WAYS to say".to_owned();
+            return Err(Error::said(Code::TellUsage, message, Some(help)));
+        }
         if property != CLOSED && !lists_robots(class, property) {
             let message = format!("`{what}` is an area, and areas are closed to everybody");
             let help = "close its doorways, or say in rules which robots are kept out".to_owned();
@@ -55,9 +69,7 @@ impl Close {
         }
         Ok(Tell {
             class: class.to_owned(),
-            object: numbered(what, CHANNEL)
-                .filter(|_| class == "CHANNELS")
-                .map_or_else(|| what.to_owned(), |number| number.to_string()),
+            object,
             property: property.to_owned(),
             value,
             until: self.until.clone(),
@@ -92,7 +104,13 @@ pub(super) fn open(
             && (fact.segment.is_some()
                 || is_same("x", fact.at.map(|at| at[0])) && is_same("y", fact.at.map(|at| at[1])))
     };
-    let ids: Vec<i64> = tx.facts_told()?.iter().filter(closes).map(|fact| fact.id).collect();
+    let told = tx.facts_told()?;
+    let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
+    if told.iter().filter(closes).any(|fact| opens(&fact)) {
+        let message = format!("`{what}` is told to be open already");
+        return Err(Error::said(Code::TellUsage, message, None));
+    }
+    let ids: Vec<i64> = told.iter().filter(closes).map(|fact| fact.id).collect();
     let mut last = None;
     for id in ids {
         last = Some(tx.remove_row("told", &id.to_string(), author)?);
@@ -109,9 +127,6 @@ pub(super) fn open(
 fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     if place::split(what).is_some() {
         return Ok("DOORWAYS");
-    }
-    if tx.site_value(LAYOUT)?.is_some() {
-        return of_map(tx, what);
     }
     let (areas, doors) = (names(tx, "areas", "area")?, names(tx, "named_doors", "door")?);
     let building = Building::read(tx)?;
@@ -139,26 +154,76 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     ))
 }
 
-/// Of a map that is not cut into rooms, what can be closed: a channel.
-fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
-    let mut is_channel = |number: &usize| -> Result<bool> {
-        let channels = tx.read_table("channels")?;
-        let has_closed = channels.columns.iter().any(|column| column.name == CLOSED);
-        Ok(has_closed
-            && channels.columns.first().is_some_and(|keys| keys.values.contains(&(*number as i64).into())))
-    };
-    match numbered(what, CHANNEL) {
-        Some(number) if is_channel(&number)? => Ok("CHANNELS"),
-        None if Building::read(tx)?.doorway_named(what).is_some() => Ok("DOORWAYS"),
-        _ => {
-            let message = format!("the site has nothing called `{what}` that could be closed");
-            Err(Error::said(
-                Code::TellUnknownObject,
-                message,
-                Some("say `channel 2` or `doorway 2`, as the map has them".to_owned()),
-            ))
+/// Of a map that is not cut into rooms, what can be closed, with its class: a channel, a doorway; or the one at a point, along
+/// the heading where one is said.
+fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
+    let (channels, building) = (channels(tx)?, Building::read(tx)?);
+    let point = place::split(what);
+    if let Some(number) =
+        numbered(what, CHANNEL).filter(|number| channels.iter().any(|(known, _)| known == number))
+    {
+        return Ok(("CHANNELS", number.to_string()));
+    }
+    if building.doorway_named(what).is_some() {
+        return Ok(("DOORWAYS", what.to_owned()));
+    }
+    if let Some((at, heading)) = point {
+        let far = |doorway: &&Doorway| Building::segment(doorway).distance(at);
+        let near = building.doorways.iter().min_by(|one, other| far(one).total_cmp(&far(other)));
+        if let Some(doorway) = near.filter(|doorway| far(doorway) <= NEAR_M) {
+            return Ok(("DOORWAYS", Building::name(doorway)));
+        }
+        let along = |rect: &Rect| {
+            heading.map(f64::to_radians).is_none_or(|heading| {
+                (heading.cos().abs() >= heading.sin().abs()) == (rect.dx() >= rect.dy())
+            })
+        };
+        let here: Vec<_> = channels.iter().filter(|(_, rect)| rect.contains(at)).collect();
+        let meant: Vec<_> = here.iter().filter(|(_, rect)| here.len() == 1 || along(rect)).collect();
+        if let [(number, _)] = meant[..] {
+            return Ok(("CHANNELS", number.to_string()));
+        }
+        if !here.is_empty() {
+            let numbers: Vec<String> = here.iter().map(|(number, _)| format!("channel {number}")).collect();
+            let message = format!("{what} lies in {}", numbers.join(" and in "));
+            let help = "say which, or the heading as well: x,y@90".to_owned();
+            return Err(Error::said(Code::TellUnknownObject, message, Some(help)));
         }
     }
+    let mut known: Vec<String> = channels.iter().map(|(number, _)| format!("channel {number}")).collect();
+    known.extend(building.doorways.iter().map(Building::name));
+    let help = match (did_you_mean(what, known.iter().map(String::as_str)), known.first()) {
+        (Some(help), _) => help,
+        (None, Some(first)) => format!("what can be closed here is called like `{first}`"),
+        (None, None) => "nothing of this map can be closed".to_owned(),
+    };
+    Err(Error::said(
+        Code::TellUnknownObject,
+        format!("the site has nothing called `{what}` that could be closed"),
+        Some(help),
+    ))
+}
+
+/// The channels that can be closed, by number; none of a map that has no such.
+fn channels(tx: &mut Tx<'_>) -> Result<Vec<(usize, Rect)>> {
+    if !tx.user_tables()?.iter().any(|table| table.name == "channels") {
+        return Ok(Vec::new());
+    }
+    let relation = tx.read_table("channels")?;
+    let column = |name: &str| relation.columns.iter().find(|column| column.name == name);
+    let (Some(_), Some(numbers)) = (column(CLOSED), column(CHANNEL)) else { return Ok(Vec::new()) };
+    let real = |name: &str, row: usize| match column(name).and_then(|column| column.values.get(row)) {
+        Some(adit_db::Cell::Real(value)) => Some(*value),
+        Some(adit_db::Cell::Integer(value)) => Some(*value as f64),
+        _ => None,
+    };
+    let channel = |(row, number): (usize, &adit_db::Cell)| {
+        let adit_db::Cell::Integer(number) = number else { return None };
+        let side = |name| real(name, row);
+        let rect = Rect { x0: side("x0")?, y0: side("y0")?, x1: side("x1")?, y1: side("y1")? };
+        Some((*number as usize, rect))
+    };
+    Ok(numbers.values.iter().enumerate().filter_map(channel).collect())
 }
 
 /// The names of what planners gave of a class.

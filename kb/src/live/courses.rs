@@ -32,8 +32,9 @@ pub fn keep(tx: &mut Tx<'_>, before: Option<&Courses>, now: &Courses) -> Result<
             let is_changed = was.as_ref() != Some(row);
             let costs = [was.as_ref().and_then(|was| was.cost), row.cost].map(|cost| cost.map(f64::to_bits));
             changed += usize::from(costs[0] != costs[1]);
-            rerouted += usize::from(is_changed && other_way);
-            if is_changed {
+            let are_both = costs.iter().all(Option::is_some);
+            rerouted += usize::from(is_changed && other_way && are_both);
+            if is_changed && (costs[0].is_some() || costs[1].is_some()) {
                 routes.changes.push(RouteChange {
                     robot: row.robot.clone(),
                     start: row.start.clone(),
@@ -41,6 +42,23 @@ pub fn keep(tx: &mut Tx<'_>, before: Option<&Courses>, now: &Courses) -> Result<
                     old: was.and_then(|was| was.cost),
                     new: row.cost,
                     other_way: Some(other_way),
+                });
+            }
+        }
+        for gone in old.iter().filter(|old| old.cost.is_some()) {
+            let is_it = |row: &adit_db::course::Course| {
+                (&gone.robot, &gone.start, &gone.goal) == (&row.robot, &row.start, &row.goal)
+            };
+            if !rows.iter().any(is_it) {
+                changed += 1;
+                let (robot, start, goal) = (gone.robot.clone(), gone.start.clone(), gone.goal.clone());
+                routes.changes.push(RouteChange {
+                    robot,
+                    start,
+                    goal,
+                    old: gone.cost,
+                    new: None,
+                    other_way: Some(true),
                 });
             }
         }

@@ -113,7 +113,7 @@ impl Memory {
         state.accept(step);
         state.generation = generation;
         let floor = (&**state.graph(), &*state.gauge);
-        let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts.as_ref())?;
+        let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts_in_rooms())?;
         let before = Before { graph: state.graph(), starts: &starts };
         Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
     }

@@ -20,7 +20,7 @@ use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
-use crate::knowledge::{Beneath, KnowledgeBase};
+use crate::knowledge::{Beneath, KnowledgeBase, LAYOUT};
 use crate::site::robots::RobotFile;
 use crate::site::{lint, over, rules, states, tables};
 use crate::words::progress::{Progress, Silent};
@@ -136,6 +136,9 @@ impl KnowledgeBase {
         if !self.site().has_rooms() && self.course().is_none() {
             self.site().needs_rooms()?;
         }
+        if self.course().is_some() && self.within.is_some() {
+            self.site().needs_rooms()?;
+        }
         if self.asks_about_another_moment() {
             return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }
@@ -151,11 +154,21 @@ impl KnowledgeBase {
         let inputs = self.inputs(&Silent)?;
         let memory = self.fresh()?.snapshot(|tx| Memory::open(tx, &self.shared(), &inputs))?;
         let courses = memory.and_then(|memory| memory.state.courses);
-        let courses = courses
-            .ok_or_else(|| Error::said(Code::LiveStale, "the site's tables were edited meanwhile", None))?;
+        let courses = courses.ok_or_else(|| {
+            Error::said(
+                Code::LiveStale,
+                "the site's rules, tables or files were changed since it was built",
+                None,
+            )
+        })?;
+        let name = &self.site().name;
+        let Some((start, goal)) = route else { return Ok((courses.picture(name, None)?, courses.summary())) };
         let robot = crate::answer::pick(&courses.robots(), robot)?;
-        let route = route.map(|(start, goal)| [robot.as_str(), start, goal]);
-        Ok((courses.picture(&self.site().name, route)?, courses.summary()))
+        if let Some(reason) = courses.find(&robot, start, goal)?.row.reason {
+            let message = format!("no route from {start} to {goal}: {reason}");
+            return Err(Error::said(Code::DrawNoRoute, message, None));
+        }
+        Ok((courses.picture(name, Some([robot.as_str(), start, goal]))?, courses.summary()))
     }
 
     /// As [`route_to_nearest`](Self::route_to_nearest), for an errand; the site is left as it is.
@@ -213,13 +226,25 @@ impl KnowledgeBase {
         ends_in: [Option<&str>; 2],
     ) -> Result<Answer> {
         if self.course().is_some() {
+            let robots = tx.course_robots()?;
+            if let Ok(robot) = crate::answer::pick(&robots, robot)
+                && let Some(route) = kept(tx, &robot, start, goals)?
+            {
+                let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
+                (answer.cost, answer.distance) = (route.cost, route.distance);
+                answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
+                answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+                answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
+                answer.goal = route.goal;
+                return Ok(answer);
+            }
             let inputs = self.inputs(&Silent)?;
             let memory = Memory::open(tx, &self.shared(), &inputs)?;
             let memory = memory.ok_or_else(|| {
                 Error::said(
                     Code::LiveStale,
-                    "the site's tables were edited meanwhile",
-                    Some("try again".to_owned()),
+                    "the site's rules, tables or files were changed since it was built",
+                    Some("`adit build` says whether something is wrong with them".to_owned()),
                 )
             })?;
             return memory.state.route(start, goals, robot);
@@ -252,7 +277,8 @@ impl KnowledgeBase {
 /// differ.
 fn seed_places(tx: &mut Tx<'_>, places: &[Place], again: bool) -> Result<Option<String>> {
     let kept = tx.places()?;
-    if again || kept.is_empty() {
+    // what a build has signed was filled before, and whoever took all places away meant it
+    if again || tx.site_value(LAYOUT)?.is_none() {
         tx.replace_places(places)?;
         return Ok(None);
     }

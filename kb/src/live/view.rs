@@ -104,9 +104,9 @@ impl View {
                 "this map is cut into rooms: `/api/map` has what is drawn of it, and `adit draw` draws it";
             return Err(Error::said(Code::CourseUnfit, message, None));
         };
+        let Some((start, goal)) = route else { return courses.picture("", None) };
         let robot = answer::pick(&self.robots, robot)?;
-        let route = route.map(|(start, goal)| [robot.as_str(), start, goal]);
-        courses.picture("", route)
+        courses.picture("", Some([robot.as_str(), start, goal]))
     }
 
     /// What routes between places cost, by robot, start and goal; those that there are.

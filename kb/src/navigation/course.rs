@@ -12,18 +12,19 @@ use adit_engine::Schema;
 use adit_planners::facts::Facts;
 use adit_planners::floor_plan::clear::wall_distance;
 use adit_planners::floor_plan::{
-    Disc, Drawn, FloorPlan, Network, Path, RegionsAndAdits, Rule, Spot, Way, outline,
+    Disc, Drawn, FloorPlan, Network, NoPath, Path, RegionsAndAdits, Rule, Spot, Way, outline,
 };
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{Judge, Settings, WayFacts};
 use adit_planners::planner::Planner;
+use adit_planners::read::{Code as MapCode, Problem};
 use adit_planners::world;
 
 use super::floor::Floor;
 use super::judge::RuleJudge;
 use super::told::{Mark, Told, kind_of};
 use crate::draw::render_floor;
-use crate::error::{Code, Error, Result};
+use crate::error::{Error, Result};
 use crate::plan::Spoke;
 use crate::plan::consult::Class;
 use crate::plan::course::{
@@ -129,12 +130,28 @@ impl Course for FloorOf {
                 radius: vehicles.needed(row, "radius")?,
                 margin: vehicles.number(row, "margin").unwrap_or(0.0),
             };
-            let network = Network::new(&plan, disc).map_err(|errors| Error::all(errors.problems))?;
-            let told = Told::by(&marks, &closed, &network).map_err(no_map)?;
+            let is_too_wide = |problem: &Problem| problem.code == MapCode::RobotTooWide;
+            let (network, unfit) = match Network::new(&plan, disc) {
+                Ok(network) => (network, None),
+                Err(errors) if errors.problems.iter().all(is_too_wide) => {
+                    let why = errors
+                        .problems
+                        .into_iter()
+                        .map(|problem| problem.message)
+                        .collect::<Vec<_>>()
+                        .join("; ");
+                    (Network::none(disc), Some(why))
+                }
+                Err(errors) => return Err(Error::all(errors.problems)),
+            };
+            let told = match unfit {
+                None => Told::by(&marks, &closed, &network).map_err(no_map)?,
+                Some(_) => Told::default(),
+            };
             let judge = RuleJudge::by(asked, &told)?;
             let robot = vehicles.text(row, "robot").unwrap_or_default();
             let floor = Floor { plan: plan.clone(), network, settings: Settings::default(), told };
-            Ok(Walker { robot, floor, judge: Mutex::new(judge) })
+            Ok(Walker { robot, floor, unfit, judge: Mutex::new(judge) })
         };
         let walkers = vehicles.rows().map(vehicle).collect::<Result<Vec<_>>>()?;
         Ok(Box::new(Walkers { places, walkers }))
@@ -185,6 +202,8 @@ fn marks(asked: &Asked<'_>) -> Result<Vec<Mark>> {
 struct Walker {
     robot: String,
     floor: Floor,
+    /// Why it fits through no doorway.
+    unfit: Option<String>,
     judge: Mutex<RuleJudge>,
 }
 
@@ -216,16 +235,25 @@ impl Walkers {
     ) -> std::result::Result<Walked<'_>, NoEnd> {
         let walker = self.walker(robot)?;
         let (start, goal) = (self.end(ends[0], true)?, self.end(ends[1], false)?);
+        if let Some(unfit) = &walker.unfit {
+            return Ok(Walked { walker, path: Err(unfit.clone()), said: BTreeMap::new() });
+        }
         let mut judge = walker.judge.lock().unwrap_or_else(PoisonError::into_inner);
         let mut said = BTreeMap::new();
         // those that lead from the start and to the goal are of this path alone
         let mut of_ends: Vec<Way> = Vec::new();
+        // through which doorways rules let nobody
+        let mut refused: BTreeMap<usize, Way> = BTreeMap::new();
         let path = walker.floor.network.path(start, goal, Rule::Tight, |way| {
             if shut.is_some_and(|shut| shut(way)) {
                 return None;
             }
-            let weight = judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 })?;
-            let of_way = OfWay { more: weight - way.length, action: judge.action(), rule: None };
+            let weight = judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+            if let (None, Some(doorway)) = (weight, way.doorway) {
+                refused.insert(doorway, way.clone());
+            }
+            let weight = weight?;
+            let of_way = OfWay { weight, length: way.length, action: judge.action(), rule: None };
             said.insert(sorted(way.from, way.to), of_way);
             if [way.from, way.to].iter().any(|end| matches!(end, Spot::Start | Spot::Goal)) {
                 of_ends.push(way.clone());
@@ -234,7 +262,10 @@ impl Walkers {
         });
         let path = match judge.trouble() {
             Some(trouble) => Err(trouble.to_owned()),
-            None => path.map_err(|reason| reason.to_string()),
+            None => path.map_err(|reason| match reason {
+                NoPath::NoWay if !refused.is_empty() => because(&refused, &mut judge),
+                other => other.to_string(),
+            }),
         };
         if let Ok(path) = &path {
             let adits = path.adits.iter().map(|adit| Spot::Adit(*adit));
@@ -254,6 +285,16 @@ impl Walkers {
     }
 }
 
+/// Why nothing leads on: through which doorways rules let nobody, and by which rule.
+fn because(refused: &BTreeMap<usize, Way>, judge: &mut RuleJudge) -> String {
+    let said = refused.iter().map(|(doorway, way)| {
+        let rule = judge.refused_by(way).map(|rule| format!(" (rule \"{}\")", rule.rule));
+        format!("doorway {doorway}{}", rule.unwrap_or_default())
+    });
+    let said: Vec<String> = said.collect();
+    format!("rules let nobody through {}, and no other way joins the start and the goal", said.join(", "))
+}
+
 /// A path that was looked for.
 struct Walked<'w> {
     walker: &'w Walker,
@@ -264,8 +305,9 @@ struct Walked<'w> {
 
 /// What rules say of a way.
 struct OfWay {
-    /// By how much more than its metres it weighs.
-    more: f64,
+    weight: f64,
+    /// Metres.
+    length: f64,
     action: Option<Arc<str>>,
     rule: Option<String>,
 }
@@ -324,9 +366,21 @@ impl Pathfinder for Walkers {
             }
         }
         Ok(best.unwrap_or_else(|| {
-            let reason = Some(format!("rules close {through}, or {robot} does not fit through it"));
+            let mut judge = self
+                .walkers
+                .iter()
+                .find(|walker| walker.robot == robot)
+                .map(|walker| walker.judge.lock().unwrap_or_else(PoisonError::into_inner));
+            let way = network.ways.iter().find(|way| way.doorway == Some(doorway));
+            let rule = way.and_then(|way| judge.as_mut()?.refused_by(way));
+            let reason = match rule {
+                Some(rule) => format!("the rule \"{}\" lets nobody through {through}", rule.rule),
+                None if way.is_none() => format!("{robot} does not fit through {through}"),
+                None => format!("no way leads to {through} and on from it"),
+            };
+            let reason = Some(reason);
             let row = Row { reason, ..Row::blank(robot, ends[0], ends[1]) };
-            Found { row, said: Vec::new(), remarks: Vec::new() }
+            Found { row, said: Vec::new() }
         }))
     }
 
@@ -340,8 +394,19 @@ impl Pathfinder for Walkers {
         Ok(render_floor(title, plan, network, walked.path.as_ref().ok()))
     }
 
+    fn trouble(&self) -> Option<String> {
+        let troubles = self.walkers.iter().map(|walker| {
+            let judge = walker.judge.lock().unwrap_or_else(PoisonError::into_inner);
+            judge.trouble().map(str::to_owned)
+        });
+        troubles.flatten().next()
+    }
+
     fn summary(&self) -> String {
-        let Some(Walker { floor, .. }) = self.walkers.first() else { return "no robot".to_owned() };
+        let fits = self.walkers.iter().find(|walker| walker.unfit.is_none());
+        let Some(Walker { floor, .. }) = fits else {
+            return "no robot that fits through a doorway".to_owned();
+        };
         let Network { regions, adits, .. } = &floor.network;
         format!(
             "{} regions, {} doorways, {} adits",
@@ -361,7 +426,6 @@ fn joined(parts: [Found; 3], [robot, start, goal]: [&str; 3]) -> Found {
             return Found {
                 row: Row { reason: Some(reason), ..Row::blank(robot, start, goal) },
                 said: Vec::new(),
-                remarks: Vec::new(),
             };
         }
         row.clearance = match (row.clearance, part.clearance) {
@@ -386,7 +450,7 @@ fn joined(parts: [Found; 3], [robot, start, goal]: [&str; 3]) -> Found {
         distance += part.distance.unwrap_or_default();
     }
     (row.cost, row.distance) = (Some(cost), Some(distance));
-    Found { row, said: Vec::new(), remarks: Vec::new() }
+    Found { row, said: Vec::new() }
 }
 
 /// What came of it, as it is kept.
@@ -398,12 +462,12 @@ fn found([robot, start, goal]: [&str; 3], walked: &Walked<'_>) -> Found {
             let network = &walked.walker.floor.network;
             (row.steps, row.waypoints) =
                 rows(network, &walked.walker.floor.plan.barriers(), path, &walked.said);
-            (row.cost, row.distance) = (Some(path.weight), Some(path.length));
+            (row.cost, row.distance) = (row.steps.last().map(|step| step.cost), Some(path.length));
             let near = row.waypoints.iter().filter_map(|at| at.clearance);
             row.clearance = near.min_by(f64::total_cmp);
         }
     }
-    Found { row, said: Vec::new(), remarks: Vec::new() }
+    Found { row, said: Vec::new() }
 }
 
 /// A path as rows: a step for each region and each doorway that it passes, a waypoint where it bends. A step weighs its
@@ -434,7 +498,11 @@ fn rows(
     let mut push =
         |kind: &str, place: String, (ends, metres): ((Spot, Spot), f64), [from, to]: [Point; 2]| {
             let of_way = said.get(&ends);
-            let hardness = metres + of_way.map_or(0.0, |of_way| of_way.more.max(0.0));
+            // what is more than its metres is kept whole when a way is pulled tight, what is less goes with them
+            let hardness = of_way.map_or(metres, |of_way| {
+                let more = of_way.weight - of_way.length;
+                if more >= 0.0 { metres + more } else { metres * of_way.weight / of_way.length }
+            });
             cost += hardness;
             steps.push(Step {
                 step: steps.len() as i64 + 1,
@@ -453,6 +521,7 @@ fn rows(
     // where the path crosses each doorway: how far along, and the point
     let mut rest = path.points.clone();
     let mut last = Spot::Start;
+    let (mut so_far, mut along) = (0.0, Vec::new());
     for pair in path.adits.windows(2) {
         let (here, there) = (&network.adits[pair[0]], &network.adits[pair[1]]);
         if here.doorway != there.doorway || here.twin != pair[1] {
@@ -461,34 +530,52 @@ fn rows(
         let doorway = &network.regions.doorways[here.doorway];
         let (metres, at, after) = split(&rest, Segment::new(doorway.from, doorway.to));
         let [one, other] = [pair[0], pair[1]].map(Spot::Adit);
-        push("region", format!("region {}", here.region), (sorted(last, one), metres), [rest[0], at]);
-        push("doorway", format!("doorway {}", here.doorway), (sorted(one, other), 0.0), [here.at, at]);
+        so_far += metres;
+        along.extend([so_far, so_far]);
+        push("region", format!("region {}", here.region), (sorted(last, one), metres), at);
+        push("doorway", format!("doorway {}", here.doorway), (sorted(one, other), 0.0), at);
         (rest, last) = (after, Spot::Adit(pair[1]));
     }
-    let (from, to) = (rest[0], *rest.last().unwrap_or(&rest[0]));
+    let to = *rest.last().unwrap_or(&rest[0]);
+    let from = rest.iter().rev().nth(1).copied().unwrap_or(to);
     let metres: f64 = rest.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
     let region =
         network.region_of(to).map_or("the goal's region".to_owned(), |region| format!("region {region}"));
+    along.push(so_far + metres);
     push("region", region, (sorted(last, Spot::Goal), metres), [from, to]);
-    if let (Some(step), Some(point)) = (steps.last_mut(), points.last_mut()) {
-        // sums round otherwise than the search
-        (step.cost, point.cost) = (path.weight, path.weight);
-    }
+    weigh_points(&mut points, &steps, &along);
     (steps, points)
 }
 
-/// A polyline up to where it first crosses a segment: the metres, the point, and the rest from there.
-fn split(points: &[Point], across: Segment) -> (f64, Point, Vec<Point>) {
+/// What a way costs up to each point: evenly along each step, which ends so many metres `along` it.
+fn weigh_points(points: &mut [Waypoint], steps: &[Step], along: &[f64]) {
+    for point in points {
+        let at = point.distance.unwrap_or_default();
+        let step = along.iter().position(|end| at <= *end + 1e-9).unwrap_or(steps.len().saturating_sub(1));
+        let (begin, before) = match step.checked_sub(1) {
+            Some(before) => (along[before], steps[before].cost),
+            None => (0.0, 0.0),
+        };
+        let (end, cost) = (along[step], steps[step].cost);
+        let share = if end > begin { ((at - begin) / (end - begin)).clamp(0.0, 1.0) } else { 1.0 };
+        point.cost = before + share * (cost - before);
+    }
+}
+
+/// A polyline up to where it first crosses a segment: the metres, the corner before that point with it, and the rest from
+/// there.
+fn split(points: &[Point], across: Segment) -> (f64, [Point; 2], Vec<Point>) {
     let mut metres = 0.0;
     for (place, pair) in points.windows(2).enumerate() {
         let leg = Segment::new(pair[0], pair[1]);
         if let Some(at) = leg.crossing(&across) {
             let rest = [&[at], &points[place + 1..]].concat();
-            return (metres + pair[0].distance(at), at, rest);
+            return (metres + pair[0].distance(at), [pair[0], at], rest);
         }
         metres += leg.length();
     }
-    (metres, *points.last().unwrap_or(&points[0]), points[points.len() - 1..].to_vec())
+    let last = *points.last().unwrap_or(&points[0]);
+    (metres, [last, last], vec![last])
 }
 
 fn heading(from: Point, to: Point) -> Option<f64> {

@@ -102,6 +102,8 @@ pub struct RuleJudge {
     of_ways: Vec<String>,
     told: Told,
     trouble: Option<String>,
+    /// Whether a way of which rules say nothing is just not taken.
+    is_of_site: bool,
 }
 
 impl RuleJudge {
@@ -117,7 +119,8 @@ impl RuleJudge {
 
     /// Makes ready for a site, whose rules may look at all that is known of it.
     pub fn by(asked: &Asked<'_>, told: &Told) -> crate::error::Result<Self> {
-        Self::made(told, |class, told, outputs| asked.about(class, told, outputs))
+        let made = Self::made(told, |class, told, outputs| asked.about(class, told, outputs))?;
+        Ok(Self { is_of_site: true, ..made })
     }
 
     fn made<E>(
@@ -135,6 +138,7 @@ impl RuleJudge {
             of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
             told: told.clone(),
             trouble: None,
+            is_of_site: false,
         })
     }
 
@@ -152,6 +156,15 @@ impl RuleJudge {
     pub fn rule_of(&mut self, way: &Way) -> Option<Considered> {
         self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
         self.ways.considered("weight").into_iter().find(|rule| rule.miss.is_none())
+    }
+
+    /// The rule that lets nobody along a way; `None` where none does.
+    pub fn refused_by(&mut self, way: &Way) -> Option<Considered> {
+        self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+        if self.ways.truth(1) == Some(true) {
+            return None;
+        }
+        self.ways.considered("passable").into_iter().find(|rule| rule.miss.is_none())
     }
 
     /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they
@@ -274,6 +287,8 @@ impl Judge for RuleJudge {
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Some(weight),
+            // on a site the other ways stay; a mission ends
+            _ if self.is_of_site => None,
             _ => {
                 self.missing("what a way weighs, or whether it is passable", None);
                 None

@@ -36,7 +36,8 @@ impl<const D: usize> Assembly<D> {
         let path = self.path(|facts| {
             let decision = steps.decide(facts, self.wanted.at(facts.number));
             let (considered, facts_said, action) = (steps.considered(), steps.facts(), steps.action());
-            said.push(Said { junction: facts.number, considered, facts: facts_said, action });
+            let place = format!("junction {}", facts.number);
+            said.push(Said { junction: facts.number, place, considered, facts: facts_said, action });
             decision
         });
         Answer { path, said }

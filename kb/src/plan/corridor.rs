@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use adit_planners::channels::corridor::{
-    Corridors, Drive, DriveError, End, Passage, Robot, RouteError, StepFacts, Through,
+    Corridors, Drive, DriveError, End, NoRoute, Passage, Robot, Route, RouteError, StepFacts, Through,
 };
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
 use super::gap::{Asked, Wanted, refuse_beyond};
-use super::refusal::{NoPath, Spoke};
+use super::refusal::NoPath;
 use super::said::{Answer, Said};
 use super::turns::{Entered, Turns};
 use crate::words::number::number;
@@ -47,8 +47,8 @@ pub struct Driven {
 pub struct Leg {
     pub passage: Passage,
     pub weight: f64,
-    /// What the robot does there, and the rule by which it is weighed; where that was asked for and rules say so.
-    pub said: (Option<Arc<str>>, Option<Spoke>),
+    /// What rules were told of it and what they said, where that was asked for.
+    pub said: Option<Said>,
 }
 
 impl Corridor {
@@ -64,31 +64,74 @@ impl Corridor {
         let mut path = self.driven(turns, through, |turns, junction| {
             let (considered, facts, action) = (turns.considered(), turns.facts(), turns.action());
             // a junction is asked about again where another gap is tried
-            said.retain(|said: &Said| said.junction != junction);
-            said.push(Said { junction, considered, facts, action });
+            let place = format!("junction {junction}");
+            said.retain(|said: &Said| said.place != place);
+            said.push(Said { junction, place, considered, facts, action });
         });
         for leg in path.iter_mut().flat_map(|driven| &mut driven.legs) {
-            leg.said = turns.driven_in(self.entered(&leg.passage));
+            let leg_said = turns.driven_in(self.entered(&leg.passage));
+            said.push(leg_said.clone());
+            leg.said = Some(leg_said);
         }
         Answer { path, said }
     }
 
+    /// The way of least weight that can be driven: where geometry refuses one, the search goes on without the stretch that it
+    /// fails behind.
     fn driven(
         &self,
         turns: &mut Turns,
         through: Option<Through>,
         mut look: impl FnMut(&mut Turns, usize),
     ) -> Result<Driven, NoPath> {
-        turns.take_refusals();
-        let mut weighed: Vec<(Passage, f64)> = Vec::new();
-        let weigh = |passage: &Passage| {
-            let weight = turns.weigh(self.entered(passage))?;
-            weighed.extend(weight.map(|weight| (*passage, weight)));
-            Ok(weight)
-        };
-        let route = self.corridors.route_through(self.start, self.goal, through, weigh);
-        let route = route.map_err(|error| no_route(error, &turns.take_refusals()))?;
-        // at which junctions the safest gap is driven, since the one that is asked for cannot be kept
+        let mut left_out: BTreeSet<(usize, End)> = BTreeSet::new();
+        let mut first: Option<NoPath> = None;
+        loop {
+            turns.take_refusals();
+            let mut weighed: Vec<(Passage, f64)> = Vec::new();
+            let weigh = |passage: &Passage| {
+                if left_out.contains(&(passage.channel, passage.to)) {
+                    return Ok(None);
+                }
+                let weight = turns.weigh(self.entered(passage));
+                weighed.extend(weight.map(|weight| (*passage, weight)));
+                Ok(weight)
+            };
+            let route = match self.corridors.route_through(self.start, self.goal, through, weigh) {
+                Ok(route) => route,
+                Err(error) => return Err(first.unwrap_or_else(|| no_route(error, &turns.take_refusals()))),
+            };
+            let legs = legs(&route, &weighed);
+            match self.on(&route, turns, &mut look) {
+                Ok((drive, mut remarks)) => {
+                    let other = first
+                        .iter()
+                        .map(|refusal| format!("the way of least weight cannot be driven: {refusal}"));
+                    remarks.extend(other);
+                    let (channels, weight) = (route.channels().to_vec(), route.weight());
+                    return Ok(Driven { drive, channels, weight, legs, remarks });
+                }
+                Err((refusal, behind)) => {
+                    let failed = behind.and_then(|end| legs.iter().find(|leg| leg.passage.to == end));
+                    let is_new =
+                        failed.is_some_and(|leg| left_out.insert((leg.passage.channel, leg.passage.to)));
+                    let first = first.get_or_insert(refusal);
+                    if !is_new {
+                        return Err(first.clone());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Drives along a route, at some junctions with the safest gap where the one that is asked for cannot be kept; with the
+    /// drive, what is worth a remark. An error says at the end of which stretch it fails.
+    fn on(
+        &self,
+        route: &Route<'_>,
+        turns: &mut Turns,
+        look: &mut impl FnMut(&mut Turns, usize),
+    ) -> Result<(Drive, Vec<String>), (NoPath, Option<End>)> {
         let mut wanted = self.wanted.clone();
         let mut fallen: Vec<(usize, String)> = Vec::new();
         let (drive, mut remarks) = loop {
@@ -114,42 +157,30 @@ impl Corridor {
                     | DriveError::HitsInTurn { .. }
                     | DriveError::TooNearEachOther { .. }
             );
+            let on_line = match &error {
+                DriveError::HitsOnLine { to, .. } => Some(*to),
+                DriveError::TooNearEachOther { second, .. } => Some(End::Junction(*second)),
+                _ => None,
+            };
             let refusal = no_drive(error);
             let junction = refusal.junction.filter(|junction| is_of_gap && may_fall.contains(junction));
-            let Some(junction) = junction else { return Err(refusal) };
-            fallen.push((
-                junction,
-                wanted
-                    .at(junction)
-                    .gap
-                    .along(0)
-                    .map_or("asked for".to_owned(), |gap| format!("of {} m", number(gap))),
-            ));
+            let Some(junction) = junction else {
+                let behind = on_line.or_else(|| refusal.junction.map(End::Junction));
+                return Err((refusal, behind));
+            };
+            let gap = wanted.at(junction).gap.along(0);
+            fallen
+                .push((junction, gap.map_or("asked for".to_owned(), |gap| format!("of {} m", number(gap)))));
             wanted.gaps.insert(junction, Asked::Safest);
         };
         for (junction, asked) in fallen {
             let driven = drive.turns.iter().find(|turn| turn.facts.junction == junction);
-            let gap = driven.map_or(0.0, |turn| turn.steer.gap);
-            let gap = number(gap);
+            let gap = number(driven.map_or(0.0, |turn| turn.steer.gap));
             remarks.push(format!(
                 "at junction {junction} the gap {asked} cannot be kept; the safest, {gap} m, is driven"
             ));
         }
-        let ends = route.junctions().iter().copied().map(Some).chain([None]);
-        let mut from = End::Start;
-        let mut legs = Vec::new();
-        for (&channel, to) in route.channels().iter().zip(ends) {
-            let to = to.map_or(End::Goal, End::Junction);
-            let is_it = |(of, _): &&(Passage, f64)| (of.channel, of.from, of.to) == (channel, from, to);
-            legs.extend(weighed.iter().find(is_it).map(|(passage, weight)| Leg {
-                passage: *passage,
-                weight: *weight,
-                said: (None, None),
-            }));
-            from = to;
-        }
-        let (channels, weight) = (route.channels().to_vec(), route.weight());
-        Ok(Driven { drive, channels, weight, legs, remarks })
+        Ok((drive, remarks))
     }
 
     fn entered<'p>(&'p self, passage: &'p Passage) -> Entered<'p> {
@@ -164,12 +195,35 @@ impl Corridor {
     }
 }
 
+/// The stretches of a route, with what they weigh.
+fn legs(route: &Route<'_>, weighed: &[(Passage, f64)]) -> Vec<Leg> {
+    let ends = route.junctions().iter().copied().map(End::Junction).chain([End::Goal]);
+    let mut from = End::Start;
+    let mut legs = Vec::new();
+    for (&channel, to) in route.channels().iter().zip(ends) {
+        let is_it = |(of, _): &&(Passage, f64)| (of.channel, of.from, of.to) == (channel, from, to);
+        let known = weighed.iter().find(is_it);
+        legs.extend(known.map(|(passage, weight)| Leg { passage: *passage, weight: *weight, said: None }));
+        from = to;
+    }
+    legs
+}
+
 fn no_route(error: RouteError<NoPath>, refusals: &[Arc<str>]) -> NoPath {
     match error {
         RouteError::Weigh(no_path) => no_path,
         other => {
-            let reason = std::iter::once(other.to_string()).chain(refusals.iter().map(ToString::to_string));
-            NoPath::because(reason.collect::<Vec<_>>().join("; "))
+            // the cause first, and only it where rules name one
+            let causes: Vec<String> = refusals.iter().map(ToString::to_string).collect();
+            let passages = match &other {
+                RouteError::NoRoute(NoRoute::Refused(passages)) => passages.len(),
+                _ => 0,
+            };
+            NoPath::because(match (causes.is_empty(), passages) {
+                (true, _) => other.to_string(),
+                (false, 0..=2) => format!("{other}; {}", causes.join("; ")),
+                (false, _) => causes.join("; "),
+            })
         }
     }
 }

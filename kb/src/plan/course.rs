@@ -13,8 +13,8 @@ use adit_planners::geometry::Point;
 use adit_planners::planner::Planner;
 
 use super::consult::Class;
-use super::refusal::Spoke;
 use super::said::Said;
+pub use super::said::name_of;
 use crate::error::{Code, Error, Result};
 use crate::site::tables::TableFile;
 
@@ -62,6 +62,9 @@ pub trait Pathfinder: Send + Sync {
     /// The map, with a route where one is asked for that there is: an SVG text that stands alone.
     fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd>;
 
+    /// The first rule that failed while it was asked, with its file and line: then nothing that was found counts.
+    fn trouble(&self) -> Option<String>;
+
     /// What there is of what, in words: `6 channels, 8 junctions`.
     fn summary(&self) -> String;
 }
@@ -72,7 +75,6 @@ pub struct Found {
     pub row: Row,
     /// Junction by junction, as far as rules were asked.
     pub said: Vec<Said>,
-    pub remarks: Vec<String>,
 }
 
 /// A start or goal that is none.
@@ -239,9 +241,4 @@ pub fn point(text: &str) -> Option<Point> {
         Some([x, y]) if x.is_finite() && y.is_finite() => Some(Point::new(*x, *y)),
         _ => None,
     }
-}
-
-/// A rule by name, a row of a table by its number too.
-pub fn name_of(spoke: &Spoke) -> String {
-    spoke.row.map_or_else(|| spoke.rule.clone(), |row| format!("{}, row {row}", spoke.rule))
 }

@@ -16,8 +16,8 @@ use adit_planners::planner::Planner;
 use super::consult::Class;
 use super::corridor::{Corridor, Driven};
 use super::course::{
-    Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, name_of, no_map, no_through, numbered,
-    point, refuse_gaps,
+    Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, no_through, numbered, point,
+    refuse_gaps,
 };
 use super::gap::{Asked, Wanted};
 use super::rules::Kind;
@@ -277,6 +277,10 @@ impl Pathfinder for Drives {
         Ok(render_channels(title, &[self.labelled(panel)]))
     }
 
+    fn trouble(&self) -> Option<String> {
+        self.turns.lock().unwrap_or_else(PoisonError::into_inner).trouble().map(str::to_owned)
+    }
+
     fn summary(&self) -> String {
         format!(
             "{} channels, {} junctions",
@@ -290,20 +294,19 @@ impl Pathfinder for Drives {
 fn found([robot, start, goal]: [&str; 3], answer: Answer<Driven>) -> Found {
     let Answer { path, said } = answer;
     let mut row = Row::blank(robot, start, goal);
-    let remarks = match path {
+    match path {
         Ok(driven) => {
             (row.steps, row.waypoints) = rows(&driven, &said);
             row.cost = Some(driven.weight);
             row.distance = Some(driven.drive.length);
             row.clearance = Some(driven.drive.min_clearance);
-            driven.remarks
+            row.remarks = driven.remarks;
         }
         Err(no_path) => {
             row.reason = Some(no_path.reason);
-            Vec::new()
         }
-    };
-    Found { row, said, remarks }
+    }
+    Found { row, said }
 }
 
 /// A drive as rows: a step and a waypoint for each line and arc. What a passage weighs is the step's that leads through it.
@@ -323,8 +326,9 @@ fn rows(driven: &Driven, said: &[Said]) -> (Vec<Step>, Vec<Waypoint>) {
             while let Some(leg) = legs.next() {
                 hardness += leg.weight;
                 channels.push(leg.passage.channel);
-                action = action.or_else(|| leg.said.0.clone());
-                rule = rule.or_else(|| leg.said.1.as_ref().map(name_of));
+                let said = leg.said.as_ref();
+                action = action.or_else(|| said.and_then(|said| said.action.clone()));
+                rule = rule.or_else(|| said.and_then(|said| said.rule_of("weight")));
                 let is_last = match (leg.passage.to, next_arc) {
                     (End::Junction(number), Some(next)) => number == next,
                     _ => false,
@@ -344,7 +348,7 @@ fn rows(driven: &Driven, said: &[Said]) -> (Vec<Step>, Vec<Waypoint>) {
             Primitive::Arc { junction, centre, turn, a, b, from_heading, to_heading, .. } => {
                 let of = said.iter().find(|said| said.junction == junction);
                 action = of.and_then(|said| said.action.clone());
-                rule = of.and_then(|said| said.considered.iter().find(|rule| rule.spoke)).map(name_of);
+                rule = of.and_then(|said| said.rule_of("corner_x"));
                 (
                     "arc",
                     format!("junction {junction}"),

@@ -15,8 +15,7 @@ use adit_planners::planner::Planner;
 use super::assembly::Assembly;
 use super::consult::Class;
 use super::course::{
-    Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, name_of, no_map, no_through, numbered,
-    refuse_gaps,
+    Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, no_through, numbered, refuse_gaps,
 };
 use super::gap::{Asked, Wanted};
 use super::rules::Kind;
@@ -212,8 +211,10 @@ fn vector<const D: usize>(of: ObjectsOf<'_>, row: usize, what: &str) -> Result<O
 }
 
 fn gap<const D: usize>(of: ObjectsOf<'_>, row: usize) -> Result<Asked<D>> {
-    if let Some(gap) = vector::<D>(of, row, "gap")? {
-        return Ok(Asked::Gap(gap));
+    // one is emptied after the other: what is not given along all axes is none
+    let given = of_axes::<D>("gap").map(|name| of.number(row, &name));
+    if given.iter().all(Option::is_some) {
+        return Ok(Asked::Gap(given.map(Option::unwrap_or_default)));
     }
     match of.text(row, "gap_by").as_deref() {
         None | Some("rules") => Ok(Asked::Rules),
@@ -282,7 +283,7 @@ impl<const D: usize> Pathfinder for Ways<D> {
             }
             Err(no_path) => row.reason = Some(no_path.reason),
         }
-        Ok(Found { row, said, remarks: Vec::new() })
+        Ok(Found { row, said })
     }
 
     fn find_through(&self, robot: &str, ends: [&str; 2], through: &str) -> Result<Found> {
@@ -324,6 +325,10 @@ impl<const D: usize> Pathfinder for Ways<D> {
             })
             .collect();
         Ok(render_channels(title, &panels))
+    }
+
+    fn trouble(&self) -> Option<String> {
+        self.steps.lock().unwrap_or_else(PoisonError::into_inner).trouble().map(str::to_owned)
     }
 
     fn summary(&self) -> String {
@@ -378,7 +383,7 @@ fn rows<const D: usize>(path: &PartPath<D>, said: &[Said], is_back: bool) -> (Ve
             x: Some(x),
             y: Some(y),
             z: Some(z),
-            rule: of.and_then(|said| said.considered.iter().find(|rule| rule.spoke)).map(name_of),
+            rule: of.and_then(|said| said.rule_of("margin_x")),
             ..Step::default()
         });
     }

@@ -60,12 +60,15 @@ impl Kind {
     /// The classes and properties that rules may name.
     pub fn schema(self) -> Schema {
         let add = |schema: Schema, class: Class| schema.class(class.name, &class.told);
-        let mut schema = self.classes().into_iter().fold(Schema::default(), add);
-        if self == Self::Navigation {
-            // what sites know of doorways besides
-            schema = schema.class("DOORWAYS", &[("doorway", Type::Number), ("called", Type::Text)]);
+        let schema = self.classes().into_iter().fold(Schema::default(), add);
+        // what sites know besides
+        match self {
+            Self::Channels => schema,
+            Self::Navigation => {
+                schema.class("DOORWAYS", &[("doorway", Type::Number), ("called", Type::Text)])
+            }
+            Self::Adapt => schema.class("GOALS", &[("goal", Type::Text)]),
         }
-        schema
     }
 }
 

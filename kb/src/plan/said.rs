@@ -9,10 +9,19 @@ use serde_json::json;
 
 use super::refusal::{NoPath, Spoke};
 
+/// A rule by name, a row of a table by its number too.
+pub fn name_of(spoke: &Spoke) -> String {
+    spoke.row.map_or_else(|| spoke.rule.clone(), |row| format!("{}, row {row}", spoke.rule))
+}
+
 /// What rules were told at a junction, what they concluded, and which of them spoke.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Said {
+    /// Its number; 0 where it is none.
     pub junction: usize,
+    /// What it is about: `junction 2`, `channel 3`.
+    #[serde(skip)]
+    pub place: String,
     /// The rules that were looked at, tables row by row.
     pub considered: Vec<Spoke>,
     /// Told and concluded.
@@ -24,10 +33,24 @@ pub struct Said {
 }
 
 impl Said {
+    /// The rule by which a property is concluded, with the rows of tables and with those that revised it.
+    pub fn rule_of(&self, property: &str) -> Option<String> {
+        let fact = self.facts.iter().find(|fact| fact.property == property)?;
+        let (rule, _) = fact.rule.as_ref()?;
+        let spoke = self.considered.iter().find(|spoke| spoke.spoke && spoke.rule == *rule);
+        let name = spoke.map_or_else(|| rule.clone(), name_of);
+        Some(
+            std::iter::once(name)
+                .chain(fact.revised.iter().cloned())
+                .collect::<Vec<_>>()
+                .join("; revised by "),
+        )
+    }
+
     /// For people: the rule that spoke, then why the others did not.
     pub fn lines(&self) -> Vec<String> {
         let (spoke, silent): (Vec<_>, Vec<_>) = self.considered.iter().partition(|rule| rule.spoke);
-        let mut lines = vec![format!("junction {}", self.junction)];
+        let mut lines = vec![self.place.clone()];
         lines.extend(spoke.iter().map(|rule| format!("  {} spoke", rule.text())));
         lines.extend(silent.iter().map(|rule| format!("  {}", rule.text())));
         lines
@@ -41,6 +64,8 @@ pub struct Fact {
     pub value: Value,
     /// The rule that concluded it, with its version; `None` where the planner told it.
     pub rule: Option<(String, String)>,
+    /// The rules that changed it after that.
+    pub revised: Vec<String>,
 }
 
 /// What rules were told of the last object and what they concluded, as far as it is known.
@@ -55,7 +80,7 @@ pub(super) fn facts(
     let mut facts = Vec::new();
     for (property, _) in told {
         if let Some(value) = knowledge.value_at(class, 0, property) {
-            facts.push(Fact { property, value, rule: None });
+            facts.push(Fact { property, value, rule: None, revised: Vec::new() });
         }
     }
     for property in concluded {
@@ -63,7 +88,10 @@ pub(super) fn facts(
         let (grounds, _) = knowledge.grounds(class, property, &[0]);
         let rule = grounds.first().and_then(|grounds| rules.rules().get(grounds.rule));
         let rule = rule.map(|rule| (rule.name().to_owned(), rule.version().to_owned()));
-        facts.push(Fact { property, value, rule });
+        let revised = knowledge.revised(&rules, class, property);
+        let revised = revised.into_iter().filter(|(_, rows)| !rows.is_empty());
+        let revised = revised.map(|(rule, _)| rule.name().to_owned()).collect();
+        facts.push(Fact { property, value, rule, revised });
     }
     facts
 }
@@ -87,7 +115,8 @@ impl<P> Answer<P> {
             Ok(found) => {
                 let mut answer = path(found);
                 if is_explained {
-                    answer["said"] = json!(self.said);
+                    answer["said"] =
+                        json!(self.said.iter().filter(|said| said.junction > 0).collect::<Vec<_>>());
                 }
                 answer
             }
@@ -107,7 +136,7 @@ impl<P> Answer<P> {
             Err(no_path) => no_path.lines(),
         };
         if is_explained {
-            lines.extend(self.said.iter().flat_map(Said::lines));
+            lines.extend(self.said.iter().filter(|said| said.junction > 0).flat_map(Said::lines));
         }
         lines
     }
@@ -122,7 +151,7 @@ impl<P> Answer<P> {
             }
             Err(no_path) => record.reason = Some(no_path.reason.clone()),
         }
-        self.said.iter().for_each(|said| rows(said, record));
+        self.said.iter().filter(|said| said.junction > 0).for_each(|said| rows(said, record));
     }
 }
 

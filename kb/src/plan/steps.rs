@@ -5,7 +5,7 @@ use std::sync::Arc;
 use adit_engine::{ClassError, Consultation, Datum, RuleBase, Type};
 use adit_planners::channels::assembly::{Decision, Margin, StepFacts};
 
-use super::consult::{Class, is_same, meant};
+use super::consult::{Class, consult, is_same, meant};
 use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke};
 use super::said::Fact;
@@ -64,7 +64,7 @@ pub(super) fn class() -> Class {
 
 /// The rules, ready to be asked step after step.
 #[derive(Debug)]
-pub struct Steps(Consultation);
+pub struct Steps(Consultation, Option<String>);
 
 impl Steps {
     pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
@@ -73,7 +73,12 @@ impl Steps {
 
     /// Of rules that are ready to be asked about steps.
     pub const fn of(steps: Consultation) -> Self {
-        Self(steps)
+        Self(steps, None)
+    }
+
+    /// The first rule that failed when it was asked.
+    pub fn trouble(&self) -> Option<&str> {
+        self.1.as_deref()
     }
 
     /// What the part does on its way into the last step's junction, if rules say so.
@@ -87,7 +92,7 @@ impl Steps {
         facts: &StepFacts<D>,
         wishes: Wishes<'_, D>,
     ) -> Result<Decision<D>, NoPath> {
-        self.0.consult(&object(facts, wishes));
+        consult(&mut self.0, &object(facts, wishes), &mut self.1);
         if let Some(reason) = self.0.text(REFUSAL) {
             return Err(NoPath::at(facts.number, reason.to_string()));
         }

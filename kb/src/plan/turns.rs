@@ -8,10 +8,10 @@ use adit_planners::channels::corridor::{
 };
 
 use super::consult::Of::{Number, Perhaps, Text, Truth};
-use super::consult::{Class, Property, is_same, meant, object, typed, word_for};
+use super::consult::{Class, Property, consult, is_same, meant, object, typed, word_for};
 use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke, silent};
-use super::said::Fact;
+use super::said::{Fact, Said};
 
 const OUTPUTS: [&str; 12] = [
     "rule",
@@ -41,6 +41,8 @@ pub struct Turns {
     passages: Consultation,
     /// Why passages were refused, since the last path was looked for.
     refusals: Vec<Arc<str>>,
+    /// The first rule that failed.
+    trouble: Option<String>,
 }
 
 impl Turns {
@@ -51,7 +53,7 @@ impl Turns {
 
     /// Of rules that are ready to be asked about turns and passages.
     pub const fn of(junctions: Consultation, passages: Consultation) -> Self {
-        Self { junctions, passages, refusals: Vec::new() }
+        Self { junctions, passages, refusals: Vec::new(), trouble: None }
     }
 
     /// Why passages were refused since this was last asked.
@@ -60,27 +62,36 @@ impl Turns {
     }
 
     /// What a passage weighs; `None` where it must not be used.
-    pub fn weigh(&mut self, passage: Entered<'_>) -> Result<Option<f64>, NoPath> {
-        self.passages.consult(&object(told_of_passages(), &passage));
-        let passage = passage.passage;
-        let said =
-            |what: &str| NoPath::because(format!("no rule says {what} of {passage}, or several disagree"));
-        match self.passages.truth(1) {
-            None => Err(said("whether it is passable")),
-            Some(false) => {
-                let refusal = self.passages.text(2);
-                self.refusals.extend(refusal.filter(|refusal| !self.refusals.contains(refusal)));
-                Ok(None)
+    pub fn weigh(&mut self, passage: Entered<'_>) -> Option<f64> {
+        consult(&mut self.passages, &object(told_of_passages(), &passage), &mut self.trouble);
+        let number = passage.passage.channel;
+        let unsaid = |what: &str| Arc::from(format!("rules do not say {what} channel {number}, or disagree"));
+        let refusal = match (self.passages.truth(1), self.passages.number(0)) {
+            (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => return Some(weight),
+            (Some(true), Some(weight)) => {
+                Some(Arc::from(format!("rules weigh channel {number} {weight}, which is no weight")))
             }
-            Some(true) => self.passages.number(0).map(Some).ok_or_else(|| said("what the weight is")),
-        }
+            (Some(true), None) => Some(unsaid("how heavy is")),
+            (Some(false), _) => self.passages.text(2),
+            (None, _) => Some(unsaid("whether one may drive through")),
+        };
+        self.refusals.extend(refusal.filter(|refusal| !self.refusals.contains(refusal)));
+        None
     }
 
-    /// What the robot does in a passage, if rules say so, and the rule by which it is weighed.
-    pub fn driven_in(&mut self, passage: Entered<'_>) -> (Option<Arc<str>>, Option<Spoke>) {
+    /// The first rule that failed when it was asked.
+    pub fn trouble(&self) -> Option<&str> {
+        self.trouble.as_deref()
+    }
+
+    /// What rules were told of a passage that is driven, and what they said.
+    pub fn driven_in(&mut self, passage: Entered<'_>) -> Said {
         self.passages.consult(&object(told_of_passages(), &passage));
-        let spoke = self.passages.considered("weight").into_iter().map(Spoke::from).find(|rule| rule.spoke);
-        (self.passages.text(3), spoke)
+        let considered = self.passages.considered("weight").into_iter().map(Spoke::from).collect();
+        let facts =
+            super::said::facts(&mut self.passages, "PASSAGES", &typed(told_of_passages()), &OF_PASSAGES);
+        let place = format!("channel {}", passage.passage.channel);
+        Said { junction: 0, place, considered, facts, action: self.passages.text(3) }
     }
 
     /// What the robot does in the last turn, if rules say so.
@@ -99,7 +110,7 @@ impl Turns {
         facts: &StepFacts,
         wishes: Wishes<'_, 1>,
     ) -> Result<(Steer, Option<Arc<str>>), NoPath> {
-        self.junctions.consult(&object(told_of_turns(), &(facts, wishes)));
+        consult(&mut self.junctions, &object(told_of_turns(), &(facts, wishes)), &mut self.trouble);
         if let Some(reason) = self.junctions.text(const { output("refusal") }) {
             return Err(NoPath::at(facts.junction, reason.to_string()));
         }

@@ -13,7 +13,7 @@ use super::course::Course;
 use super::drives::CorridorsOf;
 use super::parts::PartsOf;
 use super::rules::{self, Kind};
-use crate::adapt::{self, Cell};
+use crate::adapt::{self, Cell, CellOf};
 use crate::error::{Code, Error, Result};
 use crate::navigation::course::FloorOf;
 use crate::navigation::floor::Floor;
@@ -112,10 +112,7 @@ pub fn course(map: &Path) -> Result<Box<dyn Course>> {
         Task::Assembly(assembly) => Box::new(PartsOf { file, assembly }),
         Task::SolidAssembly(assembly) => Box::new(PartsOf { file, assembly }),
         Task::FloorPlan(floor) => Box::new(FloorOf { file, floor: *floor }),
-        Task::Cell(_) => {
-            let message = format!("{} is no map of a site", map.display());
-            return Err(Error::said(Code::CourseUnfit, message, None));
-        }
+        Task::Cell(cell) => Box::new(CellOf { file, cell: *cell }),
     })
 }
 

@@ -184,11 +184,21 @@ impl TableFile {
             let message = format!("{}: the table {} is one of Adit's own", self.path.display(), self.name);
             return Err(Error::said(Code::TableTaken, message, Some("call the file otherwise".to_owned())));
         }
+        let replaced = if is_there { Some(tx.read_table(&self.name)?) } else { None };
+        let note = replaced.filter(|kept| !self.is_same(kept)).map(|kept| {
+            let (file, had) =
+                (self.path.display(), kept.columns.first().map_or(0, |column| column.values.len()));
+            format!(
+                "the table {} is as {file} has it again: {had} rows before, {} now",
+                self.name,
+                self.rows.len()
+            )
+        });
         let columns: Vec<(&str, &str)> =
             self.columns.iter().map(|(name, kind)| (name.as_str(), *kind)).collect();
         let key: Vec<&str> = self.key.iter().map(|&column| self.columns[column].0.as_str()).collect();
         tx.replace_user_table(&self.name, &columns, &key, self.rows.iter().cloned())?;
-        Ok(None)
+        Ok(note)
     }
 
     fn is_same(&self, kept: &Relation) -> bool {

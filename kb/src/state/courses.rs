@@ -40,6 +40,9 @@ impl State {
                 }
             }
         }
+        if let Some(trouble) = finder.trouble() {
+            return Err(Error::said(Code::PlanRules, trouble, None));
+        }
         let starts = starts.len();
         Ok(Some(Courses { finder, kept, starts }))
     }

@@ -2,6 +2,7 @@
 //!
 //! The answer is made of it and it of the answer's parts: a circle that stays.
 
+use adit_db::course::Course as Row;
 use serde_json::json;
 
 use super::{Facts, Reasoned, Why, cell};
@@ -9,39 +10,78 @@ use crate::error::{Code, Error, Result};
 use crate::plan::course::{Found, name_of};
 use crate::plan::{Said, Spoke};
 use crate::state::Courses;
+use crate::words::number::number;
 
-/// Of `junction 2`, on every kept route that leads through it, or of `junction 2 from start to goal`; `None` where it is
-/// something else that is meant.
+/// Of `junction 2 from dock to lift` all that rules said there, of `junction 2` by which rule each kept route passes it;
+/// `None` where it is something else that is meant.
 pub fn why(courses: &Courses, what: &str, generation: u64) -> Result<Option<Why>> {
     let (place, ends) = match what.trim().split_once(" from ") {
-        Some((place, ends)) => (place, ends.split_once(" to ")),
+        Some((place, ends)) => (place.trim(), ends.split_once(" to ")),
         None => (what.trim(), None),
     };
-    let Some(junction) = place.strip_prefix("junction ") else {
-        return Ok(None);
-    };
-    let Ok(junction) = junction.trim().parse::<usize>() else { return Ok(None) };
+    let is_meant = |said: &&Said| said.place == place;
     let (mut conclusions, mut facts) = (Vec::new(), Vec::new());
-    for Found { row, said, .. } in courses.kept() {
-        if ends.is_some_and(|(start, goal)| {
-            (row.start.as_str(), row.goal.as_str()) != (start.trim(), goal.trim())
-        }) {
-            continue;
+    if let Some((start, goal)) = ends {
+        for robot in courses.robots() {
+            let Found { row, said, .. } = courses.find(&robot, start.trim(), goal.trim())?;
+            for said in said.iter().filter(is_meant) {
+                let from = on(place, &row);
+                conclusions.extend(reasons(said, &from));
+                facts.push(told(said, &from));
+            }
         }
-        let from = format!("junction {junction}, from {} to {} ({})", row.start, row.goal, row.robot);
-        for said in said.iter().filter(|said| said.junction == junction) {
-            conclusions.extend(reasons(said, &from));
-            facts.push(told(said, &from));
+        if conclusions.is_empty() {
+            let message = format!("rules were asked nothing about {place} on the way from {start} to {goal}");
+            let help = "`adit route SITE START GOAL --steps` has what a route leads through".to_owned();
+            return Err(Error::said(Code::WhyUnknown, message, Some(help)));
+        }
+    } else {
+        for Found { row, said, .. } in courses.kept() {
+            conclusions.extend(said.iter().filter(is_meant).map(|said| in_short(said, &on(place, row))));
+        }
+        if conclusions.is_empty() {
+            return Ok(None);
         }
     }
-    if conclusions.is_empty() {
-        let message =
-            format!("no kept route turns at {place}{}", if ends.is_some() { " on that way" } else { "" });
-        let help = "`adit route SITE START GOAL --steps` has the junctions of a route".to_owned();
-        return Err(Error::said(Code::WhyUnknown, message, Some(help)));
-    }
-    let (object, name) = (format!("junctions.{junction}"), format!("junction {junction}"));
+    let (object, name) = (place.replacen(' ', "s.", 1), place.to_owned());
     Ok(Some(Why { generation, object, name, conclusions, facts }))
+}
+
+/// Where, on which way.
+fn on(place: &str, row: &Row) -> String {
+    format!("{place}, from {} to {} ({})", row.start, row.goal, row.robot)
+}
+
+/// By which rule a route passes there.
+fn in_short(said: &Said, from: &str) -> Reasoned {
+    let decided = ["corner_x", "margin_x", "weight"].into_iter().find_map(|property| {
+        let fact = said.facts.iter().find(|fact| fact.property == property)?;
+        Some((fact, said.rule_of(property)?))
+    });
+    let (property, value, rule) = match &decided {
+        Some((fact, rule)) => (fact.property.to_owned(), cell(&fact.value), Some(rule.clone())),
+        None => (String::new(), adit_db::Cell::Null, None),
+    };
+    let by = rule.as_ref().map_or("no rule spoke".to_owned(), |rule| format!("by rule \"{rule}\""));
+    let weight = decided.as_ref().filter(|(fact, _)| fact.property == "weight");
+    let weight = weight.map_or(String::new(), |(fact, _)| format!("weighs {}, ", written(&fact.value)));
+    Reasoned {
+        property,
+        value,
+        rule,
+        version: None,
+        file: None,
+        line: None,
+        witness: None,
+        why: format!("{from}: {weight}{by}"),
+    }
+}
+
+fn written(value: &adit_engine::Value) -> String {
+    match value {
+        adit_engine::Value::Number(value) => number(*value),
+        other => other.to_string(),
+    }
 }
 
 /// What rules were told there.
@@ -56,8 +96,7 @@ fn reasons<'s>(said: &'s Said, from: &'s str) -> impl Iterator<Item = Reasoned> 
     let concluded = said.facts.iter().filter_map(move |fact| {
         let (rule, version) = fact.rule.as_ref()?;
         let spoke = said.considered.iter().find(|spoke| spoke.spoke && spoke.rule == *rule);
-        let by =
-            spoke.map_or_else(|| format!("rule \"{rule}\""), |spoke| format!("rule \"{}\"", name_of(spoke)));
+        let by = said.rule_of(fact.property).unwrap_or_else(|| rule.clone());
         let place = spoke.map_or(String::new(), |spoke| format!(" ({}, line {})", spoke.file, spoke.line));
         Some(Reasoned {
             property: fact.property.to_owned(),
@@ -67,22 +106,21 @@ fn reasons<'s>(said: &'s Said, from: &'s str) -> impl Iterator<Item = Reasoned> 
             file: spoke.map(|spoke| spoke.file.clone()),
             line: spoke.map(|spoke| spoke.line as i64),
             witness: None,
-            why: format!("{from}: {} is {}, by {by}{place}", fact.property, fact.value),
+            why: format!("{from}: {} is {}, by rule \"{by}\"{place}", fact.property, written(&fact.value)),
         })
     });
-    let silent = said.considered.iter().filter(|spoke| !spoke.spoke).map(move |spoke: &Spoke| Reasoned {
-        property: "corner".to_owned(),
-        value: adit_db::Cell::Null,
-        rule: None,
-        version: None,
-        file: Some(spoke.file.clone()),
-        line: Some(spoke.line as i64),
-        witness: None,
-        why: format!(
-            "{from}: {} did not speak: {}",
-            name_of(spoke),
-            spoke.because.clone().unwrap_or_default()
-        ),
+    let silent = said.considered.iter().filter(|spoke| !spoke.spoke).map(move |spoke: &Spoke| {
+        let because = spoke.because.clone().unwrap_or_default();
+        Reasoned {
+            property: name_of(spoke),
+            value: adit_db::Cell::from("did not speak"),
+            rule: None,
+            version: None,
+            file: Some(spoke.file.clone()),
+            line: Some(spoke.line as i64),
+            witness: None,
+            why: format!("{from}: {} did not speak: {because}", name_of(spoke)),
+        }
     });
     concluded.chain(silent)
 }

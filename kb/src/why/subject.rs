@@ -27,6 +27,14 @@ impl Subject {
                 Self::of(fork, class, name.trim(), None).or_else(|| Self::of(fork, class, text.trim(), None));
             return found.ok_or_else(|| unknown(fork, class, name));
         }
+        if let Some((kind, key)) = text.trim().split_once(' ') {
+            // of a map that is not cut into rooms: `channel 3`, `goal load`
+            let class = format!("{}s", kind.to_lowercase());
+            let found = Self::of(fork, &class, key.trim(), None).filter(|_| fork.courses.is_some());
+            if let Some(found) = found {
+                return Ok(Self { name: text.trim().to_owned(), ..found });
+            }
+        }
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");
             let help = "say `door 7`, `room d`, `doors.7` or `doors.7.hardness`".to_owned();

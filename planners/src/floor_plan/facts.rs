@@ -3,9 +3,11 @@
 use super::disc::Disc;
 use super::network::Network;
 use super::plan::{Drawn, FloorPlan};
+use super::regions::Regions;
 use crate::facts::{Column, Facts, Table};
 use crate::geometry::Point;
 use crate::planner::{Planner, PlannerError, Signature};
+use crate::read::Code;
 use crate::world::World;
 
 /// The convex regions of a floor plan, its doorways (between two spaces, which are regions here), and the adits on either side of them where the first of the robots
@@ -95,14 +97,24 @@ impl Planner for RegionsAndAdits {
         };
         let vehicles = known.get("VEHICLES");
         let radius = column(vehicles, "radius").map_err(wrong("VEHICLES"))?.first().copied();
-        let margin = column(vehicles, "margin").map_err(wrong("VEHICLES"))?.first().copied();
+        let margins =
+            vehicles.map(|vehicles| vehicles.numbers("margin")).transpose().map_err(wrong("VEHICLES"))?;
+        let margin = margins.and_then(|margins| *margins.first()?);
         let no_plan = |errors: crate::read::MapErrors| {
             let what = errors.problems.iter().map(|problem| problem.message.clone());
             PlannerError::World { planner: NAME.to_owned(), what: what.collect::<Vec<_>>().join("; ") }
         };
         let plan = FloorPlan::new(drawn).map_err(no_plan)?;
         let disc = Disc { radius: radius.unwrap_or_default(), margin: margin.unwrap_or_default() };
-        Ok(tables(&Network::new(&plan, disc).map_err(no_plan)?))
+        let network = match Network::new(&plan, disc) {
+            Ok(network) => network,
+            // a robot that fits through no doorway has no adits
+            Err(errors) if errors.problems.iter().all(|problem| problem.code == Code::RobotTooWide) => {
+                Network { regions: Regions::of(&plan), ..Network::none(disc) }
+            }
+            Err(errors) => return Err(no_plan(errors)),
+        };
+        Ok(tables(&network))
     }
 }
 

@@ -56,3 +56,24 @@ async fn a_part_is_drawn_on_its_way_out_and_in() {
     browser.says("#picture", "disassembled to assembled").await;
     browser.screenshot("part").await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_arm_and_a_flat_are_drawn() {
+    let site = site_of("cell.toml");
+    let service = Service::start(&site);
+    let browser = Browser::open(&service.page("#map?start=load&goal=unload"), Screen::Desktop).await;
+    browser.find("#picture svg polygon, #picture svg path").await;
+    browser.says("#route-card", "to unload").await;
+    browser.screenshot("cell").await;
+    let flat = TestSite::empty();
+    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kb/worlds");
+    for file in ["flat.toml", "flat.json"] {
+        flat.write(file, std::fs::read(world.join(file)).unwrap());
+    }
+    flat.write("site.toml", "name = \"flat\"\nmap = \"flat.toml\"\n");
+    let flat = flat.built();
+    let service = Service::start(&flat);
+    let browser = Browser::open(&service.page("#map?start=bed&goal=bath"), Screen::Phone).await;
+    browser.says("#route-card", "region 1").await;
+    browser.screenshot("flat").await;
+}

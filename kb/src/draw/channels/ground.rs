@@ -57,10 +57,10 @@ pub(super) fn walls(svg: &mut Svg, frame: &Frame, channels: &[Rect], top: Option
     }
 }
 
-/// What is closed, hatched like what is solid.
+/// What is closed, in red.
 pub(super) fn closed(svg: &mut Svg, frame: &Frame, rects: &[Rect]) {
     for rect in rects {
-        filled(svg, &frame.block(rect), "url(#wall)");
+        filled(svg, &frame.block(rect), "#f6d5d5");
     }
 }
 

@@ -20,7 +20,8 @@ pub fn why_not(courses: &Courses, route: [&str; 3], through: &str, generation: u
     let (reason, sentence) = match (best.row.cost, other.row.cost) {
         (_, None) => {
             let reason = other.row.reason.clone().unwrap_or_default();
-            (format!("no way leads through {through}"), format!("no way leads through {through}: {reason}"))
+            let sentence = format!("no way leads through {through}: {reason}");
+            (sentence.clone(), sentence)
         }
         (Some(least), Some(cost)) if cost > least => {
             let more = number(cost - least);
@@ -36,7 +37,8 @@ pub fn why_not(courses: &Courses, route: [&str; 3], through: &str, generation: u
         }
         (_, Some(cost)) => {
             let reason = format!("the best way leads through {through}, or one that costs no more does");
-            (reason.clone(), format!("{reason}: {}", number(cost)))
+            let sentence = format!("{reason}: {}", number(cost));
+            (sentence.clone(), sentence)
         }
     };
     let weighs = |step: &adit_db::route::Step| {
