@@ -59,6 +59,7 @@ export function telling(run) {
 export function why(step) {
   if (!model.site?.layout_kind) return `${step.kind === 'room' ? 'room' : 'door'} ${step.place}`;
   const { start, goal } = model.ask;
+  if (step.kind === 'motion') return `goal ${goal}`;
   return `${step.place} from ${start} to ${goal}`;
 }
 

@@ -10,6 +10,8 @@ pub mod keep;
 pub mod learning;
 pub mod missions;
 pub mod reading;
+mod stretches;
 pub mod told;
 pub mod tours;
+mod walks;
 pub mod why;

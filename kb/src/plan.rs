@@ -16,7 +16,7 @@ mod gap;
 mod parts;
 mod refusal;
 pub mod rules;
-mod said;
+pub(crate) mod said;
 mod steps;
 mod turns;
 mod world;

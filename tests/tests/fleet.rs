@@ -25,7 +25,7 @@ fn each_robot_goes_its_own_way() {
         found[0].parse::<f64>().unwrap()
     });
     assert!(costs[0] * 2.0 < costs[1], "{costs:?}");
-    site.adit("route", &["dock", "gate"]).expecting(2).complains(&["--robot", "cart, crawler, dog"]);
+    site.adit("route", &["dock", "gate"]).expecting(2).complains(&["say which one: cart, crawler, dog"]);
     site.adit("route", &["dock", "gate", "--robot", "carts"]).expecting(2).complains(&["no robot `carts`"]);
 }
 

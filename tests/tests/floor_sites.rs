@@ -99,6 +99,8 @@ fn a_doorway_is_closed_where_it_is_and_a_wall_is_moved() {
     let edited = site.sqlite3(all);
     site.adit("build", &[]).expect_status(0);
     assert_eq!(site.sqlite3(all), edited, "what was edited is what is built");
+    let leg = site.adit("why", &["region 2 from bed to bath"]).expecting(0).stdout;
+    assert!(leg.contains("weight is") && leg.contains("a way weighs its length"), "{leg}");
     let other = site.adit("why-not", &["bed", "bath", "--through", "doorway 0"]).expecting(0).stdout;
     assert!(!other.is_empty());
     site.adit("check", &[]).expect_status(0);

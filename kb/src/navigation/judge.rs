@@ -13,6 +13,7 @@ use super::told::{self, Told};
 use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
 use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
 use crate::plan::course::Asked;
+use crate::plan::{Said, Spoke, said};
 
 /// What rules are told of a situation.
 const SITUATIONS: [Property<StateFacts>; 31] = [
@@ -80,6 +81,9 @@ const OPENINGS: [Property<OpeningFacts>; 8] = [
     ("radius", Number(|of| of.radius_m)),
 ];
 
+/// What is asked of ways.
+const OF_WAYS: &[&str] = &["weight", "passable", "action"];
+
 /// The classes of objects that rules are asked about.
 pub(crate) fn classes() -> [Class; 4] {
     const OF_SEGMENTS: &[&str] =
@@ -87,7 +91,7 @@ pub(crate) fn classes() -> [Class; 4] {
     [
         Class::new("SITUATIONS", SITUATIONS, &["next", "action"]),
         Class::new("SEGMENTS", SEGMENTS, OF_SEGMENTS),
-        Class { name: "WAYS", told: told::ways(), asked: &["weight", "passable", "action"] },
+        Class { name: "WAYS", told: told::ways(), asked: OF_WAYS },
         Class::new("OPENINGS", OPENINGS, &["explore", "worth"]),
     ]
 }
@@ -152,10 +156,12 @@ impl RuleJudge {
         self.ways.text(2)
     }
 
-    /// The rule by which a way is weighed.
-    pub fn rule_of(&mut self, way: &Way) -> Option<Considered> {
+    /// What rules were told of a way and what they said; `place` is what people call it.
+    pub fn said_of(&mut self, way: &Way, place: String) -> Said {
         self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
-        self.ways.considered("weight").into_iter().find(|rule| rule.miss.is_none())
+        let considered = self.ways.considered("weight").into_iter().map(Spoke::from).collect();
+        let facts = said::facts(&mut self.ways, "WAYS", &told::ways(), OF_WAYS);
+        Said { junction: 0, place, considered, facts, action: self.action() }
     }
 
     /// The rule that lets nobody along a way; `None` where none does.

@@ -69,7 +69,7 @@ pub struct Fact {
 }
 
 /// What rules were told of the last object and what they concluded, as far as it is known.
-pub(super) fn facts(
+pub fn facts(
     consultation: &mut Consultation,
     class: &str,
     told: &[(&'static str, Type)],

@@ -113,13 +113,13 @@ fn reasons<'s>(said: &'s Said, from: &'s str) -> impl Iterator<Item = Reasoned> 
         let because = spoke.because.clone().unwrap_or_default();
         Reasoned {
             property: name_of(spoke),
-            value: adit_db::Cell::from("did not speak"),
+            value: adit_db::Cell::from(because.as_str()),
             rule: None,
             version: None,
             file: Some(spoke.file.clone()),
             line: Some(spoke.line as i64),
             witness: None,
-            why: format!("{from}: {} did not speak: {because}", name_of(spoke)),
+            why: format!("{} did not speak: {because}", name_of(spoke)),
         }
     });
     concluded.chain(silent)

@@ -28,7 +28,7 @@ pub(super) fn draw(svg: &mut Svg, picture: &DrivePicture, frame: &Frame) {
     ground::channels(svg, frame, &[], &picture.junctions, &corners);
     for (at, label) in &picture.labels {
         let (x, y) = frame.at(*at);
-        svg.words((x + 5.0, y - 5.0), 12.0, GREY, label);
+        svg.words((x + 4.0, y + 4.0), 12.0, GREY, label);
     }
     let Some((robot, drive)) = drive else { return };
     for turn in &drive.turns {

@@ -75,7 +75,8 @@ pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
 
 fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
     let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
-    let of_map = tx.site_value(LAYOUT)?.map(|_| "places".to_owned());
+    let has_places = tx.site_value(LAYOUT)?.is_some() && !tx.places()?.is_empty();
+    let of_map = has_places.then(|| "places".to_owned());
     let names = edit::TUNABLE.iter().map(ToString::to_string).chain(of_map);
     let names: Vec<String> = names.chain(own.map(|table| table.name)).collect();
     let in_force = tunings::in_force(tx)?;
