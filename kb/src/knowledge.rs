@@ -37,6 +37,7 @@ use crate::knowledge::laid::Laid;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
 use crate::plan;
+use crate::plan::consult::Class;
 use crate::plan::course::Course;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
@@ -156,7 +157,8 @@ impl KnowledgeBase {
         let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
         let planners: Vec<Arc<dyn Planner>> =
             if site.has_rooms() { vec![overlays.clone()] } else { Vec::new() };
-        let course = site.layout.map(|_| plan::course_of(&site.map)).transpose()?;
+        // a map that cannot be read keeps nobody from the history; whoever needs it says what is wrong
+        let course = site.layout.and_then(|_| plan::course_of(&site.map).ok());
         let mut knowledge = Self {
             site,
             planners,
@@ -203,6 +205,21 @@ impl KnowledgeBase {
         let course: Arc<dyn Course> = course.into();
         self.planners.extend(course.planner());
         self.course = Some(course);
+    }
+
+    /// The properties that the planner of a map that is not cut into rooms asks rules for.
+    pub(crate) fn asked(&self) -> Vec<String> {
+        let asks = self.course.iter().flat_map(|course| course.asks());
+        let of = |class: Class| class.asked.iter().map(move |property| format!("{}.{property}", class.name));
+        asks.flat_map(of).collect()
+    }
+
+    /// Says what is wrong with a map that is not cut into rooms, where it could not be read.
+    fn needs_course(&self) -> Result<()> {
+        if self.site.layout.is_some() && self.course.is_none() {
+            plan::course_of(&self.site.map)?;
+        }
+        Ok(())
     }
 
     pub(crate) fn course(&self) -> Option<&Arc<dyn Course>> {
@@ -332,8 +349,9 @@ impl KnowledgeBase {
 
     pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
         progress.stage("map");
+        self.needs_course()?;
         let know = |world: &World| self.overlays.know(world);
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, know)?))
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked(), know)?))
     }
 
     /// For what holds on to it while others go on.
@@ -358,6 +376,7 @@ impl KnowledgeBase {
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
     pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Told> {
+        self.needs_course()?;
         let classes = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
@@ -484,7 +503,7 @@ impl KnowledgeBase {
         }
         // what a rule sets and nothing reads is often why
         let failures = failures.into_iter().map(|failure| Finding::from(failure.diagnostic));
-        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners))))
+        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners, &self.asked()))))
     }
 
     /// Runs tests; all of them together may take what one inference may.
@@ -518,6 +537,7 @@ impl KnowledgeBase {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
         } else {
+            self.needs_course()?;
             let of_map = self.tables_of_map().into_iter();
             let mut classes = tables::unbuilt();
             classes.extend(of_map.map(|table| (table.name.to_uppercase(), table.class())));

@@ -377,3 +377,45 @@ fn what_is_open_is_not_opened_again_and_a_blocked_robot_closes_where_it_is() {
     let channel = site.adit("why", &["channel 1 from start to goal"]).expecting(0).stdout;
     assert!(channel.contains("weight is"), "{channel}");
 }
+
+#[test]
+fn a_slip_in_a_rule_a_cell_or_the_map_is_named_and_nothing_is_lost() {
+    let site = site_of("corridors.toml").built();
+    let before = site.sqlite3("SELECT * FROM route");
+    site.write("rules/own.rhai", "rule \"slip\"\n    each p in PASSAGES\n    then { p.weigth = 1.0; }\n");
+    let checked = site.adit("check", &[]);
+    let said = format!("{}{}", checked.stdout, checked.stderr);
+    assert!(said.contains("sets PASSAGES.weigth") && said.contains("PASSAGES.weight"), "{said}");
+    site.write("rules/own.rhai", "");
+    for (statement, back, words) in [
+        (
+            "UPDATE vehicles SET gap = 'wide'",
+            "UPDATE vehicles SET gap = 0.3",
+            "column `gap` of table `vehicles` holds `wide`",
+        ),
+        (
+            "UPDATE channels SET closed = 'maybe' WHERE channel = 2",
+            "UPDATE channels SET closed = 0 WHERE channel = 2",
+            "holds `maybe`, expected true or false",
+        ),
+        (
+            "UPDATE channels SET x1 = NULL WHERE channel = 2",
+            "UPDATE channels SET x1 = 30 WHERE channel = 2",
+            "channel 2 has no `x1`, expected a number",
+        ),
+    ] {
+        site.outside_edit(statement);
+        site.adit("build", &[]).expecting(2).complains(&[words]);
+        site.outside_edit(back);
+        site.adit("build", &[]).expect_status(0);
+        assert_eq!(site.sqlite3("SELECT * FROM route"), before);
+    }
+    // a word in the place of a truth value counts as what it says
+    site.outside_edit("UPDATE channels SET closed = 'true' WHERE channel = 2");
+    site.adit("build", &[]).expect_status(0);
+    assert_ne!(site.sqlite3("SELECT * FROM route"), before);
+    site.edit("corridors.toml", "[0, 0, 3, 20],", "[0, 0, 3],     ");
+    site.adit("build", &[]).expecting(2).complains(&["corridors.toml:6", "a channel has 3 numbers"]);
+    site.adit("history", &[]).expect_status(0);
+    assert_ne!(site.sqlite3("SELECT * FROM route"), before, "what was there stays");
+}

@@ -57,6 +57,8 @@ CREATE TABLE course_waypoints (
   PRIMARY KEY (start, goal, robot, waypoint)
 ) STRICT, WITHOUT ROWID;
 
+-- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`
+-- takes it from a column where the other half computes.
 DROP VIEW route;
 CREATE VIEW route AS
 SELECT b.robot AS robot, a.name AS start, e.name AS goal,
@@ -76,8 +78,8 @@ LEFT JOIN starts AS s ON s.name = a.name AND s.robot = b.robot
 LEFT JOIN tree_rows AS t ON t.tree = s.tree AND t.node = e.node
 LEFT JOIN doors AS d ON d.door = t.door
 UNION ALL
-SELECT robot, start, goal, CASE WHEN (SELECT stale FROM staleness) THEN 'stale' ELSE status END, cost, steps, distance,
-  reason
+SELECT robot, start, goal, CASE WHEN (SELECT stale FROM staleness) THEN 'stale' ELSE status END, +cost, +steps,
+  distance, +reason
 FROM courses;
 
 DROP VIEW action_sequence;
@@ -124,7 +126,7 @@ LEFT JOIN rooms AS r ON r.room =
   CASE WHEN p.part = 2 AND e.node > 0 THEN e.node ELSE coalesce(t.from_room, t.prev) END
 LEFT JOIN rules AS u ON u.rule = CASE WHEN p.part = 1 THEN d.hardness_rule ELSE r.action_rule END
 UNION ALL
-SELECT robot, start, goal, step, kind, place, state, action, hardness, cost, x, y, heading, rule, NULL, NULL, z
+SELECT robot, start, goal, +step, +kind, +place, +state, +action, +hardness, +cost, +x, +y, +heading, rule, NULL, NULL, +z
 FROM course_steps;
 
 DROP VIEW waypoints;
@@ -155,6 +157,6 @@ CROSS JOIN tree_rows AS t ON t.tree = s.tree AND t.node = j.value
 LEFT JOIN doors AS d ON d.door = t.door
 LEFT JOIN rooms AS r ON r.room = coalesce(t.from_room, t.prev, t.node)
 UNION ALL
-SELECT robot, start, goal, waypoint, x, y, heading, state, action, NULL, clearance, distance, cost, z, centre_x, centre_y,
-  turn
+SELECT robot, start, goal, +waypoint, +x, +y, +heading, state, action, CAST(NULL AS REAL), clearance, distance, +cost, +z,
+  +centre_x, +centre_y, +turn
 FROM course_waypoints;

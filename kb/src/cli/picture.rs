@@ -47,7 +47,7 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
-    if knowledge.course().is_some() {
+    if knowledge.site().layout.is_some() {
         return course(args, &knowledge, route);
     }
     knowledge.site().needs_rooms()?;

@@ -6,6 +6,7 @@ use adit_db::relation::RelationColumn;
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::LAYOUT;
+use crate::knowledge::tables::truth_of;
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::suggest::did_you_mean;
 
@@ -78,11 +79,10 @@ pub(super) fn cell_of(table: &str, column: &str, value: &str, columns: &[Relatio
         return Err(Error::said(Code::EditNotANumber, message, None));
     }
     if known.declared.contains("BOOL") {
-        return match value.to_lowercase().as_str() {
-            "" => Ok(Cell::Null),
-            "true" | "yes" | "1" => Ok(Cell::Integer(1)),
-            "false" | "no" | "0" => Ok(Cell::Integer(0)),
-            _ => {
+        return match truth_of(value) {
+            Some(truth) => Ok(Cell::Integer(truth.into())),
+            None if value.is_empty() => Ok(Cell::Null),
+            None => {
                 let message = format!("`{column}` of `{table}` is true or false, and `{value}` is neither");
                 Err(Error::said(Code::EditNotANumber, message, None))
             }

@@ -77,6 +77,15 @@ pub fn read(relation: &Relation) -> Result<Table> {
     Ok(table)
 }
 
+/// A truth value as people write it.
+pub fn truth_of(text: &str) -> Option<bool> {
+    match text.to_lowercase().as_str() {
+        "true" | "yes" | "1" => Some(true),
+        "false" | "no" | "0" => Some(false),
+        _ => None,
+    }
+}
+
 /// The keys of a table's rows as edits name them: the values of the primary key, joined by `/`. A table without one has
 /// rows that nobody can name.
 pub fn keys(relation: &Relation) -> Vec<String> {
@@ -97,12 +106,26 @@ pub fn is_numbered(relation: &Relation) -> bool {
 
 fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     let declared = column.declared.as_str();
+    let is_other = |found: &str, expected: &str| {
+        let message =
+            format!("column `{}` of table `{table}` holds `{found}`, expected {expected}", column.name);
+        Error::said(Code::TableMixed, message, None)
+    };
     if declared.contains("BOOL") {
         let truth = |cell: &Cell| match cell {
-            Cell::Integer(value) => Some(*value != 0),
-            _ => None,
+            Cell::Integer(value) => Ok(Some(*value != 0)),
+            Cell::Null => Ok(None),
+            other => {
+                let text = other.to_string();
+                truth_of(&text).map(Some).ok_or_else(|| is_other(&text, "true or false"))
+            }
         };
-        return Ok(Column::Truth(column.values.iter().map(truth).collect()));
+        return Ok(Column::Truth(column.values.iter().map(truth).collect::<Result<_>>()?));
+    }
+    if ["REAL", "INTEGER"].contains(&declared)
+        && let Some(text) = column.values.iter().find(|cell| matches!(cell, Cell::Text(_)))
+    {
+        return Err(is_other(&text.to_string(), "numbers"));
     }
     let texts = column.values.iter().filter(|cell| matches!(cell, Cell::Text(_))).count();
     let numbers =

@@ -97,7 +97,8 @@ impl KnowledgeBase {
     /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<Finding>> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
-        let mut problems = lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners());
+        let mut problems =
+            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked());
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
@@ -133,7 +134,7 @@ impl KnowledgeBase {
     /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        if !self.site().has_rooms() && self.course().is_none() {
+        if !self.site().has_rooms() && self.site().layout.is_none() {
             self.site().needs_rooms()?;
         }
         if self.course().is_some() && self.within.is_some() {

@@ -7,7 +7,6 @@ use serde::Serialize;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
 use crate::graph::pairs::{self, Found, From, Known};
-use crate::plan::course::Found as Course;
 use crate::state::Courses;
 
 /// How many rooms, doors or routes are listed.
@@ -108,37 +107,25 @@ pub(super) fn compare(
 
 /// Compares the routes over a map that is not cut into rooms.
 pub(super) fn between(before: &Courses, after: &Courses) -> PlaceRoutes {
-    let mut all =
-        PlaceRoutes { total: after.kept().len(), compared: after.kept().len(), ..PlaceRoutes::default() };
-    let way = |found: &Course| found.row.steps.iter().map(|step| step.place.clone()).collect::<Vec<_>>();
-    for new in after.kept() {
-        let row = &new.row;
-        let is_it = |old: &&Course| {
-            (&old.row.robot, &old.row.start, &old.row.goal) == (&row.robot, &row.start, &row.goal)
-        };
-        let old = before.kept().iter().find(is_it);
-        if old.is_some_and(|old| old.row == *row) {
-            continue;
-        }
-        let costs = (old.and_then(|old| old.row.cost), row.cost);
-        let other_way = old.map(way) != Some(way(new));
+    let total = after.kept().len();
+    let mut all = PlaceRoutes { total, compared: total, ..PlaceRoutes::default() };
+    for route in after.changed(before) {
         all.changed += 1;
-        match costs {
+        all.rerouted += usize::from(route.is_rerouted());
+        match (route.old, route.new) {
             (Some(_), None) => all.lost += 1,
             (None, Some(_)) => all.found += 1,
             (Some(old), Some(new)) if new > old => all.longer += 1,
             (Some(old), Some(new)) if new < old => all.shorter += 1,
             _ => {}
         }
-        all.rerouted += usize::from(other_way && costs.0.is_some() && costs.1.is_some());
-        let (robot, start, goal) = (row.robot.clone(), row.start.clone(), row.goal.clone());
         all.list.push(PlaceRoute {
-            robot,
-            start,
-            goal,
-            old: costs.0,
-            new: costs.1,
-            other_way: Some(other_way),
+            robot: route.robot,
+            start: route.start,
+            goal: route.goal,
+            old: route.old,
+            new: route.new,
+            other_way: Some(route.other_way),
         });
     }
     all

@@ -33,9 +33,20 @@ const READ_BY_ROUTES: [&str; 11] = [
 
 /// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people
 /// to read.
-pub fn unread(site: &Site, rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
+/// Where the map is not cut into rooms, `asked` are the properties that its planner asks for, and those of other classes are
+/// for people.
+pub fn unread(
+    site: &Site,
+    rules: &RuleBase,
+    planners: &[Arc<dyn Planner>],
+    asked: &[String],
+) -> Vec<Finding> {
     if !site.has_rooms() {
-        return Vec::new();
+        let is_asked =
+            |name: &str| asked.iter().any(|asked| asked.split('.').next() == name.split('.').next());
+        let for_people = rules.rules().iter().flat_map(Rule::sets).map(ToString::to_string);
+        let for_people = for_people.filter(|name| !is_asked(name));
+        return unread_but(rules, asked.iter().cloned().chain(for_people));
     }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
@@ -70,8 +81,9 @@ pub fn ignored(
     instead: Option<&Path>,
     rules: &RuleBase,
     planners: &[Arc<dyn Planner>],
+    asked: &[String],
 ) -> Vec<Finding> {
-    let mut found = unread(site, rules, planners);
+    let mut found = unread(site, rules, planners, asked);
     let bases = rules::bases(site, instead);
     found.extend(bases.iter().filter_map(Base::folder).flat_map(not_read));
     found

@@ -1,6 +1,6 @@
 //! Routes over a map that is not cut into rooms, as they are at one moment.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use adit_db::course::Course as Row;
 use adit_db::place::Place;
@@ -16,6 +16,26 @@ pub struct Courses {
     finder: Box<dyn Pathfinder>,
     kept: Vec<Found>,
     starts: usize,
+}
+
+/// A kept route that is another one than before.
+pub struct Changed {
+    pub robot: String,
+    pub start: String,
+    pub goal: String,
+    /// What it cost; `None`: there was none.
+    pub old: Option<f64>,
+    /// What it costs; `None`: there is none.
+    pub new: Option<f64>,
+    /// Whether it leads through other places.
+    pub other_way: bool,
+}
+
+impl Changed {
+    /// Whether there was one before, there is one now, and it leads another way.
+    pub const fn is_rerouted(&self) -> bool {
+        self.other_way && self.old.is_some() && self.new.is_some()
+    }
 }
 
 /// Costs of routes, by robot, start and goal; `None`: there is none.
@@ -82,6 +102,35 @@ impl Courses {
     /// Between what routes lead.
     pub fn ends(&self) -> Vec<Place> {
         self.finder.ends()
+    }
+
+    /// The kept routes that are others than before, with those that are no more; where there was none before nor is now,
+    /// nothing is other.
+    pub fn changed(&self, before: &Self) -> Vec<Changed> {
+        let key = |row: &Row| (row.robot.clone(), row.start.clone(), row.goal.clone());
+        let rows = |courses: &Self| -> BTreeMap<_, Row> {
+            courses.kept.iter().map(|found| (key(&found.row), found.row.clone())).collect()
+        };
+        let (old, new) = (rows(before), rows(self));
+        let way = |row: &Row| row.steps.iter().map(|step| step.place.clone()).collect::<Vec<_>>();
+        let keys: BTreeSet<_> = old.keys().chain(new.keys()).cloned().collect();
+        let changed = keys.into_iter().filter_map(|key| {
+            let (was, is) = (old.get(&key), new.get(&key));
+            let costs = (was.and_then(|row| row.cost), is.and_then(|row| row.cost));
+            if was == is || costs == (None, None) {
+                return None;
+            }
+            let (robot, start, goal) = key;
+            Some(Changed {
+                robot,
+                start,
+                goal,
+                old: costs.0,
+                new: costs.1,
+                other_way: was.map(way) != is.map(way),
+            })
+        });
+        changed.collect()
     }
 
     pub fn kept(&self) -> &[Found] {

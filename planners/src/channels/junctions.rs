@@ -38,7 +38,8 @@ fn sides(known: &Facts, names: &[String]) -> Result<Vec<Vec<f64>>, PlannerError>
     let side = |name: &String| -> Result<Vec<f64>, PlannerError> {
         let values = table.numbers(name).map_err(wrong)?;
         let value = |(row, value): (usize, &Option<f64>)| {
-            value.ok_or_else(|| wrong(format!("the channel in row {} has no `{name}`", row + 1)))
+            // they are numbered 1, 2, ...
+            value.ok_or_else(|| wrong(format!("channel {} has no `{name}`, expected a number", row + 1)))
         };
         values.iter().enumerate().map(value).collect()
     };
