@@ -30,7 +30,6 @@ pub mod load;
 mod migrate;
 pub mod mission;
 pub mod place;
-pub mod plan;
 pub mod query;
 mod reason;
 pub mod relation;

@@ -1,5 +1,5 @@
-//! Whether a database keeps worlds of their own, as `adit plan` and `adit simulate` do: plans, missions, floor plans,
-//! learned buildings and experience. It has all their tables or none, so that a site without worlds is 65 pages smaller
+//! Whether a database keeps worlds of their own, as `adit simulate` and `adit tasks` do: missions, learned buildings and
+//! experience. It has all their tables or none, so that a site without worlds is 65 pages smaller
 //! and may have `tasks`, `edges` or `cells` of its own.
 
 use sqlx::SqliteConnection;

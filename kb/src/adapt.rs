@@ -30,5 +30,5 @@ pub use experiment::{
     Outcome as ExperimentOutcome, Row, method_of, method_word, run as experiment, write_csv,
 };
 pub(crate) use judge::classes;
-pub use judge::strategy_of;
+pub use judge::{RuleJudge, strategy_of};
 pub use session::{Beginning, Done, Session};

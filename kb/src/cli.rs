@@ -3,7 +3,6 @@
 mod args;
 mod ask;
 mod build;
-mod cell;
 mod close;
 mod curve;
 mod demo;
@@ -16,12 +15,12 @@ mod learn;
 mod new;
 mod output;
 mod picture;
-mod plan;
 mod route;
 mod rules;
 mod serve;
 mod simulate;
 mod sql;
+mod tasks;
 mod tell;
 mod test;
 mod tune;
@@ -89,8 +88,8 @@ pub enum Verb {
     Sql(sql::SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
-    /// The way of a part, a robot through corridors or over a floor plan, or of one that learns in a cell: a world of its own
-    Plan(args::PlanArgs),
+    /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
+    Tasks(tasks::TasksArgs),
     /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
     Simulate(args::SimulateArgs),
     /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
@@ -135,7 +134,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
-        Verb::Plan(args) => (args.json, plan::run(args).map(|found| u8::from(!found))),
+        Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),
         Verb::Experiment(args) => (args.json, experiment::run(args).map(|found| u8::from(!found))),
         Verb::History(args) => (args.site.json, tune::history(args).map(|()| 0)),

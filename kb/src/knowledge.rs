@@ -30,6 +30,7 @@ use adit_planners::spaces::SpacesAndDoorways;
 use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use tempfile::TempDir;
 
 use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
@@ -39,6 +40,7 @@ use crate::knowledge::tunings::RowKeys;
 use crate::plan;
 use crate::plan::consult::Class;
 use crate::plan::course::Course;
+use crate::site::alone;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
@@ -146,11 +148,24 @@ pub struct KnowledgeBase {
     pub(crate) reseed: bool,
     at: Option<Timestamp>,
     pub(crate) within: Option<f64>,
+    /// The file and the folder of a map that is a site alone.
+    alone: Option<(PathBuf, Arc<TempDir>)>,
 }
 
 impl KnowledgeBase {
-    /// Opens a site's folder and registers the planners that its mode of rooms asks for.
-    pub fn open(folder: &Path) -> Result<Self> {
+    /// Opens a site's folder, or the file of a map that is no more than that, and registers the planners that its mode of rooms
+    /// asks for. What is kept of a map alone goes with the last copy of this, but where it has a database of its own.
+    pub fn open(path: &Path) -> Result<Self> {
+        if !path.is_file() {
+            return Self::of_folder(path);
+        }
+        let folder = Arc::new(alone::folder(path)?);
+        let knowledge = Self::of_folder(folder.path())?;
+        // the file is all that can be edited
+        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(true) })
+    }
+
+    fn of_folder(folder: &Path) -> Result<Self> {
         let site = Site::open(folder)?;
         let database = site.database();
         let mode = site.rooms;
@@ -169,6 +184,7 @@ impl KnowledgeBase {
             reseed: false,
             at: None,
             within: None,
+            alone: None,
         };
         if let Some(course) = course {
             knowledge.register_course(course);
@@ -281,6 +297,19 @@ impl KnowledgeBase {
 
     pub(crate) fn clock(&self) -> Clock {
         Clock::new(self.at, self.site.zone.as_ref().unwrap_or(&TimeZone::UTC))
+    }
+
+    pub(crate) const fn is_map_alone(&self) -> bool {
+        self.alone.is_some()
+    }
+
+    /// Refuses what a map alone cannot keep.
+    pub(crate) fn needs_folder(&self) -> Result<()> {
+        let Some((file, _)) = &self.alone else { return Ok(()) };
+        let file = file.display();
+        let message = format!("{file} is a map alone, which keeps no edits");
+        let help = format!("edit the file, or `adit new DIR --map {file}` makes a site of it");
+        Err(Error::said(Code::SiteMapAlone, message, Some(help)))
     }
 
     pub(crate) fn asks_about_another_moment(&self) -> bool {
@@ -523,7 +552,9 @@ impl KnowledgeBase {
         }
         let mut given = self.planned_classes();
         given.extend(tables::unbuilt().into_keys().chain([classes::ROUTES.to_owned()]));
-        let amiss = lint::reactions(rules, &given, classes::ROUTES);
+        let asked = self.course.iter().flat_map(|course| course.asks());
+        let asked: Vec<&str> = asked.map(|class| class.name).collect();
+        let amiss = lint::reactions(rules, &given, classes::ROUTES, &asked);
         if !amiss.is_empty() {
             return Err(Error::all(amiss));
         }

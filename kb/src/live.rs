@@ -21,6 +21,7 @@ use crate::edit::{Done, Edit};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::Report;
+use crate::plan::course::Asked;
 use crate::state::State;
 use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
@@ -156,6 +157,7 @@ impl Live {
     /// Edits a table and writes all that follows, in one transaction. If anything fails, database and memory are as
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
+        self.site.needs_folder()?;
         if let Some(outcome) = self.follow(Some((edit, author)))? {
             return Ok(outcome);
         }
@@ -248,6 +250,11 @@ impl Live {
     /// Nothing is read but memory.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         self.view().route(start, goals, robot)
+    }
+
+    /// The rules, to be asked about one object at a time, with all that is known now.
+    pub fn asked(&self) -> Asked<'_> {
+        self.memory.state.asked()
     }
 
     /// A copy of what is known, in memory only, to try edits on.

@@ -1,5 +1,6 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
+pub(crate) mod alone;
 pub(crate) mod base;
 pub(crate) mod clock;
 pub(crate) mod hours;
@@ -141,18 +142,20 @@ impl Layout {
     }
 
     /// The rule bases that lie beneath the site's own, the lowest first: those that the map's file names, or the shipped one.
-    fn rule_bases(self, map: &Path) -> Vec<String> {
+    fn rule_bases(self, map: &Path) -> Vec<Base> {
         let text = fs::read_to_string(map).unwrap_or_default();
         let named = Document::parse("map", &text).ok().and_then(|document| {
             let fields = document.fields("the map");
             fields.get("rules")?;
             Some(fields.string("rules", &mut Vec::new())?.value)
         });
-        match named.as_deref() {
-            None | Some("corrected" | "navigation" | "adapt") => vec![self.rule_base().to_owned()],
-            Some("printed") => vec![self.rule_base().to_owned(), "channels/printed".to_owned()],
-            Some(folder) => vec![folder.to_owned()],
-        }
+        let names = match named.as_deref() {
+            None | Some("corrected" | "navigation" | "adapt") => vec![self.rule_base()],
+            Some("printed") => vec![self.rule_base(), "channels/printed"],
+            Some(folder) => vec![folder],
+        };
+        let beside = map.parent().unwrap_or(Path::new(""));
+        names.into_iter().map(|name| Base::named(name, beside)).collect()
     }
 
     /// The shipped rule base that goes with it.
@@ -211,17 +214,19 @@ impl Site {
         } else {
             fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
         }
-        let of_layout = layout.map(|layout| layout.rule_bases(&map));
-        let shipped =
-            || of_layout.unwrap_or_else(|| rooms.rule_base().map(str::to_owned).into_iter().collect());
-        let beneath = named_rules(&fields, &mut problems).unwrap_or_else(shipped);
+        let named = |names: Vec<String>| names.iter().map(|name| Base::named(name, folder)).collect();
+        let beneath = match (named_rules(&fields, &mut problems), layout) {
+            (Some(names), _) => named(names),
+            (None, Some(layout)) => layout.rule_bases(&map),
+            (None, None) => named(rooms.rule_base().map(str::to_owned).into_iter().collect()),
+        };
         let site = Self {
             folder: folder.to_owned(),
             name: optional_text(&fields, "name", &mut problems)
                 .unwrap_or_else(|| folder.display().to_string()),
             map,
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
-            rules: bases(folder, &beneath),
+            rules: with_own(folder, beneath),
             rooms,
             layout,
             starts: starts(&fields, &mut problems),
@@ -366,9 +371,8 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
     )
 }
 
-/// The rule bases of these names with the site's folder `rules` over them, which always counts.
-fn bases(folder: &Path, names: &[String]) -> Vec<Base> {
-    let mut bases: Vec<Base> = names.iter().map(|name| Base::named(name, folder)).collect();
+/// These rule bases with the site's folder `rules` over them, which always counts.
+fn with_own(folder: &Path, mut bases: Vec<Base>) -> Vec<Base> {
     let own = folder.join(Site::RULES);
     let is_own = |base: &Base| {
         let same = |one: &Path| fs::canonicalize(one).ok() == fs::canonicalize(&own).ok();

@@ -51,7 +51,7 @@ const PAGES: [Page; 5] = [
         ],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
-    Page { file: "kb/PLAN.md", blocks: &[], databases: &[("path_steps", "plans.db")] },
+    Page { file: "kb/PLAN.md", blocks: &[], databases: &[("action_sequence", "part.db")] },
     Page {
         file: "kb/NAVIGATION.md",
         blocks: &[

@@ -129,40 +129,42 @@ fn world(name: &str) -> TestSite {
     folder
 }
 
+/// A folder with a map, and a built site of it called `home`.
+fn with_site(name: &str) -> TestSite {
+    let folder = world(name);
+    run(&folder, &format!("adit new home --map {name} && adit build home")).expect_status(0);
+    folder
+}
+
 #[test]
-fn a_plan_that_fails_leaves_no_database_and_no_picture() {
-    let cell = world("cell.toml");
-    fails(&cell, "adit plan cell.toml nowhere --db cell.db", "nowhere");
-    fails(&cell, "adit plan cell.toml load --from other --db cell.db", "no experience of other");
-    fails(&cell, "trap '' XFSZ; ulimit -f 8; adit plan cell.toml load --db cell.db", "");
-    let flat = world("flat.toml");
-    fails(&flat, "adit plan flat.toml bed nowhere --db flat.db", "nowhere");
-    fails(&flat, "adit plan flat.toml bed bath --db no/flat.db", "no/flat.db");
-    fails(&flat, "trap '' XFSZ; ulimit -f 8; adit plan flat.toml bed bath --db flat.db", "");
-    fails(&flat, "trap '' XFSZ; ulimit -f 1; adit plan flat.toml bed bath -o flat.svg", "cannot write");
+fn tasks_and_maps_alone_that_fail_leave_no_database_and_no_picture() {
+    let cell = with_site("cell.toml");
+    fails(&cell, "adit tasks cell.toml nowhere --db cell.db", "nowhere");
+    fails(&cell, "adit tasks cell.toml load --from other --db cell.db", "no experience of other");
+    fails(&cell, "trap '' XFSZ; ulimit -f 8; adit tasks home load --db cell.db", "");
+    let flat = with_site("flat.toml");
+    fails(&flat, "adit route flat.toml bed bath --db no/flat.db", "no/flat.db");
+    fails(&flat, "trap '' XFSZ; ulimit -f 8; adit route flat.toml bed bath --db flat.db", "");
+    fails(&flat, "trap '' XFSZ; ulimit -f 1; adit draw home -o flat.svg", "cannot write");
     flat.write("flat.svg", "<svg>of before</svg>");
-    fails(&flat, "trap '' XFSZ; ulimit -f 1; adit plan flat.toml bed bath -o flat.svg", "cannot write");
-    // what was there before the database of a failed plan stays
-    run(&cell, "adit plan cell.toml load --db cell.db").expect_status(0);
+    fails(&flat, "trap '' XFSZ; ulimit -f 1; adit draw home -o flat.svg", "cannot write");
+    // what was there before the database of failed tasks stays
+    run(&cell, "adit tasks cell.toml load --db cell.db").expect_status(0);
     let rows = "SELECT count(*) FROM tasks";
     let tasks = |folder: &TestSite| {
         let ran = Command::new("sqlite3").arg(folder.path().join("cell.db")).arg(rows).output();
         Ran::new(&ran.expect("the sqlite3 shell is installed")).expecting(0).stdout
     };
     let before = tasks(&cell);
-    run(&cell, "adit plan cell.toml nowhere --db cell.db").expect_status(2);
+    run(&cell, "adit tasks cell.toml nowhere --db cell.db").expect_status(2);
     assert_eq!(tasks(&cell), before);
 }
 
 #[test]
 fn missions_that_fail_leave_no_database_and_no_film() {
-    let flat = world("flat.toml");
-    fails(&flat, "trap '' XFSZ; ulimit -f 8; adit simulate flat.toml bed bath --db missions.db", "");
-    fails(
-        &flat,
-        "trap '' XFSZ; ulimit -f 1; adit simulate flat.toml bed bath --film film.svg",
-        "cannot write",
-    );
+    let flat = with_site("flat.toml");
+    fails(&flat, "trap '' XFSZ; ulimit -f 8; adit simulate home bed bath --db missions.db", "");
+    fails(&flat, "trap '' XFSZ; ulimit -f 1; adit simulate home bed bath --film film.svg", "cannot write");
     fails(&flat, "adit simulate flat.toml bed bath --film no/film.svg", "no/film.svg");
     // rules that fail at the first mission
     for entry in fs::read_dir(repository().join("rules/navigation")).expect("rules").flatten() {

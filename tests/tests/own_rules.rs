@@ -231,13 +231,13 @@ fn run(folder: &TestSite, arguments: &[&str]) -> adit_tests::Ran {
 
 /// Worlds, their rule bases, and a rule that reacts to what each of them is told.
 const WORLDS: [(&str, &str, &str, &[&str]); 3] = [
-    ("corridor-S.toml", "channels/corrected", "TURNS", &["plan", "world.toml"]),
+    ("corridor-S.toml", "channels/corrected", "TURNS", &["route", "world.toml", "start", "goal"]),
     ("flat.toml", "navigation", "WAYS", &["simulate", "world.toml", "--missions", "1"]),
-    ("cell.toml", "adapt", "EDGES", &["plan", "world.toml", "load"]),
+    ("cell.toml", "adapt", "EDGES", &["tasks", "world.toml", "load"]),
 ];
 
 #[test]
-fn a_rule_that_reacts_is_refused_in_every_world() {
+fn a_rule_that_reacts_to_what_is_asked_one_at_a_time_is_refused() {
     for (file, base, class, arguments) in WORLDS {
         let folder = world(&shipped_world(file), base);
         if file == "flat.toml" {
@@ -250,8 +250,7 @@ fn a_rule_that_reacts_is_refused_in_every_world() {
         folder.write("mine/react.rhai", rule);
         run(&folder, arguments).expecting(2).complains(&[
             "rule \"tells\"",
-            "react.rhai, line 1",
-            "worlds do not carry out reactions",
+            "of which rules are asked about one at a time",
             "mine/react.rhai:1:4",
         ]);
     }
@@ -279,5 +278,5 @@ fn misspelt_keys_of_sites_and_worlds_are_refused() {
     site.adit("build", &[]).expecting(2).complains(&["rulez", "rules"]);
     let folder = world(&shipped_world("corridor-S.toml"), "channels/corrected");
     folder.edit("world.toml", "rules =", "rule =");
-    run(&folder, &["plan", "world.toml"]).expecting(2).complains(&["`rule`"]);
+    run(&folder, &["route", "world.toml", "start", "goal"]).expecting(2).complains(&["`rule`"]);
 }

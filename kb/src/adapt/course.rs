@@ -1,7 +1,7 @@
 //! A cell as a site: the tables that its file fills, and motions between its goals (Chen).
 //!
 //! The routes that are kept are found one after the other by one planner, which learns from each for the next; it begins
-//! with nothing, so that the same tables give the same routes. Experience that outlives the program is kept by `adit plan`.
+//! with nothing, so that the same tables give the same routes. Experience that outlives the program is that of `adit tasks`.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -163,6 +163,22 @@ impl Course for CellOf {
     }
 
     fn pathfinder(&self, asked: &Asked<'_>) -> Result<Box<dyn Pathfinder>> {
+        let (cell, margin) = self.cell_now(asked)?;
+        let workcell = Workcell::new(cell.robot.robot(), cell.objects.clone(), margin).map_err(no_map)?;
+        let adapt = Adapt::new(workcell, Plugins::standard(), Settings::default(), cell.home.clone());
+        let session = Session::of(cell.clone(), cell.clone(), adapt, RuleJudge::of_site(asked, None, false)?);
+        let goal_table = asked.objects("GOALS");
+        let action = |row: usize| Some((goal_table.text(row, "goal")?, goal_table.text(row, "action")?));
+        let actions = goal_table.rows().filter_map(action).collect();
+        let mut motions = Motions { cell, actions, ends: BTreeMap::new(), learned: Mutex::new(session) };
+        motions.learn()?;
+        Ok(Box::new(motions))
+    }
+}
+
+impl CellOf {
+    /// The cell as its tables have it, and how near the robot may come to objects, metres.
+    pub fn cell_now(&self, asked: &Asked<'_>) -> Result<(Cell, f64)> {
         let (robot, home, margin) = match &self.cell.robot {
             RobotKind::Arm(_) => arm(asked)?,
             RobotKind::Point(_) => disc(asked)?,
@@ -179,15 +195,7 @@ impl Course for CellOf {
         if let Some((goal, object)) = known {
             return Err(no_map(format!("goals {goal}: there is no object `{object}`")));
         }
-        let workcell = Workcell::new(cell.robot.robot(), cell.objects.clone(), margin).map_err(no_map)?;
-        let adapt = Adapt::new(workcell, Plugins::standard(), Settings::default(), cell.home.clone());
-        let session = Session::of(cell.clone(), cell.clone(), adapt, RuleJudge::by(asked)?);
-        let goal_table = asked.objects("GOALS");
-        let action = |row: usize| Some((goal_table.text(row, "goal")?, goal_table.text(row, "action")?));
-        let actions = goal_table.rows().filter_map(action).collect();
-        let mut motions = Motions { cell, actions, ends: BTreeMap::new(), learned: Mutex::new(session) };
-        motions.learn()?;
-        Ok(Box::new(motions))
+        Ok((cell, margin))
     }
 }
 

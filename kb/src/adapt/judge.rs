@@ -100,8 +100,8 @@ impl RuleJudge {
     }
 
     /// Makes ready for a site, whose rules may look at all that is known of it.
-    pub fn by(asked: &Asked<'_>) -> crate::error::Result<Self> {
-        Self::made((None, false), |class| asked.consultation(class))
+    pub fn of_site(asked: &Asked<'_>, fixed: Option<Strategy>, explains: bool) -> crate::error::Result<Self> {
+        Self::made((fixed, explains), |class| asked.consultation(class))
     }
 
     fn made<E>(

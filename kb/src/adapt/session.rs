@@ -5,10 +5,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use adit_db::Store;
-use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Changed, Configuration, Outcome, Plugins, Report, RrtConnect, Settings, Strategy, TOUCHING_M,
-    Taught, Workcell, distance,
+    Adapt, Changed, Configuration, Outcome, Plugins, Report, RrtConnect, Settings, Taught, Workcell, distance,
 };
 use adit_planners::random::Random;
 
@@ -28,11 +26,7 @@ pub struct Beginning<'b> {
     pub seed: u64,
     /// The cell whose experience a new one begins with, and the database that it lies in, where that is another one.
     pub from: Option<(&'b str, Option<&'b Path>)>,
-    /// A strategy of repair that counts instead of what rules say.
-    pub strategy: Option<Strategy>,
     pub taught: Vec<Vec<Configuration>>,
-    /// Whether it is asked of every decision which rules made it.
-    pub explains: bool,
     /// The goals that it will go to: one that there is not is said before anything is kept.
     pub goals: Vec<&'b str>,
 }
@@ -65,15 +59,16 @@ pub struct Done {
 impl Session {
     /// Begins, with what is kept of the cell, and takes in how it changed since then.
     ///
+    /// # Arguments
+    /// `margin` is how near the robot may come to objects, metres.
+    ///
     /// # Returns
     /// The session, and what the change did; `None` where nothing changed.
     pub fn begin(
-        described: &Cell,
-        rules: &Arc<RuleBase>,
+        (described, margin): (&Cell, f64),
+        judge: RuleJudge,
         beginning: Beginning<'_>,
     ) -> Result<(Self, Option<Changed>)> {
-        let judge = RuleJudge::new(rules, beginning.strategy, beginning.explains)
-            .map_err(Error::of(Code::PlanRules))?;
         let mut made = Whole::default();
         if let Some(db) = beginning.db {
             made.database(db);
@@ -89,11 +84,11 @@ impl Session {
         }
         let settings = Settings { seed: beginning.seed, ..Settings::default() };
         let (adapt, seed, copied_from) = if let Some(kept) = &kept {
-            let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
+            let adapt = recall::planner(described, kept, margin, plugins, settings)?;
             (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
         } else {
             let now = described.after(0);
-            let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
+            let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), margin)
                 .map_err(Error::of(Code::PlanCell))?;
             (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
         };

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::{Concluded, Report};
 use crate::site::robots::ONLY_ROBOT;
-use crate::words::progress::Spinner;
+use crate::words::progress::{Silent, Spinner};
 
 #[derive(Args, Debug)]
 pub struct BuildArgs {
@@ -23,14 +23,25 @@ pub struct BuildArgs {
     pub at: Option<String>,
 }
 
-/// Opens a site as the arguments say.
+/// Opens a site as the arguments say. A map alone is built.
 pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
+    let knowledge = unbuilt(args)?;
+    if knowledge.is_map_alone() {
+        notes(&knowledge.build(&Silent)?);
+    }
+    Ok(knowledge)
+}
+
+/// Opens a site as the arguments say, built or not.
+pub fn unbuilt(args: &SiteArgs) -> Result<KnowledgeBase> {
     let knowledge = KnowledgeBase::open(&args.site)?;
     Ok(knowledge.with_database(args.db.as_deref()).with_rules(args.rules.as_deref()))
 }
 
 pub fn run(args: &BuildArgs) -> Result<()> {
-    let knowledge = open(&args.site)?.at(args.at.as_deref())?.reseeding(args.reseed);
+    let knowledge = unbuilt(&args.site)?.at(args.at.as_deref())?;
+    let again = args.reseed || knowledge.is_map_alone();
+    let knowledge = knowledge.reseeding(again);
     let report = {
         let spinner = Spinner::new();
         knowledge.build(&spinner)?

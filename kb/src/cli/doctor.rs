@@ -6,7 +6,7 @@ use adit_db::Store;
 use clap::Args;
 
 use super::args::SiteArgs;
-use super::build::open;
+use super::build::{open, unbuilt};
 use super::output::{as_json, json, line, problems};
 use crate::error::Result;
 
@@ -22,7 +22,7 @@ pub struct DoctorArgs {
 /// Lints rules, tables and map; `false` where something is wrong.
 pub fn check(args: &SiteArgs) -> Result<bool> {
     let mut what = "rules, tables and map";
-    let checked = open(args).and_then(|knowledge| {
+    let checked = unbuilt(args).and_then(|knowledge| {
         if !knowledge.site().has_rooms() {
             what = "rules and tables";
         }

@@ -52,7 +52,7 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     }
     if !is_scenario(&args.scenario) {
         let message = format!("{} is no scenario; expected a .json file", args.scenario.display());
-        let help = "a world of your own (.toml) is planned in by `adit plan`".to_owned();
+        let help = "tasks in a cell of your own (.toml) are done by `adit tasks`".to_owned();
         return Err(Error::said(Code::ExperimentFormat, message, Some(help)));
     }
     let cells = match &args.only {

@@ -148,13 +148,9 @@ codes! {
     PlanConfiguration = "plan/configuration", BAD_REQUEST;
     /// Experience that was kept cannot be read; forget it.
     PlanDamagedExperience = "plan/damaged-experience", BAD_REQUEST;
-    /// START and GOAL are missing, or there is one too many.
-    PlanEnds = "plan/ends", BAD_REQUEST;
-    /// The gap is none, or this world has no gap.
-    PlanGap = "plan/gap", BAD_REQUEST;
     /// The cell has experience already, so another's cannot be copied to it.
     PlanHasExperience = "plan/has-experience", BAD_REQUEST;
-    /// The option is for worlds with `[cell]`.
+    /// Tasks are for maps with `[cell]`.
     PlanNoCell = "plan/no-cell", BAD_REQUEST;
     /// There is no experience of this cell.
     PlanNoExperience = "plan/no-experience", BAD_REQUEST;
@@ -162,19 +158,17 @@ codes! {
     PlanNoGoals = "plan/no-goals", BAD_REQUEST;
     /// There is no rule base of this name, and no such folder.
     PlanNoRules = "plan/no-rules", BAD_REQUEST;
-    /// The file is no world of a planner: it needs `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`.
+    /// The file is no map without rooms: it needs `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`.
     PlanNoTask = "plan/no-task", BAD_REQUEST;
     /// Experience is of another robot; keep it in another database or under another name.
     PlanOtherRobot = "plan/other-robot", BAD_REQUEST;
-    /// A point is `x,y` in metres.
-    PlanPoint = "plan/point", BAD_REQUEST;
     /// The rules failed while the planner asked them, or gave nothing that it can use.
     PlanRules = "plan/rules", BAD_REQUEST;
     /// The file has no such scenario, or several, or is none.
     PlanScenario = "plan/scenario", BAD_REQUEST;
     /// Another program keeps experience of this cell in this database; run one at a time.
     PlanTwoPrograms = "plan/two-programs", BAD_REQUEST;
-    /// The world has several tasks; it may have one.
+    /// The map's file has several of these tables; it may have one.
     PlanTwoTasks = "plan/two-tasks", BAD_REQUEST;
     /// The cell has no such goal.
     PlanUnknownGoal = "plan/unknown-goal", NOT_FOUND;
@@ -315,6 +309,8 @@ codes! {
     SiteExists = "site/exists", UNPROCESSABLE_ENTITY;
     /// The site has no map, and so no rooms, robots and routes.
     SiteNoMap = "site/no-map", UNPROCESSABLE_ENTITY;
+    /// The map of a site is its file alone, which keeps no edits; `adit new --map` makes a site of it.
+    SiteMapAlone = "site/map-alone", UNPROCESSABLE_ENTITY;
     /// The folder is no site; `adit new` starts one.
     SiteMissing = "site/missing", UNPROCESSABLE_ENTITY;
     /// A place is named like a point `x,y`; give it another name.

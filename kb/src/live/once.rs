@@ -83,6 +83,9 @@ impl KnowledgeBase {
         rehearse: bool,
         progress: &dyn Progress,
     ) -> Result<(Done, Report)> {
+        if !rehearse {
+            self.needs_folder()?;
+        }
         let inputs = self.inputs(progress)?;
         let mut store = Store::open(self.database())?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {

@@ -10,7 +10,6 @@ use adit_engine::Schema;
 use adit_planners::facts::Facts;
 use adit_planners::floor_plan::{Disc, Drawn, FloorPlan, Network, RegionsAndAdits, outline};
 use adit_planners::geometry::Point;
-use adit_planners::navigation::Settings;
 use adit_planners::planner::Planner;
 use adit_planners::read::{Code as MapCode, Problem};
 use adit_planners::world;
@@ -108,15 +107,36 @@ impl Course for FloorOf {
     }
 
     fn pathfinder(&self, asked: &Asked<'_>) -> Result<Box<dyn Pathfinder>> {
+        let floors = self.floors(asked)?;
+        let places = floors.iter().flat_map(|of| of.floor.plan.places());
+        let places: BTreeMap<String, Point> = places.map(|place| (place.name.clone(), place.at)).collect();
+        let walker = |OfRobot { robot, floor, unfit }| -> Result<Walker> {
+            let judge = Mutex::new(RuleJudge::of_routes(asked, &floor.told)?);
+            Ok(Walker { robot, floor, unfit, judge })
+        };
+        let walkers = floors.into_iter().map(walker).collect::<Result<Vec<_>>>()?;
+        Ok(Box::new(Walkers { places, walkers }))
+    }
+}
+
+/// The plan for one robot.
+pub struct OfRobot {
+    pub robot: String,
+    pub floor: Floor,
+    /// Why it fits through no doorway.
+    pub unfit: Option<String>,
+}
+
+impl FloorOf {
+    /// The plan as its tables have it, for each robot.
+    pub fn floors(&self, asked: &Asked<'_>) -> Result<Vec<OfRobot>> {
         let drawn = drawn(asked, &self.floor.plan.name)?;
-        let places: BTreeMap<String, Point> =
-            drawn.places.iter().map(|place| (place.name.clone(), place.at)).collect();
         let plan = FloorPlan::new(drawn).map_err(|errors| Error::all(errors.problems))?;
         let vehicles = asked.objects("VEHICLES");
         let marks = marks(asked)?;
         let doorways = asked.objects("DOORWAYS");
         let closed: Vec<usize> = doorways.rows().filter(|row| doorways.truth(*row, "closed")).collect();
-        let vehicle = |row: usize| -> Result<Walker> {
+        let of_robot = |row: usize| -> Result<OfRobot> {
             let disc = Disc {
                 radius: vehicles.needed(row, "radius")?,
                 margin: vehicles.number(row, "margin").unwrap_or(0.0),
@@ -139,13 +159,11 @@ impl Course for FloorOf {
                 None => Told::by(&marks, &closed, &network).map_err(no_map)?,
                 Some(_) => Told::default(),
             };
-            let judge = RuleJudge::by(asked, &told)?;
             let robot = vehicles.text(row, "robot").unwrap_or_default();
-            let floor = Floor { plan: plan.clone(), network, settings: Settings::default(), told };
-            Ok(Walker { robot, floor, unfit, judge: Mutex::new(judge) })
+            let floor = Floor { plan: plan.clone(), network, settings: self.floor.settings, told };
+            Ok(OfRobot { robot, floor, unfit })
         };
-        let walkers = vehicles.rows().map(vehicle).collect::<Result<Vec<_>>>()?;
-        Ok(Box::new(Walkers { places, walkers }))
+        vehicles.rows().map(of_robot).collect()
     }
 }
 

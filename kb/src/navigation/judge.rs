@@ -1,7 +1,7 @@
 //! The navigator's judge: rules say what the robot does next, what becomes of a segment, what a way weighs, and which
 //! opening it explores next.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
 use adit_planners::floor_plan::Way;
@@ -10,6 +10,7 @@ use adit_planners::navigation::learn::{Guide, OpeningFacts};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
 use super::told::{self, Told};
+use crate::error::{Code, Error, Result};
 use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
 use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
 use crate::plan::course::Asked;
@@ -107,30 +108,30 @@ pub struct RuleJudge {
     told: Told,
     trouble: Option<String>,
     /// Whether a way of which rules say nothing is just not taken.
-    is_of_site: bool,
+    leaves_unsaid: bool,
 }
 
 impl RuleJudge {
-    /// Makes ready for a world that tells nothing of its doorways and regions.
-    pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
-        Self::with(rules, &Told::default())
+    /// Makes rules ready that know nothing but what they are told.
+    pub fn new(rules: &Arc<RuleBase>) -> std::result::Result<Self, ClassError> {
+        let told = Told::default();
+        Self::made(&told, |class, told, asked| Consultation::new(Arc::clone(rules), class, told, asked))
     }
 
-    /// Makes ready for a world that tells this of its doorways and regions.
-    pub fn with(rules: &Arc<RuleBase>, told: &Told) -> Result<Self, ClassError> {
-        Self::made(told, |class, told, asked| Consultation::new(Arc::clone(rules), class, told, asked))
+    /// Makes ready for routes over a site, whose rules may look at all that is known of it.
+    pub fn of_routes(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        Ok(Self { leaves_unsaid: true, ..Self::of_mission(asked, told)? })
     }
 
-    /// Makes ready for a site, whose rules may look at all that is known of it.
-    pub fn by(asked: &Asked<'_>, told: &Told) -> crate::error::Result<Self> {
-        let made = Self::made(told, |class, told, outputs| asked.about(class, told, outputs))?;
-        Ok(Self { is_of_site: true, ..made })
+    /// Makes ready for a mission on a site, which ends where rules do not say what they are asked.
+    pub fn of_mission(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        Self::made(told, |class, told, outputs| asked.about(class, told, outputs))
     }
 
     fn made<E>(
         told: &Told,
-        ready: impl Fn(&str, &[(&str, Type)], &[&str]) -> Result<Consultation, E>,
-    ) -> Result<Self, E> {
+        ready: impl Fn(&str, &[(&str, Type)], &[&str]) -> std::result::Result<Consultation, E>,
+    ) -> std::result::Result<Self, E> {
         let [situations, segments, ways, openings] = classes();
         let of_ways: Vec<(&str, Type)> = ways.told.iter().copied().chain(told.further()).collect();
         let made = |class: &Class| ready(class.name, &class.told, class.asked);
@@ -142,7 +143,7 @@ impl RuleJudge {
             of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
             told: told.clone(),
             trouble: None,
-            is_of_site: false,
+            leaves_unsaid: false,
         })
     }
 
@@ -293,8 +294,7 @@ impl Judge for RuleJudge {
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Some(weight),
-            // on a site the other ways stay; a mission ends
-            _ if self.is_of_site => None,
+            _ if self.leaves_unsaid => None,
             _ => {
                 self.missing("what a way weighs, or whether it is passable", None);
                 None
@@ -320,30 +320,48 @@ impl Guide for RuleJudge {
     }
 }
 
+/// Judges for missions that are run side by side, one for each thread.
+#[derive(Debug)]
+pub struct Judges(Mutex<Vec<RuleJudge>>);
+
+impl Judges {
+    pub fn new(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        let judge = |_| RuleJudge::of_mission(asked, told);
+        let judges = (0..rayon::current_num_threads().max(1)).map(judge).collect::<Result<_>>();
+        Ok(Self(Mutex::new(judges?)))
+    }
+
+    /// Lets a judge work, and ends with an error where rules failed, or did not say what they were asked.
+    pub fn ask<T>(&self, work: impl FnOnce(&mut RuleJudge) -> Result<T>) -> Result<T> {
+        let taken = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let Some(mut judge) = taken else {
+            return Err(Error::said(Code::SimulateRules, "more missions at a time than threads", None));
+        };
+        let done = work(&mut judge);
+        let trouble = judge.trouble().map(str::to_owned);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(judge);
+        match trouble {
+            Some(trouble) => Err(Error::said(Code::SimulateRules, trouble, None)),
+            None => done,
+        }
+    }
+}
+
 /// A judge that notes which rule decided, where the state changed or something was done.
 #[derive(Debug)]
-pub struct Noting {
-    judge: RuleJudge,
-    decided: Vec<Option<Considered>>,
+pub struct Noting<'j> {
+    judge: &'j mut RuleJudge,
+    /// For each decision that was told the rule that spoke.
+    pub decided: Vec<Option<Considered>>,
 }
 
-impl Noting {
-    pub const fn new(judge: RuleJudge) -> Self {
+impl<'j> Noting<'j> {
+    pub const fn new(judge: &'j mut RuleJudge) -> Self {
         Self { judge, decided: Vec::new() }
     }
-
-    /// What the rules did not say.
-    pub fn trouble(&self) -> Option<&str> {
-        self.judge.trouble()
-    }
-
-    /// For each decision that was told the rule that spoke.
-    pub(super) fn into_decided(self) -> impl Iterator<Item = Option<Considered>> {
-        self.decided.into_iter()
-    }
 }
 
-impl Judge for Noting {
+impl Judge for Noting<'_> {
     fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
         let decision = self.judge.next_state(facts);
         // the decisions that the navigator tells of

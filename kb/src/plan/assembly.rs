@@ -3,7 +3,7 @@
 use adit_planners::channels::assembly::{self as geometry, Cuboid, Decision, PartPath, PathError};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
-use super::gap::{Asked, Wanted, refuse_beyond};
+use super::gap::{Wanted, refuse_beyond};
 use super::refusal::NoPath;
 use super::said::{Answer, Said};
 use super::steps::Steps;
@@ -48,12 +48,6 @@ impl<const D: usize> Assembly<D> {
         decide: impl FnMut(&geometry::StepFacts<D>) -> Result<Decision<D>, NoPath>,
     ) -> Result<PartPath<D>, NoPath> {
         self.geometry.disassemble(self.displacement, decide).map_err(|error| no_path(&error))
-    }
-
-    /// The same with another gap everywhere.
-    #[must_use]
-    pub fn with_gap(&self, gap: Asked<D>) -> Self {
-        Self { wanted: self.wanted.with_gap(gap), ..self.clone() }
     }
 
     /// What the part is in at a waypoint: assembled where it starts (definition 3.1), disassembled where it is above

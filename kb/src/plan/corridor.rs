@@ -187,12 +187,6 @@ impl Corridor {
         let is_closed = self.closed.contains(&passage.channel);
         Entered { passage, robot: self.robot, wishes: self.wanted.general(), is_closed }
     }
-
-    /// The same with another gap everywhere.
-    #[must_use]
-    pub fn with_gap(&self, gap: Asked<1>) -> Self {
-        Self { wanted: self.wanted.with_gap(gap), ..self.clone() }
-    }
 }
 
 /// The stretches of a route, with what they weigh.

@@ -1,5 +1,6 @@
 //! Routes over maps that are not cut into rooms: what the planner of such a map is asked, and what it asks rules.
 
+use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
@@ -21,7 +22,7 @@ use crate::site::tables::TableFile;
 /// A map that is not cut into rooms: which tables it is kept in, and who finds routes over it.
 ///
 /// Its file fills the tables once; from then on they are the map, and what they say is told to the rules.
-pub trait Course: fmt::Debug + Send + Sync {
+pub trait Course: Any + fmt::Debug + Send + Sync {
     /// What it is: `corridors`.
     fn name(&self) -> &'static str;
 

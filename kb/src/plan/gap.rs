@@ -53,19 +53,6 @@ impl<const N: usize> Asked<N> {
         }
     }
 
-    /// As people write it, on the command line.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        match text {
-            "safest" => return Ok(Self::Safest),
-            "rules" => return Ok(Self::Rules),
-            _ => {}
-        }
-        let numbers: Option<Vec<f64>> = text.split('/').map(|part| part.trim().parse().ok()).collect();
-        numbers
-            .and_then(|numbers| Self::of(&numbers))
-            .ok_or_else(|| format!("`{text}` is {}", Self::wanted()))
-    }
-
     fn of(numbers: &[f64]) -> Option<Self> {
         if numbers.iter().any(|number| !number.is_finite()) {
             return None;
@@ -74,11 +61,6 @@ impl<const N: usize> Asked<N> {
             [one] => Some(Self::Gap([*one; N])),
             all => all.try_into().ok().map(Self::Gap),
         }
-    }
-
-    fn wanted() -> String {
-        let list = if N > 1 { format!(", {N} of them, one an axis") } else { String::new() };
-        format!("no gap: a number of metres{list}, `safest` or `rules`")
     }
 
     /// The key `gap` of a table; where it is missing, rules choose.
@@ -166,12 +148,6 @@ impl<const N: usize> Wanted<N> {
     /// What is asked for at a junction.
     pub fn at(&self, junction: usize) -> Wishes<'_, N> {
         Wishes { gap: self.gaps.get(&junction).unwrap_or(&self.gap), ..self.general() }
-    }
-
-    /// The same with another gap everywhere.
-    #[must_use]
-    pub fn with_gap(&self, gap: Asked<N>) -> Self {
-        Self { gap, gaps: BTreeMap::new(), ..self.clone() }
     }
 }
 

@@ -272,12 +272,16 @@ impl<const D: usize> Pathfinder for Ways<D> {
     }
 
     fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
-        let (_, Answer { path, said }, is_back) = self.explained(robot, [start, goal])?;
+        let (of, Answer { path, said }, is_back) = self.explained(robot, [start, goal])?;
         let mut row = Row::blank(robot, start, goal);
         match path {
             Ok(path) => {
+                let mut places = of.female_waypoints(&path).unwrap_or_else(|| path.waypoints.clone());
                 let path = if is_back { path.reversed() } else { path };
-                (row.steps, row.waypoints) = rows(&path, &said, is_back);
+                if is_back {
+                    places.reverse();
+                }
+                (row.steps, row.waypoints) = rows(&path, &places, &said, is_back);
                 (row.cost, row.distance) = (Some(path.length), Some(path.length));
                 row.clearance = Some(path.min_clearance);
             }
@@ -340,10 +344,18 @@ impl<const D: usize> Pathfinder for Ways<D> {
 }
 
 /// A way as rows: a step and a waypoint for each leg. It weighs its metres.
-fn rows<const D: usize>(path: &PartPath<D>, said: &[Said], is_back: bool) -> (Vec<Step>, Vec<Waypoint>) {
+///
+/// # Arguments
+/// `places` are where that is which moves, at each waypoint.
+fn rows<const D: usize>(
+    path: &PartPath<D>,
+    places: &[[f64; D]],
+    said: &[Said],
+    is_back: bool,
+) -> (Vec<Step>, Vec<Waypoint>) {
     let (mut steps, mut points) = (Vec::new(), Vec::new());
     let mut distance = 0.0;
-    for (number, at) in (1..).zip(&path.waypoints) {
+    for (number, at) in (1..).zip(places) {
         let [x, y, z] = three(at);
         let leg = usize::try_from(number - 2).ok().and_then(|leg| path.legs.get(leg));
         let state = match (number == 1, number as usize == path.waypoints.len()) {

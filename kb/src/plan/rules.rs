@@ -78,16 +78,7 @@ impl Kind {
 /// # Returns
 /// The rules, and what is not wrong but worth a look, as text.
 pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
-    load_by(kind, name, beside, &kind.schema())
-}
-
-/// As [`load`], where rules may speak of what a schema has.
-pub fn load_by(
-    kind: Kind,
-    name: &str,
-    beside: &Path,
-    schema: &Schema,
-) -> Result<(Arc<RuleBase>, Vec<String>)> {
+    let schema = &kind.schema();
     let Rules { base, tests, .. } = found(kind, name, beside)?;
     let (errors, warnings): (Vec<_>, Vec<_>) =
         base.check(schema).into_iter().partition(|found| found.severity == Severity::Error);

@@ -2,10 +2,7 @@
 
 use std::sync::Arc;
 
-use adit_db::plan::{Considered, Fact as FactRow, PathStep, Plan};
 use adit_engine::{Consultation, Type, Value};
-use serde::Serialize;
-use serde_json::json;
 
 use super::refusal::{NoPath, Spoke};
 
@@ -15,20 +12,17 @@ pub fn name_of(spoke: &Spoke) -> String {
 }
 
 /// What rules were told at a junction, what they concluded, and which of them spoke.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Said {
     /// Its number; 0 where it is none.
     pub junction: usize,
     /// What it is about: `junction 2`, `channel 3`.
-    #[serde(skip)]
     pub place: String,
     /// The rules that were looked at, tables row by row.
     pub considered: Vec<Spoke>,
     /// Told and concluded.
-    #[serde(skip)]
     pub facts: Vec<Fact>,
     /// What is done there, if rules say so.
-    #[serde(skip)]
     pub action: Option<Arc<str>>,
 }
 
@@ -45,15 +39,6 @@ impl Said {
                 .collect::<Vec<_>>()
                 .join("; revised by "),
         )
-    }
-
-    /// For people: the rule that spoke, then why the others did not.
-    pub fn lines(&self) -> Vec<String> {
-        let (spoke, silent): (Vec<_>, Vec<_>) = self.considered.iter().partition(|rule| rule.spoke);
-        let mut lines = vec![self.place.clone()];
-        lines.extend(spoke.iter().map(|rule| format!("  {} spoke", rule.text())));
-        lines.extend(silent.iter().map(|rule| format!("  {}", rule.text())));
-        lines
     }
 }
 
@@ -102,78 +87,4 @@ pub struct Answer<P> {
     pub path: Result<P, NoPath>,
     /// Junction by junction, as far as rules were asked.
     pub said: Vec<Said>,
-}
-
-impl<P> Answer<P> {
-    /// As JSON, where a path is written so.
-    pub(super) fn as_json(
-        &self,
-        is_explained: bool,
-        path: impl FnOnce(&P) -> serde_json::Value,
-    ) -> serde_json::Value {
-        match &self.path {
-            Ok(found) => {
-                let mut answer = path(found);
-                if is_explained {
-                    answer["said"] =
-                        json!(self.said.iter().filter(|said| said.junction > 0).collect::<Vec<_>>());
-                }
-                answer
-            }
-            Err(no_path) => json!({
-                "status": "no_path",
-                "junction": no_path.junction,
-                "reason": no_path.reason,
-                "considered": no_path.considered,
-            }),
-        }
-    }
-
-    /// For people, where a path is written so.
-    pub(super) fn as_lines(&self, is_explained: bool, path: impl FnOnce(&P) -> Vec<String>) -> Vec<String> {
-        let mut lines = match &self.path {
-            Ok(found) => path(found),
-            Err(no_path) => no_path.lines(),
-        };
-        if is_explained {
-            lines.extend(self.said.iter().filter(|said| said.junction > 0).flat_map(Said::lines));
-        }
-        lines
-    }
-
-    /// Adds to a record what came of the plan: `path` gives length, least clearance and steps.
-    pub(super) fn add_to(&self, record: &mut Plan, path: impl FnOnce(&P) -> (f64, f64, Vec<PathStep>)) {
-        match &self.path {
-            Ok(found) => {
-                let (length, clearance, steps) = path(found);
-                (record.length, record.min_clearance) = (Some(length), Some(clearance));
-                record.steps = steps;
-            }
-            Err(no_path) => record.reason = Some(no_path.reason.clone()),
-        }
-        self.said.iter().filter(|said| said.junction > 0).for_each(|said| rows(said, record));
-    }
-}
-
-fn rows(said: &Said, record: &mut Plan) {
-    let junction = said.junction as i64;
-    record.facts.extend(said.facts.iter().map(|fact| FactRow {
-        junction,
-        property: fact.property.to_owned(),
-        value: match &fact.value {
-            Value::Number(number) => adit_db::Cell::Real(*number),
-            Value::Text(text) => adit_db::Cell::Text(text.to_string()),
-            Value::Truth(truth) => adit_db::Cell::Integer((*truth).into()),
-        },
-        rule: fact.rule.clone(),
-    }));
-    record.considered.extend(said.considered.iter().map(|spoke| Considered {
-        junction,
-        rule: spoke.rule.clone(),
-        row: spoke.row.map(|row| row as i64),
-        file: spoke.file.clone(),
-        line: spoke.line as i64,
-        spoke: spoke.spoke,
-        because: spoke.because.clone(),
-    }));
 }

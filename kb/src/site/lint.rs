@@ -108,9 +108,29 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
 /// only rules that react may, and those that conclude something of routes alone.
 ///
 /// # Arguments
-/// `given` are the classes whose objects planners and tables give; `routes` is the class of routes.
-pub fn reactions(rules: &RuleBase, given: &[String], routes: &str) -> Vec<Finding> {
+/// `given` are the classes whose objects planners and tables give; `routes` is the class of routes; `asked` are those of
+/// which rules are asked about one object at a time, which nobody else sees.
+pub fn reactions(rules: &RuleBase, given: &[String], routes: &str, asked: &[&str]) -> Vec<Finding> {
     let mut found = Vec::new();
+    for rule in rules.rules() {
+        let Some(class) = rule.classes().find(|class| asked.contains(class)) else { continue };
+        let elsewhere = rule.sets().find(|set| set.class != *class);
+        let (what, help) = match elsewhere {
+            _ if rule.reacts() => ("reacts to", "react to what is told, or to ROUTES"),
+            Some(_) => (
+                "concludes something of other objects from",
+                "it may read those, and conclude something of this one",
+            ),
+            None => continue,
+        };
+        let message = format!(
+            "rule \"{}\" {what} {class}, of which rules are asked about one at a time: it would never be carried out",
+            rule.name()
+        );
+        let (text, span) = rule.place();
+        let source = NamedSource::new(text.name(), text.text().to_owned());
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help.to_owned())).at(source, span));
+    }
     for class in rules.tells().filter(|class| given.iter().any(|of| of == class)) {
         let message = format!(
             "a rule tells new objects of {class}, and which of those there are is not for rules to say"

@@ -42,11 +42,15 @@ impl Changed {
 pub type Costs<'c> = BTreeMap<[&'c str; 3], Option<f64>>;
 
 impl State {
+    /// The rules, to be asked about one object at a time, with all that is known now.
+    pub fn asked(&self) -> Asked<'_> {
+        Asked { rules: &self.inputs.rules, known: &self.knowledge }
+    }
+
     /// The routes over the map as the inference has it now; `None` where it is cut into rooms, or there is none.
     pub(super) fn courses_now(&self) -> Result<Option<Courses>> {
         let Some(course) = self.site.course() else { return Ok(None) };
-        let asked = Asked { rules: &self.inputs.rules, known: &self.knowledge };
-        let finder = course.pathfinder(&asked)?;
+        let finder = course.pathfinder(&self.asked())?;
         let ends: Vec<String> = finder.ends().into_iter().map(|end| end.place).collect();
         let starts = match &self.site.site().starts {
             Some(Starts::Named(names)) => known(names, &ends)?,

@@ -15,12 +15,14 @@ fn kill_9_loses_no_task_that_was_done() {
     };
     let mut done = 0;
     for round in 0..6_u64 {
-        let mut killed =
-            command(&folder, &["plan", "cell.toml", "--db", "killed.db", "--tasks", "100000", "--seed", "9"])
-                .stdout(std::process::Stdio::null())
-                .stderr(std::process::Stdio::null())
-                .spawn()
-                .expect("adit runs");
+        let mut killed = command(
+            &folder,
+            &["tasks", "cell.toml", "--db", "killed.db", "--tasks", "100000", "--seed", "9"],
+        )
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .expect("adit runs");
         sleep(Duration::from_millis(120 + 70 * round));
         killed.kill().expect("killed");
         killed.wait().expect("ended");
@@ -28,7 +30,7 @@ fn kill_9_loses_no_task_that_was_done() {
             continue;
         }
         // The next program to open it, ours or not, finds it whole.
-        let check = run(&folder, &["plan", "cell.toml", "--db", "killed.db", "--seed", "9"]);
+        let check = run(&folder, &["tasks", "cell.toml", "--db", "killed.db", "--seed", "9"]);
         check.expect_status(0);
         assert_eq!(sql(&folder, "killed.db", "PRAGMA integrity_check"), ["ok"]);
         assert!(sql(&folder, "killed.db", "PRAGMA foreign_key_check").is_empty());
@@ -44,8 +46,10 @@ fn kill_9_loses_no_task_that_was_done() {
     assert!(done > 0, "it was always killed before the first task");
     // What was learned with all those ends is what would have been learned without.
     let all = (done + 1).to_string();
-    run(&folder, &["plan", "cell.toml", "--db", "killed.db", "--tasks", "1", "--seed", "9"]).expect_status(0);
-    run(&folder, &["plan", "cell.toml", "--db", "whole.db", "--tasks", &all, "--seed", "9"]).expect_status(0);
+    run(&folder, &["tasks", "cell.toml", "--db", "killed.db", "--tasks", "1", "--seed", "9"])
+        .expect_status(0);
+    run(&folder, &["tasks", "cell.toml", "--db", "whole.db", "--tasks", &all, "--seed", "9"])
+        .expect_status(0);
     assert_eq!(experience(&folder, "killed.db"), experience(&folder, "whole.db"));
 }
 

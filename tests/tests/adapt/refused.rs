@@ -21,7 +21,7 @@ fn scenario(from: &str, to: &str, wanted: &[&str]) {
 fn world(from: &str, to: &str, wanted: &[&str]) {
     let folder = cell();
     folder.edit("cell.toml", from, to);
-    let ran = run(&folder, &["plan", "cell.toml", "load"]).expect_status(2);
+    let ran = run(&folder, &["tasks", "cell.toml", "load"]).expect_status(2);
     ran.complains(&["cell.toml:"]);
     ran.complains(wanted);
 }
@@ -97,13 +97,13 @@ fn names_that_mean_two_things_or_nothing() {
     world("name   = \"shelf\"", "name   = \"home\"", &["`home` is a goal already"]);
     world("movable = true", "movabel = true", &["`movabel` is not a key", "did you mean `movable`?"]);
     let folder = cell();
-    run(&folder, &["plan", "cell.toml", "laod"])
+    run(&folder, &["tasks", "cell.toml", "laod"])
         .expect_status(2)
         .complains(&["`laod` is no goal of cell", "load"]);
-    run(&folder, &["plan", "cell.toml", "0.1,0.2,0.3"])
+    run(&folder, &["tasks", "cell.toml", "0.1,0.2,0.3"])
         .expect_status(2)
         .complains(&["has 3 numbers and is no configuration"]);
-    run(&folder, &["plan", "cell.toml", "0.1,9"])
+    run(&folder, &["tasks", "cell.toml", "0.1,9"])
         .expect_status(2)
         .complains(&["expected 2 within -3.1 to 3.1 and -2.6 to 2.6"]);
 }
@@ -138,7 +138,7 @@ fn experience_of_another_robot_is_not_begun_with() {
     learn(&folder, &["load"]).expect_status(0);
     folder.write("other.toml", folder.read("cell.toml").replacen("[0.9, 0.8]", "[0.9, 0.85]", 1));
     let other =
-        |args: &[&str]| run(&folder, &[&["plan", "other.toml", "load", "--db", "cell.db"], args].concat());
+        |args: &[&str]| run(&folder, &[&["tasks", "other.toml", "load", "--db", "cell.db"], args].concat());
     other(&["--from", "cell"]).expect_status(2).complains(&["the experience of cell is of another robot"]);
     // Nothing of it was written, so the cell begins by itself.
     assert_eq!(sql(&folder, "cell.db", "SELECT cell FROM cells"), ["cell"]);
@@ -181,16 +181,16 @@ fn taught_paths_that_are_none() {
 }
 
 #[test]
-fn what_only_cells_have_is_refused_elsewhere() {
+fn tasks_are_for_cells_and_copies_for_what_is_kept() {
     let folder = cell();
     let flat = adit_tests::repository().join("kb/worlds/flat.toml").display().to_string();
-    run(&folder, &["plan", &flat, "bed", "bath", "--tasks", "3"])
+    run(&folder, &["tasks", &flat, "bed"]).expect_status(2).complains(&["is no cell"]);
+    run(&folder, &["tasks", "cell.toml", "load", "--scenario", "one"])
         .expect_status(2)
-        .complains(&["--tasks is for worlds with [cell]"]);
-    run(&folder, &["plan", &flat, "bed"]).expect_status(2).complains(&["START"]);
-    run(&folder, &["plan", "cell.toml", "load", "--gap", "0.2"])
+        .complains(&["it is no .json"]);
+    run(&folder, &["tasks", "cell.toml", "load", "--from", "cell"])
         .expect_status(2)
-        .complains(&["a cell has no gap"]);
+        .complains(&["nothing is kept here without --db"]);
     learn(&folder, &["load", "--from", "nowhere"])
         .expect_status(2)
         .complains(&["there is no experience of nowhere"]);

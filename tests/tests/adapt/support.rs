@@ -23,9 +23,9 @@ pub fn run(folder: &TestSite, args: &[&str]) -> Ran {
     Ran::new(&command(folder, args).output().expect("adit runs"))
 }
 
-/// `adit plan cell.toml ARGS... --db cell.db`
+/// `adit tasks cell.toml ARGS... --db cell.db`
 pub fn learn(folder: &TestSite, args: &[&str]) -> Ran {
-    let mut all = vec!["plan", "cell.toml", "--db", "cell.db"];
+    let mut all = vec!["tasks", "cell.toml", "--db", "cell.db"];
     all.extend(args);
     run(folder, &all)
 }

@@ -2,21 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::support::{S, answer, expect_close, plan_text};
+use super::support::{S, answer, clearance, expect_close, maps, on, primitives, route_of, rows_of, with_gap};
 
 fn verified() -> Value {
     serde_json::from_str(include_str!("table-2.json")).expect("the corridors")
-}
-
-/// A primitive as the verified ones are written.
-fn bare(primitive: &Value) -> Value {
-    let mut bare = json!({"kind": primitive["kind"], "a": primitive["a"], "b": primitive["b"]});
-    if primitive["kind"] == "arc" {
-        for key in ["centre", "radius", "turn"] {
-            bare[key] = primitive[key].clone();
-        }
-    }
-    bare
 }
 
 #[test]
@@ -29,20 +18,11 @@ fn the_corridors_of_section_5_are_driven_as_verified_at_every_gap() {
                 "[corridor]\nchannels = {}\nstart = {}\ngoal = {}\ngap = {}\nrobot = {{ width = {width}, length = {length} }}\n",
                 corridor["channels"], corridor["start"], corridor["goal"], wanted["gap_r"]
             );
-            let found = answer(&world, &[]);
-            expect_close(&name, &found["length"], &wanted["length"]);
-            expect_close(&name, &found["min_clearance"], &wanted["min_clearance"]);
-            let rules: Value =
-                found["turns"].as_array().expect("turns").iter().map(|turn| turn["rule"].clone()).collect();
-            assert_eq!(rules, wanted["rules"], "{name}");
-            let (primitives, wanted) = (found["primitives"].as_array(), wanted["primitives"].as_array());
-            let (primitives, wanted) = (primitives.expect("primitives"), wanted.expect("primitives"));
-            assert_eq!(primitives.len(), wanted.len(), "{name}");
-            for (found, wanted) in primitives.iter().zip(wanted) {
-                for (key, wanted) in wanted.as_object().expect("a primitive") {
-                    expect_close(&format!("{name}, {key}"), &bare(found)[key], wanted);
-                }
-            }
+            let found = answer(&world);
+            expect_close(&name, &found["distance"], &wanted["length"]);
+            expect_close(&name, &clearance(&found), &wanted["min_clearance"]);
+            assert_eq!(Value::Array(rows_of(&found, "Lee, Table 2")), wanted["rules"], "{name}");
+            expect_close(&name, &Value::Array(primitives(&found)), &wanted["primitives"]);
         }
     }
 }
@@ -96,18 +76,17 @@ fn the_eight_rules_of_table_2_arrive_and_leave_as_verified_for_both_senses_of_th
     for case in verified()["cases"].as_array().expect("cases") {
         for sense in ["same_sense", "opposite_sense"] {
             let name = format!("rule {}, {sense}", case["rule"]);
-            let found = answer(&about(case, sense), &[]);
-            let (first, second) = (&found["turns"][0], &found["turns"][1]);
+            let found = answer(&about(case, sense));
+            let (rules, primitives) = (rows_of(&found, "Lee, Table 2"), primitives(&found));
+            let (arc, next) = (&primitives[1], &primitives[3]);
             let leaving = &case["leaving"][sense];
-            assert_eq!(first["rule"], case["rule"], "{name}");
-            assert_eq!(first["turn"], case["turn"], "{name}");
-            expect_close(&name, &first["corner"], &case["corner"]);
-            expect_close(&name, &first["theta"], &case["theta_a_deg"]);
-            expect_close(&name, &first["arriving"], &case["arriving_point"]);
-            expect_close(&name, &first["leaving"], &leaving["leaving_point"]);
-            assert_eq!(second["rule"], leaving["next_rule"], "{name}");
-            expect_close(&name, &second["arriving"], &leaving["next_arriving_point"]);
-            let heading = found["primitives"][2]["heading"].as_f64().expect("a heading");
+            assert_eq!((&rules[0], &rules[1]), (&case["rule"], &leaving["next_rule"]), "{name}");
+            assert_eq!(arc["turn"], case["turn"], "{name}");
+            expect_close(&name, &arc["centre"], &case["corner"]);
+            expect_close(&name, &arc["a"], &case["arriving_point"]);
+            expect_close(&name, &arc["b"], &leaving["leaving_point"]);
+            expect_close(&name, &next["a"], &leaving["next_arriving_point"]);
+            let heading = found["waypoints"][3]["heading"].as_f64().expect("a heading");
             let turned = (heading - leaving["heading_deg"].as_f64().expect("degrees")).rem_euclid(360.0);
             assert!(!(1e-5..=360.0 - 1e-5).contains(&turned), "{name}: heading {heading}");
         }
@@ -117,7 +96,8 @@ fn the_eight_rules_of_table_2_arrive_and_leave_as_verified_for_both_senses_of_th
 #[test]
 fn table_2_as_printed_ends_where_its_point_is_off_the_circle_and_says_by_how_much() {
     for case in verified()["cases"].as_array().expect("cases") {
-        let ran = plan_text(&about(case, "same_sense"), &["--rules", "printed", "--json"]);
+        let printed = format!("rules = \"printed\"\n{}", about(case, "same_sense"));
+        let ran = route_of(&printed, &["--json"]);
         if case["rule"] == 1 {
             // Only rule 1 is right; the next one that speaks is not.
             let reason = ran.expect_status(1).json()["reason"].as_str().expect("a reason").to_owned();
@@ -134,15 +114,15 @@ fn table_2_as_printed_ends_where_its_point_is_off_the_circle_and_says_by_how_muc
 
 #[test]
 fn a_gap_beyond_the_safest_is_driven_and_remarked_on_and_where_a_wall_would_be_hit_the_safest_is() {
-    let found = answer(S, &["--gap", "1.0"]);
-    expect_close("clearance", &found["min_clearance"], &json!(0.864_009));
+    let found = answer(&with_gap(S, "1.0"));
+    expect_close("clearance", &clearance(&found), &json!(0.864_009));
     let remark = found["remarks"][0].as_str().expect("a remark");
     assert!(remark.contains("beyond the safest one, 0.929688"), "{remark}");
-    assert_eq!(answer(S, &["--gap", "safest"])["remarks"], json!([]));
-    let hit = answer(S, &["--gap", "1.6"]);
+    assert!(answer(&with_gap(S, "\"safest\"")).get("remarks").is_none());
+    let hit = answer(&with_gap(S, "1.6"));
     let said = "at junction 1 the gap of 1.6 m cannot be kept; the safest, 0.93 m, is driven";
     assert!(hit["remarks"].as_array().expect("remarks").contains(&json!(said)), "{hit}");
-    expect_close("clearance", &hit["min_clearance"], &json!(0.929_688));
+    expect_close("clearance", &clearance(&hit), &json!(0.929_688));
 }
 
 #[test]
@@ -155,31 +135,30 @@ fn in_a_network_rules_weigh_the_corridors_and_the_tables_steer_through_the_best(
             3.0 + bottom
         )
     };
-    assert_eq!(answer(&network(3.0), &[])["channels"], json!([1, 4, 3]), "the bottom is shorter");
-    assert_eq!(
-        answer(&network(1.5), &[])["channels"],
-        json!([1, 2, 3]),
-        "it leaves less room than is asked for"
-    );
-    assert_eq!(
-        answer(&network(1.5), &["--gap", "0.01"])["channels"],
-        json!([1, 4, 3]),
-        "it is enough for that"
-    );
-    assert_eq!(answer(&network(0.9), &[])["channels"], json!([1, 2, 3]), "the robot does not fit");
-    let between = answer(&network(3.0), &["28.5,1.5", "1.5,18"]);
+    let channels = |map: &str| -> Vec<String> {
+        let steps = answer(map)["steps"].as_array().expect("steps").clone();
+        let lines = steps.iter().filter(|step| step["kind"] == "line");
+        lines.map(|step| step["place"].as_str().expect("a channel").to_owned()).collect()
+    };
+    let (over, along) = (["channel 1", "channel 2", "channel 3"], ["channel 1", "channel 4", "channel 3"]);
+    assert_eq!(channels(&network(3.0)), along, "the bottom is shorter");
+    assert_eq!(channels(&network(1.5)), over, "it leaves less room than is asked for");
+    assert_eq!(channels(&with_gap(&network(1.5), "0.01")), along, "it is enough for that");
+    assert_eq!(channels(&network(0.9)), over, "the robot does not fit");
+    let folder = maps().with("map.toml", &network(3.0));
+    let between = on(&folder, &["route", "map.toml", "28.5,1.5", "1.5,18", "--json"]).expect_status(0).json();
     assert_eq!(between["status"], "ok", "any start and any goal");
-    expect_close("its start", &between["primitives"][0]["a"], &json!([28.5, 1.5]));
+    expect_close("its start", &primitives(&between)[0]["a"], &json!([28.5, 1.5]));
 }
 
 #[test]
 fn a_given_heading_is_turned_from_while_the_first_line_is_driven() {
     let world = S.replace("gap   = 0.2", "gap = 0.2\nheading = 90.0");
-    let found = answer(&world, &[]);
-    expect_close("from", &found["primitives"][0]["from_heading"], &json!(90.0));
-    expect_close("the rest is the same", &found["length"], &answer(S, &[])["length"]);
+    let found = answer(&world);
+    expect_close("from", &found["waypoints"][0]["heading"], &json!(90.0));
+    expect_close("the rest is the same", &found["distance"], &answer(S)["distance"]);
     // Across the corridor a robot longer than it is wide cannot stand.
     let across = world.replace("90.0", "0.0").replace("length = 1.5", "length = 3.5");
-    let refused = plan_text(&across, &[]).expect_status(1);
-    assert!(refused.stdout.contains("no path"), "{}", refused.stdout);
+    let refused = route_of(&across, &[]).expect_status(1);
+    assert!(refused.stdout.contains("no route"), "{}", refused.stdout);
 }

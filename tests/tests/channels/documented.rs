@@ -24,17 +24,3 @@ fn every_property_that_rules_are_told() {
         assert!(named.iter().any(|name| page.contains(&format!("`{name}`"))), "{name} is not in kb/PLAN.md");
     }
 }
-
-#[test]
-fn every_table_that_keeps_plans() {
-    let schema =
-        std::fs::read_to_string(adit_tests::repository().join("db/sql/v5/10-plans.sql")).expect("the schema");
-    let page = documented();
-    for line in schema.lines() {
-        if let Some(table) =
-            line.strip_prefix("CREATE TABLE IF NOT EXISTS ").and_then(|rest| rest.split(' ').next())
-        {
-            assert!(page.contains(&format!("| `{table}` |")), "{table} is not in kb/PLAN.md");
-        }
-    }
-}

@@ -1,91 +1,81 @@
-//! What is kept of a plan, for SQL.
+//! What is kept of a map alone, for SQL, and its picture.
 
-use super::support::{S, SECTION_4, plan, worlds};
+use super::support::{S, SECTION_4, maps, on, route, with_gap};
 
 fn sqlite3(folder: &adit_tests::TestSite, query: &str) -> Vec<String> {
     let mut command = std::process::Command::new("sqlite3");
-    command.args(["-readonly", "plans.db", query]).current_dir(folder.path());
+    command.args(["-readonly", "s4.db", query]).current_dir(folder.path());
     let output = command.output().expect("sqlite3 runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8_lossy(&output.stdout).lines().map(str::to_owned).collect()
 }
 
+const ROUTE: &str = "SELECT status, reason FROM route WHERE start = 'assembled'";
+
 #[test]
-fn the_path_its_facts_and_what_rules_said_are_one_query_away() {
-    let folder = worlds().with("s4.toml", &format!("{SECTION_4}gap = 0.2\n")).with("s.toml", S);
-    for world in ["s4.toml", "s.toml"] {
-        plan(&folder, world, &["--db", "plans.db"]).expect_status(0);
-    }
+fn a_map_alone_leaves_nothing_but_the_database_that_is_asked_for() {
+    let folder = maps().with("s4.toml", &with_gap(SECTION_4, "0.2"));
+    route(&folder, "s4.toml", &[]).expect_status(0);
+    let files = || std::fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(files(), 1);
+    route(&folder, "s4.toml", &["--db", "s4.db"]).expect_status(0);
     assert_eq!(
         sqlite3(
             &folder,
-            "SELECT step, kind, junction, rule, round(x, 3), round(z, 3) FROM path_steps WHERE plan = 's4'"
+            "SELECT step, kind, place, rule, round(x, 3), round(z, 3) FROM action_sequence WHERE start = 'assembled'
+             ORDER BY step"
         ),
-        ["1|start|||4.5|1.01", "2|line|2|1.0|4.2|2.2", "3|line|1|3.0|2.31|2.81", "4|line|||2.31|7.0"]
+        [
+            "1|move|junction 2|Lee, Table 1, row 1|4.2|2.2",
+            "2|move|junction 1|Lee, Table 1, row 3|2.31|2.81",
+            "3|move|outside||2.31|7.0"
+        ]
     );
     assert_eq!(
-        sqlite3(
-            &folder,
-            "SELECT kind, turn, rule, round(heading, 2) FROM path_steps WHERE plan = 's' AND step IN (3, 5)"
-        ),
-        ["arc|right|1.0|14.52", "arc|left|5.0|83.52"]
+        sqlite3(&folder, "SELECT x0, z0, x1, z1 FROM junctions"),
+        ["1.0|2.0|5.0|6.0", "4.0|2.0|7.0|6.0"]
     );
-    assert_eq!(
-        sqlite3(&folder, "SELECT channel1, channel2, x0, z0, x1, z1 FROM junctions WHERE plan = 's4'"),
-        ["1|2|1.0|2.0|5.0|6.0", "2|3|4.0|2.0|7.0|6.0"]
-    );
-    assert_eq!(
-        sqlite3(&folder, "SELECT junction, x, y FROM corners WHERE plan = 's' AND turned"),
-        ["1|3.0|6.0", "2|9.0|9.0"]
-    );
-    assert_eq!(
-        sqlite3(
-            &folder,
-            "SELECT value, rule FROM step_facts WHERE plan = 's4' AND junction = 1 AND property = 'margin_x'"
-        ),
-        ["right|Lee, Table 1"]
-    );
-    assert_eq!(
-        sqlite3(
-            &folder,
-            "SELECT table_row, because FROM step_rules
-             WHERE plan = 's4' AND junction = 1 AND rule = 'Lee, Table 1' AND NOT spoke AND table_row = 4"
-        ),
-        ["4|step.coming_from is right, not \"left\""]
-    );
+    let by_shell = on(&folder, &["sql", "s4.toml", ROUTE]).expect_status(0).stdout;
+    assert!(by_shell.contains("ok|"), "{by_shell}");
 }
 
 #[test]
-fn a_plan_replaces_the_earlier_one_of_its_world_and_no_path_is_kept_with_its_reason() {
-    let folder = worlds().with("s4.toml", &format!("{SECTION_4}gap = 0.2\n"));
-    plan(&folder, "s4.toml", &["--db", "plans.db"]).expect_status(0);
+fn the_file_is_what_counts_and_what_cannot_be_edited_says_so() {
+    let folder = maps().with("s4.toml", &with_gap(SECTION_4, "0.2"));
+    route(&folder, "s4.toml", &["--db", "s4.db"]).expect_status(0);
+    let edit = ["tune", "s4.toml", "parts", "part", "gap_x", "0.1"];
+    on(&folder, &[&edit[..], &["--db", "s4.db"]].concat())
+        .expect_status(2)
+        .complains(&["s4.toml is a map alone", "adit new DIR --map s4.toml"]);
+    let preview = on(&folder, &[&edit[..], &["--dry-run"]].concat()).expect_status(0).stdout;
+    assert!(preview.contains("assembled to disassembled (part): 7.403 → 7.242"), "{preview}");
+    for verb in ["serve", "watch", "undo", "close"] {
+        let what: &[&str] = if verb == "close" { &["junction 1"] } else { &[] };
+        on(&folder, &[&[verb, "s4.toml"], what].concat()).expect_status(2).complains(&["s4.toml"]);
+    }
     folder.edit("s4.toml", "gap = 0.2", "gap = 0.3");
-    plan(&folder, "s4.toml", &["--db", "plans.db"]).expect_status(1);
+    route(&folder, "s4.toml", &["--db", "s4.db"]).expect_status(1);
     assert_eq!(
-        sqlite3(&folder, "SELECT plan, status, reason FROM plans"),
-        ["s4|no_path|the gap in x at junction 2 is 0.3, and at most 0.255 is possible"]
+        sqlite3(&folder, ROUTE),
+        ["no_route|the gap in x at junction 2 is 0.3, and at most 0.255 is possible"]
     );
-    assert_eq!(sqlite3(&folder, "SELECT count(*) FROM path_steps"), ["0"]);
-    let not_ours =
-        worlds().with("s4.toml", &format!("{SECTION_4}gap = 0.2\n")).with("plans.db", "no database");
-    plan(&not_ours, "s4.toml", &["--db", "plans.db"]).expect_status(2);
-    assert_eq!(not_ours.read("plans.db"), "no database");
+    let not_ours = maps().with("s4.toml", &with_gap(SECTION_4, "0.2")).with("s4.db", "no database");
+    route(&not_ours, "s4.toml", &["--db", "s4.db"]).expect_status(2);
+    assert_eq!(not_ours.read("s4.db"), "no database");
 }
 
 #[test]
-fn figures_5_and_8_are_drawn_with_the_gaps_side_by_side() {
-    let folder = worlds().with("s4.toml", &format!("{SECTION_4}gap = 0.2\n")).with("s.toml", S);
-    for (world, gaps) in [("s4.toml", "0.01,0.2,safest"), ("s.toml", "0.2,0.6,1.0")] {
-        plan(&folder, world, &["--gap", gaps, "-o", "figure.svg"]).expect_status(0);
-        let svg = folder.read("figure.svg");
-        for panel in ["panel-a", "panel-b", "panel-c"] {
-            assert!(svg.contains(panel), "{world} has no {panel}");
-        }
-        assert!(!svg.contains("panel-d"), "{world} has as many panels as gaps");
+fn a_map_alone_is_checked_tested_and_drawn() {
+    let folder = maps().with("s4.toml", &with_gap(SECTION_4, "0.2")).with("s.toml", S);
+    for (map, ends) in [("s4.toml", ["assembled", "disassembled"]), ("s.toml", ["start", "goal"])] {
+        on(&folder, &["check", map]).expect_status(0);
+        on(&folder, &["test", map]).expect_status(0);
+        on(&folder, &["build", map]).expect_status(0);
+        on(&folder, &["draw", map, "-o", "figure.svg", "--route", ends[0], ends[1]]).expect_status(0);
+        assert!(folder.read("figure.svg").contains(&format!("{} to {}", ends[0], ends[1])), "{map}");
+        on(&folder, &["draw", map, "-o", "figure.gif"])
+            .expect_status(2)
+            .complains(&["neither .svg nor .png"]);
     }
-    plan(&folder, "s.toml", &["-o", "figure.gif"]).expect_status(2).complains(&["neither .svg nor .png"]);
-    plan(&folder, "s4.toml", &["--gap", "0.3", "-o", "none.svg"])
-        .expect_status(1)
-        .complains(&["is not drawn"]);
-    assert!(!folder.path().join("none.svg").exists());
+    on(&folder, &["route", "figure.svg", "start", "goal"]).expect_status(2).complains(&["is no site"]);
 }

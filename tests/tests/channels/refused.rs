@@ -1,17 +1,17 @@
 //! What cannot be: said with file, line and numbers.
 
-use super::support::{S, SECTION_4, plan_text};
+use super::support::{S, SECTION_4, maps, on, route_of, with_gap};
 
 #[track_caller]
 fn unusable(text: &str, wanted: &[&str]) {
-    let ran = plan_text(text, &[]).expect_status(2);
-    ran.complains(&["world.toml:"]);
+    let ran = route_of(text, &[]).expect_status(2);
+    ran.complains(&["map.toml:"]);
     ran.complains(wanted);
 }
 
 #[track_caller]
-fn no_path(text: &str, args: &[&str], wanted: &[&str]) {
-    let ran = plan_text(text, args).expect_status(1);
+fn no_route(text: &str, wanted: &[&str]) {
+    let ran = route_of(text, &[]).expect_status(1);
     for wanted in wanted {
         assert!(ran.stdout.contains(wanted), "no `{wanted}` in:\n{}", ran.stdout);
     }
@@ -21,9 +21,8 @@ fn no_path(text: &str, args: &[&str], wanted: &[&str]) {
 fn channels_that_do_not_meet() {
     let apart = SECTION_4.replace("[1, 2, 7, 6]", "[1, 2, 3, 6]");
     unusable(&apart, &["channel 2 [1, 2, 3, 6] and channel 3 [4, 1, 7, 6] do not overlap", ":3:"]);
-    no_path(
+    no_route(
         &S.replace("[0, 6, 12, 9]", "[4, 6, 12, 9]"),
-        &[],
         &["the start is in channel 1", "channels 1 and 2 are nearest, 1 m apart"],
     );
 }
@@ -42,18 +41,19 @@ fn neighbours_that_are_not_orthogonal() {
 
 #[test]
 fn a_part_larger_than_a_junction() {
-    no_path(
-        &SECTION_4.replace("[1, 2, 7, 6]", "[1, 2, 7, 4.5]").replace("[4, 1, 7, 6]", "[4, 1, 7, 4.5]"),
-        &["--gap", "0.01"],
+    no_route(
+        &with_gap(
+            &SECTION_4.replace("[1, 2, 7, 6]", "[1, 2, 7, 4.5]").replace("[4, 1, 7, 6]", "[4, 1, 7, 4.5]"),
+            "0.01",
+        ),
         &["junction 2 is 3 x 2.5, and must be larger than the part, which is 2.49 x 2.99"],
     );
 }
 
 #[test]
 fn a_robot_wider_than_a_corridor() {
-    no_path(
+    no_route(
         &S.replace("width = 1.0", "width = 3.5"),
-        &[],
         &["channel 1 from the start to junction 1", "channel 1 is 3 wide, and the robot 3.5"],
     );
 }
@@ -63,21 +63,19 @@ fn a_move_towards_minus_z() {
     // Up the shaft, over into the next one, down again.
     let pass = "[assembly]\ngap = 0.1\nmale = [[15, 6], [16, 6], [16, 7], [15, 7]]\n\
                 channels = [[0, 0, 3, 9], [0, 0, 10, 3], [7, 0, 10, 8], [7, 5, 17, 8]]\n";
-    no_path(
+    no_route(
         pass,
-        &[],
         &["after junction 3, which reaches up to z = 8", "junction 2, which ends at z = 3", "(3.2)"],
     );
 }
 
 #[test]
 fn a_gap_beyond_the_bound() {
-    no_path(
-        SECTION_4,
-        &["--gap", "0.26"],
+    no_route(
+        &with_gap(SECTION_4, "0.26"),
         &["the gap in x at junction 2 is 0.26, and at most 0.255 is possible"],
     );
-    no_path(SECTION_4, &["--gap", "-0.1"], &["the gap at junction 2 is below 0"]);
+    no_route(&with_gap(SECTION_4, "-0.1"), &["the gap at junction 2 is below 0"]);
 }
 
 #[test]
@@ -98,7 +96,7 @@ fn a_female_part_that_no_channels_model() {
 }
 
 #[test]
-fn files_that_are_no_worlds() {
+fn files_that_are_no_maps_of_channels() {
     for (text, wanted) in [
         ("[assembly]\nchanels = []\n", "did you mean `channels`?"),
         (
@@ -123,10 +121,13 @@ fn files_that_are_no_worlds() {
     ] {
         unusable(text, &[wanted]);
     }
-    for (text, wanted) in [("", "[assembly]"), ("[assembly]\n[corridor]\n", "one world has one of them")] {
-        let ran = plan_text(text, &[]).expect_status(2);
-        ran.complains(&[wanted]);
+    for (text, wanted) in [
+        ("", "no map of corridors, parts, walls or a cell"),
+        ("[assembly]\n[corridor]\n", "one map has one of them"),
+    ] {
+        let folder = maps().with("map.toml", text);
+        on(&folder, &["route", "map.toml", "start", "goal"]).expect_status(2).complains(&[wanted]);
     }
-    let ran = plan_text(SECTION_4, &["--rules", "nowhere"]).expect_status(2);
-    ran.complains(&["there is no rule base `nowhere`"]);
+    route_of(&format!("rules = \"nowhere\"\n{SECTION_4}"), &[]).expect_status(2).complains(&["nowhere"]);
+    route_of(SECTION_4, &["--rules", "nowhere"]).expect_status(2).complains(&["nowhere"]);
 }

@@ -19,7 +19,7 @@ pub struct Item {
     pub line: usize,
 }
 
-/// All of it, but what stands for others: `adit plan WORLD.toml`, or a verb alone.
+/// All of it, but what stands for others: `adit route SITE`, or a verb alone.
 pub fn items(page: &str) -> Vec<Item> {
     let mut found = Vec::new();
     let mut lines = (1..).zip(page.lines());

@@ -6,7 +6,7 @@ use crate::flat::{flat, on, run};
 
 /// Both verbs refuse the world, and say all of this.
 fn refused(folder: &TestSite, said: &[&str]) {
-    for (verb, args) in [("plan", &["bed", "bath"][..]), ("simulate", &[][..])] {
+    for (verb, args) in [("route", &["bed", "bath"][..]), ("simulate", &[][..])] {
         let ran = run(folder, verb, args).expect_status(2);
         assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
         ran.complains(said);
@@ -103,7 +103,7 @@ fn files_that_are_none() {
         refused(&folder, &[name]);
     }
     refused(&world("\"flat.json\"", "\".\""), &["is no file"]);
-    on(&flat(), "plan", "missing.toml", &["bed", "bath"]).expect_status(2).complains(&["missing.toml"]);
+    on(&flat(), "route", "missing.toml", &["bed", "bath"]).expect_status(2).complains(&["missing.toml"]);
 }
 
 #[test]
@@ -148,15 +148,13 @@ fn doorways_and_regions_that_are_none() {
 fn ends_and_headings_that_are_none() {
     let folder = flat();
     for point in ["nan,1", "1,inf", "1", "1,2,3", ",", ""] {
-        run(&folder, "plan", &[point, "bath"])
-            .expect_status(2)
-            .complains(&["is no place of the plan, and no point"]);
+        run(&folder, "route", &[point, "bath"]).expect_status(2).complains(&["is no place and no point"]);
         run(&folder, "simulate", &[point, "bath"]).expect_status(2).complains(&["is no place of the plan"]);
     }
     // Points in walls and far outside are points: there is no path.
     for point in ["0,0", "1e300,0", "-1e300,-1e300"] {
-        run(&folder, "plan", &[point, "bath"]).expect_status(1);
-        run(&folder, "plan", &["bath", point]).expect_status(1);
+        run(&folder, "route", &[point, "bath"]).expect_status(1);
+        run(&folder, "route", &["bath", point]).expect_status(1);
         run(&folder, "simulate", &[point, "bath"]).expect_status(2);
         let ends = run(&folder, "simulate", &["bath", point, "--json"]).expect_status(0).json();
         assert_eq!(ends[0]["ending"], "no_way", "{point}");

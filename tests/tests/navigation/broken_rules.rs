@@ -51,11 +51,13 @@ fn a_rule_that_fails_while_it_runs_is_named_with_its_file_and_line() {
     };
     for (then, said) in [("throw \"a fit\";", "a fit"), ("loop { }", "more steps than a rule may take")] {
         let folder = with_rule(&weighs(then));
-        for verb in ["plan", "simulate"] {
-            let code = if verb == "plan" { "plan/rules" } else { "simulate/rules" };
-            run(&folder, verb, &["desk", "bath"])
-                .expect_status(2)
-                .complains(&[code, "z.rhai:3", "low", said]);
+        for verb in ["route", "simulate"] {
+            run(&folder, verb, &["desk", "bath"]).expect_status(2).complains(&[
+                "plan/rules",
+                "z.rhai:3",
+                "low",
+                said,
+            ]);
         }
     }
     // The same of rules about situations, segments and openings.
@@ -75,7 +77,7 @@ fn a_rule_that_fails_while_it_runs_is_named_with_its_file_and_line() {
 #[test]
 fn a_rule_that_is_interpreted_and_does_not_fail_counts() {
     let rule = "rule \"low\" priority 5 each way in WAYS then { let n = 0; while n < 3 { n += 1; } way.weight = n; }\n";
-    run(&with_rule(rule), "plan", &["desk", "bath"]).expect_status(0);
+    run(&with_rule(rule), "route", &["desk", "bath"]).expect_status(0);
 }
 
 #[test]
@@ -87,12 +89,12 @@ fn a_rule_that_fails_in_a_cell_is_named_as_well() {
         let text = fs::read(repository().join("rules/adapt").join(file)).expect("the rule base");
         folder.write(&format!("rules/{file}"), text);
     }
-    on(&folder, "plan", "cell.toml", &["far", "--rules", "rules"]).expect_status(0);
+    on(&folder, "tasks", "cell.toml", &["far", "--rules", "rules"]).expect_status(0);
     folder.write(
         "rules/z.rhai",
         "rule \"low\" priority 5 each o in LANDMARKS then { throw \"a fit\"; o.own = 3.0; }\n",
     );
-    on(&folder, "plan", "cell.toml", &["far", "--rules", "rules"]).expect_status(2).complains(&[
+    on(&folder, "tasks", "cell.toml", &["far", "--rules", "rules"]).expect_status(2).complains(&[
         "plan/rules",
         "z.rhai:1",
         "a fit",

@@ -6,15 +6,12 @@ use crate::flat::{copy_rules, flat, run, sql};
 
 #[test]
 fn a_path_leads_from_place_to_place_and_is_pulled_tight() {
-    let found = run(&flat(), "plan", &["bed", "bath", "--json"]).expect_status(0).json();
-    let length = |key: &str| found[key].as_f64().expect("a length");
-    assert_eq!(found["status"], "ok");
-    assert_eq!(found["waypoints"][0], json!([1.5, 1.5]));
-    assert!(length("length") < length("length_over_all_adits"));
-    assert!(length("length_over_all_adits") <= length("length_by_nearest_adit"));
+    let found = run(&flat(), "route", &["bed", "bath", "--json"]).expect_status(0).json();
+    let (first, metres) = (&found["waypoints"][0], found["distance"].as_f64().expect("metres"));
+    assert_eq!((&first["x"], &first["y"]), (&json!(1.5), &json!(1.5)));
     // A point instead of a place, and the way back.
-    let back = run(&flat(), "plan", &["bath", "1.5,1.5", "--json"]).expect_status(0).json();
-    assert!((back["length"].as_f64().expect("a length") - length("length")).abs() < 1e-6);
+    let back = run(&flat(), "route", &["bath", "1.5,1.5", "--json"]).expect_status(0).json();
+    assert!((back["distance"].as_f64().expect("metres") - metres).abs() < 1e-6);
 }
 
 #[test]
@@ -100,30 +97,35 @@ fn who_edits_a_rule_changes_what_the_robot_does() {
     assert_eq!(rows[0]["ending"], "no_way");
     // One doorway is not to be used: the path goes another way, or there is none.
     let folder = flat();
-    let before = run(&folder, "plan", &["bed", "desk", "--json"]).expect_status(0).json();
+    let before = run(&folder, "route", &["bed", "desk", "--json"]).expect_status(0).json();
     copy_rules(&folder);
-    let doorway = before["doorways"][0].to_string();
+    let doorways = |route: &Value| -> Vec<String> {
+        let places =
+            route["steps"].as_array().into_iter().flatten().filter_map(|step| step["place"].as_str());
+        places.filter_map(|place| place.strip_prefix("doorway ")).map(str::to_owned).collect()
+    };
+    let doorway = doorways(&before)[0].clone();
     folder.write(
         "rules/own.rhai",
         format!("rule \"that door squeaks\" priority 2 each way in WAYS where way.doorway == {doorway} then {{ way.passable = false; }}\n"),
     );
-    let ran = run(&folder, "plan", &["bed", "desk", "--json"]);
-    assert_ne!(ran.json()["doorways"], before["doorways"]);
+    let ran = run(&folder, "route", &["bed", "desk", "--json"]);
+    assert_ne!(doorways(&ran.json()), doorways(&before));
 }
 
 #[test]
 fn what_cannot_be_is_said() {
     let folder = flat();
-    run(&folder, "plan", &["bed", "attic"])
+    run(&folder, "route", &["bed", "attic"]).expect_status(2).complains(&["`attic` is no place"]);
+    run(&folder, "simulate", &["bed", "attic"])
         .expect_status(2)
-        .complains(&["`attic` is no place", "places: bed"]);
-    run(&folder, "plan", &[]).expect_status(2).complains(&["needs START and GOAL"]);
+        .complains(&["`attic` is no place", "places: bath"]);
     folder.edit("flat.toml", "radius = 0.25", "radius = 0.75");
-    let too_wide = run(&folder, "plan", &["bed", "bath"]).expect_status(1);
-    assert!(too_wide.stdout.contains("no way that is open to the disc"), "{}", too_wide.stdout);
+    let too_wide = run(&folder, "route", &["bed", "bath"]).expect_status(1);
+    assert!(too_wide.stdout.contains("no route from bed to bath"), "{}", too_wide.stdout);
     folder.edit("flat.toml", "radius = 0.75", "radius = 0.25");
     folder.edit("flat.json", "[[0, 0], [12, 0]]", "[[0, 0], [12, 9]]");
-    run(&folder, "plan", &["bed", "bath"]).expect_status(2).complains(&["flat.json"]);
+    run(&folder, "route", &["bed", "bath"]).expect_status(2).complains(&["flat.json"]);
     folder.edit("flat.toml", "flat.json", "nowhere.json");
     run(&folder, "simulate", &[]).expect_status(2).complains(&["nowhere.json"]);
 }
@@ -139,8 +141,8 @@ fn a_robot_that_is_at_its_goal_arrives_at_once() {
         assert_eq!(row["optimum"].to_string(), "0.0");
         let table = run(&folder, "simulate", &[start, goal]).expect_status(0).stdout;
         assert!(!table.contains("NaN") && !table.contains("inf"), "{table}");
-        let path = run(&folder, "plan", &[start, goal, "--json"]).expect_status(0).json();
-        assert_eq!(path["length"].to_string(), "0.0");
+        let path = run(&folder, "route", &[start, goal, "--json"]).expect_status(0).json();
+        assert_eq!(path["distance"].to_string(), "0.0");
     }
 }
 

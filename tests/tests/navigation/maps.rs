@@ -34,8 +34,9 @@ fn scanned() -> TestSite {
 fn a_scanned_map_is_planned_on_driven_through_and_drawn() {
     let folder = scanned();
     let run = |verb: &str, args: &[&str]| on(&folder, verb, "world.toml", args);
-    let found = run("plan", &["dock", "desk", "-o", "map.svg", "--json"]).expect_status(0).json();
-    let length = found["length"].as_f64().expect("a length");
+    let found = run("route", &["dock", "desk", "--json"]).expect_status(0).json();
+    run("draw", &["-o", "map.svg"]).expect_status(0);
+    let length = found["distance"].as_f64().expect("a length");
     let straight = f64::hypot(4.4, 1.0);
     assert!(length > straight && length < 1.2 * straight, "{length}");
     assert!(folder.read("map.svg").contains("<g id=\"solids\">"));
@@ -44,7 +45,7 @@ fn a_scanned_map_is_planned_on_driven_through_and_drawn() {
     // A box laid over the map closes the door.
     let door = "\n[[obstacle]]\nrect = [2.9, 1.0, 3.2, 3.0]\n";
     folder.write("world.toml", folder.read("world.toml") + door);
-    on(&folder, "plan", "world.toml", &["dock", "desk"]).expect_status(1);
+    on(&folder, "route", "world.toml", &["dock", "desk"]).expect_status(1);
 }
 
 #[test]
@@ -55,10 +56,12 @@ fn a_drawn_map_is_a_floor_plan_too() {
         "width = 8.0\ndepth = 6.0\n[[obstacle]]\nrect = [4.0, 0.0, 4.2, 4.5]\n[[place]]\nname = \"left\"\nat = [1.0, 1.0]\n[[place]]\nname = \"right\"\nat = [7.0, 1.0]\n",
     );
     folder.write("world.toml", "[floor_plan]\nmap = \"map.toml\"\n");
-    let found = on(&folder, "plan", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
-    assert!(found["length"].as_f64().expect("a length") > 2.0 * f64::hypot(3.0, 3.7), "{found}");
+    let found = on(&folder, "route", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
+    assert!(found["distance"].as_f64().expect("a length") > 2.0 * f64::hypot(3.0, 3.7), "{found}");
     folder.edit("map.toml", "[1.0, 1.0]", "[4.1, 1.0]");
-    on(&folder, "plan", "world.toml", &["left", "right"]).expect_status(2).complains(&["map.toml:7", "left"]);
+    on(&folder, "route", "world.toml", &["left", "right"])
+        .expect_status(2)
+        .complains(&["map.toml:7", "left"]);
 }
 
 /// 8 x 6 m, with a pipe of 1.3 m across the straight way, and a way round it.
@@ -75,18 +78,18 @@ fn a_low_bridge_is_driven_round_and_a_high_one_under() {
     };
     let length = |verb: &str| {
         let found = on(&folder, verb, "world.toml", &["left", "right", "--json"]).expect_status(0).json();
-        let found = if verb == "plan" { &found } else { &found[0] };
-        found["length"].as_f64().expect("a length")
+        let metres = if verb == "route" { &found["distance"] } else { &found[0]["length"] };
+        metres.as_f64().expect("a length")
     };
     let round = 2.0 * f64::hypot(2.8, 3.5);
     world(", height = 1.2");
-    assert!(length("plan") < 6.1, "{}", length("plan"));
+    assert!(length("route") < 6.1, "{}", length("route"));
     for height in [", height = 1.3", ", height = 1.7"] {
         world(height);
-        assert!(length("plan") > round && length("simulate") > round, "{} under {height}", length("plan"));
+        assert!(length("route") > round && length("simulate") > round, "{} under {height}", length("route"));
     }
     world("");
-    for verb in ["plan", "simulate"] {
+    for verb in ["route", "simulate"] {
         on(&folder, verb, "world.toml", &["left", "right"]).expect_status(2).complains(&[
             "the map has a bridge of 1.3 m at (3.8, 0) to (4.2, 4.5)",
             "`robot` has no `height`",
@@ -98,7 +101,7 @@ fn a_low_bridge_is_driven_round_and_a_high_one_under() {
     world(", height = 1.7");
     let open = folder.read("world.toml");
     folder.write("world.toml", open + "[[bridge]]\nrect = [3.8, 0.0, 4.2, 4.5]\nheight = 1.3\n");
-    assert!(length("plan") > round);
+    assert!(length("route") > round);
 }
 
 #[test]
@@ -107,8 +110,8 @@ fn what_a_site_lays_over_its_map_counts_on_the_floor_plan_too() {
     folder.write("map.toml", PIPE.replace("height = 1.3", "height = 3.0"));
     folder.write("world.toml", "[floor_plan]\nmap = \"map.toml\"\nrobot = { radius = 0.25, height = 1.0 }\n");
     let length = || {
-        let found = on(&folder, "plan", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
-        found["length"].as_f64().expect("a length")
+        let found = on(&folder, "route", "world.toml", &["left", "right", "--json"]).expect_status(0).json();
+        found["distance"].as_f64().expect("a length")
     };
     assert!(length() < 6.1);
     let site = "map = \"map.toml\"\n[[obstacle]]\nrect = [3.8, 0.0, 4.2, 4.5]\n";
@@ -117,7 +120,7 @@ fn what_a_site_lays_over_its_map_counts_on_the_floor_plan_too() {
     folder.write("site.toml", site.replace("map.toml", "other.toml"));
     assert!(length() < 6.1, "the site of another map");
     folder.write("site.toml", "map = \"map.toml\"\n[[obstacle]]\nrekt = [3.8, 0.0, 4.2, 4.5]\n");
-    on(&folder, "plan", "world.toml", &["left", "right"])
+    on(&folder, "route", "world.toml", &["left", "right"])
         .expect_status(2)
         .complains(&["site.toml:3", "rekt"]);
 }
@@ -132,14 +135,14 @@ fn areas_and_doors_that_say_more_than_a_name_are_open_or_closed() {
         let text =
             format!("[floor_plan]\nmap = \"map.toml\"\n{keys}robot = {{ radius = 0.25, height = 1.0 }}\n");
         folder.write("world.toml", text);
-        on(&folder, "plan", "world.toml", &["left", "right", "--json"])
+        on(&folder, "route", "world.toml", &["left", "right", "--json"])
     };
     plan("").expect_status(2).complains(&[
         "the map has the area `pit` (kind keep-out), and nothing says whether the robot may go there",
         "the map has the door `gate` (closed true)",
     ]);
     plan("open = [\"pit\"]\n").expect_status(2).complains(&["gate"]);
-    let length = |keys: &str| plan(keys).expect_status(0).json()["length"].as_f64().expect("a length");
+    let length = |keys: &str| plan(keys).expect_status(0).json()["distance"].as_f64().expect("a length");
     assert!(length("open = [\"pit\", \"gate\"]\n") < 6.1);
     let round = 2.0 * f64::hypot(2.0, 3.5);
     for keys in [
@@ -164,7 +167,7 @@ fn maps_of_other_people_are_floor_plans() {
         );
         folder.write("world.toml", text);
         let begun = Instant::now();
-        let found = on(&folder, "plan", "world.toml", &[from, to, "--json"]).expect_status(0).json();
+        let found = on(&folder, "route", "world.toml", &[from, to, "--json"]).expect_status(0).json();
         assert_eq!(found["status"], "ok", "{map}");
         assert!(begun.elapsed().as_secs() < 60, "{map} took {:?}", begun.elapsed());
     }

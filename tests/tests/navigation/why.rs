@@ -102,11 +102,11 @@ fn what_was_never_kept_cannot_be_asked_about() {
     why(&["1", "--at", "-1"]).complains(&["had decided nothing yet at -1 s"]);
     why(&["1", "--at", "nan"]).complains(&["--at NaN is no time; expected seconds"]);
     why(&["1", "--world", "flet"]).complains(&["no missions of a world `flet`", "flat"]);
-    run(&folder, "why", &["1"]).expect_status(2).complains(&["is not a SQLite database"]);
-    run(&folder, "plan", &["bed", "desk", "--db", "plans.db"]).expect_status(0);
-    on(&folder, "why", "plans.db", &["1"])
+    on(&folder, "why", "flat.json", &["1"]).expect_status(2).complains(&["is not a SQLite database"]);
+    run(&folder, "route", &["bed", "desk", "--db", "site.db"]).expect_status(0);
+    on(&folder, "why", "site.db", &["1"])
         .expect_status(2)
-        .complains(&["plans.db keeps no missions", "simulate"]);
+        .complains(&["site.db keeps no missions", "simulate"]);
     on(&folder, "why", ".", &["1", "--at", "3"])
         .expect_status(2)
         .complains(&["--at and --world are for missions"]);
