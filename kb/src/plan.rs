@@ -8,6 +8,7 @@ pub mod assembly;
 pub mod consult;
 pub mod corridor;
 pub mod course;
+pub(crate) mod figures;
 mod drives;
 mod gap;
 mod parts;

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use adit_tests::service::Service;
 use adit_tests::{Ran, TestSite, adit};
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// A site of a world of cells, as `adit new --map` makes it.
 fn site_of(name: &str) -> TestSite {
@@ -107,4 +107,27 @@ fn a_disc_is_a_robot_too_and_a_cell_is_served() {
     let names = site.sqlite3("SELECT replace(goal, ' ', '%20') FROM goals LIMIT 1");
     let (status, route) = service.ask("GET", &format!("/api/route?start=home&goal={}", names[0]), None);
     assert_eq!((status, &route["status"]), (200, &json!("ok")), "{route}");
+}
+
+#[test]
+fn a_cell_of_a_site_is_learned_in_as_it_is_tuned_and_experience_follows() {
+    let site = site_of("cell.toml").built();
+    let tasks = |args: &[&str]| site.adit("tasks", args).expecting(0);
+    let first = tasks(&["load", "unload", "load", "--json"]).json();
+    let again = tasks(&["unload", "load", "--json"]).json();
+    let cost = |ran: &Value| ran["tasks"][0]["evaluations"].as_f64().unwrap();
+    assert!(cost(&again) < cost(&first) / 4.0, "{first} {again}");
+    assert_eq!(site.sqlite3("SELECT tasks FROM cells"), ["5"]);
+    // one cell of a table moves the bin; what hangs on it goes along
+    site.adit("tune", &["objects", "bin", "x", "0.95"]).expect_status(0);
+    let moved = tasks(&["unload", "--json"]).json();
+    assert_eq!(moved["change"]["facts"]["moved"], 1.0, "{moved}");
+    assert!(moved["change"]["facts"]["subgoals_moved"].as_f64().unwrap() >= 1.0, "{moved}");
+    // the margin is that of the table, and a figure of the planner is a cell, too
+    site.adit("tune", &["learning", "cuts_corners", "value", "0"]).expect_status(0);
+    site.adit("tune", &["learning", "cuts_corners", "value", "2"]).expecting(2).complains(&["1 (yes) or 0 (no)"]);
+    tasks(&["load"]);
+    // and the experience outlives a build
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT tasks FROM cells"), ["7"]);
 }

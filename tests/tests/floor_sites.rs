@@ -153,3 +153,24 @@ fn a_flat_is_served_and_drawn() {
     let (status, of) = service.ask("GET", "/api/site", None);
     assert_eq!((status, &of["layout_kind"]), (200, &json!("floor plan")), "{of}");
 }
+
+#[test]
+fn figures_of_missions_are_cells_of_a_table() {
+    let site = flat().built();
+    let figures = site.sqlite3("SELECT figure, value, unit FROM navigation WHERE figure IN ('patience', 'turning_resolution', 'most_waits')");
+    assert_eq!(figures, ["most_waits|4.0|", "patience|3600.0|s", "turning_resolution|2.0|°"]);
+    let meanings = site.sqlite3("SELECT count(*) > 30, min(length(meaning)) > 10 FROM navigation");
+    assert_eq!(meanings, ["1|1"]);
+    let mission = || site.adit("simulate", &["bed", "desk", "--json"]).json()[0].clone();
+    assert_eq!(mission()["ending"], "arrived");
+    site.adit("tune", &["navigation", "patience", "value", "5"]).expect_status(0);
+    let impatient = mission();
+    assert_eq!(impatient["ending"], "gave_up", "{impatient}");
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(mission()["ending"], "arrived");
+    for (value, said) in [("-1", "more than 0"), ("nan", "patience")] {
+        site.adit("tune", &["navigation", "patience", "value", value]).expecting(2).complains(&[said]);
+    }
+    site.adit("tune", &["navigation", "most_waits", "value", "1.5"]).expecting(2).complains(&["a whole number from 0 on"]);
+    site.adit("tune", &["navigation", "haste", "--add", "value=1"]).expecting(2).complains(&["navigation haste", "patience"]);
+}

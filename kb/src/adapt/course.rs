@@ -28,6 +28,7 @@ use crate::draw::render_cell;
 use crate::error::{Code, Error, Result};
 use crate::plan::consult::Class;
 use crate::plan::course::{Asked, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, refuse_gaps};
+use crate::plan::figures;
 use crate::plan::rules::Kind;
 use crate::site::tables::TableFile;
 use crate::words::number::number;
@@ -147,6 +148,7 @@ impl Course for CellOf {
         });
         tables.push(of_map("objects", &OBJECTS, objects.collect()));
         tables.push(of_map("goals", &GOALS, goals.collect()));
+        tables.push(figures::table(&self.file, "learning", Settings::FIGURES, &self.cell.settings));
         tables
     }
 
@@ -165,7 +167,7 @@ impl Course for CellOf {
     fn pathfinder(&self, asked: &Asked<'_>) -> Result<Box<dyn Pathfinder>> {
         let (cell, margin) = self.cell_now(asked)?;
         let workcell = Workcell::new(cell.robot.robot(), cell.objects.clone(), margin).map_err(no_map)?;
-        let adapt = Adapt::new(workcell, Plugins::standard(), Settings::default(), cell.home.clone());
+        let adapt = Adapt::new(workcell, Plugins::standard(), cell.settings.clone(), cell.home.clone());
         let session = Session::of(cell.clone(), cell.clone(), adapt, RuleJudge::of_site(asked, None, false)?);
         let goal_table = asked.objects("GOALS");
         let action = |row: usize| Some((goal_table.text(row, "goal")?, goal_table.text(row, "action")?));
@@ -185,7 +187,9 @@ impl CellOf {
         };
         let objects = objects(asked.objects("OBJECTS"))?;
         let goals = goals(asked.objects("GOALS"), &robot)?;
-        let cell = Cell { robot, objects, home, goals, change: None, ..self.cell.clone() };
+        let mut settings = Settings::default();
+        figures::read(asked.objects("LEARNING"), Settings::FIGURES, &mut settings)?;
+        let cell = Cell { robot, objects, home, goals, settings, change: None, ..self.cell.clone() };
         let known = cell.goals.iter().find_map(|goal| match &goal.target {
             Target::Tool { object, .. } if cell.object(object).is_none() => {
                 Some((goal.name.clone(), object.clone()))

@@ -82,7 +82,7 @@ impl Session {
         if !beginning.taught.is_empty() {
             plugins.solve = Arc::new(Taught::new(beginning.taught, RrtConnect::default()));
         }
-        let settings = Settings { seed: beginning.seed, ..Settings::default() };
+        let settings = Settings { seed: beginning.seed, ..described.settings.clone() };
         let (adapt, seed, copied_from) = if let Some(kept) = &kept {
             let adapt = recall::planner(described, kept, margin, plugins, settings)?;
             (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())

@@ -10,6 +10,7 @@ use adit_engine::Schema;
 use adit_planners::facts::Facts;
 use adit_planners::floor_plan::{Disc, Drawn, FloorPlan, Network, RegionsAndAdits, outline};
 use adit_planners::geometry::Point;
+use adit_planners::navigation::Settings;
 use adit_planners::planner::Planner;
 use adit_planners::read::{Code as MapCode, Problem};
 use adit_planners::world;
@@ -21,6 +22,7 @@ use super::walks::{Walker, Walkers};
 use crate::error::{Error, Result};
 use crate::plan::consult::Class;
 use crate::plan::course::{Asked, Course, Pathfinder, no_map};
+use crate::plan::figures;
 use crate::plan::rules::Kind;
 use crate::site::tables::TableFile;
 
@@ -36,6 +38,9 @@ const MARKS: [(&str, &str); 6] = [
     ("property", "TEXT"),
     ("value", "TEXT"),
 ];
+
+/// The table of the navigator's figures.
+const FIGURES: &str = "navigation";
 
 /// What the robot is called.
 const ROBOT: &str = "robot";
@@ -79,6 +84,7 @@ impl Course for FloorOf {
             TableFile::of_map(&self.file, "solids", (&SOLIDS, 1), solids.collect()),
             TableFile::of_map(&self.file, "vehicles", (&VEHICLES, 1), vec![vehicle]),
             TableFile::of_map(&self.file, "marks", (&MARKS, 1), marks.collect()),
+            figures::table(&self.file, FIGURES, Settings::FIGURES, &self.floor.settings),
         ]
     }
 
@@ -134,6 +140,8 @@ impl FloorOf {
         let plan = FloorPlan::new(drawn).map_err(|errors| Error::all(errors.problems))?;
         let vehicles = asked.objects("VEHICLES");
         let marks = marks(asked)?;
+        let mut settings = Settings::default();
+        figures::read(asked.objects("NAVIGATION"), Settings::FIGURES, &mut settings)?;
         let doorways = asked.objects("DOORWAYS");
         let closed: Vec<usize> = doorways.rows().filter(|row| doorways.truth(*row, "closed")).collect();
         let of_robot = |row: usize| -> Result<OfRobot> {
@@ -160,7 +168,7 @@ impl FloorOf {
                 Some(_) => Told::default(),
             };
             let robot = vehicles.text(row, "robot").unwrap_or_default();
-            let floor = Floor { plan: plan.clone(), network, settings: self.floor.settings, told };
+            let floor = Floor { plan: plan.clone(), network, settings, told };
             Ok(OfRobot { robot, floor, unfit })
         };
         vehicles.rows().map(of_robot).collect()

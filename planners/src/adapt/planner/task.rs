@@ -9,9 +9,6 @@ use crate::adapt::probe::Probe;
 use crate::adapt::robot::{Configuration, length};
 use crate::adapt::workcell::{Placed, Revision};
 
-/// After so many refused paths a task is given up.
-const REFUSALS: u64 = 8;
-
 /// A part of a path, and the edge that it follows, if it follows one.
 struct Part {
     path: Vec<Configuration>,
@@ -51,7 +48,7 @@ impl Adapt {
             return Err(Outcome::GoalInCollision(object));
         }
         let refusals = self.progress.tally.refusals;
-        while self.progress.tally.refusals < refusals + REFUSALS {
+        while self.progress.tally.refusals < refusals + u64::from(self.settings.most_refusals) {
             let (from, out) = self.stand_in(&here, judge);
             let (to, home) = self.goal_vertex(goal, from, judge).ok_or(Outcome::NotFound)?;
             let Some(mut sequence) = self.trace(from, to, judge) else { continue };

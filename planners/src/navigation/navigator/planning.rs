@@ -75,7 +75,7 @@ impl Navigator<'_> {
         // What is in the way of another path has to be seen again before that one counts as closed, too.
         self.readings_standing = 0;
         self.part.clear();
-        let is_stuck = self.spot.closed > 2;
+        let is_stuck = self.spot.closed > self.settings.most_closed;
         self.plan(judge, is_stuck);
     }
 
