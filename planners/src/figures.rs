@@ -56,7 +56,9 @@ macro_rules! settings {
     (
         $(#[$of:meta])*
         pub struct $Settings:ident {
-            $( $(#[$plain_of:meta])* $plain:ident : $type:ty = $its:expr; )*
+            others {
+                $( $(#[$plain_of:meta])* $plain:ident : $type:ty = $its:expr; )*
+            }
             figures {
                 $( $field:ident : $kind:ident = $default:literal, $name:literal, $unit:literal, $range:ident, $meaning:literal; )*
             }
@@ -98,7 +100,8 @@ macro_rules! settings {
     (@of f64, $field:expr) => { $field };
     (@of degrees, $field:expr) => { $field.to_degrees() };
     (@of bool, $field:expr) => { f64::from(u8::from($field)) };
-    (@of $type:ident, $field:expr) => { $field as f64 };
+    (@of usize, $field:expr) => { $field as f64 };
+    (@of $type:ident, $field:expr) => { f64::from($field) };
     (@from f64, $number:ident) => { $number };
     (@from degrees, $number:ident) => { $number.to_radians() };
     (@from bool, $number:ident) => { $number > 0.5 };

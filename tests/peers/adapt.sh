@@ -14,7 +14,7 @@ runs=${runs:-100}
 seed=${SEED:-1000}
 mkdir -p "$work"
 work=$(readlink -f "$work")
-scenarios=tests/tests/adapt/two-link.json
+scenarios=tests/tests/journeys/adapt/two-link.json
 
 install_ompl
 if [ ! -x "$work/ompl_cell" ] || [ tests/peers/ompl_cell.cpp -nt "$work/ompl_cell" ]; then

@@ -52,7 +52,12 @@ pub fn read<S>(table: ObjectsOf<'_>, figures: &[Figure<S>], settings: &mut S) ->
         };
         let value = table.needed(row, "value")?;
         if let Some(must) = figure.range.refuses(value) {
-            return Err(table.wrong(row, "value", must.trim_start_matches("must be "), Some(&value.to_string())));
+            return Err(table.wrong(
+                row,
+                "value",
+                must.trim_start_matches("must be "),
+                Some(&value.to_string()),
+            ));
         }
         (figure.set)(settings, value);
     }

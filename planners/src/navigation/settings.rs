@@ -6,6 +6,7 @@ settings! {
     /// Figures of the navigator. The tolerances among them are facts, too: the judge compares with them.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Settings {
+        others {}
         figures {
             goal_tolerance_m: f64 = 0.08, "goal_tolerance", "m", Positive, "So near to a goal point counts as there.";
             turning_resolution: degrees = 2.0, "turning_resolution", "°", Positive, "The robot does not turn by less.";

@@ -15,12 +15,14 @@ pub enum Heuristic {
 settings! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct Settings {
-        /// From which all numbers of chance come.
-        seed: u64 = 1;
-        /// How a goal looks for its vertex.
-        heuristic: Heuristic = Heuristic::NearestToGoal;
-        /// Vertices that are tried in the order of the heuristic; `usize::MAX` tries all, as the paper does.
-        tries: usize = usize::MAX;
+        others {
+            /// From which all numbers of chance come.
+            seed: u64 = 1;
+            /// How a goal looks for its vertex.
+            heuristic: Heuristic = Heuristic::NearestToGoal;
+            /// Vertices that are tried in the order of the heuristic; `usize::MAX` tries all, as the paper does.
+            tries: usize = usize::MAX;
+        }
         figures {
             max_chain: usize = 64, "max_chain", "", Count, "The bound of the size of a chain of subgoals: a solution that needs a longer one counts as none.";
             chain_step: f64 = 0.1, "chain_step", "", Positive, "How finely a solution is cut to be abstracted, by the distance of configurations.";

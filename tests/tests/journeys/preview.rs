@@ -141,7 +141,7 @@ fn a_site_by_state_and_a_width_that_cuts_rooms_anew() {
             "site.toml",
             "name = \"starter\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n",
         )
-        .with("robots.toml", include_str!("../../kb/sites/hospital/robots.toml"))
+        .with("robots.toml", include_str!("../../../kb/sites/hospital/robots.toml"))
         .built();
     let places = site.sqlite3("SELECT place FROM places ORDER BY place");
     let pair = (&*places[0], &*places[1]);

@@ -119,7 +119,7 @@ fn no_point_that_fits_is_refused_on_a_scan() {
 }
 
 #[test]
-#[ignore = "minutes: 200,000 points; cargo test --release -p adit-tests --test where_it_fits very_many -- --ignored"]
+#[ignore = "minutes: 200,000 points; cargo test --release -p adit-tests --test journeys very_many -- --ignored"]
 fn of_very_many_points_none_that_fits_is_refused() {
     let built = Built::of_plan(&floor(), &body(), 0.1);
     is_never_refused(&built, Point::new(1.5, 1.5), 150_000, 3);

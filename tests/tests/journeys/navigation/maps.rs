@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use adit_tests::{TestSite, shared};
 
-use crate::flat::on;
+use super::flat::on;
 
 /// 6 x 4 m in cells of 0.1 m: a wall across with a door of 1 m, and a pillar.
 fn scanned() -> TestSite {

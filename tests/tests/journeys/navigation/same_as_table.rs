@@ -12,7 +12,7 @@ use adit_planners::local_model::{SegmentFacts, SegmentId, Source};
 use adit_planners::navigation::{Judge, Mode, Settings, State, StateFacts, WayFacts};
 use proptest::prelude::*;
 
-use crate::table::Table;
+use super::table::Table;
 
 fn judge() -> RuleJudge {
     static RULES: OnceLock<Arc<RuleBase>> = OnceLock::new();

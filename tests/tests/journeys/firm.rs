@@ -272,7 +272,7 @@ fn where_no_way_leads_there_is_nothing_to_be_firm() {
             "site.toml",
             "name = \"starter\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n",
         )
-        .with("robots.toml", include_str!("../../kb/sites/hospital/robots.toml"));
+        .with("robots.toml", include_str!("../../../kb/sites/hospital/robots.toml"));
     site.edit("map.toml", "rect = [5.9, 4.0, 6.1, 8.0]", "rect = [5.9, 2.0, 6.1, 8.0]");
     let firm = live(&site).firm("home", "window", None).unwrap();
     assert_eq!((firm.cost, firm.cells.len()), (None, 0));

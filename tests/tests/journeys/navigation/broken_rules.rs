@@ -4,7 +4,7 @@ use std::fs;
 
 use adit_tests::{TestSite, repository};
 
-use crate::flat::{copy_rules, flat, on, run};
+use super::flat::{copy_rules, flat, on, run};
 
 /// A flat with rules of its own, and one more.
 fn with_rule(rule: &str) -> TestSite {

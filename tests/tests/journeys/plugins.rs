@@ -36,7 +36,7 @@ fn build_with_the_example_planner(site: &TestSite) {
         "--bin",
         "adit-example-planner",
         "--test",
-        "readme",
+        "peers",
     ]);
     if program.ancestors().nth(1).is_some_and(|profile| profile.ends_with("release")) {
         build.arg("--release");

@@ -168,9 +168,13 @@ fn figures_of_missions_are_cells_of_a_table() {
     assert_eq!(impatient["ending"], "gave_up", "{impatient}");
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(mission()["ending"], "arrived");
-    for (value, said) in [("-1", "more than 0"), ("nan", "patience")] {
+    for (value, said) in [("-1", "more than 0"), ("nan", "`nan` is none")] {
         site.adit("tune", &["navigation", "patience", "value", value]).expecting(2).complains(&[said]);
     }
-    site.adit("tune", &["navigation", "most_waits", "value", "1.5"]).expecting(2).complains(&["a whole number from 0 on"]);
-    site.adit("tune", &["navigation", "haste", "--add", "value=1"]).expecting(2).complains(&["navigation haste", "patience"]);
+    site.adit("tune", &["navigation", "most_waits", "value", "1.5"])
+        .expecting(2)
+        .complains(&["a whole number from 0 on"]);
+    site.adit("tune", &["navigation", "haste", "--add", "value=1"])
+        .expecting(2)
+        .complains(&["navigation haste", "patience"]);
 }

@@ -1,6 +1,6 @@
 //! Why a robot stopped, by the journal of its mission.
 
-use crate::flat::{copy_rules, flat, on, run, sql};
+use super::flat::{copy_rules, flat, on, run, sql};
 
 #[test]
 fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_others_from_it() {

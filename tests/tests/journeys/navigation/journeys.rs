@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::flat::{copy_rules, flat, run, sql};
+use super::flat::{copy_rules, flat, run, sql};
 
 #[test]
 fn a_path_leads_from_place_to_place_and_is_pulled_tight() {

@@ -14,9 +14,9 @@ use adit_planners::channels::corridor::{Axis, Corridors, Robot};
 use adit_planners::geometry::{Point, Rect};
 use proptest::prelude::*;
 
-use crate::chains::{Chain, chains};
-use crate::table1::{table_for_any_dimension, table1};
-use crate::table2::corrected;
+use super::chains::{Chain, chains};
+use super::table1::{table_for_any_dimension, table1};
+use super::table2::corrected;
 
 fn shipped() -> Arc<RuleBase> {
     static RULES: OnceLock<Arc<RuleBase>> = OnceLock::new();

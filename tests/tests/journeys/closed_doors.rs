@@ -2,7 +2,6 @@
 //! what people close by its name.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
-#[path = "closed_doors/by_name.rs"]
 mod by_name;
 
 use adit::edit::Edit;

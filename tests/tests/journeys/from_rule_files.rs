@@ -7,9 +7,9 @@ use std::fmt::Display;
 use adit_engine::Limits;
 use adit_tests::{TestSite, repository};
 
-#[path = "../../engine/examples/manners/party.rs"]
+#[path = "../../../engine/examples/manners/party.rs"]
 mod party;
-#[path = "../../engine/examples/waltz/scene.rs"]
+#[path = "../../../engine/examples/waltz/scene.rs"]
 mod scene;
 
 /// A site of the rules of an example.

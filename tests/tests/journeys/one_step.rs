@@ -1,7 +1,7 @@
 //! After any sequence of steps a site's database is, to the byte, that of one step from nothing: whether the steps were made
 //! by a service that holds the site, or each by a command that opens it, and whatever was previewed in between.
 //!
-//! `ADIT_SEQUENCES=2000 cargo test --test one_step` tries more sequences, `ADIT_SEQUENCES=1500..1600` those from 1500 on,
+//! `ADIT_SEQUENCES=2000 cargo test --test journeys one_step` tries more sequences, `ADIT_SEQUENCES=1500..1600` those from 1500 on,
 //! `ADIT_SEQUENCES=1552..1553` one again that failed.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 

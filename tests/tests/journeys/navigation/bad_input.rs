@@ -2,7 +2,7 @@
 
 use adit_tests::TestSite;
 
-use crate::flat::{flat, on, run};
+use super::flat::{flat, on, run};
 
 /// Both verbs refuse the world, and say all of this.
 fn refused(folder: &TestSite, said: &[&str]) {

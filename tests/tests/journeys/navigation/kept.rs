@@ -1,6 +1,6 @@
 //! A floor plan in the database of a site, and as a picture.
 
-use crate::flat::{flat, on, run, sql};
+use super::flat::{flat, on, run, sql};
 
 #[test]
 fn regions_doorways_and_adits_are_there_by_sql() {

@@ -1,6 +1,6 @@
 //! A robot knows where it is, with the rules that ship.
 
-use crate::flat::{flat, run};
+use super::flat::{flat, run};
 
 #[test]
 fn over_200_metres_the_pose_stays_within_5_cm_and_1_degree_while_dead_reckoning_is_metres_off() {

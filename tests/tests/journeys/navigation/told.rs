@@ -3,7 +3,7 @@
 use adit_tests::TestSite;
 use serde_json::Value;
 
-use crate::flat::{copy_rules, flat, run};
+use super::flat::{copy_rules, flat, run};
 
 /// From the bed to a spot beside the door to the store: over the desk's own door, or through the store.
 const TRIP: [&str; 3] = ["bed", "8.6,1.7", "--json"];

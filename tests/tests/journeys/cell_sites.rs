@@ -125,7 +125,9 @@ fn a_cell_of_a_site_is_learned_in_as_it_is_tuned_and_experience_follows() {
     assert!(moved["change"]["facts"]["subgoals_moved"].as_f64().unwrap() >= 1.0, "{moved}");
     // the margin is that of the table, and a figure of the planner is a cell, too
     site.adit("tune", &["learning", "cuts_corners", "value", "0"]).expect_status(0);
-    site.adit("tune", &["learning", "cuts_corners", "value", "2"]).expecting(2).complains(&["1 (yes) or 0 (no)"]);
+    site.adit("tune", &["learning", "cuts_corners", "value", "2"])
+        .expecting(2)
+        .complains(&["1 (yes) or 0 (no)"]);
     tasks(&["load"]);
     // and the experience outlives a build
     site.adit("build", &[]).expect_status(0);

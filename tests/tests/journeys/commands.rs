@@ -1,8 +1,6 @@
 //! Every command that the documents print works as it stands there, in a folder made as the text says.
 
-#[path = "commands/page.rs"]
 mod page;
-#[path = "commands/terminal.rs"]
 mod terminal;
 
 use std::fs;

@@ -1,0 +1,47 @@
+//! Journeys of users through the built program, and what holds of it whatever they do: a module a subject. One program, since
+//! to link one takes as long as to link each of fifty.
+
+mod adapt;
+mod ask;
+mod bad_input;
+mod by_state;
+mod cell_sites;
+mod channel_sites;
+mod channels;
+mod closed_doors;
+mod commands;
+mod firm;
+mod fit;
+mod fleet;
+mod floor_sites;
+mod foreign_hands;
+mod from_rule_files;
+mod hours;
+mod house;
+mod laid;
+mod large_site;
+mod lazy_route;
+mod live;
+mod navigation;
+mod no_map;
+mod nothing_half;
+mod odd_rules;
+mod on;
+mod one_step;
+mod overlays;
+mod own_rules;
+mod papers_example;
+mod plugins;
+mod preview;
+mod readme;
+mod real_maps;
+mod rule_tests;
+mod rules_decide;
+mod slanted_rooms;
+mod tell;
+mod told_places;
+mod tune;
+mod tunings;
+mod where_it_fits;
+mod why;
+mod why_not;
