@@ -78,7 +78,10 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v9/10-berth.sql")]),
     Step::of_all(&[include_str!("../sql/v10/10-carried-out.sql")]),
     Step::of_all(&[include_str!("../sql/v11/10-courses.sql")]),
-    Step { all: &[], worlds: &[include_str!("../sql/v12/10-plans-are-sites.sql")] },
+    Step {
+        all: &[include_str!("../sql/v12/20-change-sets.sql")],
+        worlds: &[include_str!("../sql/v12/10-plans-are-sites.sql")],
+    },
 ];
 
 /// The newest schema version.

@@ -20,6 +20,7 @@ mod rules;
 mod serve;
 mod simulate;
 mod sql;
+mod table;
 mod tasks;
 mod tell;
 mod test;
@@ -54,6 +55,8 @@ pub enum Verb {
     Route(route::RouteArgs),
     /// Edit one cell of a table as a transaction, and show what changes
     Tune(tune::TuneArgs),
+    /// A table as a file (CSV, XLSX): written for a spreadsheet, and read back as one edit
+    Table(table::TableArgs),
     /// Tell a fact about one object, with an end if it has one; list and retract what was told
     Tell(tell::TellArgs),
     /// Let nobody pass a doorway, a space, an area, a named door, or the place where a robot was blocked
@@ -117,6 +120,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Build(args) => (args.site.json, build::run(args).map(|()| 0)),
         Verb::Route(args) => (args.way.site.json, route::run(args)),
         Verb::Tune(args) => (args.site.json, tune::tune(args).map(|()| 0)),
+        Verb::Table(args) => (args.site.json, table::run(args).map(|()| 0)),
         Verb::Tell(args) => (args.site.json, tell::run(args).map(|()| 0)),
         Verb::Close(args) => (args.site.json, close::close(args).map(|()| 0)),
         Verb::Open(args) => (args.site.json, close::open(args).map(|()| 0)),

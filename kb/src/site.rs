@@ -8,6 +8,7 @@ pub(crate) mod lint;
 pub(crate) mod over;
 pub(crate) mod robots;
 pub(crate) mod rules;
+pub(crate) mod sheet;
 pub(crate) mod shipped;
 pub(crate) mod states;
 pub(crate) mod tables;
@@ -19,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 use adit_planners::geometry::Rect;
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map, read_world,
+    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, nearest, read_map, read_world,
 };
 use adit_planners::world::{Place, World};
 use jiff::tz::TimeZone;
@@ -131,6 +132,25 @@ impl Layout {
         Self::TABLES.into_iter().find(|(table, _)| fields.get(table).is_some()).map(|(_, layout)| layout)
     }
 
+    /// Refuses a map that has one of the tables by a misspelt name: it would be read as one that is cut into rooms.
+    pub fn refuse_slips(map: &Path) -> Result<()> {
+        if map.extension().is_none_or(|extension| extension != "toml") || Self::of(map).is_some() {
+            return Ok(());
+        }
+        let Ok(text) = fs::read_to_string(map) else { return Ok(()) };
+        let name = map.display().to_string();
+        let Ok(document) = Document::parse(&name, &text) else { return Ok(()) };
+        let fields = document.fields("the map");
+        let tables = Self::TABLES.map(|(table, _)| table);
+        for (key, _) in fields.table {
+            let Some(meant) = nearest(key.get_ref(), &tables) else { continue };
+            let message = format!("`{}` is no table of a map", key.get_ref());
+            let problem = fields.text.problem(Code::UnknownKey, &key.span(), message);
+            return Err(Error::all([problem.with_help(format!("did you mean `[{meant}]`?"))]));
+        }
+        Ok(())
+    }
+
     /// The file that a map of walls names, where it has them in a file of their own.
     pub fn beside(map: &Path) -> Option<PathBuf> {
         let text = fs::read_to_string(map).ok()?;
@@ -206,6 +226,9 @@ impl Site {
         let mut rooms = rooms(&fields, &mut problems);
         let map = path(optional_text(&fields, "map", &mut problems), "map.toml");
         let layout = if rooms == Rooms::Nothing { None } else { Layout::of(&map) };
+        if rooms != Rooms::Nothing {
+            Layout::refuse_slips(&map)?;
+        }
         if rooms == Rooms::Nothing {
             fields.refuse_unknown(&KEYS_WITHOUT_MAP, &mut problems);
         } else if layout.is_some() {

@@ -47,6 +47,7 @@ pub fn run(args: &NewArgs) -> Result<()> {
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
     if let Some(map) = &args.map {
         // what is wrong with it is said where the user has it
+        Layout::refuse_slips(map)?;
         read_map(map, &MapSettings::default()).map_err(|errors| Error::all(errors.problems))?;
     }
     let mut made = Whole::default();

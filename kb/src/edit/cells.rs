@@ -166,3 +166,16 @@ fn keys(tx: &mut Tx<'_>, table: &str) -> Result<Vec<String>> {
     }
     Ok(keys)
 }
+
+/// Whether both are the same value; a whole number is the same with and without a point.
+pub(super) fn is_equal(one: &Cell, other: &Cell) -> bool {
+    let number = |cell: &Cell| match cell {
+        Cell::Integer(value) => Some(*value as f64),
+        Cell::Real(value) => Some(*value),
+        _ => None,
+    };
+    match (number(one), number(other)) {
+        (Some(one), Some(other)) => one.total_cmp(&other).is_eq(),
+        _ => one == other,
+    }
+}

@@ -81,6 +81,8 @@ codes! {
     EditKey = "edit/key", BAD_REQUEST;
     /// The column holds numbers.
     EditNotANumber = "edit/not-a-number", BAD_REQUEST;
+    /// The file says what the table holds already.
+    EditNoDifference = "edit/no-difference", CONFLICT;
     /// No edit is left to take back.
     EditNothingToUndo = "edit/nothing-to-undo", NOT_FOUND;
     /// The table does not take this value or row.

@@ -12,6 +12,7 @@ use crate::plan::course_of;
 pub fn folder(map: &Path) -> Result<TempDir> {
     if Layout::of(map).is_none() {
         if map.extension().is_some_and(|extension| extension == "toml") {
+            Layout::refuse_slips(map)?;
             course_of(map)?;
         }
         let map = map.display();

@@ -38,6 +38,7 @@ mod real_maps;
 mod rule_tests;
 mod rules_decide;
 mod slanted_rooms;
+mod table_files;
 mod tell;
 mod told_places;
 mod tune;
