@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         {
             println!(
                 "{} length {length:.6} median_us {:.3} fastest_us {:.3} slowest_us {:.1}",
-                path,
+                Path::new(&path).file_stem().unwrap_or_default().display(),
                 times[ROUNDS / 2],
                 times[0],
                 times[ROUNDS - 1]

@@ -10,6 +10,7 @@ pub mod keep;
 pub mod learning;
 pub mod missions;
 pub mod reading;
+pub mod reporting;
 mod stretches;
 pub mod told;
 pub mod tours;

@@ -39,6 +39,7 @@ pub struct WayArgs {
 }
 
 #[derive(Args, Debug, Clone)]
+#[allow(clippy::struct_excessive_bools)] // flags of a command line
 pub struct SimulateArgs {
     /// Folder of a site whose map has walls, or such a map alone: a TOML file with `[floor_plan]`
     pub site: PathBuf,
@@ -66,6 +67,10 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// Tell the site which doorways the robot finds blocked (`DOORWAYS.blocked`): rules decide what follows, for this robot and
+    /// all others
+    #[arg(long, conflicts_with_all = ["learn", "learned", "curve", "film"])]
+    pub tell: bool,
     /// Keep them in the site's own
     #[arg(long, conflicts_with = "db")]
     pub keep: bool,

@@ -7,7 +7,7 @@ use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::live::report::{Concluded, Report};
+use crate::live::report::{Concluded, Report, RouteChange};
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::progress::{Silent, Spinner};
 
@@ -188,10 +188,18 @@ pub fn changes(report: &Report) {
         line(&format!("and {} more", report.closings.len() - LISTED));
     }
     match (report.routes.changed, report.routes.rerouted) {
-        (Some(changed), Some(rerouted)) => line(&format!(
-            "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way",
-            report.routes.starts
-        )),
+        (Some(changed), Some(rerouted)) => {
+            let is_otherwise = |change: &&RouteChange| report.course.is_some() && is_driven_otherwise(change);
+            let otherwise = report.routes.changes.iter().filter(is_otherwise).count();
+            let otherwise = match otherwise {
+                0 => String::new(),
+                count => format!("; {count} are driven otherwise"),
+            };
+            line(&format!(
+                "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way{otherwise}",
+                report.routes.starts
+            ));
+        }
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
     }
     let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
@@ -202,7 +210,7 @@ pub fn changes(report: &Report) {
         let whose = if several { format!(" ({})", change.robot) } else { String::new() };
         let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
         let (old, new) = (cost(change.old), cost(change.new));
-        if report.course.is_some() && old == new && way.is_empty() {
+        if report.course.is_some() && is_driven_otherwise(change) {
             line(&format!("  {} to {}{whose}: {old}, driven otherwise", change.start, change.goal));
             continue;
         }
@@ -212,4 +220,9 @@ pub fn changes(report: &Report) {
         line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
     notes(report);
+}
+
+/// Whether a route costs what it did and leads where it did, by other points.
+fn is_driven_otherwise(change: &RouteChange) -> bool {
+    change.other_way != Some(true) && change.old.map(number) == change.new.map(number)
 }

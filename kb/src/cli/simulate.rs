@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::path::Path;
 
-use adit_db::Store;
+use adit_db::{Store, Tx};
 use adit_planners::navigation::Mission;
 use adit_planners::pose::Pose;
 
@@ -20,8 +20,8 @@ use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
 use crate::navigation::judge::Judges;
 use crate::navigation::learning;
-use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
-use crate::plan::course::Asked;
+use crate::navigation::missions::{Row, Stage, drawn, journalled, noted, refuse, run as run_all};
+use crate::navigation::reporting::{Reporting, Reports};
 use crate::site::base::Base;
 use crate::site::whole::{self, Whole};
 use crate::words::number::number;
@@ -33,8 +33,11 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: args.json };
     let live = Live::open(open(&site)?)?;
     let args = &in_own(args, live.site())?;
+    if args.tell {
+        return told(args, live);
+    }
     let asked = live.asked();
-    let floor = &floor(&live, &asked, args)?;
+    let floor = &of_robot(&live, args.robot.as_deref())?.1;
     let (world, rules) = (&floor.plan.name, rules_of(live.site()));
     if let Some(output) = &args.curve {
         super::curve::run(args, output, floor, &Judges::new(&asked, &floor.told)?)?;
@@ -59,7 +62,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let missions = missions(args, floor, known)?;
     let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
-        kept((world, &rules), &stage, &judges, &missions, db)?
+        kept((world, &rules), &stage, &judges, &missions, (db, args.keep))?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
         run_all(&stage, &judges, &missions, || bar.step())?
@@ -86,8 +89,46 @@ fn in_own(args: &SimulateArgs, site: &KnowledgeBase) -> Result<SimulateArgs> {
     Ok(SimulateArgs { db, ..args.clone() })
 }
 
-/// The floor plan of the robot that is asked for.
-fn floor(live: &Live, asked: &Asked<'_>, args: &SimulateArgs) -> Result<Floor> {
+/// Runs missions one after the other, and tells the site what the robot meets.
+fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
+    live.site().needs_folder()?;
+    let (robot, floor) = of_robot(&live, args.robot.as_deref())?;
+    let rules = rules_of(live.site());
+    let missions = missions(args, &floor, &floor)?;
+    let mut store = args.db.as_ref().map(Store::open_for_worlds).transpose()?;
+    let before = match &mut store {
+        Some(store) if args.keep => store.snapshot(|tx| last_mission(tx, &floor.plan.name))?,
+        _ => 0,
+    };
+    let bar = Bar::new("missions", missions.len() as u64);
+    let (mut rows, mut said) = (Vec::with_capacity(missions.len()), Vec::new());
+    for mission in (before + 1..).zip(&missions) {
+        let (_, floor) = of_robot(&live, Some(&robot))?;
+        let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
+        let reports = Reports::default();
+        let plan = |live: &Live, robot: &str| Ok(of_robot(live, Some(robot))?.1);
+        let mut judge = Reporting::new(&mut live, &reports, plan, (&robot, mission.0))?;
+        let (row, entries, decided_by) =
+            noted(&stage, &mut judge, mission, |entry| reports.hear(entry), None)?;
+        refuse(judge.trouble())?;
+        said.append(&mut judge.said);
+        if let Some(store) = &mut store {
+            let record = record(&floor.plan.name, &rules, &row, &entries, decided_by);
+            store.transaction(|tx| tx.keep_mission(&record))?;
+        }
+        rows.push(row);
+        bar.step();
+    }
+    drop(bar);
+    either(args.json, &rows[..], show)?;
+    for text in &said {
+        remark(text);
+    }
+    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+}
+
+/// The robot that is asked for, and its floor plan.
+fn of_robot(live: &Live, robot: Option<&str>) -> Result<(String, Floor)> {
     let course = live.site().course().map(|course| &**course as &dyn Any);
     let Some(map) = course.and_then(|course| course.downcast_ref::<FloorOf>()) else {
         let message = format!(
@@ -96,12 +137,11 @@ fn floor(live: &Live, asked: &Asked<'_>, args: &SimulateArgs) -> Result<Floor> {
         );
         return Err(Error::said(Code::SimulateNoFloorPlan, message, None));
     };
-    let floors = map.floors(asked)?;
+    let floors = map.floors(&live.asked())?;
     let robots: Vec<String> = floors.iter().map(|of| of.robot.clone()).collect();
-    let robot = pick(&robots, args.robot.as_deref())?;
-    let of_robot = floors.into_iter().find(|of| of.robot == robot);
-    match of_robot {
-        Some(OfRobot { floor, unfit: None, .. }) => Ok(floor),
+    let robot = pick(&robots, robot)?;
+    match floors.into_iter().find(|of| of.robot == robot) {
+        Some(OfRobot { floor, unfit: None, .. }) => Ok((robot, floor)),
         Some(OfRobot { unfit: Some(unfit), .. }) => Err(Error::said(Code::SimulateImpossible, unfit, None)),
         None => Err(Error::said(Code::SimulateImpossible, "there is no robot", None)),
     }
@@ -144,23 +184,23 @@ fn kept(
     stage: &Stage<'_>,
     judges: &Judges,
     missions: &[Mission],
-    db: &Path,
+    (db, goes_on): (&Path, bool),
 ) -> Result<Vec<Row>> {
     let mut made = Whole::default();
     made.database(db);
     let mut store = Store::open_for_worlds(db)?;
-    let written_anew = store.snapshot(|tx| -> Result<i64> {
-        let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
-        Ok(if is_there { tx.numbers_of_missions(world)?.2.min(missions.len() as i64) } else { 0 })
-    })?;
-    if written_anew > 0 {
+    let last = store.snapshot(|tx| last_mission(tx, world))?;
+    // on a site they go on being numbered
+    let before = if goes_on { last } else { 0 };
+    let written_anew = last.min(missions.len());
+    if written_anew > 0 && !goes_on {
         let what = format!("missions of {world} from an earlier run are written anew, 1 to {written_anew}");
         remark(&format!("{}: {what}", db.display()));
     }
     let bar = Bar::new("missions", missions.len() as u64);
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
-        let (row, entries, decided_by) = journalled(stage, judges, (index + 1, mission), None)?;
+        let (row, entries, decided_by) = journalled(stage, judges, (before + index + 1, mission), None)?;
         let record = record(world, rules, &row, &entries, decided_by);
         store.transaction(|tx| tx.keep_mission(&record))?;
         // what was kept stays, whatever comes of the next one
@@ -169,6 +209,12 @@ fn kept(
         bar.step();
     }
     Ok(rows)
+}
+
+/// The number of the last mission of a world that is kept; 0 where none is.
+fn last_mission(tx: &mut Tx<'_>, world: &str) -> Result<usize> {
+    let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
+    Ok(if is_there { tx.numbers_of_missions(world)?.2 as usize } else { 0 })
 }
 
 /// What was learned of the world, from the database.
@@ -238,17 +284,23 @@ fn show(rows: &[Row]) {
 
 fn summary(rows: &[Row]) {
     let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
+    let touches: usize = rows.iter().map(|row| row.touches).sum();
     line(&format!(
-        "{} missions: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touches",
+        "{} mission{}: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
         rows.len(),
+        if rows.len() == 1 { "" } else { "s" },
         count("arrived"),
         count("no_way"),
         count("gave_up"),
         rows.iter().filter(|row| row.right == Some(false)).count(),
         rows.iter().filter(|row| row.right.is_none()).count(),
         rows.iter().filter(|row| row.collided).count(),
-        rows.iter().map(|row| row.touches).sum::<usize>(),
+        touches,
+        if touches == 1 { "" } else { "es" },
     ));
+    if rows.iter().any(|row| row.right.is_none()) {
+        line("not judged: rules let nobody through some doorway, and the judge knows of walls alone");
+    }
     let possible = |with_room, radius| {
         let of = rows
             .iter()

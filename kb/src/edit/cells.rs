@@ -143,6 +143,15 @@ pub(super) fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key:
         ),
         _ => None,
     };
+    if let adit_db::Error::Refused { reason, .. } = error {
+        if let Some(cell) = reason.strip_prefix("NOT NULL constraint failed: ") {
+            let message = format!("{cell} must have a value, and `{key}` has none");
+            return Error::said(Code::EditRefused, message, None);
+        }
+        if reason.starts_with("UNIQUE constraint failed") {
+            return Error::said(Code::EditRefused, format!("`{table}` has a row `{key}` already"), None);
+        }
+    }
     let found = if matches!(error, adit_db::Error::Refused { .. }) && !value.is_empty() {
         format!(" (found {value})")
     } else {

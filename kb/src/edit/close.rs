@@ -106,11 +106,12 @@ pub(super) fn open(
     };
     let told = tx.facts_told()?;
     let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
-    if told.iter().filter(closes).any(|fact| opens(&fact)) {
-        let message = format!("`{what}` is told to be open already");
+    let ids: Vec<i64> = told.iter().filter(closes).filter(|fact| !opens(fact)).map(|fact| fact.id).collect();
+    let is_told = told.iter().filter(closes).any(|fact| opens(&fact));
+    if ids.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what)?) {
+        let message = format!("`{what}` is open already");
         return Err(Error::said(Code::TellUsage, message, None));
     }
-    let ids: Vec<i64> = told.iter().filter(closes).map(|fact| fact.id).collect();
     let mut last = None;
     for id in ids {
         last = Some(tx.remove_row("told", &id.to_string(), author)?);
@@ -121,6 +122,12 @@ pub(super) fn open(
     let tell = Tell { value: "false".to_owned(), ..tell };
     let row = tell.row(tx, site, rules, author)?;
     Ok(tx.add_row("told", &row, author)?)
+}
+
+/// Whether a doorway of this name is closed, by whatever; one that is meant by its point may be.
+fn is_shut(tx: &mut Tx<'_>, what: &str) -> Result<bool> {
+    let building = Building::read(tx)?;
+    Ok(building.doorway_named(what.trim()).is_none_or(|doorway| doorway.closed == Some(true)))
 }
 
 /// Of which class something is that people have a name for.

@@ -14,6 +14,9 @@ use crate::site::robots::ONLY_ROBOT;
 use crate::site::sheet::Sheet;
 use crate::words::suggest::did_you_mean;
 
+/// So many changes are listed one by one.
+const LISTED: usize = 20;
+
 /// How many cells were set, rows added and rows removed.
 #[derive(Clone, Copy, Default)]
 struct Count([usize; 3]);
@@ -47,8 +50,14 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
     }
     let mut count = Count::default();
     let mut first: Option<Edited> = None;
-    let mut note = |edited: Edited, of: usize| {
+    let mut listed: Vec<String> = Vec::new();
+    let mut note = |edited: Edited, of: usize, column: Option<&str>| {
         count.0[of] += 1;
+        listed.push(match (column, of) {
+            (Some(column), _) => format!("  {}.{column}: {} → {}", edited.key, edited.old, edited.new),
+            (None, 1) => format!("  {} is new", edited.key),
+            (None, _) => format!("  {} is gone", edited.key),
+        });
         first.get_or_insert(edited);
     };
     for (at, row) in sheet.rows.iter().enumerate() {
@@ -68,7 +77,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
                 let known = &columns[column];
                 if !is_equal(&known.values[kept], &cell) {
                     match tx.set_cell((table, &whole, &known.name), &cell, author) {
-                        Ok(edited) => note(edited, 0),
+                        Ok(edited) => note(edited, 0, Some(&known.name)),
                         Err(error) => return Err(refused(tx, &error)),
                     }
                 }
@@ -79,19 +88,24 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         let named: Vec<(&str, Cell)> =
             named.map(|(column, cell)| (columns[column].name.as_str(), cell)).collect();
         match tx.add_row(table, &named, author) {
-            Ok(edited) => note(edited, 1),
+            Ok(edited) => note(edited, 1, None),
             Err(error) => return Err(refused(tx, &error)),
         }
     }
     // a row may have gone with another one already
     for key in kept.into_keys().map(|key| key.join("/")) {
         match tx.remove_row(table, &key, author) {
-            Ok(edited) => note(edited, 2),
+            Ok(edited) => note(edited, 2, None),
             Err(adit_db::Error::UnknownKey { .. }) => {}
             Err(error) => return Err(explain(tx, &error, table, &key, "")),
         }
     }
-    let words = count.words();
+    let more = listed.len().saturating_sub(LISTED);
+    listed.truncate(LISTED);
+    if more > 0 {
+        listed.push(format!("  and {more} more"));
+    }
+    let words = [vec![count.words()], listed].concat().join("\n");
     first
         .map(|edited| Edited { key: table.to_owned(), old: Cell::Null, new: Cell::Text(words), ..edited })
         .ok_or_else(|| {

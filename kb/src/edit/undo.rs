@@ -38,7 +38,11 @@ pub(super) fn undo(tx: &mut Tx<'_>, rules: &RuleBase, id: i64, author: &Author) 
     for of in parts.iter().rev() {
         let undone = tx.undo(of.id, author)?;
         if of.id == id {
-            done = Some(undone);
+            let key = match &of.column {
+                Some(column) => format!("{}.{}.{column}", of.table, undone.key),
+                None => undone.key.clone(),
+            };
+            done = Some(Edited { key, ..undone });
         }
     }
     match done {

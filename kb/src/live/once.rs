@@ -120,7 +120,8 @@ impl KnowledgeBase {
         let gap = |gap| Finding::warning(Code::Rule(adit_engine::Code::Gap), gap, None);
         problems.extend(report.gaps.into_iter().map(gap));
         problems.extend(lint::never_chosen(&report.dominated));
-        problems.extend(self.test()?.beneath.iter().flat_map(Beneath::findings));
+        let built = self.clone().with_database(Some(&scratch));
+        problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
         Ok(problems)
     }
 

@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
+use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type, Value};
 use adit_planners::floor_plan::Way;
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
 use adit_planners::navigation::learn::{Guide, OpeningFacts};
@@ -165,24 +165,25 @@ impl RuleJudge {
         Said { junction: 0, place, considered, facts, action: self.action() }
     }
 
-    /// The rule that lets nobody along a way; `None` where none does.
-    pub fn refused_by(&mut self, way: &Way) -> Option<Considered> {
+    /// Why nobody comes along a way: that it is told to be closed, or the rule that lets nobody; `None` where it is neither.
+    pub fn refused_by(&mut self, way: &Way) -> Option<String> {
         self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
         if self.ways.truth(1) == Some(true) {
             return None;
         }
-        self.ways.considered("passable").into_iter().find(|rule| rule.miss.is_none())
+        let facts = said::facts(&mut self.ways, "WAYS", &told::ways(), &["passable"]);
+        let is_closed = |fact: &said::Fact| fact.property == "closed" && fact.value == Value::Truth(true);
+        if facts.iter().any(is_closed) {
+            return Some("is closed".to_owned());
+        }
+        let rule = facts.iter().find_map(|fact| fact.rule.as_ref().filter(|_| fact.property == "passable"));
+        rule.map(|(rule, _)| format!("lets nobody through by the rule \"{rule}\""))
     }
 
     /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they
     /// are not asked any more: there is no way, and what comes of it counts for nothing.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
-    }
-
-    /// Which rules spoke of the last situation, and why the others did not.
-    pub fn considered(&mut self) -> Vec<Considered> {
-        self.situations.considered("next")
     }
 
     /// Asks about a situation of which a value is known for each property that has one.
@@ -347,21 +348,33 @@ impl Judges {
     }
 }
 
+/// A judge of whom it is known which rules spoke.
+pub trait Considers: Judge {
+    /// Which rules spoke of the last situation, and why the others did not.
+    fn considered(&mut self) -> Vec<Considered>;
+}
+
+impl Considers for RuleJudge {
+    fn considered(&mut self) -> Vec<Considered> {
+        self.situations.considered("next")
+    }
+}
+
 /// A judge that notes which rule decided, where the state changed or something was done.
 #[derive(Debug)]
-pub struct Noting<'j> {
-    judge: &'j mut RuleJudge,
+pub struct Noting<'j, J> {
+    judge: &'j mut J,
     /// For each decision that was told the rule that spoke.
     pub decided: Vec<Option<Considered>>,
 }
 
-impl<'j> Noting<'j> {
-    pub const fn new(judge: &'j mut RuleJudge) -> Self {
+impl<'j, J: Considers> Noting<'j, J> {
+    pub const fn new(judge: &'j mut J) -> Self {
         Self { judge, decided: Vec::new() }
     }
 }
 
-impl Judge for Noting<'_> {
+impl<J: Considers> Judge for Noting<'_, J> {
     fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
         let decision = self.judge.next_state(facts);
         // the decisions that the navigator tells of

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::judge::{Judges, Noting};
+use super::judge::{Considers, Judges, Noting};
 use crate::error::{Code, Error, Result};
 
 #[derive(Clone, Debug, Serialize)]
@@ -134,15 +134,32 @@ pub fn refuse(trouble: Option<&str>) -> Result<()> {
 pub fn journalled(
     stage: &Stage<'_>,
     judges: &Judges,
-    (number, mission): (usize, &Mission),
+    mission: (usize, &Mission),
     film: Option<&mut Option<Film>>,
-) -> Result<(Row, Vec<Entry>, Vec<Option<Considered>>)> {
-    judges.ask(|judge| {
-        let mut noting = Noting::new(judge);
-        let mut entries = Vec::new();
-        let row = judged(stage, &mut noting, number, mission, |entry| entries.push(entry), film)?;
-        Ok((row, entries, noting.decided))
-    })
+) -> Result<Journal> {
+    judges.ask(|judge| noted(stage, judge, mission, |_| {}, film))
+}
+
+/// A mission, all that happened, and for each decision the rule that spoke.
+pub type Journal = (Row, Vec<Entry>, Vec<Option<Considered>>);
+
+/// As [`journalled`], by one judge; `hear` is told what happens when it does.
+pub fn noted<J: Considers>(
+    stage: &Stage<'_>,
+    judge: &mut J,
+    (number, mission): (usize, &Mission),
+    mut hear: impl FnMut(&Entry),
+    film: Option<&mut Option<Film>>,
+) -> Result<Journal> {
+    let mut noting = Noting::new(judge);
+    let mut entries = Vec::new();
+    let journal = |entry: Entry| {
+        hear(&entry);
+        entries.push(entry);
+    };
+    let row = judged(stage, &mut noting, number, mission, journal, film)?;
+    let decided = noting.decided;
+    Ok((row, entries, decided))
 }
 
 fn judged(

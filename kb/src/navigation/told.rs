@@ -148,6 +148,14 @@ impl Told {
         Ok(told)
     }
 
+    /// Whether a doorway is told to be closed.
+    pub fn is_closed(&self, doorway: usize) -> bool {
+        let told = self.doorways.get(&doorway).into_iter().flatten();
+        told.into_iter().any(|(property, value)| {
+            self.properties[*property].0 == "closed" && *value == Property::Truth(true)
+        })
+    }
+
     /// As it was said.
     pub fn marks(&self) -> &[Mark] {
         &self.marks

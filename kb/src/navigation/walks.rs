@@ -116,11 +116,13 @@ impl Walkers {
 /// Why nothing leads on: through which doorways rules let nobody, and by which rule.
 fn because(refused: &BTreeMap<usize, Way>, judge: &mut RuleJudge) -> String {
     let said = refused.iter().map(|(doorway, way)| {
-        let rule = judge.refused_by(way).map(|rule| format!(" (rule \"{}\")", rule.rule));
-        format!("doorway {doorway}{}", rule.unwrap_or_default())
+        let why = judge
+            .refused_by(way)
+            .unwrap_or_else(|| "lets nobody through: no rule says that it may be passed".to_owned());
+        format!("doorway {doorway} {why}")
     });
     let said: Vec<String> = said.collect();
-    format!("rules let nobody through {}, and no other way joins the start and the goal", said.join(", "))
+    format!("{}; no other way joins the start and the goal", said.join(", "))
 }
 
 /// A path that was looked for.
@@ -191,7 +193,7 @@ impl Pathfinder for Walkers {
             let way = network.ways.iter().find(|way| way.doorway == Some(doorway));
             let rule = way.and_then(|way| judge.as_mut()?.refused_by(way));
             let reason = match rule {
-                Some(rule) => format!("the rule \"{}\" lets nobody through {through}", rule.rule),
+                Some(why) => format!("{through} {why}"),
                 None if way.is_none() => format!("{robot} does not fit through {through}"),
                 None => format!("no way leads to {through} and on from it"),
             };
@@ -204,11 +206,10 @@ impl Pathfinder for Walkers {
     fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
         let Some([robot, start, goal]) = route else {
             let Some(Walker { floor, .. }) = self.walkers.first() else { return Ok(String::new()) };
-            return Ok(render_floor(title, &floor.plan, &floor.network, None));
+            return Ok(drawn(title, floor, None));
         };
         let walked = self.path(robot, [start, goal], None)?;
-        let Floor { plan, network, .. } = &walked.walker.floor;
-        Ok(render_floor(title, plan, network, walked.path.as_ref().ok()))
+        Ok(drawn(title, &walked.walker.floor, walked.path.as_ref().ok()))
     }
 
     fn trouble(&self) -> Option<String> {
@@ -232,6 +233,11 @@ impl Pathfinder for Walkers {
             adits.len()
         )
     }
+}
+
+fn drawn(title: &str, floor: &Floor, path: Option<&Path>) -> String {
+    let Floor { plan, network, told, .. } = floor;
+    render_floor(title, plan, network, |doorway| told.is_closed(doorway), path)
 }
 
 /// Parts of a way, one after the other.

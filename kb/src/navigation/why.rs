@@ -57,7 +57,7 @@ pub fn why(
     at: Option<f64>,
     rules: Option<&Path>,
 ) -> Result<Answer> {
-    let number: i64 = mission.trim().parse().map_err(|_| {
+    let number: i64 = mission.trim().trim_start_matches("mission ").trim().parse().map_err(|_| {
         let message = format!("`{mission}` is no mission of {}: missions have numbers", database.display());
         Error::said(Code::WhyNoMission, message, None)
     })?;

@@ -65,7 +65,8 @@ impl Kind {
         match self {
             Self::Channels => schema,
             Self::Navigation => {
-                schema.class("DOORWAYS", &[("doorway", Type::Number), ("called", Type::Text)])
+                let doorways = [("doorway", Type::Number), ("called", Type::Text), ("closed", Type::Truth)];
+                schema.class("DOORWAYS", &doorways)
             }
             Self::Adapt => schema.class("GOALS", &[("goal", Type::Text)]),
         }
@@ -85,8 +86,9 @@ pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec
     if !errors.is_empty() {
         return Err(Error::all(errors));
     }
+    // of the shipped ones sites carry them out
     let idle = lint::not_carried_out(&base, "worlds", Finding::said);
-    if !idle.is_empty() {
+    if !idle.is_empty() && !kind.shipped().contains(&name) {
         return Err(Error::all(idle));
     }
     let outcomes = tests.run(&base, schema).map_err(|wrong| Error::all(wrong.0))?;

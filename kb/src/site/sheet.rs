@@ -81,6 +81,15 @@ impl Sheet {
 
     fn check(&self) -> Result<()> {
         for (place, name) in self.columns.iter().enumerate() {
+            if name.is_empty() {
+                let help = "the first row names all columns, and nothing stands above it or beside it";
+                return Err(self.wrong(None, &format!("column {} has no name", place + 1), help));
+            }
+            if name.contains(';') && self.columns.len() == 1 {
+                let help =
+                    "cells are parted by commas and numbers written with a point: save it so, or as .xlsx";
+                return Err(self.wrong(None, "its cells are parted by semicolons", help));
+            }
             if !is_name(name) {
                 return Err(self.wrong(None, &format!("`{name}` is no name of a column"), NAMES));
             }

@@ -354,7 +354,7 @@ fn what_is_open_is_not_opened_again_and_a_blocked_robot_closes_where_it_is() {
     site.adit("tune", &["channels", "2", "closed", "1"]).expect_status(0);
     site.adit("open", &["channel 2"]).expect_status(0);
     assert_eq!(site.sqlite3(cost), free);
-    site.adit("open", &["channel 2"]).expecting(2).complains(&["is told to be open already"]);
+    site.adit("open", &["channel 2"]).expecting(2).complains(&["`channel 2` is open already"]);
     assert_eq!(site.sqlite3(cost), free, "it does not close what is open");
     let blocked = site.adit("close", &["8,18@0"]).expecting(0).stdout;
     assert!(blocked.contains("start to goal"), "{blocked}");

@@ -178,3 +178,49 @@ fn figures_of_missions_are_cells_of_a_table() {
         .expecting(2)
         .complains(&["navigation haste", "patience"]);
 }
+
+#[test]
+fn what_a_robot_meets_is_told_and_rules_that_react_change_where_all_go() {
+    let site = flat().built();
+    let ways = "SELECT start, goal, cost FROM route ORDER BY start, goal";
+    let before = site.sqlite3(ways);
+    // boxes that the robot does not know stand in a doorway on its way: found with this seed
+    let drive = ["--missions", "3", "--seed", "5", "--tell", "--keep"];
+    let said = site.adit("simulate", &drive);
+    assert!(said.stderr.contains("closed = true until"), "{}{}", said.stdout, said.stderr);
+    let rule = "rule \"a doorway that a robot found blocked is closed for an hour\"";
+    assert!(said.stderr.contains(rule), "{}", said.stderr);
+    let facts = "SELECT class, property, value, who FROM facts_told";
+    assert_eq!(site.sqlite3(facts)[0], format!("DOORWAYS|closed|true|{rule}"));
+    // the report is the robot's, in the history, and what the rule did belongs to it
+    let report = "SELECT who, why FROM history WHERE id = change_set LIMIT 1";
+    assert_eq!(site.sqlite3(report), ["robot|something stands there (mission 3)"]);
+    let after = site.sqlite3(ways);
+    assert_ne!(before, after, "routes of everybody lead round it");
+    // and in the mission itself: what comes after the report passes that doorway no more
+    let closed =
+        site.sqlite3("SELECT json_extract(detail, '$.doorway') FROM journal WHERE event = 'way closed'");
+    assert!(!closed.is_empty() && closed.len() <= 2, "it keeps off the closed doorway: {closed:?}");
+    assert_eq!(site.sqlite3("SELECT count(*) FROM history WHERE who = 'robot'"), ["1"], "it is told once");
+    let why = site.adit("why", &["mission 3"]).expecting(0).stdout;
+    assert!(why.contains("it ended"), "{why}");
+    let doorway = site.adit("why", &[&format!("doorway {}", closed[0])]).expecting(0).stdout;
+    assert!(doorway.contains("closed"), "{doorway}");
+    // a site that wants none of it says so; a map alone cannot be told anything
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3(ways), before, "what the rule did is taken back");
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3(facts), [""; 0], "and the report");
+    site.write("rules/own.rhai", "without \"a doorway that a robot found blocked is closed for an hour\"\n");
+    site.adit("build", &[]).expect_status(0);
+    let reported = site.adit("simulate", &drive);
+    assert!(!reported.stderr.contains("closed = true"), "{}", reported.stderr);
+    assert_eq!(site.sqlite3("SELECT property FROM facts_told"), ["blocked"]);
+    let alone = Command::new(adit())
+        .arg("simulate")
+        .arg(world())
+        .args(["--missions", "1", "--tell"])
+        .output()
+        .unwrap();
+    Ran::new(&alone).expecting(2).complains(&["is a map alone"]);
+}

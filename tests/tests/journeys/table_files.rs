@@ -37,7 +37,8 @@ print(sheet.max_row - 1, sheet.freeze_panes)
     let read = python(&site, script).stdout;
     assert_eq!(read.trim(), format!("{} A2", before.len()));
     let preview = site.adit("table", &["robots", "--from", &file, "--dry-run"]).expecting(0).stdout;
-    assert!(preview.contains("robots is as") && preview.contains("2 cells set"), "{preview}");
+    assert!(preview.contains("robots is as") && preview.contains("2 cells set\n  "), "{preview}");
+    assert!(preview.contains(".hardness: "), "{preview}");
     assert_eq!(site.sqlite3("SELECT * FROM robots"), before, "a preview changes nothing");
     let edited = site.adit("table", &["robots", "--from", &file, "--why", "measured"]).expecting(0).stdout;
     assert!(edited.contains("2 cells set") && edited.contains("dock to"), "{edited}");
