@@ -99,7 +99,7 @@ impl Edit {
             Self::SetFrom([table, key, column], seen, value) => {
                 let set = Self::Set(table.clone(), key.clone(), column.clone(), value.clone());
                 let done = set.apply(tx, site, rules, author)?;
-                if !is_equal(&done.old, &cell(seen)) {
+                if !is_equal(&done.old, &cell(seen)) && crate::words::cells::text(&done.old) != *seen {
                     return Err(conflict(tx, (table, &done, column))?);
                 }
                 return Ok(done);

@@ -60,6 +60,9 @@ const TRIAL: Duration = Duration::from_secs(10);
 /// Under which key the database says what the map is, where it is not cut into rooms.
 pub(crate) const LAYOUT: &str = "layout";
 
+/// Under which key the database says of which map alone it is.
+const ALONE: &str = "alone";
+
 /// The places of a map that is not cut into rooms, as a class.
 const PLACES: &str = "PLACES";
 
@@ -310,6 +313,29 @@ impl KnowledgeBase {
         let message = format!("{file} is a map alone, which keeps no edits");
         let help = format!("edit the file, or `adit new DIR --map {file}` makes a site of it");
         Err(Error::said(Code::SiteMapAlone, message, Some(help)))
+    }
+
+    /// What a map alone is called in its database.
+    fn called_alone(&self) -> Option<String> {
+        let (file, _) = self.alone.as_ref()?;
+        Some(file.file_name().unwrap_or_default().to_string_lossy().into_owned())
+    }
+
+    /// Refuses the database of a site, or of another map, for a map alone: its tables would be filled from the file.
+    pub(crate) fn refuse_anothers(&self, database: &Path) -> Result<()> {
+        let Some(file) = self.called_alone().filter(|_| database.exists()) else { return Ok(()) };
+        let (name, alone) = Store::open_read_only(database)?
+            .snapshot(|tx| Ok::<_, Error>((tx.site_value("name")?, tx.site_value(ALONE)?)))?;
+        match name {
+            Some(name) if alone.as_deref() != Some(file.as_str()) => {
+                let database = database.display();
+                let message =
+                    format!("{database} is the database of {name}, which {file} would be filled into");
+                let help = Some("name a file of its own".to_owned());
+                Err(Error::said(Code::SiteMapAlone, message, help))
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(crate) fn asks_about_another_moment(&self) -> bool {
@@ -604,6 +630,7 @@ impl KnowledgeBase {
     pub(crate) fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
         tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
+        tx.set_site_value(ALONE, self.called_alone().as_deref())?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
         tx.set_site_value(LAYOUT, self.course.as_ref().map(|course| course.name()))?;
         let own: Vec<String> = tx.user_tables()?.into_iter().map(|table| table.name).collect();

@@ -3,13 +3,17 @@
 /// Which numbers a figure may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Range {
-    /// More than 0.
+    /// More than 0, and at most 10,000.
     Positive,
-    /// 0 or more.
+    /// From 0.01 to 10: how finely something is cut, which is what it costs.
+    Grain,
+    /// From 0 to 1,000,000.
     NotNegative,
-    /// 0, 1, 2, ...
+    /// From 0 to 10: what is kept free, metres.
+    Room,
+    /// 0, 1, 2, ... at most 1,000,000.
     Times,
-    /// 1, 2, ...
+    /// 1, 2, ... at most 1,000.
     Count,
     /// 1 for yes, 0 for no.
     YesOrNo,
@@ -21,15 +25,28 @@ impl Range {
     /// # Returns
     /// `None` where it is among them.
     pub fn refuses(self, number: f64) -> Option<&'static str> {
-        let is_whole = number.fract() == 0.0 && number <= f64::from(u32::MAX);
-        let (is_in, must) = match self {
-            Self::Positive => (number > 0.0, "must be more than 0"),
-            Self::NotNegative => (number >= 0.0, "must not be negative"),
-            Self::Times => (is_whole && number >= 0.0, "must be a whole number from 0 on"),
-            Self::Count => (is_whole && number >= 1.0, "must be a whole number from 1 on"),
-            Self::YesOrNo => (is_whole && (0.0..=1.0).contains(&number), "must be 1 (yes) or 0 (no)"),
+        let is_whole = number.fract() == 0.0;
+        let (least, most, must) = match self {
+            Self::Positive => (f64::MIN_POSITIVE, 1e4, "must be more than 0"),
+            Self::Grain => (0.01, 10.0, "must be at least 0.01"),
+            Self::NotNegative => (0.0, 1e6, "must not be negative"),
+            Self::Room => (0.0, 10.0, "must not be negative"),
+            Self::Times => (0.0, 1e6, "must be a whole number from 0 on"),
+            Self::Count => (1.0, 1e3, "must be a whole number from 1 on"),
+            Self::YesOrNo => (0.0, 1.0, "must be 1 (yes) or 0 (no)"),
         };
-        (!(is_in && number.is_finite())).then_some(must)
+        let needs_whole = matches!(self, Self::Times | Self::Count | Self::YesOrNo);
+        if number > most {
+            return Some(match self {
+                Self::Positive => "must be at most 10000",
+                Self::Grain | Self::Room => "must be at most 10",
+                Self::NotNegative => "must be at most 1000000",
+                Self::Count => "must be at most 1000",
+                Self::Times | Self::YesOrNo => must,
+            });
+        }
+        let is_in = (least..=most).contains(&number) && (is_whole || !needs_whole);
+        (!is_in).then_some(must)
     }
 }
 

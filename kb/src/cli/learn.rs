@@ -33,6 +33,13 @@ pub fn run(
 ) -> Result<bool> {
     let world = floor.plan.name.as_str();
     let start = Pose { at: floor.point(start)?, heading: heading(args)? };
+    if !floor.plan.is_free(start.at) {
+        let message = format!(
+            "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
+            start.at.x, start.at.y
+        );
+        return Err(Error::said(Code::SimulateImpossible, message, None));
+    }
     let towards = args.towards.as_ref().map(|towards| floor.point(towards)).transpose()?;
     let exploration = Exploration { start, towards, seed: args.seed };
     let mut made = None;

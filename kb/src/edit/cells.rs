@@ -72,6 +72,10 @@ pub(super) fn cell_of(table: &str, column: &str, value: &str, columns: &[Relatio
         let message = format!("table `{table}` has no column `{column}`");
         return Err(Error::said(Code::EditUnknownColumn, message, help));
     };
+    let holds_texts = ["TEXT", "CHAR", "CLOB"].iter().any(|kind| known.declared.contains(kind));
+    if holds_texts && !value.is_empty() {
+        return Ok(Cell::Text(value.to_owned()));
+    }
     let cell = cell(value);
     let holds_numbers = ["REAL", "INTEGER"].contains(&known.declared.as_str());
     if holds_numbers && matches!(cell, Cell::Text(_)) {

@@ -64,7 +64,10 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         let told = |error: Error| sheet.wrong(Some(at), &error.to_string(), "the table is as it was");
         let cell = |(column, place): &(usize, Option<usize>)| -> Result<(usize, Cell)> {
             let known = &columns[*column];
-            let text = place.map_or(ONLY_ROBOT, |place| row[place].trim());
+            // around texts blanks count
+            let is_text = known.declared.contains("TEXT");
+            let text =
+                place.map_or(ONLY_ROBOT, |place| if is_text { &row[place] } else { row[place].trim() });
             Ok((*column, cell_of(table, &known.name, text, &columns)?))
         };
         let keys = file.keys.iter().map(cell).collect::<Result<Vec<_>>>().map_err(told)?;
@@ -75,7 +78,11 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         if let Some(kept) = kept.remove(&key) {
             for (column, cell) in others {
                 let known = &columns[column];
-                if !is_equal(&known.values[kept], &cell) {
+                // a file does not tell an empty text from none
+                let is_empty = |cell: &Cell| *cell == Cell::Null || *cell == Cell::Text(String::new());
+                let (old, is_bytes) = (&known.values[kept], matches!(known.values[kept], Cell::Blob(_)));
+                let is_same = is_equal(old, &cell) || is_empty(old) && is_empty(&cell);
+                if !(is_same || is_bytes) {
                     match tx.set_cell((table, &whole, &known.name), &cell, author) {
                         Ok(edited) => note(edited, 0, Some(&known.name)),
                         Err(error) => return Err(refused(tx, &error)),

@@ -32,6 +32,7 @@ impl KnowledgeBase {
     }
 
     fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
+        self.refuse_anothers(database)?;
         let inputs = self.inputs(progress)?;
         let fresh = !database.exists();
         let outcome = Store::open_or_create(database)

@@ -52,12 +52,8 @@ pub fn read<S>(table: ObjectsOf<'_>, figures: &[Figure<S>], settings: &mut S) ->
         };
         let value = table.needed(row, "value")?;
         if let Some(must) = figure.range.refuses(value) {
-            return Err(table.wrong(
-                row,
-                "value",
-                must.trim_start_matches("must be "),
-                Some(&value.to_string()),
-            ));
+            let expected = must.strip_prefix("must be ").unwrap_or("0 or more");
+            return Err(table.wrong(row, "value", expected, Some(&value.to_string())));
         }
         (figure.set)(settings, value);
     }

@@ -1,11 +1,12 @@
 //! Tables as files: CSV, and the first sheet of an XLSX workbook. A line with the names of the columns, then a line a row.
 
+use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use adit_db::Cell;
 use adit_db::relation::{Relation, RelationColumn};
-use calamine::{Data, Reader, Xlsx};
+use calamine::{DataRef, Reader, Xlsx, XlsxError};
 use miette::NamedSource;
 use rust_xlsxwriter::{Format, Workbook};
 
@@ -98,7 +99,7 @@ impl Sheet {
                 return Err(self.wrong(None, &message, "each column has a name of its own"));
             }
         }
-        let mut seen = std::collections::BTreeMap::new();
+        let mut seen = BTreeMap::new();
         for (at, row) in self.rows.iter().enumerate() {
             if row.len() != self.columns.len() {
                 let (found, expected) = (row.len(), self.columns.len());
@@ -160,6 +161,21 @@ fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Read> {
         Error::said(Code::TableFile, message, Some("save it as CSV in UTF-8".to_owned()))
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
+    let mut open = None;
+    for (number, line) in (1..).zip(text.lines()) {
+        if line.matches('"').count() % 2 == 1 {
+            open = if open.is_none() { Some(number) } else { None };
+        }
+    }
+    if let Some(line) = open {
+        let help =
+            "quotes come in pairs: one that belongs to a text is written twice, within quotes".to_owned();
+        return Err(Error::said(
+            Code::TableFile,
+            format!("{file}, line {line}: a quote is not closed"),
+            Some(help),
+        ));
+    }
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
     let (mut lines, mut rows) = (Vec::new(), Vec::new());
     for record in reader.records() {
@@ -178,41 +194,62 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
     let wrong = |message: String| Error::said(Code::TableFile, message, None);
     let mut book: Xlsx<_> =
         Xlsx::new(Cursor::new(bytes)).map_err(|error| wrong(format!("{file} is no workbook: {error}")))?;
-    let sheet = book.worksheet_range_at(0).ok_or_else(|| wrong(format!("{file} has no sheet")))?;
-    let sheet = sheet.map_err(|error| wrong(format!("{file}: its first sheet cannot be read: {error}")))?;
-    let (first_row, first_column) = sheet.start().unwrap_or_default();
+    let name = book.sheet_names().first().cloned().ok_or_else(|| wrong(format!("{file} has no sheet")))?;
+    let unread = |error: XlsxError| wrong(format!("{file}: its first sheet cannot be read: {error}"));
+    // cell by cell: one that stands far off takes no more room than any other
+    let mut found: BTreeMap<(u32, u32), String> = BTreeMap::new();
+    let mut cells = book.worksheet_cells_reader(&name).map_err(unread)?;
+    while let Some(cell) = cells.next_cell().map_err(unread)? {
+        let (row, column) = cell.get_position();
+        let called = || format!("{}{}", letters(column), row + 1);
+        let text = match cell.get_value() {
+            DataRef::Empty => continue,
+            DataRef::Error(error) => return Err(wrong(format!("{file}: cell {} is {error}", called()))),
+            DataRef::Bool(truth) => truth.to_string(),
+            DataRef::Int(number) => number.to_string(),
+            DataRef::Float(number) => number.to_string(),
+            DataRef::String(text) => text.clone(),
+            DataRef::SharedString(text) => (*text).to_owned(),
+            DataRef::DateTime(_) | DataRef::DateTimeIso(_) | DataRef::DurationIso(_) => {
+                let message = format!("{file}: cell {} is a date, expected a number or a text", called());
+                return Err(wrong(message));
+            }
+        };
+        if !text.trim().is_empty() {
+            found.insert((row, column), text);
+        }
+    }
+    drop(cells);
+    let mut formulas = book.worksheet_cells_reader(&name).map_err(unread)?;
+    while let Some(cell) = formulas.next_formula().map_err(unread)? {
+        let (row, column) = cell.get_position();
+        if !cell.get_value().is_empty() && !found.contains_key(&(row, column)) {
+            let message = format!("{file}: cell {}{} is a formula without a value", letters(column), row + 1);
+            let help = "open it in a spreadsheet program and save it, which works the values out".to_owned();
+            return Err(Error::said(Code::TableFile, message, Some(help)));
+        }
+    }
+    drop(formulas);
+    // the names of the columns are in the first row that has anything; what stands beside them is none of the table's
+    let Some((&(head, first), _)) = found.first_key_value() else {
+        return Ok((Lines::Sheet(Vec::new()), Vec::new()));
+    };
+    let last =
+        found.range((head, 0)..=(head, u32::MAX)).next_back().map_or(first, |((_, column), _)| *column);
+    let width = (last - first + 1) as usize;
     let (mut numbers, mut rows): (Vec<usize>, Vec<Vec<String>>) = (Vec::new(), Vec::new());
-    let mut width = 0;
-    for (row, cells) in (first_row as usize + 1..).zip(sheet.rows()) {
-        let mut texts = Vec::with_capacity(cells.len());
-        for (column, cell) in (first_column..).zip(cells) {
-            texts.push(match cell {
-                Data::Empty => String::new(),
-                Data::Error(error) => {
-                    return Err(wrong(format!("{file}: cell {}{row} is {error}", letters(column))));
-                }
-                Data::Bool(truth) => truth.to_string(),
-                Data::DateTime(_) | Data::DateTimeIso(_) | Data::DurationIso(_) => {
-                    let cell = format!("{}{row}", letters(column));
-                    return Err(wrong(format!("{file}: cell {cell} is a date, expected a number or a text")));
-                }
-                other => other.to_string(),
-            });
-        }
-        // what is beyond the names of the columns, and rows without anything, are none of the table's
-        if rows.is_empty() {
-            width = texts.iter().rposition(|name| !name.trim().is_empty()).map_or(0, |last| last + 1);
-        }
-        if texts.iter().all(|text| text.trim().is_empty()) {
-            continue;
-        }
-        if let Some(beyond) = texts[width..].iter().position(|text| !text.trim().is_empty()) {
-            let cell = format!("{}{row}", letters(first_column + (width + beyond) as u32));
+    for ((row, column), text) in found {
+        if !(first..=last).contains(&column) {
+            let cell = format!("{}{}", letters(column), row + 1);
             return Err(wrong(format!("{file}: cell {cell} stands in a column without a name")));
         }
-        texts.truncate(width);
-        numbers.push(row);
-        rows.push(texts);
+        if numbers.last() != Some(&(row as usize + 1)) {
+            numbers.push(row as usize + 1);
+            rows.push(vec![String::new(); width]);
+        }
+        if let Some(cells) = rows.last_mut() {
+            cells[(column - first) as usize] = text;
+        }
     }
     Ok((Lines::Sheet(numbers), rows))
 }
@@ -223,10 +260,18 @@ fn letters(column: u32) -> String {
     if column < 26 { last } else { format!("{}{last}", letters(column / 26 - 1)) }
 }
 
-/// A table as a file of the format that the name asks for.
+/// A table as a file of the format that the name asks for; columns that hold bytes are left out.
 pub fn written(path: &Path, table: &Relation) -> Result<Vec<u8>> {
+    let table = &without_bytes(table);
     let rows = table.columns.first().map_or(0, |column| column.values.len());
     if is_workbook(path) { workbook(path, table, rows) } else { Ok(text(table)?.into_bytes()) }
+}
+
+fn without_bytes(table: &Relation) -> Relation {
+    let holds_bytes =
+        |column: &RelationColumn| column.values.iter().any(|cell| matches!(cell, Cell::Blob(_)));
+    let columns = table.columns.iter().filter(|column| !holds_bytes(column)).cloned().collect();
+    Relation { name: table.name.clone(), columns }
 }
 
 /// The names of the columns: those of the key marked, where it is not the first one alone.
@@ -240,8 +285,9 @@ fn heads(table: &Relation) -> Vec<String> {
     table.columns.iter().zip(&keys).map(head).collect()
 }
 
-/// As CSV.
+/// As CSV; columns that hold bytes are left out.
 pub fn text(table: &Relation) -> Result<String> {
+    let table = &without_bytes(table);
     let rows = table.columns.first().map_or(0, |column| column.values.len());
     let mut writer = csv::Writer::from_writer(Vec::new());
     let failed = |error: csv::Error| Error::said(Code::TableFile, error.to_string(), None);

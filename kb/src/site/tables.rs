@@ -142,10 +142,16 @@ fn kind<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> &'static str {
     if known.peek().is_none() {
         return "TEXT";
     }
-    let is_number = |cell: &str| cell.parse::<f64>().is_ok_and(f64::is_finite);
+    // `007` and `+1` are names, and not numbers
+    let is_plain = |cell: &str| {
+        let digits = cell.strip_prefix('-').unwrap_or(cell);
+        let is_padded = digits.len() > 1 && digits.starts_with('0') && !digits.starts_with("0.");
+        !digits.starts_with('+') && !is_padded
+    };
+    let is_number = |cell: &str| is_plain(cell) && cell.parse::<f64>().is_ok_and(f64::is_finite);
     if known.clone().all(|cell| cell == "true" || cell == "false") {
         "BOOLEAN"
-    } else if known.clone().all(|cell| cell.parse::<i64>().is_ok()) {
+    } else if known.clone().all(|cell| is_plain(cell) && cell.parse::<i64>().is_ok()) {
         "INTEGER"
     } else if known.all(is_number) {
         "REAL"

@@ -11,7 +11,7 @@ settings! {
             goal_tolerance_m: f64 = 0.08, "goal_tolerance", "m", Positive, "So near to a goal point counts as there.";
             turning_resolution: degrees = 2.0, "turning_resolution", "°", Positive, "The robot does not turn by less.";
             highway_half_width_m: f64 = 0.10, "highway_half_width", "m", Positive, "So far beside the line to its goal point the robot may be.";
-            highway_clearance_m: f64 = 0.02, "highway_clearance", "m", NotNegative, "What is kept free on either side of the robot while it goes straight.";
+            highway_clearance_m: f64 = 0.02, "highway_clearance", "m", Room, "What is kept free on either side of the robot while it goes straight.";
             look_ahead_m: f64 = 2.5, "look_ahead", "m", Positive, "Obstacles on the way count from so near on.";
             stride_m: f64 = 3.0, "stride", "m", Positive, "The robot goes no farther without a look around.";
             speed_m_s: f64 = 0.5, "speed", "m/s", Positive, "How fast the robot goes.";
@@ -19,13 +19,13 @@ settings! {
             part_readings: usize = 40, "part_readings", "", Count, "Readings after which the model is updated on the way.";
             echoes: usize = 2, "echoes", "", Count, "So many raw echoes are in the way before what they hit is: one may be false.";
             falling_m: f64 = 0.05, "falling", "m", NotNegative, "The goal point is farther away than it was from so much on.";
-            detour_clearance_m: f64 = 0.05, "detour_clearance", "m", Positive, "What a detour keeps free on either side of the robot at the least.";
-            detour_room_m: f64 = 0.10, "room", "m", Positive, "What a detour keeps free where there is room.";
+            detour_clearance_m: f64 = 0.05, "detour_clearance", "m", Room, "What a detour keeps free on either side of the robot at the least.";
+            detour_room_m: f64 = 0.10, "room", "m", Room, "What a detour keeps free where there is room.";
             room_worth: f64 = 1.3, "room_worth", "", Positive, "A detour with room may be longer than one without by this factor.";
-            squeeze_m: f64 = 0.025, "squeeze", "m", NotNegative, "What is kept free on either side where there is no other way: a little more than on the highway.";
+            squeeze_m: f64 = 0.025, "squeeze", "m", Room, "What is kept free on either side where there is no other way: a little more than on the highway.";
             most_squeezes: u32 = 4, "most_squeezes", "", Times, "So many times on a mission the robot squeezes through.";
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";
-            grain_m: f64 = 0.04, "grain", "m", Positive, "The grain of the search for detours.";
+            grain_m: f64 = 0.04, "grain", "m", Grain, "The grain of the search for detours.";
             back_off_m: f64 = 0.15, "back_off", "m", Positive, "How far the robot withdraws from what it touched.";
             felt_s: f64 = 90.0, "felt", "s", NotNegative, "What was touched is in the way for so long.";
             least_confidence: u8 = 2, "least_confidence", "", Count, "Surfaces of less confidence close no way for good.";

@@ -168,6 +168,14 @@ fn figures_of_missions_are_cells_of_a_table() {
     assert_eq!(impatient["ending"], "gave_up", "{impatient}");
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(mission()["ending"], "arrived");
+    for (figure, value, said) in [
+        ("grain", "1e-9", "at least 0.01"),
+        ("room", "1e300", "at most 10"),
+        ("scan_readings", "1e5", "at most 1000"),
+        ("squeeze", "-1", "expected 0 or more"),
+    ] {
+        site.adit("tune", &["navigation", figure, "value", value]).expecting(2).complains(&[said]);
+    }
     for (value, said) in [("-1", "more than 0"), ("nan", "`nan` is none")] {
         site.adit("tune", &["navigation", "patience", "value", value]).expecting(2).complains(&[said]);
     }

@@ -153,3 +153,63 @@ book.save('wrong.xlsx')
         site.adit("table", &["orders", "--from", &at(&site, "wrong.xlsx")]).expecting(2).complains(&[&said]);
     }
 }
+
+#[test]
+fn what_went_out_comes_back_to_the_letter() {
+    let site = TestSite::example("shop");
+    site.write("tables/odd.csv", "k,v,n\n007,010,1\n+1,\" lead\",2\n1e5,trail ,3\n-0,\"a\"\"b, c\",4\n");
+    let site = site.built();
+    let before = site.sqlite3("SELECT k, v, n, typeof(n) FROM odd");
+    assert!(before.iter().any(|row| row.starts_with("007|010|1|")), "{before:?}");
+    for file in ["odd.csv", "odd.xlsx"].map(|file| at(&site, file)) {
+        site.adit("table", &["odd", "--to", &file]).expect_status(0);
+        site.adit("table", &["odd", "--from", &file]).expecting(2).complains(&["says already"]);
+    }
+    assert_eq!(site.sqlite3("SELECT k, v, n, typeof(n) FROM odd"), before);
+    let flat = site.path().join("flat");
+    let map = adit_tests::repository().join("kb/worlds/flat.toml");
+    let adit = |args: &[&str]| Ran::new(&Command::new(adit_tests::adit()).args(args).output().unwrap());
+    let (flat, map) = (flat.display().to_string(), map.display().to_string());
+    adit(&["new", &flat, "--map", &map]).expect_status(0);
+    adit(&["build", &flat]).expect_status(0);
+    for table in ["navigation", "walls", "solids", "vehicles", "marks", "places"] {
+        for file in ["t.csv", "t.xlsx"].map(|file| at(&site, file)) {
+            adit(&["table", &flat, table, "--to", &file]).expect_status(0);
+            adit(&["table", &flat, table, "--from", &file]).expecting(2).complains(&["says already"]);
+        }
+    }
+    // a map alone is not poured over the tables of a site
+    let other = adit_tests::repository().join("kb/worlds/corridor-S.toml").display().to_string();
+    let database = format!("{flat}/site.db");
+    adit(&["route", &other, "start", "goal", "--db", &database])
+        .expecting(2)
+        .complains(&["is the database of flat"]);
+    adit(&["build", &map, "--db", &database]).expecting(2).complains(&["is the database of flat"]);
+}
+
+#[test]
+fn quotes_that_are_not_closed_formulas_without_values_and_cells_far_off_are_refused() {
+    let site = TestSite::example("shop").built();
+    let orders = site.sqlite3("SELECT * FROM orders");
+    site.write("orders.csv", "order,customer,product,pieces\n1,\"Ada,kettle,1\n2,Bruno,tea,12\n");
+    let from = |file: &str| site.adit("table", &["orders", "--from", &at(&site, file)]);
+    from("orders.csv").expecting(2).complains(&["line 2: a quote is not closed"]);
+    site.adit("table", &["orders", "--to", &at(&site, "orders.xlsx")]).expect_status(0);
+    for (edit, said) in [
+        ("sheet['D2'] = '=1+1'", "cell D2 is a formula without a value"),
+        ("sheet['XFD1048576'] = 'z'", "cell XFD1048576 stands in a column without a name"),
+    ] {
+        let script = format!(
+            "
+import openpyxl
+book = openpyxl.load_workbook('orders.xlsx')
+sheet = book.active
+{edit}
+book.save('wrong.xlsx')
+"
+        );
+        python(&site, &script);
+        from("wrong.xlsx").expecting(2).complains(&[said]);
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM orders"), orders);
+}

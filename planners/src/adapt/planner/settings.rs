@@ -25,7 +25,7 @@ settings! {
         }
         figures {
             max_chain: usize = 64, "max_chain", "", Count, "The bound of the size of a chain of subgoals: a solution that needs a longer one counts as none.";
-            chain_step: f64 = 0.1, "chain_step", "", Positive, "How finely a solution is cut to be abstracted, by the distance of configurations.";
+            chain_step: f64 = 0.1, "chain_step", "", Grain, "How finely a solution is cut to be abstracted, by the distance of configurations.";
             most_refusals: u32 = 8, "most_refusals", "", Count, "After so many paths that were refused a task is given up.";
             cuts_corners: bool = true, "cuts_corners", "yes or no", YesOrNo, "Whether corners are cut (section 2.6).";
             tightens: bool = true, "tightens", "yes or no", YesOrNo, "Whether paths are tightened between their corners, too.";
