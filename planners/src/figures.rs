@@ -38,10 +38,10 @@ impl Range {
         let needs_whole = matches!(self, Self::Times | Self::Count | Self::YesOrNo);
         if number > most {
             return Some(match self {
-                Self::Positive => "must be at most 10000",
+                Self::Positive => "must be at most 10,000",
                 Self::Grain | Self::Room => "must be at most 10",
-                Self::NotNegative => "must be at most 1000000",
-                Self::Count => "must be at most 1000",
+                Self::NotNegative => "must be at most 1,000,000",
+                Self::Count => "must be at most 1,000",
                 Self::Times | Self::YesOrNo => must,
             });
         }

@@ -171,7 +171,7 @@ fn figures_of_missions_are_cells_of_a_table() {
     for (figure, value, said) in [
         ("grain", "1e-9", "at least 0.01"),
         ("room", "1e300", "at most 10"),
-        ("scan_readings", "1e5", "at most 1000"),
+        ("scan_readings", "1e5", "at most 1,000"),
         ("squeeze", "-1", "expected 0 or more"),
     ] {
         site.adit("tune", &["navigation", figure, "value", value]).expecting(2).complains(&[said]);
