@@ -16,6 +16,7 @@ mod judge;
 mod keep;
 mod keeping;
 mod kept;
+mod motions;
 mod recall;
 pub(crate) mod scenario;
 mod session;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario, Settings};
+use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario, Settings, distance};
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 
@@ -152,6 +152,25 @@ impl Cell {
                 Err(Error::said(Code::PlanUnknownGoal, message, help))
             }
         }
+    }
+
+    /// The configurations in which the robot is at a goal, the nearest to home first; none where it is out of reach.
+    pub fn configurations(&self, goal: &Goal) -> Vec<Configuration> {
+        let (object, pose) = match &goal.target {
+            Target::Configuration(at) => return vec![at.clone()],
+            Target::Tool { object, pose } => (object, pose),
+        };
+        let Some(object) = self.object(object) else { return Vec::new() };
+        let tool = object.pose.then(pose);
+        let robot = self.robot.robot();
+        let mut found: Vec<Configuration> = Vec::new();
+        for at in [0, 1].into_iter().filter_map(|branch| robot.inverse(&tool, branch, &self.home)) {
+            if found.iter().all(|known| distance(known, &at) > 1e-9) {
+                found.push(at);
+            }
+        }
+        found.sort_by(|a, b| distance(a, &self.home).total_cmp(&distance(b, &self.home)));
+        found
     }
 
     pub fn object(&self, name: &str) -> Option<&Object> {

@@ -1,43 +1,32 @@
 //! A cell as a site: the tables that its file fills, and motions between its goals (Chen).
-//!
-//! The routes that are kept are found one after the other by one planner, which learns from each for the next; it begins
-//! with nothing, so that the same tables give the same routes. Experience that outlives the program is that of `adit tasks`.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use adit_db::Cell as Value;
-use adit_db::course::Course as Row;
 use adit_db::place::Place;
-use adit_db::route::{Step, Waypoint};
-use adit_planners::adapt::{
-    Adapt, Arm, Configuration, Limit, Object, Plugins, PointRobot, Settings, Shape, TOUCHING_M, Workcell,
-    distance,
-};
+use adit_planners::adapt::{Arm, Configuration, Limit, Object, PointRobot, Settings, Shape, TOUCHING_M};
 use adit_planners::floor_plan::outline;
 use adit_planners::geometry::Point;
 use adit_planners::planner::Planner;
 
 use super::cell::{Cell, Goal, RobotKind, Target};
 use super::draft::pose;
-use super::drawn::drawn_of;
 use super::judge::RuleJudge;
-use super::session::{Done, Session};
-use crate::draw::render_cell;
-use crate::error::{Code, Error, Result};
+use super::motions::{Motions, written};
+use crate::error::Result;
 use crate::plan::consult::Class;
-use crate::plan::course::{Asked, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, refuse_gaps};
+use crate::plan::course::{Asked, Course, ObjectsOf, Pathfinder, no_map, refuse_gaps};
 use crate::plan::figures;
 use crate::plan::rules::Kind;
 use crate::site::tables::TableFile;
 use crate::words::number::number;
 
 /// Where the robot is before its first task.
-const HOME: &str = "home";
+pub(super) const HOME: &str = "home";
 
 /// What the robot is called.
-const ROBOT: &str = "robot";
+pub(super) const ROBOT: &str = "robot";
 
 const ARMS: [(&str, &str); 5] =
     [("robot", "TEXT"), ("x", "REAL"), ("y", "REAL"), ("link_radius", "REAL"), ("margin", "REAL")];
@@ -166,15 +155,11 @@ impl Course for CellOf {
 
     fn pathfinder(&self, asked: &Asked<'_>) -> Result<Box<dyn Pathfinder>> {
         let (cell, margin) = self.cell_now(asked)?;
-        let workcell = Workcell::new(cell.robot.robot(), cell.objects.clone(), margin).map_err(no_map)?;
-        let adapt = Adapt::new(workcell, Plugins::standard(), cell.settings.clone(), cell.home.clone());
-        let session = Session::of(cell.clone(), cell.clone(), adapt, RuleJudge::of_site(asked, None, false)?);
         let goal_table = asked.objects("GOALS");
         let action = |row: usize| Some((goal_table.text(row, "goal")?, goal_table.text(row, "action")?));
         let actions = goal_table.rows().filter_map(action).collect();
-        let mut motions = Motions { cell, actions, ends: BTreeMap::new(), learned: Mutex::new(session) };
-        motions.learn()?;
-        Ok(Box::new(motions))
+        let judge = RuleJudge::of_site(asked, None, false)?;
+        Ok(Box::new(Motions::new((cell, margin), actions, judge)?))
     }
 }
 
@@ -314,161 +299,4 @@ fn goals(table: ObjectsOf<'_>, robot: &RobotKind) -> Result<Vec<Goal>> {
         Ok(Goal { name, target })
     };
     table.rows().map(goal).collect()
-}
-
-/// A configuration as people write it.
-fn written(at: &[f64]) -> String {
-    let numbers: Vec<String> = at.iter().map(|value| number(*value)).collect();
-    numbers.join(", ")
-}
-
-/// Motions in a cell as it is.
-struct Motions {
-    cell: Cell,
-    /// What rules say is done on the way to a goal.
-    actions: BTreeMap<String, String>,
-    /// Where the robot is at each end; why it cannot be there.
-    ends: BTreeMap<String, std::result::Result<Configuration, String>>,
-    learned: Mutex<Session>,
-}
-
-impl Motions {
-    /// Finds where the robot is at each goal.
-    fn learn(&mut self) -> Result<()> {
-        let mut session = self.learned.lock().unwrap_or_else(PoisonError::into_inner);
-        self.ends.insert(HOME.to_owned(), Ok(self.cell.home.clone()));
-        for goal in &self.cell.goals {
-            session.put(self.cell.home.clone());
-            let Done { at, reason, .. } = session.go(goal)?;
-            let at = match (at, reason) {
-                (Some(at), None) => Ok(at),
-                (_, reason) => Err(reason.unwrap_or_default()),
-            };
-            self.ends.insert(goal.name.clone(), at);
-        }
-        Ok(())
-    }
-
-    fn end(&self, text: &str, is_start: bool) -> std::result::Result<Goal, NoEnd> {
-        self.cell.goal(text).map_err(|error| NoEnd { is_start, reason: error.to_string() })
-    }
-
-    /// A motion from one end to another; `Err` within says why there is none.
-    fn motion(&self, ends: [&str; 2]) -> std::result::Result<std::result::Result<Done, String>, NoEnd> {
-        let (start, goal) = (self.end(ends[0], true)?, self.end(ends[1], false)?);
-        let from = match (self.ends.get(ends[0]), &start.target) {
-            (Some(Ok(at)), _) | (None, Target::Configuration(at)) => at.clone(),
-            (Some(Err(reason)), _) => return Ok(Err(reason.clone())),
-            (None, Target::Tool { .. }) => return Ok(Err(format!("the robot was never at {}", ends[0]))),
-        };
-        let mut session = self.learned.lock().unwrap_or_else(PoisonError::into_inner);
-        session.put(from);
-        let done = session.go(&goal).map_err(|error| NoEnd { is_start: false, reason: error.to_string() })?;
-        Ok(match &done.reason {
-            Some(reason) => Err(reason.clone()),
-            None => Ok(done),
-        })
-    }
-
-    fn tool(&self, at: &[f64]) -> Point {
-        self.cell.robot.robot().tool(at).at
-    }
-}
-
-impl Pathfinder for Motions {
-    fn robots(&self) -> Vec<String> {
-        vec![ROBOT.to_owned()]
-    }
-
-    fn ends(&self) -> Vec<Place> {
-        let place = |(name, at): (&String, &std::result::Result<Configuration, String>)| {
-            let at = at.as_ref().map_or(Point::default(), |at| self.tool(at));
-            Place { place: name.clone(), x: at.x, y: at.y }
-        };
-        self.ends.iter().map(place).collect()
-    }
-
-    fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
-        let mut row = Row::blank(robot, start, goal);
-        match self.motion([start, goal])? {
-            Err(reason) => row.reason = Some(reason),
-            Ok(done) => {
-                let path = done.report.as_ref().map_or(&[][..], |report| &report.path);
-                (row.steps, row.waypoints) = self.rows(path, goal);
-                let length = row.steps.last().map_or(0.0, |step| step.cost);
-                row.cost = Some(length);
-                row.distance = row.waypoints.last().and_then(|point| point.distance);
-            }
-        }
-        Ok(Found { row, said: Vec::new() })
-    }
-
-    fn find_through(&self, _: &str, _: [&str; 2], through: &str) -> Result<Found> {
-        let message =
-            format!("motions in a cell lead through nothing that has a name, and not through `{through}`");
-        Err(Error::said(Code::WhyThrough, message, None))
-    }
-
-    fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
-        let done = match route {
-            Some([_, start, goal]) => self.motion([start, goal])?.ok(),
-            None => None,
-        };
-        let session = self.learned.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut picture = drawn_of(&self.cell, session.adapt(), done.as_slice());
-        title.clone_into(&mut picture.title);
-        Ok(render_cell(&picture))
-    }
-
-    fn trouble(&self) -> Option<String> {
-        None
-    }
-
-    fn summary(&self) -> String {
-        let (objects, goals) = (self.cell.objects.len(), self.cell.goals.len());
-        let s = |count: usize| if count == 1 { "" } else { "s" };
-        format!("{objects} object{}, {goals} goal{}", s(objects), s(goals))
-    }
-}
-
-impl Motions {
-    /// A path as rows: a step and a waypoint for each straight motion. It weighs the distance of its configurations.
-    fn rows(&self, path: &[Configuration], goal: &str) -> (Vec<Step>, Vec<Waypoint>) {
-        let (mut steps, mut points) = (Vec::new(), Vec::new());
-        let (mut cost, mut metres) = (0.0, 0.0);
-        let action = self.actions.get(goal).cloned();
-        for (place, at) in path.iter().enumerate() {
-            let tool = self.tool(at);
-            let hardness = place.checked_sub(1).map_or(0.0, |before| distance(&path[before], at));
-            metres += place.checked_sub(1).map_or(0.0, |before| self.tool(&path[before]).distance(tool));
-            cost += hardness;
-            points.push(Waypoint {
-                waypoint: place as i64 + 1,
-                x: tool.x,
-                y: tool.y,
-                state: Some(written(at)),
-                action: action.clone(),
-                distance: Some(metres),
-                cost,
-                ..Waypoint::default()
-            });
-            if place == 0 {
-                continue;
-            }
-            let is_last = place + 1 == path.len();
-            steps.push(Step {
-                step: place as i64,
-                kind: "motion".to_owned(),
-                place: if is_last { goal.to_owned() } else { format!("by way of {}", written(at)) },
-                state: Some(written(at)),
-                action: action.clone(),
-                hardness: Some(hardness),
-                cost,
-                x: Some(tool.x),
-                y: Some(tool.y),
-                ..Step::default()
-            });
-        }
-        (steps, points)
-    }
 }

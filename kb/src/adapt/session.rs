@@ -10,7 +10,7 @@ use adit_planners::adapt::{
 };
 use adit_planners::random::Random;
 
-use super::cell::{Cell, Goal, Target};
+use super::cell::{Cell, Goal};
 use super::explain::Explained;
 use super::judge::RuleJudge;
 use super::keeping::Keeping;
@@ -54,6 +54,13 @@ pub struct Done {
     pub changed: Option<Changed>,
     /// Planning and keeping.
     pub took: Duration,
+}
+
+impl Done {
+    /// Of a task of which nothing came, so far.
+    pub(super) const fn none(goal: Goal, reason: Option<String>) -> Self {
+        Self { goal, at: None, report: None, reason, changed: None, took: Duration::ZERO }
+    }
 }
 
 impl Session {
@@ -105,16 +112,6 @@ impl Session {
         Ok((session, changed))
     }
 
-    /// Of a planner that is made ready; nothing is kept of it.
-    pub const fn of(cell: Cell, described: Cell, adapt: Adapt, judge: RuleJudge) -> Self {
-        Self { cell, described, adapt, judge, keeping: None }
-    }
-
-    /// Puts the robot somewhere else.
-    pub fn put(&mut self, at: Configuration) {
-        self.adapt.put(at);
-    }
-
     pub const fn cell(&self) -> &Cell {
         &self.cell
     }
@@ -144,18 +141,8 @@ impl Session {
             changed = self.take_in()?;
             self.keep(false)?;
         }
-        let mut done = Done {
-            goal: goal.clone(),
-            at: None,
-            report: None,
-            reason: Some(format!(
-                "the tool cannot get to goal {}: it is out of reach, or beyond the joints' limits",
-                goal.name
-            )),
-            changed,
-            took: Duration::ZERO,
-        };
-        for at in self.configurations(goal) {
+        let mut done = Done { changed, ..Done::none(goal.clone(), Some(out_of_reach(&goal.name))) };
+        for at in self.cell.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
             let reason = reason(&goal.name, &report);
             let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
@@ -180,30 +167,12 @@ impl Session {
         let progress = self.adapt.progress();
         let cell = self.described.after(progress.tasks as usize);
         let is_elsewhere = |goal: &&Goal| {
-            let all = self.configurations(goal);
+            let all = self.cell.configurations(goal);
             !all.is_empty() && all.iter().all(|at| distance(at, &progress.here) > 1e-9)
         };
         let goals: Vec<&Goal> = cell.goals.iter().filter(is_elsewhere).collect();
         let drawn = seed.wrapping_add(u64::from(progress.tasks).wrapping_mul(FAR_APART));
         goals.get(Random::new(drawn).below(goals.len())).map(|goal| (*goal).clone())
-    }
-
-    fn configurations(&self, goal: &Goal) -> Vec<Configuration> {
-        let (object, pose) = match &goal.target {
-            Target::Configuration(at) => return vec![at.clone()],
-            Target::Tool { object, pose } => (object, pose),
-        };
-        let Some(object) = self.cell.object(object) else { return Vec::new() };
-        let tool = object.pose.then(pose);
-        let robot = self.cell.robot.robot();
-        let mut found: Vec<Configuration> = Vec::new();
-        for at in [0, 1].into_iter().filter_map(|branch| robot.inverse(&tool, branch, &self.cell.home)) {
-            if found.iter().all(|known| distance(known, &at) > 1e-9) {
-                found.push(at);
-            }
-        }
-        found.sort_by(|a, b| distance(a, &self.cell.home).total_cmp(&distance(b, &self.cell.home)));
-        found
     }
 
     /// Writes the tasks that are not yet written. One that is done is written within a tenth of a second of further
@@ -280,6 +249,11 @@ fn experience(
     name.clone_into(&mut copy.cell.cell);
     store.transaction(|tx| tx.keep_experience(&copy))?;
     Ok(Some(copy))
+}
+
+/// Why there is no task at all.
+pub(super) fn out_of_reach(name: &str) -> String {
+    format!("the tool cannot get to goal {name}: it is out of reach, or beyond the joints' limits")
 }
 
 /// Why a task ended without a path.

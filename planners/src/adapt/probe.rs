@@ -180,18 +180,20 @@ impl<'c> Probe<'c> {
         self.0.evaluations()
     }
 
-    /// Whether the robot is free of all objects at a configuration.
+    /// Whether the robot is free of all objects at a configuration, by the whole of what counts as touching: not by what is
+    /// kept along motions, so that it is the same whatever is known.
     pub fn is_free(&mut self, at: &[f64]) -> bool {
         if !self.robot().admits(at) {
             return false;
         }
         let links = self.0.links(at);
+        let whole = wider(self.robot().links(at), self.0.touching_m());
         let objects = self.0.placed.len();
         if (0..objects).any(|index| self.0.is_known_to_touch(index, &links)) {
             return false;
         }
         (0..objects)
-            .all(|index| self.0.placed[index].slack(&links, 0.0) >= 0.0 || self.0.evaluate(index, &links))
+            .all(|index| self.0.placed[index].slack(&whole, 0.0) >= 0.0 || self.0.evaluate(index, &links))
     }
 
     /// Whether the robot stays free of all objects on the straight motion between two configurations.

@@ -75,6 +75,11 @@ impl Adapt {
         Err(Outcome::NotFound)
     }
 
+    /// Whether the robot touches nothing at a configuration.
+    pub fn is_free(&mut self, at: &[f64]) -> bool {
+        self.touched(at).is_none()
+    }
+
     /// The name of an object that the robot touches at a configuration.
     fn touched(&mut self, at: &[f64]) -> Option<String> {
         let is_free = Probe::new(&mut self.cell).is_free(at);
