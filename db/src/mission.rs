@@ -2,7 +2,7 @@
 
 mod decision;
 
-pub use decision::{Decision, decision, numbers, worlds};
+pub use decision::{Decision, Happened, decision, events, numbers, worlds};
 
 use sqlx::SqliteConnection;
 

@@ -11,6 +11,7 @@ pub mod learning;
 pub mod missions;
 pub mod reading;
 pub mod reporting;
+mod story;
 mod stretches;
 pub mod told;
 pub mod tours;

@@ -13,6 +13,10 @@ pub struct Decision {
     pub rules: String,
     /// How the mission ended: `arrived`, `no_way` or `gave_up`.
     pub ending: String,
+    /// Where the mission led from and to.
+    pub ends: [[f64; 2]; 2],
+    /// Metres that the robot went in all.
+    pub length: f64,
     /// The number of the entry.
     pub entry: i64,
     /// Seconds by the robot's clock.
@@ -54,27 +58,50 @@ pub async fn decision(
     at: f64,
 ) -> Result<Option<Decision>> {
     let found = sqlx::query_as(
-        "SELECT missions.rules, ending, entry, time, state, next, action, x, y, detail
+        "SELECT missions.rules, ending, start_x, start_y, goal_x, goal_y, length,
+                entry, time, state, next, action, x, y, detail
          FROM journal JOIN missions USING (world, mission)
          WHERE world = ? AND mission = ? AND event = 'state' AND time <= ?
          ORDER BY entry DESC LIMIT 1",
     );
     let found = found.bind(world).bind(mission).bind(at);
     let found: Option<Columns> = found.fetch_optional(&mut *connection).await?;
-    Ok(found.map(|(rules, ending, entry, time, state, next, action, x, y, detail)| Decision {
-        rules,
-        ending,
-        entry,
-        time,
-        state,
-        next,
-        action,
-        at: [x, y],
-        detail,
-    }))
+    Ok(found.map(
+        |(rules, ending, x0, y0, x1, y1, length, entry, time, state, next, action, x, y, detail)| Decision {
+            rules,
+            ending,
+            ends: [[x0, y0], [x1, y1]],
+            length,
+            entry,
+            time,
+            state,
+            next,
+            action,
+            at: [x, y],
+            detail,
+        },
+    ))
 }
 
-type Columns = (String, String, i64, f64, String, String, String, f64, f64, Option<String>);
+type Columns =
+    (String, String, f64, f64, f64, f64, f64, i64, f64, String, String, String, f64, f64, Option<String>);
+
+/// What happened on a mission besides its changes of state, up to so many seconds after the robot was switched on.
+pub async fn events(
+    connection: &mut SqliteConnection,
+    world: &str,
+    mission: i64,
+    until: f64,
+) -> Result<Vec<Happened>> {
+    let found = sqlx::query_as(
+        "SELECT time, event, detail FROM journal
+         WHERE world = ? AND mission = ? AND event <> 'state' AND time <= ? ORDER BY entry",
+    );
+    Ok(found.bind(world).bind(mission).bind(until).fetch_all(&mut *connection).await?)
+}
+
+/// When something happened, what it was, and what else there is of it, as JSON.
+pub type Happened = (f64, String, Option<String>);
 
 impl Tx<'_> {
     /// The worlds that have missions.
@@ -85,6 +112,11 @@ impl Tx<'_> {
     /// The numbers of a world's missions: how many there are, the first and the last.
     pub fn numbers_of_missions(&mut self, world: &str) -> Result<(i64, i64, i64)> {
         self.run(async |connection| numbers(connection, world).await)
+    }
+
+    /// What happened on a mission besides its changes of state, up to so many seconds after the robot was switched on.
+    pub fn events_of_mission(&mut self, world: &str, mission: i64, until: f64) -> Result<Vec<Happened>> {
+        self.run(async |connection| events(connection, world, mission, until).await)
     }
 
     /// The decision of a mission that was in force so many seconds after the robot was switched on.

@@ -13,7 +13,7 @@ use adit_planners::planner::Planner;
 use super::cell::{Cell, Goal, RobotKind, Target};
 use super::draft::pose;
 use super::judge::RuleJudge;
-use super::motions::{Motions, written};
+use super::motions::{HOME, Motions, ROBOT, written};
 use crate::error::Result;
 use crate::plan::consult::Class;
 use crate::plan::course::{Asked, Course, ObjectsOf, Pathfinder, no_map, refuse_gaps};
@@ -21,12 +21,6 @@ use crate::plan::figures;
 use crate::plan::rules::Kind;
 use crate::site::tables::TableFile;
 use crate::words::number::number;
-
-/// Where the robot is before its first task.
-pub(super) const HOME: &str = "home";
-
-/// What the robot is called.
-pub(super) const ROBOT: &str = "robot";
 
 const ARMS: [(&str, &str); 5] =
     [("robot", "TEXT"), ("x", "REAL"), ("y", "REAL"), ("link_radius", "REAL"), ("margin", "REAL")];

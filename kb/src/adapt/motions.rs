@@ -11,7 +11,6 @@ use adit_planners::adapt::{Adapt, Configuration, Outcome, Plugins, Report, Workc
 use adit_planners::geometry::Point;
 
 use super::cell::{Cell, Goal};
-use super::course::{HOME, ROBOT};
 use super::drawn::drawn_of;
 use super::judge::RuleJudge;
 use super::session::{Done, out_of_reach, reason};
@@ -19,6 +18,12 @@ use crate::draw::render_cell;
 use crate::error::{Code, Error, Result};
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_map};
 use crate::words::number::number;
+
+/// Where the robot is before its first task.
+pub(super) const HOME: &str = "home";
+
+/// What the robot is called.
+pub(super) const ROBOT: &str = "robot";
 
 /// A configuration as people write it.
 pub(super) fn written(at: &[f64]) -> String {

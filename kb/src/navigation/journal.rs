@@ -80,6 +80,7 @@ fn told(what: &Happening) -> Told {
         Happening::WayClosed { at, doorway, region } => {
             ("way closed", None, Some(json!({"at": [at.x, at.y], "doorway": doorway, "region": region})))
         }
+        Happening::Forbidden { doorways } => ("doorways closed", None, Some(json!({"doorways": doorways}))),
         Happening::Retried => ("begun anew", None, None),
         Happening::Reached(at) => ("reached", None, Some(json!({"at": [at.x, at.y]}))),
         Happening::Ended(ending) => {

@@ -17,7 +17,7 @@ use crate::plan::course::Asked;
 use crate::plan::{Said, Spoke, said};
 
 /// What rules are told of a situation.
-const SITUATIONS: [Property<StateFacts>; 31] = [
+const SITUATIONS: [Property<StateFacts>; 32] = [
     ("mode", Text(|of| word_for(&MODES, &of.mode))),
     ("state", Text(|of| word_for(&STATES, &of.state))),
     ("has_goal", Truth(|of| of.has_goal)),
@@ -38,6 +38,7 @@ const SITUATIONS: [Property<StateFacts>; 31] = [
     ("detours_here", Number(|of| of.detours_here.into())),
     ("waits", Number(|of| of.waits.into())),
     ("has_way", Truth(|of| of.has_way)),
+    ("is_shut", Truth(|of| of.is_shut)),
     ("retries", Number(|of| of.retries.into())),
     ("time", Number(|of| of.time_s)),
     ("goal_tolerance", Number(|of| of.settings.goal_tolerance_m)),

@@ -4,12 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::Store;
-use adit_db::mission::Decision;
+use adit_db::mission::{Decision, Happened};
 use adit_engine::Datum;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
+use super::story::{self, Chapter};
 use crate::error::{Code, Error, Result};
 use crate::plan::Spoke;
 use crate::site::base::Base;
@@ -24,6 +25,12 @@ pub struct Answer {
     pub mission: i64,
     /// How it ended: `arrived`, `no_way` or `gave_up`.
     pub ending: String,
+    /// Where the mission led from and to, metres.
+    pub ends: [[f64; 2]; 2],
+    /// Metres that the robot went in all.
+    pub length: f64,
+    /// What it met until then.
+    pub story: Vec<Chapter>,
     pub entry: i64,
     /// Seconds by the robot's clock.
     pub time: f64,
@@ -65,7 +72,7 @@ pub fn why(
         return Err(Error::said(Code::WhyTime, format!("--at {at} is no time; expected seconds"), None));
     }
     let mut store = Store::open_read_only(database)?;
-    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Decision>)> {
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<(Decision, Vec<Happened>)>)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;
         let (count, first, last) = tx.numbers_of_missions(&world)?;
         if !(first..=last).contains(&number) {
@@ -75,15 +82,18 @@ pub fn why(
         }
         // Times are read from tables, where they are rounded.
         let until = at.map_or(f64::INFINITY, |at| at + ROUNDED_S);
-        let found = tx.decision(&world, number, until)?;
-        Ok((world, found))
+        let Some(decision) = tx.decision(&world, number, until)? else { return Ok((world, None)) };
+        let happened = tx.events_of_mission(&world, number, until)?;
+        Ok((world, Some((decision, happened))))
     })?;
-    let Some(decision) = found else {
+    let Some((decision, happened)) = found else {
         let when = at.map_or_else(String::new, |at| format!(" yet at {} s", self::number(at)));
         let message = format!("mission {number} of {world} had decided nothing{when}");
         return Err(Error::said(Code::WhyNoStop, message, None));
     };
-    explained((world, number), decision, rules)
+    let mut answer = explained((world, number), decision, rules)?;
+    answer.story = story::told(&happened);
+    Ok(answer)
 }
 
 fn one_world(worlds: &[String], wanted: Option<&str>, database: &Path) -> Result<String> {
@@ -140,6 +150,9 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
         world,
         mission,
         ending: decision.ending,
+        ends: decision.ends,
+        length: decision.length,
+        story: Vec::new(),
         entry: decision.entry,
         time: decision.time,
         at: decision.at,
@@ -156,11 +169,19 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
 impl Answer {
     pub fn lines(&self) -> Vec<String> {
         let action = if self.action == "none" { String::new() } else { format!(", {}", self.action) };
-        let mut lines = vec![format!(
-            "mission {} of {}, {:.2} s, at ({:.2}, {:.2}): {} -> {}{action}",
-            self.mission, self.world, self.time, self.at[0], self.at[1], self.state, self.next
-        )];
-        lines.push(format!("it ended: {}", self.ending.replace('_', " ")));
+        let [[x0, y0], [x1, y1]] = self.ends;
+        let mut lines = vec![
+            format!(
+                "mission {} of {}, from ({x0:.2}, {y0:.2}) to ({x1:.2}, {y1:.2})",
+                self.mission, self.world
+            ),
+            format!("it ended: {}, after {} m", self.ending.replace('_', " "), number(self.length)),
+        ];
+        lines.extend(self.story.iter().map(Chapter::line));
+        lines.push(format!(
+            "at {:.2} s it stood at ({:.2}, {:.2}): {} -> {}{action}",
+            self.time, self.at[0], self.at[1], self.state, self.next
+        ));
         if let Some([next, action]) = &self.now {
             lines.push(format!("the rules have changed since: now they say {next}, action {action}"));
         }

@@ -103,6 +103,11 @@ impl Blocked {
         Self { doorways: vec![0; regions.doorways.len()], regions: vec![0; regions.regions.len()] }
     }
 
+    /// Whether nothing was reported.
+    pub fn is_none(&self) -> bool {
+        self.doorways.iter().chain(&self.regions).all(|&times| times == 0)
+    }
+
     /// Takes note that a place is blocked.
     ///
     /// # Returns
@@ -125,8 +130,8 @@ impl Blocked {
     }
 }
 
-/// Doorways that are closed whatever is seen: every way through them is.
-pub(super) fn forbidden(network: &Network, mut weigh: impl FnMut(&WayFacts) -> Option<f64>) -> Vec<Segment> {
+/// Doorways that are closed whatever is seen: every way through them is. By index.
+pub(super) fn forbidden(network: &Network, mut weigh: impl FnMut(&WayFacts) -> Option<f64>) -> Vec<usize> {
     let mut is_open = vec![false; network.regions.doorways.len()];
     let mut has_way = is_open.clone();
     for way in &network.ways {
@@ -135,10 +140,5 @@ pub(super) fn forbidden(network: &Network, mut weigh: impl FnMut(&WayFacts) -> O
             is_open[doorway] |= weigh(&WayFacts { way, is_cut: false, times_blocked: 0 }).is_some();
         }
     }
-    let closed = (0..is_open.len()).filter(|&doorway| has_way[doorway] && !is_open[doorway]);
-    let line = |doorway: usize| {
-        let door = &network.regions.doorways[doorway];
-        Segment::new(door.from, door.to)
-    };
-    closed.map(line).collect()
+    (0..is_open.len()).filter(|&doorway| has_way[doorway] && !is_open[doorway]).collect()
 }

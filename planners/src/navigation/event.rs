@@ -56,6 +56,11 @@ pub enum Happening {
         /// The region in which that is, by index, where it is in no doorway.
         region: Option<usize>,
     },
+    /// The judge closes other doorways than before, whatever is seen.
+    Forbidden {
+        /// All of them, by index.
+        doorways: Vec<usize>,
+    },
     /// What was seen of obstacles was forgotten.
     Retried,
     /// A goal point on the path was reached.

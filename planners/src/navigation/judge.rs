@@ -90,6 +90,9 @@ pub struct StateFacts {
     /// How often it waited at this spot.
     pub waits: u32,
     pub has_way: bool,
+    /// Whether there was no way when nothing that was met stood in it: by what is known of the building, and by what the judge
+    /// closes.
+    pub is_shut: bool,
     /// How often everything was begun anew.
     pub retries: u32,
     /// Seconds since the goal was given.

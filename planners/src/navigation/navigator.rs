@@ -8,7 +8,7 @@ mod watching;
 use std::collections::VecDeque;
 
 use super::Settings;
-use super::cuts::{Blocked, forbidden};
+use super::cuts::Blocked;
 use super::detour::Detours;
 use super::event::{Ending, Event, Happening};
 use super::judge::{Action, Judge, Mode, State};
@@ -40,8 +40,8 @@ pub struct Navigator<'b> {
     model: LocalModel,
     memory: Memory,
     blocked: Blocked,
-    /// Doorways that the judge closes whatever is seen.
-    forbidden: Vec<Segment>,
+    /// Doorways that the judge closes whatever is seen, by index.
+    forbidden: Vec<usize>,
     /// Walls, doorways that are forbidden, then obstacles; from which index on.
     barriers: Vec<Segment>,
     obstacles_from: usize,
@@ -52,6 +52,7 @@ pub struct Navigator<'b> {
     legs: VecDeque<Point>,
     line: Line,
     has_way: bool,
+    is_shut: bool,
     spot: Spot,
     track: VecDeque<Point>,
     retries: u32,
@@ -139,6 +140,7 @@ impl<'b> Navigator<'b> {
             legs: VecDeque::new(),
             line: Line::default(),
             has_way: true,
+            is_shut: false,
             spot: Spot::default(),
             track: VecDeque::new(),
             retries: 0,
@@ -224,7 +226,7 @@ impl<'b> Navigator<'b> {
         (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
         (self.begun_s, self.squeezes) = (self.time_s(), 0);
         self.blocked = Blocked::new(&self.building.network);
-        self.forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
+        self.ask_for_doorways(judge);
         self.gather();
         self.plan(judge, false);
     }

@@ -34,7 +34,7 @@
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
 //! | Blocked | mode is Learn                                          | Hold    | NoWay    |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
-//! | Blocked | has_way is false and time_s < no_way_after_s           | Decide  | Retry    |
+//! | Blocked | has_way, is_shut are false, time_s < no_way_after_s    | Decide  | Retry    |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
 //! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
 //! | Blocked | detours_here >= most_detours                           | Decide  | Close    |
@@ -116,7 +116,8 @@ fn row(facts: &StateFacts) -> (State, Action) {
 
 fn blocked(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
-    let is_early = facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s;
+    let is_early =
+        facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s && !facts.is_shut;
     let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
     match () {
         () if facts.is_busy => (State::Blocked, Action::None),

@@ -84,6 +84,7 @@ impl Navigator<'_> {
     pub(super) fn ask_for_doorways(&mut self, judge: &mut impl Judge) {
         let forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
         if forbidden != self.forbidden {
+            self.tell(Happening::Forbidden { doorways: forbidden.clone() });
             self.forbidden = forbidden;
             self.gather();
         }
@@ -99,6 +100,8 @@ impl Navigator<'_> {
         (self.memory, self.spot) = (Memory::default(), Spot::default());
         self.blocked = Blocked::new(&self.building.network);
         (self.retries, self.scans) = (self.retries + 1, 0);
+        // What is there now has to be seen before it is given up again.
+        self.readings_standing = 0;
         self.felt.clear();
         self.part.clear();
         self.ask_for_doorways(judge);
@@ -131,7 +134,9 @@ impl Navigator<'_> {
         let mut barriers = self.barriers[..self.obstacles_from].to_vec();
         // Where detours found nothing again and again, what they saw in the way counts, too.
         let confidence = if is_off_network { 1 } else { self.settings.least_confidence };
-        barriers.extend(self.obstacles(confidence));
+        let met = self.obstacles(confidence);
+        let is_unhindered = met.is_empty() && self.blocked.is_none();
+        barriers.extend(met);
         let ground = self.ground(&barriers);
         let mut route = None;
         if !is_off_network {
@@ -144,6 +149,7 @@ impl Navigator<'_> {
             self.squeezes += u32::from(route.is_some());
         }
         self.has_way = route.is_some();
+        self.is_shut = route.is_none() && is_unhindered;
         self.legs.clear();
         if let Some(Route { points, length_m, is_off_network }) = route {
             self.legs.extend(points.iter().skip(1));

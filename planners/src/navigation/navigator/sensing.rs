@@ -72,7 +72,9 @@ impl Navigator<'_> {
     /// Brings what is in the way up to date.
     pub(super) fn gather(&mut self) {
         self.barriers.truncate(self.building.walls.len());
-        self.barriers.extend(&self.forbidden);
+        let doorways = &self.building.network.regions.doorways;
+        let line = |&doorway: &usize| Segment::new(doorways[doorway].from, doorways[doorway].to);
+        self.barriers.extend(self.forbidden.iter().map(line));
         self.obstacles_from = self.barriers.len();
         let (now, patience) = (self.time_s(), self.settings.felt_s);
         self.felt.retain(|(time_s, _)| now - time_s <= patience);

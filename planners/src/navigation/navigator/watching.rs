@@ -35,6 +35,7 @@ impl Navigator<'_> {
             detours_here: self.spot.detours,
             waits: self.spot.waits,
             has_way: self.has_way,
+            is_shut: self.is_shut,
             retries: self.retries,
             time_s: self.time_s() - self.begun_s,
             settings: self.settings,

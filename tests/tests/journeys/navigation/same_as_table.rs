@@ -42,7 +42,7 @@ proptest! {
     #[test]
     fn figure_5(
         state in states(),
-        [a, b, c, d, e, f, g] in prop::array::uniform7(any::<bool>()),
+        [a, b, c, d, e, f, g, h] in prop::array::uniform8(any::<bool>()),
         automatic in prop::bool::weighted(0.9),
         distance_m in near(1.5),
         heading_error in near(0.02),
@@ -76,6 +76,7 @@ proptest! {
             back_offs,
             time_s,
             has_way: g,
+            is_shut: h,
             retries,
             settings: Settings::default(),
         };

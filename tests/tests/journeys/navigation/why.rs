@@ -10,6 +10,7 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
     for said in [
         "mission 1 of flat, ",
         "it ended: arrived",
+        "from (1.50, 1.50) to (",
         ": move -> hold",
         "because of move, row 2 (line ",
         "execution.rhai",
