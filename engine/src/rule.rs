@@ -216,7 +216,14 @@ impl FileScope {
         others: impl Iterator<Item = &'n str>,
     ) -> Diagnostic {
         let message = format!("{} has no property `{}`", name.class, name.property);
-        self.error(Code::UnknownProperty, position, message).did_you_mean(nearest(&name.property, others))
+        let unknown = self.error(Code::UnknownProperty, position, message);
+        let mut others: Vec<&str> = others.filter(|other| *other != name.property).collect();
+        others.sort_unstable();
+        others.dedup();
+        match nearest(&name.property, others.iter().copied()) {
+            None if !others.is_empty() => unknown.help(format!("it has {}", others.join(", "))),
+            near => unknown.did_you_mean(near),
+        }
     }
 }
 

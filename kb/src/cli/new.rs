@@ -1,5 +1,8 @@
 //! `adit new`: a site to begin with.
 
+mod questions;
+mod robots;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -13,18 +16,21 @@ use crate::site::shipped::{self, Sites};
 use crate::site::whole::Whole;
 use crate::site::{Layout, Rooms, Site};
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 pub struct NewArgs {
-    /// The folder to make
-    pub dir: PathBuf,
+    /// The folder to make; the present one without
+    pub dir: Option<PathBuf>,
     /// A map to copy into it: a TOML map, or a ROS map.yaml with its image
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
+    /// A robot to begin with, of the size that such machines have: cart, forklift, humanoid, quadruped; several may be said
+    #[arg(long, value_name = "ROBOT")]
+    pub robot: Vec<String>,
     /// How the map is cut into rooms
     #[arg(long, value_name = "MODE", default_value = "by-state", value_parser = ["by-state", "paper", "minimum"])]
     pub rooms: String,
     /// Without a map: tables and rules alone, with an example of them
-    #[arg(long, conflicts_with_all = ["map", "rooms"])]
+    #[arg(long, conflicts_with_all = ["map", "rooms", "robot"])]
     pub no_map: bool,
     /// Print the result as JSON
     #[arg(long)]
@@ -33,16 +39,26 @@ pub struct NewArgs {
 
 /// Starts a site. Where that fails nothing of it is left.
 pub fn run(args: &NewArgs) -> Result<()> {
-    if args.dir.join("site.toml").exists() {
-        let message = format!("{} is a site already", args.dir.display());
+    let args = &args.asked()?;
+    let dir = args.dir.as_deref().unwrap_or(Path::new("."));
+    if dir.join("site.toml").exists() {
+        let message = format!("{} is a site already", dir.display());
         return Err(Error::said(Code::SiteExists, message, None));
     }
     if args.no_map {
-        return without_map(args);
+        return without_map(args, dir);
     }
     if let Some((map, layout)) = args.map.as_ref().and_then(|map| Some((map, Layout::of(map)?))) {
-        return without_rooms(args, map, layout);
+        if !args.robot.is_empty() {
+            let message = format!(
+                "{} says itself which robots there are; --robot is for maps that are cut into rooms",
+                map.display()
+            );
+            return Err(Error::said(Code::SiteUnknownRobot, message, None));
+        }
+        return without_rooms((args, dir), map, layout);
     }
+    let robots = robots::text(&args.robot)?;
     let mode =
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
     if let Some(map) = &args.map {
@@ -51,76 +67,80 @@ pub fn run(args: &NewArgs) -> Result<()> {
         read_map(map, &MapSettings::default()).map_err(|errors| Error::all(errors.problems))?;
     }
     let mut made = Whole::default();
-    made.folder(&args.dir)?;
+    made.folder(dir)?;
     let map = match &args.map {
-        Some(map) => copy_map(map, &args.dir, &mut made)?,
-        None => starter(&args.dir, "map.toml", &mut made)?,
+        Some(map) => copy_map(map, dir, &mut made)?,
+        None => {
+            made.file(&dir.join("map.toml"), robots::map(&args.robot))?;
+            "map.toml".to_owned()
+        }
     };
-    let rules = args.dir.join(Site::RULES);
+    let rules = dir.join(Site::RULES);
     made.folder(&rules.join("tests"))?;
     let beneath = mode.rule_base().unwrap_or_default();
     made.file(&rules.join("own.rhai"), own_rules(beneath))?;
-    starter(&args.dir, "robots.toml", &mut made)?;
-    made.file(&args.dir.join("site.toml"), site_text(&args.dir, &map, mode))?;
-    Site::open(&args.dir)?.measured_world()?;
+    made.file(&dir.join("robots.toml"), robots)?;
+    made.file(&dir.join("site.toml"), site_text(dir, &map, mode))?;
+    Site::open(dir)?.measured_world()?;
     made.keep();
     if args.json {
-        return json(&serde_json::json!({"site": args.dir, "map": map, "rooms": mode.name()}));
+        return json(&serde_json::json!({"site": dir, "map": map, "rooms": mode.name()}));
     }
-    line(&format!("{} is a site now:", args.dir.display()));
+    line(&format!("{} is a site now:", dir.display()));
     line("  site.toml    what it is made of; places, bridges and obstacles may be laid over the map here");
-    line("  robots.toml  the robot's states: height and width in metres, hardness per metre, action");
+    line(&format!(
+        "  robots.toml  {}: its states, with height and width in metres, hardness per metre, action",
+        if args.robot.is_empty() { robots::FIRST.to_owned() } else { args.robot.join(", ") }
+    ));
     line(&format!("  rules/       your own rules, over those that the program carries ({beneath})"));
-    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
+    line(&format!("next: {} build {}", program(), quoted(dir)));
     Ok(())
 }
 
 /// Starts a site of tables and rules alone: a copy of the shop that the program carries.
-fn without_map(args: &NewArgs) -> Result<()> {
+fn without_map(args: &NewArgs, dir: &Path) -> Result<()> {
     let mut made = Whole::default();
     for folder in ["", "tables", "rules", "rules/tests"] {
         let from = if folder.is_empty() { "shop".to_owned() } else { format!("shop/{folder}") };
-        shipped::make::<Sites>(&from, &args.dir.join(folder), &mut made)?;
+        shipped::make::<Sites>(&from, &dir.join(folder), &mut made)?;
     }
-    Site::open(&args.dir)?;
+    Site::open(dir)?;
     made.keep();
     if args.json {
-        return json(&serde_json::json!({"site": args.dir, "map": null, "rooms": Rooms::Nothing.name()}));
+        return json(&serde_json::json!({"site": dir, "map": null, "rooms": Rooms::Nothing.name()}));
     }
-    line(&format!("{} is a site now, without a map:", args.dir.display()));
+    line(&format!("{} is a site now, without a map:", dir.display()));
     line("  tables/      one file a table, NAME.csv: each seeds its table once");
     line("  rules/       what is concluded of them, with its tests");
-    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
+    line(&format!("next: {} build {}", program(), quoted(dir)));
     Ok(())
 }
 
 /// Starts a site whose map is not cut into rooms: corridors, or a part in another one.
-fn without_rooms(args: &NewArgs, map: &Path, layout: Layout) -> Result<()> {
+fn without_rooms((args, dir): (&NewArgs, &Path), map: &Path, layout: Layout) -> Result<()> {
     // what is wrong with it is said where the user has it
     let course = course_of(map)?;
     let mut made = Whole::default();
-    made.folder(&args.dir)?;
-    let name = copy_map(map, &args.dir, &mut made)?;
+    made.folder(dir)?;
+    let name = copy_map(map, dir, &mut made)?;
     if let Some(beside) = Layout::beside(map) {
-        copy_map(&beside, &args.dir, &mut made)?;
+        copy_map(&beside, dir, &mut made)?;
     }
-    let rules = args.dir.join(Site::RULES);
+    let rules = dir.join(Site::RULES);
     made.folder(&rules.join("tests"))?;
     made.file(&rules.join("own.rhai"), own_rules(layout.rule_base()))?;
-    made.file(&args.dir.join("site.toml"), text_without_rooms(&args.dir, &name, layout))?;
-    Site::open(&args.dir)?;
+    made.file(&dir.join("site.toml"), text_without_rooms(dir, &name, layout))?;
+    Site::open(dir)?;
     made.keep();
     if args.json {
-        return json(
-            &serde_json::json!({"site": args.dir, "map": name, "rooms": null, "layout": course.name()}),
-        );
+        return json(&serde_json::json!({"site": dir, "map": name, "rooms": null, "layout": course.name()}));
     }
     let mut tables: Vec<String> = course.tables().into_iter().map(|table| table.name).collect();
     tables.extend((!course.places().is_empty()).then(|| "places".to_owned()));
-    line(&format!("{} is a site now ({}):", args.dir.display(), course.name()));
+    line(&format!("{} is a site now ({}):", dir.display(), course.name()));
     line(&format!("  {name}  fills the tables {} once; from then on they are the map", tables.join(", ")));
     line(&format!("  rules/  your own rules, over those that the program carries ({})", layout.rule_base()));
-    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
+    line(&format!("next: {} build {}", program(), quoted(dir)));
     Ok(())
 }
 
@@ -172,14 +192,6 @@ fn copy_map(map: &Path, into: &Path, made: &mut Whole) -> Result<String> {
         made.file(&into.join(&name), text)?;
     }
     Ok(name.display().to_string())
-}
-
-/// A file of the site that beginners start from.
-fn starter(into: &Path, name: &str, made: &mut Whole) -> Result<String> {
-    let files = shipped::files::<Sites>("starter");
-    let text = files.iter().find(|(file, _)| file == name).map_or("", |(_, text)| text.as_str());
-    made.file(&into.join(name), text)?;
-    Ok(name.to_owned())
 }
 
 /// The file in which a site's own rules begin.

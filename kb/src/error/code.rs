@@ -323,6 +323,8 @@ codes! {
     SiteRobots = "site/robots", UNPROCESSABLE_ENTITY;
     /// `starts` names one start twice.
     SiteStarts = "site/starts", UNPROCESSABLE_ENTITY;
+    /// There is no robot of this name to begin with.
+    SiteUnknownRobot = "site/unknown-robot", UNPROCESSABLE_ENTITY;
     /// `starts` names what is no place or room.
     SiteUnknownStart = "site/unknown-start", UNPROCESSABLE_ENTITY;
 

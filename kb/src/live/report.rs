@@ -440,21 +440,47 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> V
     notes
 }
 
+/// What two rules or more disagree about, with what they say of it, and the objects.
+#[derive(Default)]
+struct Disagreement<'c> {
+    keys: Vec<&'c str>,
+    /// Of each rule all that it says.
+    said: BTreeMap<&'c str, Vec<String>>,
+}
+
 /// Objects on which the same rules disagree, in one sentence.
 fn conflicts(conclusions: &Conclusions) -> Vec<String> {
-    let mut groups: BTreeMap<(String, Vec<String>), Vec<&str>> = BTreeMap::new();
+    let mut groups: BTreeMap<(String, Vec<&str>), Disagreement<'_>> = BTreeMap::new();
     for conflict in &conclusions.conflicts {
-        let said = conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
-        groups.entry((conflict.property.to_string(), said)).or_default().push(&conflict.key);
+        let rules = conflict.values.iter().map(|(rule, _)| rule.as_str()).collect();
+        let group = groups.entry((conflict.property.to_string(), rules)).or_default();
+        group.keys.push(&conflict.key);
+        for (rule, value) in &conflict.values {
+            let (said, value) = (group.said.entry(rule.as_str()).or_default(), value.to_string());
+            if !said.contains(&value) {
+                said.push(value);
+            }
+        }
     }
-    let sentence = |((property, said), keys): ((String, Vec<String>), Vec<&str>)| {
+    let sentence = |((property, _), Disagreement { keys, said }): ((String, _), Disagreement<'_>)| {
         let more = if keys.len() > 5 { ", ..." } else { "" };
         let named = keys.iter().take(5).copied().collect::<Vec<_>>().join(", ");
+        let said: Vec<String> =
+            said.iter().map(|(rule, values)| format!("\"{rule}\" says {}", any_of(values))).collect();
         format!(
-            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}",
+            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`",
             keys.len(),
             said.join(", ")
         )
     };
     groups.into_iter().map(sentence).collect()
+}
+
+/// `1, 2 or 4`, of many the first few.
+fn any_of(values: &[String]) -> String {
+    match values {
+        [one] => one.clone(),
+        [first @ .., last] if values.len() <= 4 => format!("{} or {last}", first.join(", ")),
+        many => format!("{}, ...", many[..4.min(many.len())].join(", ")),
+    }
 }

@@ -1,5 +1,6 @@
 //! What the program carries: the shipped rule bases and the example sites.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use rust_embed::RustEmbed;
@@ -32,6 +33,15 @@ pub fn files<E: RustEmbed>(folder: &str) -> Vec<(String, String)> {
         .collect();
     found.sort();
     found
+}
+
+/// The folders in one folder of `E`, in the order of their names.
+pub fn folders<E: RustEmbed>(folder: &str) -> Vec<String> {
+    let inside = |path: &str| {
+        let (first, _) = path.strip_prefix(folder)?.strip_prefix('/')?.split_once('/')?;
+        Some(first.to_owned())
+    };
+    E::iter().filter_map(|path| inside(&path)).collect::<BTreeSet<_>>().into_iter().collect()
 }
 
 /// Makes one shipped folder in a folder of the user's. Files that are there already are an error.

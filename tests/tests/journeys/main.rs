@@ -35,6 +35,7 @@ mod plugins;
 mod preview;
 mod readme;
 mod real_maps;
+mod robots_to_begin_with;
 mod rule_tests;
 mod rules_decide;
 mod slanted_rooms;
