@@ -12,7 +12,7 @@ use utoipa::{PartialSchema, ToSchema};
 /// The codes with the names that users and programs see, and the HTTP status of each.
 macro_rules! codes {
     ($(#[doc = $meaning:literal] $code:ident = $name:literal, $status:ident;)*) => {
-        /// What is wrong. The comment of each code stands in the list that users read (`kb/CODES.md`).
+        /// What is wrong. The comment of each code stands in the list that users read (`manual/src/codes.md`).
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Code {
             /// Of a rule file or a test of rules.

@@ -29,29 +29,93 @@ struct Page {
     databases: &'static [(&'static str, &'static str)],
 }
 
-const PAGES: [Page; 5] = [
+const fn page(file: &'static str) -> Page {
+    Page { file, blocks: &[], databases: &[] }
+}
+
+const PAGES: [Page; 20] = [
     Page {
         file: "README.md",
         blocks: &[
             ("dock to ward 12, hardness", Use::Shown),
+            ("the south is draughty", Use::File("my-site/rules/south.rhai")),
+        ],
+        databases: &[("action_sequence", "my-site/site.db")],
+    },
+    Page {
+        file: "manual/src/tutorials/a-map-of-yours.md",
+        blocks: &[("name = \"charger\"", Use::Added("shop-floor/site.toml"))],
+        databases: &[("FROM waypoints", "shop-floor/site.db")],
+    },
+    page("manual/src/tutorials/an-experts-table.md"),
+    Page { file: "manual/src/tutorials/in-sql.md", blocks: &[], databases: &[("FROM", "my-site/site.db")] },
+    Page {
+        file: "manual/src/tutorials/a-first-rule.md",
+        blocks: &[
+            ("the south is draughty", Use::File("my-site/rules/south.rhai")),
+            ("only the south is harder", Use::File("my-site/rules/tests/south.toml")),
+        ],
+        databases: &[],
+    },
+    Page {
+        file: "manual/src/tutorials/the-paper.md",
+        blocks: &[],
+        databases: &[("action_sequence", "paper.db")],
+    },
+    Page {
+        file: "manual/src/sites.md",
+        blocks: &[
             ("width = 12.0", Use::File("drawn.toml")),
             ("state = \"SQUAT\"", Use::Shown),
             ("load = \"crate\"", Use::Added("my-site/robots.toml")),
+        ],
+        databases: &[],
+    },
+    Page {
+        file: "manual/src/rules.md",
+        blocks: &[
             ("rule \"a room is as hard as its state\"", Use::Shown),
             ("by the tap", Use::Added("my-site/site.toml")),
             ("revise \"wet floors are slippery\"", Use::File("my-site/rules/wet.rhai")),
             ("rule \"a raised arm", Use::File("my-site/rules/arm.rhai")),
             ("a metre weighs what the state weighs", Use::File("my-site/rules/tests/metre.toml")),
-            ("a robot found blocked", Use::File("my-site/rules/blocked.rhai")),
-            ("presents are wrapped", Use::File("my-shop/rules/presents.rhai")),
-            ("timezone = ", Use::Shown),
-            ("distance,measured", Use::File("runs.csv")),
         ],
+        databases: &[],
+    },
+    Page {
+        file: "manual/src/without-a-map.md",
+        blocks: &[("presents are wrapped", Use::File("my-shop/rules/presents.rhai"))],
+        databases: &[],
+    },
+    page("manual/src/tuning.md"),
+    Page {
+        file: "manual/src/telling.md",
+        blocks: &[
+            ("name = \"ward door\"", Use::Added("my-site/site.toml")),
+            ("a robot found blocked", Use::File("my-site/rules/blocked.rhai")),
+            ("timezone = ", Use::Shown),
+        ],
+        databases: &[],
+    },
+    Page {
+        file: "manual/src/asking-why.md",
+        blocks: &[("distance,measured", Use::File("runs.csv"))],
+        databases: &[],
+    },
+    Page {
+        file: "manual/src/sql.md",
+        blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
-    Page { file: "kb/PLAN.md", blocks: &[], databases: &[("action_sequence", "part.db")] },
+    page("manual/src/ways.md"),
+    page("manual/src/other-maps.md"),
     Page {
-        file: "kb/NAVIGATION.md",
+        file: "manual/src/corridors-and-parts.md",
+        blocks: &[],
+        databases: &[("action_sequence", "part.db")],
+    },
+    Page {
+        file: "manual/src/floor-plans-and-missions.md",
         blocks: &[
             ("start 1.5,1.5 90", Use::File("orders.txt")),
             ("squeaks = true", Use::Shown),
@@ -59,12 +123,13 @@ const PAGES: [Page; 5] = [
         ],
         databases: &[("journal", "missions.db"), ("floor_regions", "flat.db")],
     },
-    Page { file: "kb/ADAPT.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
+    Page { file: "manual/src/cells.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
     Page {
-        file: "kb/SERVICE.md",
+        file: "manual/src/service.md",
         blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
         databases: &[],
     },
+    page("manual/src/figures.md"),
 ];
 
 /// What is not run, and why.
@@ -145,29 +210,36 @@ fn map_of_yours(folder: &Path) {
     fs::write(folder.join("map.yaml"), text).expect("written");
 }
 
-#[test]
-fn the_readme() {
-    check("README.md");
+macro_rules! each_page {
+    ($($name:ident: $file:literal;)*) => {
+        $(#[test]
+        fn $name() {
+            check($file);
+        })*
+    };
 }
 
-#[test]
-fn parts_and_corridors() {
-    check("kb/PLAN.md");
-}
-
-#[test]
-fn floor_plans_and_missions() {
-    check("kb/NAVIGATION.md");
-}
-
-#[test]
-fn cells_and_experience() {
-    check("kb/ADAPT.md");
-}
-
-#[test]
-fn the_service() {
-    check("kb/SERVICE.md");
+each_page! {
+    the_readme: "README.md";
+    a_map_of_yours: "manual/src/tutorials/a-map-of-yours.md";
+    an_experts_table: "manual/src/tutorials/an-experts-table.md";
+    answers_in_sql: "manual/src/tutorials/in-sql.md";
+    a_first_rule: "manual/src/tutorials/a-first-rule.md";
+    the_paper: "manual/src/tutorials/the-paper.md";
+    sites: "manual/src/sites.md";
+    rules: "manual/src/rules.md";
+    without_a_map: "manual/src/without-a-map.md";
+    tuning: "manual/src/tuning.md";
+    telling: "manual/src/telling.md";
+    asking_why: "manual/src/asking-why.md";
+    sql: "manual/src/sql.md";
+    ways: "manual/src/ways.md";
+    other_maps: "manual/src/other-maps.md";
+    parts_and_corridors: "manual/src/corridors-and-parts.md";
+    floor_plans_and_missions: "manual/src/floor-plans-and-missions.md";
+    cells_and_experience: "manual/src/cells.md";
+    the_service: "manual/src/service.md";
+    figures: "manual/src/figures.md";
 }
 
 #[test]

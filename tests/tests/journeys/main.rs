@@ -22,6 +22,7 @@ mod laid;
 mod large_site;
 mod lazy_route;
 mod live;
+mod manual;
 mod navigation;
 mod no_map;
 mod nothing_half;

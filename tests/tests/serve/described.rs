@@ -45,11 +45,11 @@ fn every_route_says_what_it_is_for_what_it_takes_and_what_it_gives() {
         let name: String = text[at + 21..].chars().take_while(|c| *c != '"').collect();
         assert!(!description["components"]["schemas"][&name].is_null(), "there is no schema {name}");
     }
-    let manual = fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
+    let manual = fs::read_to_string(repository().join("manual/src/service.md")).unwrap();
     for route in all {
         let path =
             route.split(' ').nth(1).unwrap().split('{').next().unwrap().trim_end_matches('/').to_owned();
-        assert!(manual.contains(&path), "SERVICE.md does not name {route}");
+        assert!(manual.contains(&path), "service.md does not name {route}");
     }
 }
 
@@ -57,14 +57,14 @@ fn every_route_says_what_it_is_for_what_it_takes_and_what_it_gives() {
 fn every_setting_of_the_service_is_documented() {
     let help = Ran::new(&std::process::Command::new(adit()).args(["serve", "--help"]).output().unwrap())
         .expecting(0);
-    let manual = fs::read_to_string(repository().join("kb/SERVICE.md")).unwrap();
+    let manual = fs::read_to_string(repository().join("manual/src/service.md")).unwrap();
     let words = help.stdout.split(|c: char| !(c.is_alphanumeric() || c == '-'));
     let settings: Vec<&str> = words.filter(|word| word.starts_with("--") && word.len() > 3).collect();
     assert!(settings.len() > 6);
     for setting in settings {
         assert!(
             ["--help"].contains(&setting) || manual.contains(setting),
-            "SERVICE.md does not name {setting}"
+            "service.md does not name {setting}"
         );
     }
 }
@@ -79,13 +79,13 @@ fn the_page_of_codes_lists_every_code_with_its_statuses_and_no_other() {
         format!("| `{code}` | {} | {} | {} |\n", code.http().as_u16(), code.exit(), code.meaning())
     };
     let table: String = codes.into_iter().map(row).collect();
-    let file = repository().join("kb/CODES.md");
+    let file = repository().join("manual/src/codes.md");
     let page = fs::read_to_string(&file).unwrap();
     let (before, written) = page.split_once(HEAD).expect("the head of the table");
     if std::env::var_os("WRITE_CODES").is_some() {
         fs::write(&file, format!("{before}{HEAD}{table}")).unwrap();
     } else {
-        assert_eq!(written, table, "`WRITE_CODES=1 tests/run --test serve` writes kb/CODES.md anew");
+        assert_eq!(written, table, "`WRITE_CODES=1 tests/run --test serve` writes manual/src/codes.md anew");
     }
 }
 

@@ -4,14 +4,14 @@ use adit::plan::rules::Kind;
 use adit_tests::repository;
 
 fn page() -> String {
-    std::fs::read_to_string(repository().join("kb/ADAPT.md")).expect("kb/ADAPT.md")
+    std::fs::read_to_string(repository().join("manual/src/cells.md")).expect("manual/src/cells.md")
 }
 
 #[test]
 fn every_property_that_rules_are_told() {
     let page = page();
     for (name, _) in Kind::Adapt.classes().into_iter().flat_map(|class| class.told) {
-        assert!(page.contains(&format!("`{name}`")), "{name} is not in kb/ADAPT.md");
+        assert!(page.contains(&format!("`{name}`")), "{name} is not in manual/src/cells.md");
     }
 }
 
@@ -27,7 +27,7 @@ fn every_table_and_column_of_experience() {
             row = page
                 .lines()
                 .find(|line| line.starts_with(&format!("| `{table}` |")))
-                .unwrap_or_else(|| panic!("{table} is not in kb/ADAPT.md"));
+                .unwrap_or_else(|| panic!("{table} is not in manual/src/cells.md"));
         }
         let column = line.strip_prefix("  ").and_then(|line| line.split(' ').next());
         if let Some(column) = column.filter(|column| column.starts_with(|c: char| c.is_ascii_lowercase())) {

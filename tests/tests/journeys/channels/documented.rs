@@ -3,7 +3,8 @@
 use adit::plan::rules::Kind;
 
 fn documented() -> String {
-    std::fs::read_to_string(adit_tests::repository().join("kb/PLAN.md")).expect("kb/PLAN.md")
+    std::fs::read_to_string(adit_tests::repository().join("manual/src/corridors-and-parts.md"))
+        .expect("manual/src/corridors-and-parts.md")
 }
 
 #[test]
@@ -21,6 +22,9 @@ fn every_property_that_rules_are_told() {
             first("_z").replace("_max_", "_min_"),
             first("_y").replace("_max_", "_min_"),
         ];
-        assert!(named.iter().any(|name| page.contains(&format!("`{name}`"))), "{name} is not in kb/PLAN.md");
+        assert!(
+            named.iter().any(|name| page.contains(&format!("`{name}`"))),
+            "{name} is not in manual/src/corridors-and-parts.md"
+        );
     }
 }
