@@ -39,7 +39,7 @@ pub use curves::{Curve, CurvePanel, Scale, render_curves};
 pub use floor::render_floor;
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};
-pub use scene::{Door, PrimeArea, Room, Route, Scene, Step, StepKind};
+pub use scene::{Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 pub use style::Style;
 
 use frame::At;
@@ -105,6 +105,7 @@ fn map(sheet: &mut Sheet) -> Svg {
             named::areas(svg, sheet);
             ground::solids(svg, sheet);
             named::doors(svg, sheet);
+            named::closings(svg, sheet);
             ground::scale_bar(svg, sheet);
         });
     }

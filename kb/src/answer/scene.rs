@@ -5,10 +5,11 @@ use adit_planners::geometry::{Convex, Point, Rect};
 use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
-use crate::draw::{Door, PrimeArea, Room, Route, Scene, Step, StepKind};
+use crate::draw::{Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 use crate::error::{Code, Error, Result};
-use crate::graph::{SiteGraph, crossing_of, outline_of, rect_of};
+use crate::graph::{Building, SiteGraph, crossing_of, outline_of, rect_of};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::told::Whom;
 
 impl KnowledgeBase {
     /// What is to be seen of the site, with a route from start to goal where one is asked for.
@@ -92,6 +93,7 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
     scene.places.clone_from(&world.places);
     scene.areas.clone_from(&world.areas);
     scene.named_doors.clone_from(&world.named_doors);
+    scene.closings = closings(&Building::read(tx)?);
     let rooms = tx.rooms()?;
     // an outline that somebody else spoilt is drawn as the box about it
     let outline = |room: &adit_db::room::Room| outline_of(room).unwrap_or_else(|_| rect_of(room).into());
@@ -144,6 +146,19 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
         }
     }
     Ok(scene)
+}
+
+/// The doorways that rules close, and the lines that are told to be closed.
+fn closings(building: &Building) -> Vec<Closing> {
+    let closing = |[x0, y0, x1, y1]: [f64; 4], is_for_all| Closing {
+        from: Point::new(x0, y0),
+        to: Point::new(x1, y1),
+        is_for_all,
+    };
+    let closed = building.doorways.iter().filter(|doorway| doorway.closed == Some(true));
+    let doorways = closed.map(|of| closing([of.x0, of.y0, of.x1, of.y1], true));
+    let lines = building.lines.iter().map(|line| closing(line.segment, line.whom == Whom::All));
+    doorways.chain(lines).collect()
 }
 
 /// Prime areas are lettered as in the paper's Figure 5.

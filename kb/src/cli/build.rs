@@ -7,7 +7,7 @@ use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::live::report::{Concluded, Report, RouteChange};
+use crate::live::report::{Change, Concluded, Report, RouteChange};
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::progress::{Silent, Spinner};
 
@@ -68,9 +68,12 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
         return notes(report);
     }
     let routes = &report.routes;
+    let (spaces, doorways) = (report.spaces, report.doorways);
     line(&format!(
-        "{}: {} rooms, {} doors, routes from {} starts (generation {})",
+        "{}: {spaces} space{}, {doorways} doorway{}, cut into {} rooms, {} doors; routes from {} starts (generation {})",
         knowledge.site().name,
+        if spaces == 1 { "" } else { "s" },
+        if doorways == 1 { "" } else { "s" },
         report.rooms.total,
         report.doors.total,
         routes.starts,
@@ -165,17 +168,18 @@ pub fn changes(report: &Report) {
     } else if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
     } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {
-        line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
+        let counted = [(report.rooms.changed, "room"), (report.doors.changed, "door")];
+        let counted: Vec<String> = counted
+            .into_iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }))
+            .collect();
+        line(&match &counted[..] {
+            [] => "no room or door changed".to_owned(),
+            some => format!("{} changed", some.join(" and ")),
+        });
         for change in report.changes.iter().take(LISTED) {
-            let action = match (&change.old_action, &change.new_action) {
-                (old, new) if old == new => String::new(),
-                (old, new) => format!(
-                    ", {} → {}",
-                    old.as_deref().unwrap_or("no action"),
-                    new.as_deref().unwrap_or("no action")
-                ),
-            };
-            line(&format!("  {}: {} → {}{action}", change.what, maybe(change.old), maybe(change.new)));
+            line(&format!("  {}: {}", change.what, turned(change)));
         }
         if report.changes.len() > LISTED {
             line(&format!("  and {} more", report.changes.len() - LISTED));
@@ -195,10 +199,13 @@ pub fn changes(report: &Report) {
                 0 => String::new(),
                 count => format!("; {count} are driven otherwise"),
             };
-            line(&format!(
-                "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way{otherwise}",
-                report.routes.starts
-            ));
+            line(&match (changed, rerouted, otherwise.is_empty()) {
+                (0, 0, true) => "no route costs anything else or leads another way".to_owned(),
+                _ => format!(
+                    "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way{otherwise}",
+                    report.routes.starts
+                ),
+            });
         }
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
     }
@@ -220,6 +227,29 @@ pub fn changes(report: &Report) {
         line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
     notes(report);
+}
+
+/// What of a room or door is otherwise: its hardness, its action, whether it lets through.
+fn turned(change: &Change) -> String {
+    let mut parts = Vec::new();
+    let state = |passable: Option<bool>| match passable {
+        Some(true) => "open",
+        Some(false) => "closed",
+        None => "undecided",
+    };
+    if change.old_passable != change.new_passable {
+        parts.push(format!("{} → {}", state(change.old_passable), state(change.new_passable)));
+    }
+    let (old, new) = (maybe(change.old), maybe(change.new));
+    if old != new || parts.is_empty() && change.old_action == change.new_action {
+        parts.push(format!("{old} → {new}"));
+    }
+    if change.old_action != change.new_action {
+        let [old, new] =
+            [&change.old_action, &change.new_action].map(|of| of.as_deref().unwrap_or("no action"));
+        parts.push(format!("{old} → {new}"));
+    }
+    parts.join(", ")
 }
 
 /// Whether a route costs what it did and leads where it did, by other points.

@@ -1,4 +1,4 @@
-//! `adit demo`: the paper's example and a clinic, built, routed and drawn.
+//! `adit demo`: a clinic and the paper's example, built, routed and drawn.
 
 use std::path::{Path, PathBuf};
 
@@ -29,22 +29,24 @@ pub struct DemoArgs {
 
 /// Builds the examples into a folder and shows them.
 pub fn run(args: &DemoArgs) -> Result<()> {
-    let paper = build(args, "paper", ("f", "e"))?;
     let clinic = build(args, "clinic", ("dock", "ward 12"))?;
+    let paper = build(args, "paper", ("f", "e"))?;
     if args.json {
-        return json(&serde_json::json!([paper.json(), clinic.json()]));
+        return json(&serde_json::json!([clinic.json(), paper.json()]));
     }
-    line("== The paper's example (Abou-Ali et al.): a robot that walks, side-steps, squats and creeps\n");
+    line(
+        "== A clinic: low pipes, narrow gaps, a corridor full of beds; a robot that walks, side-steps and squats\n",
+    );
+    show(&clinic.knowledge, &clinic.report);
+    line("");
+    route::summary(&clinic.answer);
+    line(&format!("picture: {}\n", clinic.picture.display()));
+    line("== The example of the paper (Abou-Ali et al.), from which this comes\n");
     show(&paper.knowledge, &paper.report);
     rooms(&paper.knowledge)?;
     line("");
     route::steps(&paper.answer);
     line(&format!("picture: {}\n", paper.picture.display()));
-    line("== A clinic: low pipes, narrow gaps, a corridor full of beds\n");
-    show(&clinic.knowledge, &clinic.report);
-    line("");
-    route::summary(&clinic.answer);
-    line(&format!("picture: {}\n", clinic.picture.display()));
     let (adit, site) = (program(), quoted(&args.out.join("clinic")));
     let picture = quoted(&args.out.join("lobby.svg"));
     line("What to try next:");

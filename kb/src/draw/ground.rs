@@ -18,6 +18,7 @@ pub(super) fn definitions(svg: &mut Svg) {
             .attr("patternTransform", "rotate(45)")
             .nums([("width", 7.0), ("height", 7.0)])
             .children(|svg| line(svg, (0.0, 0.0), (0.0, 7.0), BRIDGE, 2.2, ""));
+        super::named::definitions(svg);
     });
 }
 

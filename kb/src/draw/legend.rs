@@ -6,7 +6,7 @@ use super::palette::{BRIDGE, CLOSED, GREY, INK, ROUTE, Scale};
 use super::panel::Panel;
 use super::scene::{Route, Scene};
 use super::sheet::{Sheet, cross, line};
-use super::{route, text};
+use super::{named, route, text};
 
 /// Runs that are listed with their rooms and doors.
 const WITH_PLACES: usize = 12;
@@ -140,6 +140,9 @@ fn marks(panel: &mut Panel, sheet: &Sheet) {
                 .attr("stroke-dasharray", "6 2")
                 .end();
         });
+    }
+    if sheet.layers.has(Layer::Map) {
+        named::legend(panel, sheet);
     }
     if sheet.layers.has(Layer::Primes) && sheet.scene.prime_areas.iter().any(|area| area.open == Some(false))
     {

@@ -12,16 +12,15 @@ pub(super) const BRIDGE: &str = "#b5651d";
 /// The start and the goal.
 pub(super) const ROUTE: &str = "#17365d";
 
-/// An action's colour and dash, by its position.
-const ACTIONS: [(&str, &str); 8] = [
-    ("#2e9d66", ""),
-    ("#e0b100", "10 4"),
-    ("#e8772e", "5 3"),
-    ("#d0342c", "2 3"),
-    ("#8e5ab5", "12 3 2 3"),
-    ("#3f8fd2", "7 2 2 2 2 2"),
-    ("#a07a4f", "3 6"),
-    ("#d45f9e", "14 6"),
+/// An action's colour and dash, by its position: those of the page (`kb/page/palette.js`).
+const ACTIONS: [(&str, &str); 7] = [
+    ("#0072b2", ""),
+    ("#d55e00", "10 4"),
+    ("#007a5a", "3 4"),
+    ("#a3487d", "12 4 3 4"),
+    ("#5b3fa8", "6 3"),
+    ("#7a5c00", "2 2"),
+    ("#000000", "16 6"),
 ];
 
 /// From easy to hard: viridis from its light to its dark end, so that order survives a grey print.
@@ -126,4 +125,29 @@ impl Scale {
 /// The scale of the passable doors' hardness.
 pub(super) fn door_scale(scene: &Scene) -> Option<Scale> {
     Scale::of(scene.doors.iter().filter(|d| d.passable).filter_map(|d| d.hardness))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ACTIONS;
+
+    /// The list that begins with these words, as the page has it.
+    fn of_page(begin: &str) -> String {
+        let page = include_str!("../../page/palette.js");
+        let list = page.split_once(begin).expect("the page has it").1;
+        list.split_once("\n").expect("a line").0.to_owned()
+    }
+
+    #[test]
+    fn an_action_looks_on_pictures_as_on_the_page() {
+        let actions = include_str!("../../page/palette.js").split_once("const ACTIONS").expect("actions").1;
+        let light = actions.split_once("light: [").and_then(|(_, rest)| rest.split_once(']'));
+        let light: Vec<&str> =
+            light.expect("a list").0.split(',').map(|colour| colour.trim().trim_matches('\'')).collect();
+        assert_eq!(light, ACTIONS.map(|(colour, _)| colour));
+        let dashes = of_page("const DASHES = [").trim_end_matches("];").to_owned();
+        let dashes: Vec<String> =
+            dashes.split("],").map(|dash| dash.trim().trim_matches(['[', ']']).replace(", ", " ")).collect();
+        assert_eq!(dashes, ACTIONS.map(|(_, dash)| dash));
+    }
 }

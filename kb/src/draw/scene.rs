@@ -23,6 +23,8 @@ pub struct Scene {
     /// Parts of the floor with a name.
     pub areas: Vec<Area>,
     pub named_doors: Vec<NamedDoor>,
+    /// Where nobody comes through at the moment, or some do not.
+    pub closings: Vec<Closing>,
     /// Edges of the vertical strips, ascending: n + 1 edges make n strips (Figure 4).
     pub strips_x: Vec<f64>,
     /// Edges of the horizontal strips, ascending.
@@ -48,6 +50,7 @@ impl Scene {
             places: Vec::new(),
             areas: Vec::new(),
             named_doors: Vec::new(),
+            closings: Vec::new(),
             strips_x: Vec::new(),
             strips_y: Vec::new(),
             prime_areas: Vec::new(),
@@ -55,6 +58,15 @@ impl Scene {
             actions: Vec::new(),
         }
     }
+}
+
+/// A line that is closed, from end to end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Closing {
+    pub from: Point,
+    pub to: Point,
+    /// Whether to everybody; else some robots pass.
+    pub is_for_all: bool,
 }
 
 /// A row of `rooms`.

@@ -42,6 +42,10 @@ pub struct Change {
     pub old_action: Option<String>,
     /// Action of now.
     pub new_action: Option<String>,
+    /// Whether it let through before.
+    pub old_passable: Option<bool>,
+    /// Whether it does now.
+    pub new_passable: Option<bool>,
 }
 
 /// The routes that are kept.
@@ -215,6 +219,10 @@ pub struct Report {
     pub rooms: Counts,
     /// Doors.
     pub doors: Counts,
+    /// How many spaces the building has, as people see it.
+    pub spaces: usize,
+    /// How many doorways are between them.
+    pub doorways: usize,
     /// The rooms and doors that changed; none where all were cut anew.
     pub changes: Vec<Change>,
     /// How many values rules conclude of other things than rooms and doors.
@@ -334,6 +342,8 @@ impl Report {
         }
         Self {
             generation: state.generation,
+            spaces: graph.building.spaces.len(),
+            doorways: graph.building.doorways.len(),
             rooms,
             doors,
             changes,
@@ -358,6 +368,8 @@ impl Report {
         let stage = |stage: &Stage| serde_json::json!({"stage": stage.name, "seconds": stage.took.as_secs_f64(), "kept": stage.kept});
         serde_json::json!({
             "generation": self.generation,
+            "spaces": self.spaces,
+            "doorways": self.doorways,
             "rooms": self.rooms,
             "doors": self.doors,
             "cut_anew": self.cut_anew,
@@ -401,6 +413,8 @@ impl Change {
             new: new.hardness.value,
             old_action: old.action.value,
             new_action: new.action.value.clone(),
+            old_passable: old.passable.value,
+            new_passable: new.passable.value,
         })
     }
 }

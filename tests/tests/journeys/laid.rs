@@ -99,3 +99,24 @@ fn what_cannot_be_laid_is_refused_in_words_and_nothing_is_kept() {
         .complains(&["the obstacle `crate` lies there already"]);
     site.adit("lift", &["crates"]).expecting(2).complains(&["did you mean `crate`?"]);
 }
+
+#[test]
+fn a_picture_tells_apart_what_is_closed_and_areas_of_each_kind() {
+    let site = starter();
+    let drawn = || {
+        let file = site.path().join("floor.svg");
+        site.adit("draw", &["-o", file.to_str().unwrap()]).expect_status(0);
+        std::fs::read_to_string(file).unwrap()
+    };
+    let open = drawn();
+    assert!(!open.contains(">closed<") && !open.contains("url(#hatch-45)"), "nothing is closed or named");
+    site.adit("lay", &["area", "puddle", "3.5,1 4.5,2", "--kind", "wet"]).expect_status(0);
+    site.adit("lay", &["area", "stairs", "9,1 10,2", "--kind", "keep-out"]).expect_status(0);
+    site.adit("close", &["doorway 1"]).expect_status(0);
+    let shut = drawn();
+    for words in [">closed<", ">wet<", ">keep-out<", "url(#hatch-45)"] {
+        assert!(shut.contains(words), "{words}");
+    }
+    site.adit("open", &["doorway 1"]).expect_status(0);
+    assert!(!drawn().contains(">closed<"));
+}
