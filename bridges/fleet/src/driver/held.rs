@@ -1,0 +1,42 @@
+//! Why nothing more is released to a vehicle.
+
+use super::Driver;
+use super::words;
+use crate::site::Fleet;
+use crate::wire::Report;
+
+/// In words; `None` where it may drive on.
+pub fn why(driver: &Driver, report: &Report, fleet: &Fleet) -> Option<String> {
+    if report.position.is_some_and(|at| !at.localized) {
+        return Some("it does not know where it is".to_owned());
+    }
+    if !matches!(report.operating_mode.as_str(), "AUTOMATIC" | "SEMIAUTOMATIC" | "") {
+        return Some(format!("its operating mode is {}", report.operating_mode));
+    }
+    let stopping =
+        report.errors.iter().find(|error| fleet.meaning(&error.error_type, &error.error_level).stops);
+    if let Some(error) = stopping {
+        return Some(words::error(error));
+    }
+    too_large(driver, fleet)
+}
+
+/// What the maker says of its body does not fit the robot whose routes it drives.
+fn too_large(driver: &Driver, fleet: &Fleet) -> Option<String> {
+    let body = driver.factsheet.as_ref()?.body?;
+    let robot = driver.row.robot.clone().unwrap_or_else(|| fleet.only_robot());
+    let states = fleet.states.get(&robot)?;
+    let largest = |of: fn(&crate::site::State) -> f64| states.iter().map(of).fold(0.0, f64::max);
+    let (width, height) = (largest(|state| state.width), largest(|state| state.height));
+    let bound = |what: &str, is: f64, most: f64| {
+        format!("by its factsheet it is {is} m {what}, robot {robot} at most {most} m")
+    };
+    // a tenth of a millimetre is how makers round
+    if body.width > width + 1e-4 {
+        Some(bound("wide", body.width, width))
+    } else if body.height > height + 1e-4 {
+        Some(bound("high", body.height, height))
+    } else {
+        None
+    }
+}

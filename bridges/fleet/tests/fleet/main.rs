@@ -1,0 +1,5 @@
+//! Vehicles on a broker, as a fleet's integrator sees them.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+mod drives;
+mod yard;
