@@ -231,6 +231,12 @@ impl Driver {
     ) -> String {
         let order = &sent.order;
         let is_of_order = report.order_id == order.id;
+        // switched off and on, or sent elsewhere by somebody else
+        if !is_of_order && (sent.is_known || order.update > 0) {
+            self.unfollow(effects);
+            effects.push(Effect::Say(format!("{} has its order no more", self.row.name)));
+            return self.begin(goal, report, held, to, world, effects);
+        }
         sent.is_known |= is_of_order && report.order_update_id == order.update;
         if !sent.is_known {
             if let Some(refusal) = words::refusal(report, &order.id, order.update) {

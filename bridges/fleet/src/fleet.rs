@@ -326,7 +326,7 @@ impl Fleet {
         if let (Some(edit), Some(cell)) = (edit.as_object_mut(), cell.as_object()) {
             edit.extend(cell.clone());
         }
-        let body = json!({"edit": edit, "why": "the vehicle says so"});
+        let body = json!({"edit": edit, "why": asked::SAID});
         let before = self.writers.remove(name);
         let task = tokio::spawn(async move {
             if let Some(before) = before {

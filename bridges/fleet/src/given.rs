@@ -100,8 +100,6 @@ impl Given {
 
     fn node(&self, index: usize, fleet: &Fleet) -> Node {
         let stop = &self.stops[index];
-        let bends = index > 0 && index + 1 < self.stops.len() && !stop.is_gate && stop.becomes.is_none();
-        let room = self.stops.get(index + 1).and_then(|next| Some(next.clearance?.min(stop.clearance?)));
         Node {
             id: stop.id.clone(),
             sequence: 2 * index as u32,
@@ -109,7 +107,7 @@ impl Given {
             released: index < self.released,
             at: stop.at,
             facing: stop.facing,
-            deviation: room.filter(|room| bends && *room > SAME),
+            deviation: stop.deviation,
             map: self.map.clone(),
             actions: stop
                 .becomes
@@ -169,6 +167,7 @@ fn continued(from: &Stop, mut way: Vec<Stop>) -> Vec<Stop> {
 fn with_changes_apart(mut way: Vec<Stop>) -> Vec<Stop> {
     for stop in &mut way {
         stop.is_gate &= stop.becomes.is_none();
+        stop.deviation = stop.deviation.filter(|_| stop.becomes.is_none());
     }
     way
 }

@@ -35,6 +35,8 @@ pub struct Stop {
     pub facing: Option<f64>,
     /// Metres between the rim and what is solid, on the way there.
     pub clearance: Option<f64>,
+    /// Metres by which it may be passed beside; `None`: as exactly as it can be.
+    pub deviation: Option<f64>,
     /// The lowest that is over the way there, metres.
     pub height: Option<f64>,
     /// The doorway in which it lies.
@@ -94,6 +96,11 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
                 lowest(bridges, before.at, stop.at, half(stop.state.as_deref().unwrap_or_default()));
         }
         stops.push(stop);
+    }
+    for index in 1..stops.len().saturating_sub(1) {
+        let room = stops[index + 1].clearance.and_then(|next| Some(next.min(stops[index].clearance?)));
+        let stop = &mut stops[index];
+        stop.deviation = room.filter(|room| !stop.is_gate && stop.becomes.is_none() && *room > SAME);
     }
     stops
 }

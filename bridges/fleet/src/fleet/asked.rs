@@ -17,6 +17,9 @@ const PAUSE: Duration = Duration::from_millis(500);
 /// Metres by which a vehicle's position may be moved to where its robot fits.
 const WITHIN: &str = "0.5";
 
+/// Why rows of vehicles are written.
+pub const SAID: &str = "the vehicle says so";
+
 /// A task that ends with whoever holds it.
 pub struct Kept<T>(pub JoinHandle<T>);
 
@@ -172,8 +175,9 @@ pub async fn events(site: Site, heard: UnboundedSender<Heard>) {
             "changed" => {
                 changed.notify_one();
                 let said: Value = serde_json::from_str(data).unwrap_or_default();
-                let of_floor = |key: &str| said[key].as_u64().is_some_and(|count| count > 0);
-                if of_floor("rooms") || of_floor("doors") || said["anew"] == true {
+                // what vehicles say changes no way, unless rules make something of it
+                let is_ours = said["why"] == SAID && said["rooms"] == 0 && said["doors"] == 0;
+                if !is_ours || said["what"].as_str().is_some_and(|what| what.contains("by rule")) {
                     let _ = heard.send(Heard::Floor);
                 }
             }

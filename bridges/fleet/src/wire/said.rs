@@ -136,6 +136,11 @@ impl Addressee {
         let mut message = self.head(number, at);
         let mut actions: Vec<Value> =
             instant.actions.iter().map(|action| Value::Object(self.action(action))).collect();
+        if self.version >= Version::V3_0 {
+            for action in &mut actions {
+                action["blockingType"] = json!("NONE");
+            }
+        }
         if self.version == Version::V2_0 {
             // its schema calls them `actions` with an `actionName`, its text and vehicles `instantActions` with an `actionType`
             for action in &mut actions {

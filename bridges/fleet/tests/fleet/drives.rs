@@ -1,10 +1,21 @@
 //! A vehicle that others wrote drives the depot's routes.
 
-use serde_json::Value;
+use std::time::Duration;
+
+use serde_json::{Value, json};
 
 use crate::yard::{Bridge, Broker, Vehicle, cell, close, depot, send, within};
 
 const CART: &str = "vehicle,manufacturer,robot,goal,doing\ncart-1,acme,cart,,\n";
+
+/// Whether a node of the order in which it is has such an id.
+fn has_node(state: &Value, of: &str) -> bool {
+    state["nodeStates"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .any(|node| node["nodeId"].as_str().unwrap().starts_with(of))
+}
 
 #[test]
 fn a_vehicle_drives_to_its_goal_and_its_goal_is_taken_out_of_the_table() {
@@ -24,6 +35,147 @@ fn a_vehicle_drives_to_its_goal_and_its_goal_is_taken_out_of_the_table() {
         );
         within("the goal is reached", || (cell(&service, "cart-1", "goal") == Value::Null).then_some(()));
         within("it is said", || (cell(&service, "cart-1", "doing") == "at gate").then_some(()));
-        assert_eq!(cart.state["errors"], serde_json::json!([]));
+        assert_eq!(cart.state["errors"], json!([]));
     }
+}
+
+#[test]
+fn a_doorway_closed_beyond_the_base_changes_the_order_before_the_vehicle_gets_there() {
+    for version in ["2.0.0", "2.1.0"] {
+        let broker = Broker::start();
+        let (_site, service) = depot("vehicle,manufacturer,robot,goal\ncrawler-1,acme,crawler,\n", "");
+        let bridge = Bridge::start(&service, &broker);
+        let mut crawler = Vehicle::start(&broker, version, "crawler-1", [2.0, 6.0, 1.5]);
+        send(&service, "crawler-1", "gate");
+        let state = crawler.until("it has its order", |state| state["driving"] == true);
+        assert!(has_node(&state, "doorway 2"), "{state:#}");
+        let order = state["orderId"].clone();
+        close(&service, "doorway 2");
+        let state = crawler.until("it goes another way", |state| has_node(state, "doorway 3"));
+        assert_eq!(state["orderId"], order, "the same order goes on");
+        assert!(state["orderUpdateId"].as_u64().unwrap() > 0);
+        assert!(!has_node(&state, "doorway 2"), "{state:#}");
+        assert!(state["agvPosition"]["x"].as_f64().unwrap() < 11.0, "it has not got there: {state:#}");
+        crawler.arrives("gate");
+        assert_eq!(crawler.state["orderId"], order, "{}", bridge.log());
+        assert_eq!(crawler.state["errors"], json!([]));
+    }
+}
+
+#[test]
+fn a_doorway_closed_in_the_base_stops_the_vehicle_and_it_goes_another_way() {
+    let broker = Broker::start();
+    let (_site, service) = depot("vehicle,manufacturer,robot,goal\ncrawler-1,acme,crawler,\n", "");
+    let bridge = Bridge::start(&service, &broker);
+    let mut crawler = Vehicle::start(&broker, "2.0.0", "crawler-1", [8.5, 6.7, 0.5]);
+    send(&service, "crawler-1", "gate");
+    let released =
+        |state: &Value| {
+            state["nodeStates"].as_array().unwrap().iter().any(|node| {
+                node["nodeId"].as_str().unwrap().starts_with("doorway 2") && node["released"] == true
+            })
+        };
+    let before =
+        crawler.until("the doorway is released", |state| released(state) && state["driving"] == true);
+    close(&service, "doorway 2");
+    let stopped =
+        crawler.until("it stops", |state| state["nodeStates"] == json!([]) && state["driving"] == false);
+    assert!(stopped["agvPosition"]["x"].as_f64().unwrap() < 11.9, "{stopped:#}");
+    let after = crawler.until("it has another order", |state| has_node(state, "doorway 3"));
+    assert_ne!(after["orderId"], before["orderId"]);
+    assert!(bridge.log().contains("crawler-1 stops: the way ahead is closed"), "{}", bridge.log());
+}
+
+#[test]
+fn a_broker_that_is_killed_and_comes_back_loses_nothing() {
+    let mut broker = Broker::start();
+    let (_site, service) = depot(CART, "");
+    let bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [2.0, 6.0, 2.0]);
+    send(&service, "cart-1", "gate");
+    cart.until("it drives", |state| state["driving"] == true);
+    broker.kill();
+    within("it is noticed", || bridge.log().contains("the broker is away").then_some(()));
+    // what is said meanwhile counts
+    close(&service, "doorway 2");
+    send(&service, "cart-1", "shelf");
+    broker.again();
+    cart.arrives("shelf");
+    within("the goal is reached", || (cell(&service, "cart-1", "goal") == Value::Null).then_some(()));
+}
+
+#[test]
+fn a_vehicle_that_reports_an_obstacle_closes_the_way_ahead_for_its_kind_and_goes_another() {
+    let broker = Broker::start();
+    let (site, service) = depot("vehicle,manufacturer,robot,goal,errors\ncrawler-1,acme,crawler,,\n", "");
+    let bridge = Bridge::start(&service, &broker);
+    let mut crawler = Vehicle::start(&broker, "2.0.0", "crawler-1", [10.5, 6.0, 0.5]);
+    let of_dog = "/api/route?start=10.5,6&goal=gate&robot=dog";
+    let dog = service.ask("GET", of_dog, None).1["cost"].clone();
+    send(&service, "crawler-1", "gate");
+    crawler.until("it drives", |state| state["driving"] == true);
+    crawler.tell("obstacle");
+    crawler.until("it goes another way", |state| has_node(state, "doorway 3"));
+    let log = bridge.log();
+    assert!(
+        log.contains("crawler-1 reports obstacle [WARNING]: a pallet: the way ahead is closed for 120 s"),
+        "{log}"
+    );
+    assert_eq!(service.ask("GET", of_dog, None).1["cost"], dog, "for crawlers only");
+    let why = site.sqlite3("SELECT DISTINCT why FROM facts_told");
+    assert!(why[0].contains("crawler-1 reports obstacle"), "{why:?}");
+    let noted = site.sqlite3("SELECT count(*) > 0 FROM history WHERE column_name = 'errors'");
+    assert_eq!(noted, ["1"]);
+}
+
+#[test]
+fn nothing_is_released_to_a_vehicle_that_does_not_know_where_it_is() {
+    let broker = Broker::start();
+    let (_site, service) = depot(CART, "");
+    let _bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [2.0, 6.0, 2.0]);
+    cart.until("it is there", |_| true);
+    cart.tell("lost");
+    cart.until("it is lost", |state| state["agvPosition"]["positionInitialized"] == false);
+    send(&service, "cart-1", "gate");
+    within("it is said", || {
+        (cell(&service, "cart-1", "doing") == "waits: it does not know where it is").then_some(())
+    });
+    assert_eq!(cart.state["orderId"], "");
+}
+
+#[test]
+fn a_vehicle_that_vanishes_is_known_to_be_gone_and_drives_on_when_it_is_back() {
+    let broker = Broker::start();
+    let (_site, service) = depot("vehicle,manufacturer,robot,goal,connection\ncart-1,acme,cart,,\n", "");
+    let _bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [2.0, 6.0, 2.0]);
+    send(&service, "cart-1", "gate");
+    cart.until("it drives", |state| state["driving"] == true);
+    cart.tell("vanish");
+    within("it is gone", || (cell(&service, "cart-1", "connection") == "connection broken").then_some(()));
+    // switched on again where it was: it has forgotten its order
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [6.0, 8.0, 6.0]);
+    cart.arrives("gate");
+}
+
+#[test]
+fn a_rule_says_what_a_vehicle_does_to_change_its_shape_and_how_fast_it_drives() {
+    let rules = r#"rule "the dog's side-step is an action of the vehicle"
+    each state in ROBOTS where state.state == "SIDE-STEP"
+    then { state.vehicle_action = "noop"; state.vehicle_blocking = "HARD"; state.speed = 3.0; }
+"#;
+    let broker = Broker::start();
+    let (_site, service) = depot("vehicle,manufacturer,robot,goal\ndog-1,acme,dog,shelf\n", rules);
+    let (_client, orders) = broker.client(&["uagv/v2/acme/dog-1/order"]);
+    let _bridge = Bridge::start(&service, &broker);
+    let _dog = Vehicle::start(&broker, "2.1.0", "dog-1", [9.0, 1.2, 6.0]);
+    let (_, order) = orders.recv_timeout(Duration::from_secs(20)).expect("an order");
+    let nodes = order["nodes"].as_array().unwrap();
+    let actions: Vec<&Value> = nodes.iter().flat_map(|node| node["actions"].as_array().unwrap()).collect();
+    assert_eq!(actions[0]["actionType"], "noop", "{order:#}");
+    assert_eq!(actions[0]["blockingType"], "HARD");
+    assert_eq!(actions[0]["actionParameters"][0], json!({"key": "state", "value": "SIDE-STEP"}));
+    let edges = order["edges"].as_array().unwrap();
+    assert!(edges.iter().any(|edge| edge["maxSpeed"] == 3.0), "{order:#}");
 }

@@ -2,4 +2,5 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 mod drives;
+mod messages;
 mod yard;
