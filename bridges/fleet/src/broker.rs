@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use rumqttc::{AsyncClient, Event, EventLoop, MqttOptions, Packet, QoS};
 use tokio::sync::mpsc::UnboundedSender;
 
-use crate::fleet::Heard;
+use crate::heard::Heard;
 
 /// Messages larger than this break the connection.
 const LARGEST: usize = 16 << 20;

@@ -51,6 +51,8 @@ pub struct Driver {
     /// Errors on which something was done.
     acted: BTreeSet<String>,
     written: BTreeMap<String, Value>,
+    /// What was wrong with its last states.
+    said: Option<String>,
     heads: [u32; 2],
     epoch: u64,
     orders: u32,
@@ -59,6 +61,8 @@ pub struct Driver {
 /// An order on its way, or acknowledged.
 struct Sent {
     order: Given,
+    /// The stop that the vehicle has reached.
+    reached: usize,
     at: f64,
     is_known: bool,
 }
@@ -96,6 +100,7 @@ impl Driver {
             is_broken: false,
             checks: false,
             acted: BTreeSet::new(),
+            said: None,
             heads: [0; 2],
             epoch: 0,
             orders: 0,
@@ -194,7 +199,7 @@ impl Driver {
             manufacturer: self.row.manufacturer.clone(),
             serial: self.row.serial.clone(),
         };
-        let held = held::why(self, &report, world.fleet);
+        let held = held::why(&report, self.factsheet.as_ref(), &self.robot(world), world.fleet);
         self.act_on_errors(&report, world, effects);
         if self.is_cancelling(&report, &to, world, effects) {
             let why = self.cancels.as_ref().map(|cancel| cancel.why.clone());
@@ -258,7 +263,18 @@ impl Driver {
             self.given = Some(sent);
             return words;
         }
-        let reached = if is_of_order { sent.order.reached(report.last_node_sequence_id) } else { 0 };
+        let said = (report.last_node_sequence_id, report.last_node_id.as_str());
+        match sent.order.reached(said.0, said.1) {
+            Some(reached) => sent.reached = reached,
+            // at the start of an order it may still name the node of before
+            None if said.0 == 0 => {}
+            None => {
+                let words =
+                    format!("is at node `{}`, sequence {}, which was not released to it", said.1, said.0);
+                self.says_once(words, effects);
+            }
+        }
+        let reached = sent.reached;
         let last = sent.order.stops.len() - 1;
         if sent.order.goal == goal
             && is_of_order
@@ -366,19 +382,31 @@ impl Driver {
         self.orders += 1;
         let id = format!("{OURS}{} {} {}", self.row.name, world.clock.words, self.orders);
         let map = self.row.map.clone().unwrap_or_else(|| world.map.to_owned());
-        let robot = self.row.robot.clone().unwrap_or_else(|| world.fleet.only_robot());
+        let robot = self.robot(world);
         let order = Given::new(id, goal.to_owned(), (map, robot), stops);
         self.is_broken = false;
         let end = order.base_end().at;
         self.follows = self.follows.take().map(|follows| Follows { start: end, ..follows });
         effects.push(Effect::Moved { at: end });
         self.send_order(&order, to, world, effects);
-        self.given = Some(Sent { order, at: world.clock.seconds, is_known: false });
+        self.given = Some(Sent { order, reached: 0, at: world.clock.seconds, is_known: false });
         format!("is sent to {goal}")
     }
 
+    fn says_once(&mut self, words: String, effects: &mut Vec<Effect>) {
+        if self.said.as_ref() != Some(&words) {
+            effects.push(Effect::Say(format!("{} {words}", self.row.name)));
+            self.said = Some(words);
+        }
+    }
+
+    /// Whose routes it drives.
+    fn robot(&self, world: &World<'_>) -> String {
+        self.row.robot.clone().unwrap_or_else(|| world.fleet.only_robot())
+    }
+
     fn stops(&self, route: &Route, world: &World<'_>) -> Vec<crate::way::Stop> {
-        let robot = self.row.robot.clone().unwrap_or_else(|| world.fleet.only_robot());
+        let robot = self.robot(world);
         let half = |state: &str| {
             world
                 .fleet
@@ -477,8 +505,7 @@ impl Driver {
                 continue;
             }
             let ahead = self.given.as_ref().and_then(|sent| {
-                let reached = sent.order.reached(report.last_node_sequence_id);
-                let next = sent.order.stops.get(reached + 1)?;
+                let next = sent.order.stops.get(sent.reached + 1)?;
                 Some((next.at[1] - at.y).atan2(next.at[0] - at.x))
             });
             let only = (!meaning.for_all).then(|| self.row.robot.clone()).flatten();
@@ -508,7 +535,7 @@ impl Driver {
             values.push(("errors", Value::from(errors.into_iter().collect::<Vec<_>>().join(", "))));
             let here = self.given.as_ref().filter(|sent| sent.order.id == report.order_id);
             if let Some(sent) = here {
-                let stop = &sent.order.stops[sent.order.reached(report.last_node_sequence_id)];
+                let stop = &sent.order.stops[sent.reached];
                 values.push(("space", Value::from(stop.space.clone())));
             }
         }

@@ -12,7 +12,8 @@ use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
 use tokio::task::JoinHandle;
 
 use crate::driver::{Driver, Effect, World};
-use crate::site::{Fleet as Tables, Route, Site, VEHICLES};
+use crate::heard::Heard;
+use crate::site::{Fleet as Tables, Site, VEHICLES};
 use crate::way::{Bridge, Margins};
 use crate::wire;
 
@@ -21,41 +22,6 @@ const TICK: Duration = Duration::from_millis(500);
 
 /// How many vehicles that the site does not know are named.
 const NAMED: usize = 100;
-
-/// Something that was heard.
-pub enum Heard {
-    /// The broker is there, or why it is not.
-    Broker(Option<String>),
-    /// A message, with its topic.
-    Message(String, Vec<u8>),
-    /// The site's tables, or why they are not to be had.
-    Tables(Result<Tables, String>),
-    /// What is low over the floor.
-    Bridges(Vec<Bridge>),
-    /// Something of the floor is another one.
-    Floor,
-    /// The way of a vehicle, and who follows it.
-    Route {
-        vehicle: String,
-        epoch: u64,
-        follower: String,
-        route: Route,
-    },
-    /// Whether what was released is still a way.
-    Checked {
-        vehicle: String,
-        order: String,
-        update: u32,
-        holds: bool,
-    },
-    /// The goal that was reached is out of the table.
-    Cleared {
-        vehicle: String,
-    },
-    /// For the log.
-    Said(String),
-    Tick,
-}
 
 /// The settings.
 pub struct Settings {

@@ -72,9 +72,11 @@ impl Given {
         true
     }
 
-    /// The stop that the vehicle has reached, by its last sequence number.
-    pub fn reached(&self, sequence: u32) -> usize {
-        (sequence as usize / 2).min(self.stops.len() - 1)
+    /// The stop that the vehicle says it has reached; `None` where that is none that was released to it.
+    pub fn reached(&self, sequence: u32, node: &str) -> Option<usize> {
+        let index = sequence as usize / 2;
+        let stop = self.stops[..self.released].get(index)?;
+        (sequence % 2 == 0 && stop.id == node).then_some(index)
     }
 
     /// Metres from a point to the end of the base, by the stops after the one that was reached.

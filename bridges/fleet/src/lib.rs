@@ -8,6 +8,7 @@ pub mod cli;
 pub mod driver;
 mod fleet;
 pub mod given;
+mod heard;
 pub mod site;
 pub mod way;
 pub mod wire;

@@ -1,12 +1,11 @@
 //! Why nothing more is released to a vehicle.
 
-use super::Driver;
 use super::words;
 use crate::site::Fleet;
-use crate::wire::Report;
+use crate::wire::{Factsheet, Report};
 
 /// In words; `None` where it may drive on.
-pub fn why(driver: &Driver, report: &Report, fleet: &Fleet) -> Option<String> {
+pub fn why(report: &Report, factsheet: Option<&Factsheet>, robot: &str, fleet: &Fleet) -> Option<String> {
     if report.position.is_some_and(|at| !at.localized) {
         return Some("it does not know where it is".to_owned());
     }
@@ -18,14 +17,13 @@ pub fn why(driver: &Driver, report: &Report, fleet: &Fleet) -> Option<String> {
     if let Some(error) = stopping {
         return Some(words::error(error));
     }
-    too_large(driver, fleet)
+    too_large(factsheet?, robot, fleet)
 }
 
 /// What the maker says of its body does not fit the robot whose routes it drives.
-fn too_large(driver: &Driver, fleet: &Fleet) -> Option<String> {
-    let body = driver.factsheet.as_ref()?.body?;
-    let robot = driver.row.robot.clone().unwrap_or_else(|| fleet.only_robot());
-    let states = fleet.states.get(&robot)?;
+fn too_large(factsheet: &Factsheet, robot: &str, fleet: &Fleet) -> Option<String> {
+    let body = factsheet.body?;
+    let states = fleet.states.get(robot)?;
     let largest = |of: fn(&crate::site::State) -> f64| states.iter().map(of).fold(0.0, f64::max);
     let (width, height) = (largest(|state| state.width), largest(|state| state.height));
     let bound = |what: &str, is: f64, most: f64| {

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use tokio::sync::mpsc::UnboundedSender;
 use tokio::task::JoinHandle;
 
-use super::Heard;
+use crate::heard::Heard;
 use crate::site::{Fleet as Tables, Followed, Route, Site, Trouble, query};
 use crate::way::Bridge;
 

@@ -2,5 +2,6 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 mod drives;
+mod malformed;
 mod messages;
 mod yard;

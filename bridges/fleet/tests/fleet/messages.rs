@@ -240,7 +240,8 @@ impl Judge<'_> {
         let ended = self.cancelled.as_ref().map(|id| json!({"actionId": id, "actionStatus": "FINISHED"}));
         json!({
             "headerId": 0, "version": self.version.full(), "orderId": self.order, "orderUpdateId": self.update,
-            "lastNodeId": "", "lastNodeSequenceId": 2 * self.at, "nodeStates": nodes, "edgeStates": null,
+            "lastNodeId": self.nodes.get(self.at).map_or(Value::from(""), |node| node["nodeId"].clone()),
+            "lastNodeSequenceId": 2 * self.at, "nodeStates": nodes, "edgeStates": null,
             position: {"x": self.point[0], "y": self.point[1], "theta": 0.0, "mapId": "m", localized: chance.below(9) > 0},
             "driving": chance.below(2) == 0, "newBaseRequest": chance.below(5) == 0,
             "actionStates": ended.into_iter().collect::<Vec<_>>(), "errors": errors, "operatingMode": "AUTOMATIC",

@@ -120,6 +120,12 @@ impl Bridge {
         Self { _running: Running(program.spawn().unwrap()), log }
     }
 
+    /// Whether it is on the broker, and knows this vehicle.
+    pub fn hears(&self, vehicle: &str) -> bool {
+        let log = self.log();
+        log.contains("the broker is there") && log.contains(&format!("vehicle {vehicle}: "))
+    }
+
     pub fn log(&self) -> String {
         fs::read_to_string(self.log.path()).unwrap()
     }
