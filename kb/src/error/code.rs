@@ -48,6 +48,9 @@ codes! {
     /// Nobody holds this token (any more).
     AuthTokenUnknown = "auth/token-unknown", UNAUTHORIZED;
 
+    /// The bridge is a program of its own, and does not lie beside `adit`.
+    BridgeMissing = "bridge/missing", NOT_FOUND;
+
     /// The database cannot be opened, read or written: missing, damaged, of another version, on a full disk.
     Database = "database", INTERNAL_SERVER_ERROR;
     /// Another program holds the database; try again when it is done.

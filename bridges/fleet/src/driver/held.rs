@@ -5,9 +5,19 @@ use crate::site::Fleet;
 use crate::wire::{Factsheet, Report};
 
 /// In words; `None` where it may drive on.
-pub fn why(report: &Report, factsheet: Option<&Factsheet>, robot: &str, fleet: &Fleet) -> Option<String> {
-    if report.position.is_some_and(|at| !at.localized) {
-        return Some("it does not know where it is".to_owned());
+pub fn why(
+    report: &Report,
+    factsheet: Option<&Factsheet>,
+    (robot, map): (&str, &str),
+    fleet: &Fleet,
+) -> Option<String> {
+    if let Some(at) = &report.position {
+        if !at.localized {
+            return Some("it does not know where it is".to_owned());
+        }
+        if !at.map_id.is_empty() && at.map_id != map {
+            return Some(format!("it is on map `{}`, and the site's is called `{map}`", at.map_id));
+        }
     }
     if !matches!(report.operating_mode.as_str(), "AUTOMATIC" | "SEMIAUTOMATIC" | "") {
         return Some(format!("its operating mode is {}", report.operating_mode));

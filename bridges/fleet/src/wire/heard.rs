@@ -47,13 +47,15 @@ pub struct Left {
     pub sequence_id: u32,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "camelCase")]
 pub struct Position {
     pub x: f64,
     pub y: f64,
     /// Radians.
     pub theta: f64,
+    #[serde(default, deserialize_with = "or_default")]
+    pub map_id: String,
     #[serde(alias = "positionInitialized")]
     pub localized: bool,
 }
@@ -163,6 +165,7 @@ pub fn state(payload: &[u8]) -> Result<Report, String> {
     let report: Report = read("state", payload)?;
     let finite = report
         .position
+        .as_ref()
         .is_none_or(|at| [at.x, at.y, at.theta].iter().all(|v| v.is_finite() && v.abs() < 1e7));
     if finite {
         Ok(report)
