@@ -18,7 +18,8 @@ pub struct BridgeArgs {
 
 /// Becomes the program `adit-NAME` that lies beside this one.
 pub fn run(name: &str, args: &BridgeArgs) -> Result<u8> {
-    let beside = std::env::current_exe().ok().and_then(|here| Some(here.parent()?.join(format!("adit-{name}"))));
+    let beside =
+        std::env::current_exe().ok().and_then(|here| Some(here.parent()?.join(format!("adit-{name}"))));
     let Some(program) = beside.filter(|program| program.is_file()) else {
         let message = format!("the program `adit-{name}` does not lie beside `adit`");
         let help = format!("`cargo install --path bridges/{name}` in Adit's repository puts it there");

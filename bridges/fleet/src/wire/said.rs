@@ -141,8 +141,9 @@ impl Addressee {
                 action["blockingType"] = json!("NONE");
             }
         }
-        if self.version == Version::V2_0 {
-            // its schema calls them `actions` with an `actionName`, its text and vehicles `instantActions` with an `actionType`
+        if self.version < Version::V3_0 {
+            // the schema of 2.0 calls them `actions` with an `actionName`, its text `instantActions` with an `actionType`, and
+            // vehicles of 2.x are written after either
             for action in &mut actions {
                 let kind = action["actionType"].clone();
                 action["actionName"] = kind;

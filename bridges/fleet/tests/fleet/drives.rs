@@ -4,7 +4,9 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use crate::yard::{Bridge, Broker, Vehicle, cell, close, depot, send, within};
+use adit_tests::adit;
+
+use crate::yard::{Bridge, Broker, Vehicle, cell, close, depot, keep, send, within};
 
 const CART: &str = "vehicle,manufacturer,robot,goal,doing\ncart-1,acme,cart,,\n";
 
@@ -178,4 +180,83 @@ fn a_rule_says_what_a_vehicle_does_to_change_its_shape_and_how_fast_it_drives() 
     assert_eq!(actions[0]["actionParameters"][0], json!({"key": "state", "value": "SIDE-STEP"}));
     let edges = order["edges"].as_array().unwrap();
     assert!(edges.iter().any(|edge| edge["maxSpeed"] == 3.0), "{order:#}");
+}
+
+#[test]
+fn a_vehicle_that_is_wider_than_its_robot_gets_no_order() {
+    let broker = Broker::start();
+    let (_site, service) = depot(CART, "");
+    let factsheet =
+        json!({"version": "2.1.0", "physicalParameters": {"width": 1.3, "length": 1.0, "heightMax": 1.0}});
+    keep(&broker, "uagv/v2/acme/cart-1/factsheet", &factsheet);
+    let _bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.1.0", "cart-1", [2.0, 6.0, 6.0]);
+    send(&service, "cart-1", "gate");
+    let words = "waits: by its factsheet it is 1.3 m wide, robot cart at most 1.1 m";
+    within("it is said", || (cell(&service, "cart-1", "doing") == words).then_some(()));
+    cart.until("it says so", |_| true);
+    assert_eq!(cart.state["orderId"], "");
+}
+
+#[test]
+fn a_way_that_vanishes_stops_the_vehicle_and_it_drives_on_when_there_is_one_again() {
+    let broker = Broker::start();
+    let (_site, service) = depot(CART, "");
+    let bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.1.0", "cart-1", [2.0, 6.0, 1.5]);
+    send(&service, "cart-1", "gate");
+    cart.until("it drives", |state| state["driving"] == true);
+    // the only doorway that is wide enough for it
+    close(&service, "doorway 3");
+    cart.until("it stops", |state| state["nodeStates"] == json!([]) && state["driving"] == false);
+    within("it is said why", || {
+        let doing = cell(&service, "cart-1", "doing");
+        doing.as_str().is_some_and(|doing| doing.starts_with("no way to gate: ")).then_some(())
+    });
+    let edit = json!({"edit": {"kind": "open", "what": "doorway 3"}});
+    assert_eq!(service.ask("POST", "/api/edits", Some(&edit)).0, 200);
+    cart.until("it drives on", |state| has_node(state, "doorway 3") && state["driving"] == true);
+    assert!(bridge.log().contains("cart-1 stops: "), "{}", bridge.log());
+}
+
+#[test]
+fn a_goal_that_nobody_knows_is_said_and_another_is_driven_to() {
+    let broker = Broker::start();
+    let (_site, service) = depot(CART, "");
+    let _bridge = Bridge::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [9.0, 3.0, 6.0]);
+    send(&service, "cart-1", "chargr");
+    within("it is said", || {
+        let doing = cell(&service, "cart-1", "doing");
+        doing.as_str().is_some_and(|doing| doing.contains("did you mean `charger`")).then_some(())
+    });
+    send(&service, "cart-1", "charger");
+    cart.arrives("charger");
+}
+
+#[test]
+fn without_the_bridge_beside_it_adit_says_where_it_is_to_be_had() {
+    let folder = tempfile::tempdir_in(adit().parent().unwrap()).unwrap();
+    let lonely = folder.path().join("adit");
+    std::fs::hard_link(adit(), &lonely).unwrap();
+    let ran =
+        adit_tests::Ran::new(&std::process::Command::new(lonely).args(["fleet", "--help"]).output().unwrap());
+    ran.expecting(2).complains(&[
+        "bridge/missing",
+        "`adit-fleet` does not lie beside `adit`",
+        "bridges/fleet",
+    ]);
+}
+
+#[test]
+fn what_cannot_be_a_site_or_a_broker_is_said_at_once() {
+    let wrong = [
+        (["fleet", "my-site", "--mqtt", "mqtt://127.0.0.1"], "`my-site` is no address of a served site"),
+        (["fleet", "http://127.0.0.1:1", "--mqtt", "mqtt://127.0.0.1"], "the site's service does not answer"),
+        (["fleet", "http://127.0.0.1:1", "--before", "-3"], "error"),
+    ];
+    for (args, words) in wrong {
+        let ran = adit_tests::Ran::new(&std::process::Command::new(adit()).args(args).output().unwrap());
+        ran.expecting(2).complains(&[words]);
+    }
 }

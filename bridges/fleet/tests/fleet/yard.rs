@@ -8,8 +8,8 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-use adit_tests::TestSite;
 use adit_tests::service::Service;
+use adit_tests::{TestSite, adit};
 use serde_json::{Value, json};
 use tempfile::NamedTempFile;
 
@@ -115,8 +115,9 @@ impl Bridge {
     pub fn start(service: &Service, broker: &Broker) -> Self {
         let log = NamedTempFile::new().unwrap();
         let site = format!("http://{}", service.address);
-        let mut program = Command::new(env!("CARGO_BIN_EXE_adit-fleet"));
-        program.args([&site, "--mqtt", &broker.url()]).stderr(log.reopen().unwrap());
+        assert!(PathBuf::from(env!("CARGO_BIN_EXE_adit-fleet")).with_file_name("adit") == adit());
+        let mut program = Command::new(adit());
+        program.args(["fleet", &site, "--mqtt", &broker.url()]).stderr(log.reopen().unwrap());
         Self { _running: Running(program.spawn().unwrap()), log }
     }
 
@@ -128,6 +129,14 @@ impl Bridge {
 
     pub fn log(&self) -> String {
         fs::read_to_string(self.log.path()).unwrap()
+    }
+}
+
+impl Drop for Bridge {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("the bridge said:\n{}", self.log());
+        }
     }
 }
 
@@ -234,6 +243,14 @@ pub fn send(service: &Service, vehicle: &str, goal: &str) {
     let edit = json!({"kind": "set", "table": "vehicles", "key": vehicle, "column": "goal", "value": goal});
     let answer = service.ask("POST", "/api/edits", Some(&json!({"edit": edit})));
     assert_eq!(answer.0, 200, "{answer:?}");
+}
+
+/// Says something to the broker, which keeps it.
+pub fn keep(broker: &Broker, topic: &str, message: &Value) {
+    let (client, _) = broker.client(&[]);
+    client.publish(topic, rumqttc::QoS::AtLeastOnce, true, message.to_string()).unwrap();
+    let (_second, heard) = broker.client(&[topic]);
+    heard.recv_timeout(PATIENCE).expect("the broker has it");
 }
 
 /// Closes something.
