@@ -33,6 +33,9 @@ pub struct Driver {
     follows: Option<Follows>,
     /// The newest route that is not in the order.
     route: Option<Route>,
+    /// Since when it is asked whether more may be released, and the answer.
+    asks: Option<f64>,
+    fresh: Option<Route>,
     cancels: Option<Cancel>,
     /// Until when no order is tried.
     waits: f64,
@@ -89,6 +92,8 @@ impl Driver {
             given: None,
             follows: None,
             route: None,
+            asks: None,
+            fresh: None,
             cancels: None,
             waits: 0.0,
             reached: None,
@@ -148,6 +153,13 @@ impl Driver {
     pub fn routed(&mut self, epoch: u64, route: Route) {
         if epoch == self.epoch && self.follows.is_some() {
             self.route = Some(route);
+        }
+    }
+
+    /// The best way from where the base ends, as it is now.
+    pub fn answered(&mut self, epoch: u64, route: Route) {
+        if epoch == self.epoch && self.asks.is_some() {
+            self.fresh = Some(route);
         }
     }
 

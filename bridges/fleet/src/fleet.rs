@@ -131,6 +131,12 @@ impl Fleet {
                     return About::One(vehicle);
                 }
             }
+            Heard::Fresh { vehicle, epoch, route } => {
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.answered(epoch, route);
+                    return About::One(vehicle);
+                }
+            }
             Heard::Checked { vehicle, order, update, holds } => {
                 if let Some(driver) = self.drivers.get_mut(&vehicle) {
                     driver.checked(&order, update, holds);
@@ -240,6 +246,10 @@ impl Fleet {
             Effect::Follow { epoch, start, goal, robot } => {
                 let asked = asked::Way { vehicle, epoch, goal, robot };
                 self.follows.insert(name.to_owned(), asked::Following::begin(site, asked, start, heard));
+            }
+            Effect::Ask { epoch, start, goal, robot } => {
+                let asked = asked::Way { vehicle, epoch, goal, robot };
+                tokio::spawn(asked::once(site, asked, start, heard));
             }
             Effect::Moved { at } => {
                 if let Some(following) = self.follows.get(name) {

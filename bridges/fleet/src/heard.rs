@@ -22,6 +22,12 @@ pub enum Heard {
         follower: String,
         route: Route,
     },
+    /// The way of a vehicle as it is now.
+    Fresh {
+        vehicle: String,
+        epoch: u64,
+        route: Route,
+    },
     /// Whether what was released is still a way.
     Checked {
         vehicle: String,

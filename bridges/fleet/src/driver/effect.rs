@@ -18,6 +18,8 @@ pub enum Effect {
     Send { to: Addressee, topic: &'static str, message: Value },
     /// Ask for the way from there, and hear of others; routes are handed in with the epoch.
     Follow { epoch: u64, start: [f64; 2], goal: String, robot: Option<String> },
+    /// Ask once more which way is the best from there now: more is released of it.
+    Ask { epoch: u64, start: [f64; 2], goal: String, robot: Option<String> },
     /// What is followed goes on from there.
     Moved { at: [f64; 2] },
     /// No way is asked for any more.

@@ -66,7 +66,15 @@ impl Driver {
             return format!("at {goal}");
         }
         self.follow(goal, sent.order.base_end().at, effects);
-        let route = self.route.take_if(|route| starts_at(route, sent.order.base_end().at));
+        let end = sent.order.base_end().at;
+        let heard = self.route.take_if(|route| starts_at(route, end));
+        // of what the vehicle is let through nothing is taken that was heard a while ago
+        let fresh = self.fresh.take_if(|route| starts_at(route, end));
+        let is_fresh = fresh.is_some();
+        if is_fresh {
+            self.asks = None;
+        }
+        let route = fresh.or(heard);
         if let Some(route) = route.as_ref().filter(|route| !route.leads()) {
             let reason = route.reason.clone().unwrap_or_else(|| format!("no way to {goal}"));
             if report.is_busy() {
@@ -78,8 +86,13 @@ impl Driver {
         }
         let way = route.map(|route| self.stops(&route, now));
         let asks = left <= world.margins.ahead + SAME || report.new_base_request;
-        let is_heard = self.follows.as_ref().is_some_and(|follows| follows.goal == sent.order.goal);
-        let more = asks && now.held.is_none() && (way.is_some() || is_heard);
+        let grows = asks && now.held.is_none() && !sent.order.is_whole();
+        if grows && !is_fresh && self.asks.is_none_or(|since| world.clock.seconds - since > AGAIN) {
+            self.asks = Some(world.clock.seconds);
+            let (goal, robot) = (goal.to_owned(), self.row.robot.clone());
+            effects.push(Effect::Ask { epoch: self.epoch, start: end, goal, robot });
+        }
+        let more = grows && is_fresh;
         let released = sent.order.released;
         if (way.is_some() || more) && sent.order.updated(way, goal, more) {
             (sent.at, sent.tries, sent.is_known) = (world.clock.seconds, 0, false);
@@ -199,6 +212,7 @@ impl Driver {
     /// The way is asked for from where the base ends.
     fn goes_on(&mut self, order: &Given, effects: &mut Vec<Effect>) {
         let at = order.base_end().at;
+        (self.asks, self.fresh) = (None, None);
         self.follows = self.follows.take().map(|follows| Follows { start: at, ..follows });
         effects.push(Effect::Moved { at });
     }
@@ -208,14 +222,14 @@ impl Driver {
             return;
         }
         self.epoch += 1;
-        self.route = None;
+        (self.route, self.asks, self.fresh) = (None, None, None);
         self.follows = Some(Follows { goal: goal.to_owned(), start });
         let (goal, robot) = (goal.to_owned(), self.row.robot.clone());
         effects.push(Effect::Follow { epoch: self.epoch, start, goal, robot });
     }
 
     pub(super) fn unfollow(&mut self, effects: &mut Vec<Effect>) {
-        self.route = None;
+        (self.route, self.asks, self.fresh) = (None, None, None);
         if self.follows.take().is_some() {
             self.epoch += 1;
             effects.push(Effect::Unfollow);

@@ -94,10 +94,7 @@ async fn follow(site: Site, way: Way, place: Arc<Mutex<Place>>, heard: Unbounded
     let mut told = None;
     loop {
         let at = lock(&place).at;
-        let start = format!("{},{}", at[0], at[1]);
-        let mut asked = vec![("start", start.as_str()), ("goal", way.goal.as_str()), ("within", WITHIN)];
-        asked.extend(way.robot.as_deref().map(|robot| ("robot", robot)));
-        let path = format!("/api/route/follow?{}", query(&asked));
+        let path = format!("/api/route/follow?{}", question(at, &way.goal, way.robot.as_deref()));
         let ended = site.hear(&path, |event, data| {
             if event != "route" {
                 return;
@@ -136,6 +133,23 @@ async fn follow(site: Site, way: Way, place: Arc<Mutex<Place>>, heard: Unbounded
     }
 }
 
+/// A question for the way between two ends.
+fn question(from: [f64; 2], goal: &str, robot: Option<&str>) -> String {
+    let start = format!("{},{}", from[0], from[1]);
+    let mut asked = vec![("start", start.as_str()), ("goal", goal), ("within", WITHIN)];
+    asked.extend(robot.map(|robot| ("robot", robot)));
+    query(&asked)
+}
+
+/// The best way from there, once. Where nobody answers it is asked again in a while.
+pub async fn once(site: Site, way: Way, from: [f64; 2], heard: UnboundedSender<Heard>) {
+    let path = format!("/api/route?{}", question(from, &way.goal, way.robot.as_deref()));
+    let Ok(answer) = site.get(&path).await else { return };
+    if let Ok(route) = serde_json::from_value(answer) {
+        let _ = heard.send(Heard::Fresh { vehicle: way.vehicle, epoch: way.epoch, route });
+    }
+}
+
 /// What was released.
 pub struct Along {
     pub from: [f64; 2],
@@ -147,11 +161,9 @@ pub struct Along {
 
 /// Whether the best way to where it ends is as short, by the same doorways; `None` where nobody answers.
 pub async fn holds(site: &Site, along: &Along) -> Option<bool> {
-    let point = |at: [f64; 2]| format!("{},{}", at[0], at[1]);
-    let (from, to) = (point(along.from), point(along.to));
-    let mut asked = vec![("start", from.as_str()), ("goal", to.as_str()), ("within", WITHIN)];
-    asked.extend(along.robot.as_deref().map(|robot| ("robot", robot)));
-    let route: Route = match site.get(&format!("/api/route?{}", query(&asked))).await {
+    let to = format!("{},{}", along.to[0], along.to[1]);
+    let asked = question(along.from, &to, along.robot.as_deref());
+    let route: Route = match site.get(&format!("/api/route?{asked}")).await {
         Ok(answer) => serde_json::from_value(answer).ok()?,
         Err(Trouble::Refused { code, .. }) if code.starts_with("route/") => return Some(false),
         Err(_) => return None,

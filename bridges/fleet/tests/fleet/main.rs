@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 mod drives;
+mod judge;
 mod malformed;
 mod messages;
+mod storm;
 mod yard;

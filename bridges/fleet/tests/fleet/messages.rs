@@ -1,65 +1,15 @@
 //! Every message that is sent is what the published schemas of its version say, and what the text of VDA 5050 says of orders,
 //! whatever the routes and whatever the vehicle reports.
 
-use std::collections::BTreeMap;
-
 use adit_fleet::driver::{Clock, Driver, Effect, World};
 use adit_fleet::site::{Fleet, Route, Step, Vehicle, Waypoint};
 use adit_fleet::way::{Bridge, Margins};
 use adit_fleet::wire::{self, Version};
 use adit_tests::{TestSite, shared};
-use jsonschema::Validator;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-/// The schemas of a version.
-struct Schemas {
-    order: Validator,
-    instant: Validator,
-}
-
-fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
-    let folder = shared("data/vda5050")?;
-    let of = |version: &str, what: &str| {
-        let text = std::fs::read_to_string(folder.join(version).join(format!("{what}.schema"))).unwrap();
-        let schema = serde_json::from_str(&text).unwrap();
-        jsonschema::options().should_validate_formats(true).build(&schema).unwrap()
-    };
-    let both =
-        |version: &str| Schemas { order: of(version, "order"), instant: of(version, "instantActions") };
-    Some(BTreeMap::from([
-        ("2.0.0", both("schemas-2.0.0")),
-        ("2.1.0", both("schemas-2.1.0")),
-        ("3.0.0", both("schemas-3")),
-    ]))
-}
-
-fn expect_valid(schema: &Validator, message: &Value) {
-    let errors: Vec<String> =
-        schema.iter_errors(message).map(|e| format!("{}: {e}", e.instance_path())).collect();
-    assert!(errors.is_empty(), "{errors:#?}\n{message:#}");
-}
-
-/// Numbers of chance (splitmix64).
-struct Chance(u64);
-
-impl Chance {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    fn metres(&mut self) -> f64 {
-        self.below(40_000) as f64 / 1000.0 - 20.0
-    }
-}
+use crate::judge::{Chance, Judge, Schemas, schemas};
 
 /// A route of chance from a point: bends, changes of shape, turns, doorways, at times two at one point.
 fn route(chance: &mut Chance, start: [f64; 2]) -> Route {
@@ -127,144 +77,12 @@ fn fleet() -> Fleet {
     Fleet::read(&tables).unwrap()
 }
 
-/// A vehicle that takes its orders as the text of VDA 5050 says, and what it holds of what it is told.
-struct Judge<'a> {
-    schemas: Option<&'a Schemas>,
-    version: Version,
-    order: String,
-    update: u64,
-    nodes: Vec<Value>,
-    /// The stop at which it is.
-    at: usize,
-    actions: Vec<Value>,
-    cancelled: Option<String>,
-    point: [f64; 2],
-}
-
-impl Judge<'_> {
-    fn hears(&mut self, topic: &str, message: &Value) {
-        if topic == "instantActions" {
-            if let Some(schemas) = self.schemas {
-                expect_valid(&schemas.instant, message);
-            }
-            assert_eq!(message["actions"][0]["actionType"], "cancelOrder");
-            self.cancelled = message["actions"][0]["actionId"].as_str().map(str::to_owned);
-            self.nodes.truncate(self.at + 1);
-            return;
-        }
-        if let Some(schemas) = self.schemas {
-            expect_valid(&schemas.order, message);
-        }
-        assert_eq!(message["version"], self.version.full());
-        let nodes = message["nodes"].as_array().unwrap();
-        let edges = message["edges"].as_array().unwrap();
-        assert_eq!(edges.len() + 1, nodes.len());
-        let first = nodes[0]["sequenceId"].as_u64().unwrap();
-        for (index, node) in nodes.iter().enumerate() {
-            assert_eq!(node["sequenceId"], first + 2 * index as u64);
-        }
-        for (index, edge) in edges.iter().enumerate() {
-            assert_eq!(edge["sequenceId"], first + 2 * index as u64 + 1);
-            assert_eq!(
-                edge["released"],
-                nodes[index + 1]["released"],
-                "an edge is released with the node to which it leads"
-            );
-            if self.version < Version::V3_0 {
-                assert_eq!(
-                    [&edge["startNodeId"], &edge["endNodeId"]],
-                    [&nodes[index]["nodeId"], &nodes[index + 1]["nodeId"]]
-                );
-            }
-        }
-        let base = nodes.iter().take_while(|node| node["released"] == true).count();
-        assert!(base > 0, "there is a base");
-        assert!(nodes.iter().skip(base).all(|node| node["released"] == false), "a base, then a horizon");
-        let update = message["orderUpdateId"].as_u64().unwrap();
-        if message["orderId"] == self.order.as_str() {
-            if update == self.update {
-                return;
-            }
-            assert_eq!(update, self.update + 1);
-            let stitch = self.nodes.iter().rposition(|node| node["released"] == true).unwrap();
-            assert_eq!(nodes[0], self.nodes[stitch], "what was released is said again as it was");
-            self.nodes.truncate(stitch);
-        } else {
-            assert_eq!((first, update), (0, 0), "a new order begins anew");
-            assert!(
-                self.cancelled.is_some() || self.nodes.len() <= self.at + 1,
-                "the order of before was done"
-            );
-            let at = &nodes[0]["nodePosition"];
-            let off =
-                (at["x"].as_f64().unwrap() - self.point[0]).hypot(at["y"].as_f64().unwrap() - self.point[1]);
-            assert!(off < 1e-6, "its first node is where the vehicle stands");
-            (self.nodes, self.at, self.cancelled) = (Vec::new(), 0, None);
-            self.order = message["orderId"].as_str().unwrap().to_owned();
-            self.actions = Vec::new();
-        }
-        self.update = update;
-        self.nodes.extend(nodes.iter().cloned());
-        // the stop that was released is said again with what is done there
-        let released =
-            nodes.iter().skip(usize::from(update > 0)).chain(edges).filter(|part| part["released"] == true);
-        for action in released.flat_map(|part| part["actions"].as_array().unwrap()) {
-            assert!(!self.actions.contains(&action["actionId"]), "actions have names of their own");
-            self.actions.push(action["actionId"].clone());
-        }
-    }
-
-    fn drives(&mut self) {
-        if self.cancelled.is_none()
-            && self.nodes.get(self.at + 1).is_some_and(|next| next["released"] == true)
-        {
-            self.at += 1;
-        }
-        if let Some(node) = self.nodes.get(self.at) {
-            self.point = ["x", "y"].map(|axis| node["nodePosition"][axis].as_f64().unwrap());
-        }
-    }
-
-    fn says(&self, chance: &mut Chance) -> Value {
-        let left = |part: &Value| json!({"nodeId": "", "sequenceId": part["sequenceId"], "released": part["released"]});
-        let nodes: Vec<Value> = self.nodes.iter().skip(self.at + 1).map(left).collect();
-        let [position, localized] = match self.version {
-            Version::V3_0 => ["mobileRobotPosition", "localized"],
-            _ => ["agvPosition", "positionInitialized"],
-        };
-        let errors = match chance.below(8) {
-            0 => json!([{"errorType": "obstacle", "errorLevel": "WARNING"}]),
-            1 => json!([{"errorType": "motor", "errorLevel": "FATAL"}]),
-            _ => json!([]),
-        };
-        let ended = self.cancelled.as_ref().map(|id| json!({"actionId": id, "actionStatus": "FINISHED"}));
-        json!({
-            "headerId": 0, "version": self.version.full(), "orderId": self.order, "orderUpdateId": self.update,
-            "lastNodeId": self.nodes.get(self.at).map_or(Value::from(""), |node| node["nodeId"].clone()),
-            "lastNodeSequenceId": 2 * self.at, "nodeStates": nodes, "edgeStates": null,
-            position: {"x": self.point[0], "y": self.point[1], "theta": 0.0, "mapId": "m", localized: chance.below(9) > 0},
-            "driving": chance.below(2) == 0, "newBaseRequest": chance.below(5) == 0,
-            "actionStates": ended.into_iter().collect::<Vec<_>>(), "errors": errors, "operatingMode": "AUTOMATIC",
-        })
-    }
-}
-
 /// A vehicle is driven through two hundred moments, with routes of chance.
 fn drive(seed: u64, version: Version, schemas: Option<&Schemas>) -> usize {
     let chance = &mut Chance(seed);
     let fleet = fleet();
     let mut driver = Driver::new(Vehicle { goal: Some("gate".to_owned()), ..fleet.vehicles[0].clone() });
-    let mut judge = Judge {
-        schemas,
-        version,
-        order: String::new(),
-        update: 0,
-        nodes: Vec::new(),
-        at: 0,
-        actions: Vec::new(),
-        cancelled: None,
-        point: [0.0, 0.0],
-    };
+    let mut judge = Judge::new(version, schemas, [0.0, 0.0]);
     let margins = Margins { before: 0.3, ahead: 3.0 };
     let bridges = [Bridge { rect: [0.0, 0.0, 5.0, 5.0], height: 1.6 }];
     let (mut sent, mut follows) = (0, None);
@@ -281,6 +99,11 @@ fn drive(seed: u64, version: Version, schemas: Option<&Schemas>) -> usize {
                     }
                 }
                 Effect::Follow { epoch, start, .. } => follows = Some((epoch, start)),
+                Effect::Ask { epoch, start, .. } => {
+                    if chance.below(5) > 0 {
+                        driver.answered(epoch, route(chance, start));
+                    }
+                }
                 Effect::Moved { at } => follows = follows.map(|(epoch, _)| (epoch, at)),
                 Effect::Unfollow => follows = None,
                 Effect::Check { order, update, .. } => driver.checked(&order, update, chance.below(6) > 0),
@@ -339,6 +162,29 @@ fn small_site(chance: &mut Chance) -> TestSite {
     TestSite::empty().with("site.toml", site).with("map.toml", &map).with("robots.toml", robots).built()
 }
 
+/// What is left of a route from a point of it.
+fn rest(route: &Route, from: [f64; 2]) -> Route {
+    let mut rest = route.clone();
+    let off = |x: f64, y: f64| (x - from[0]).hypot(y - from[1]);
+    let mut metres = 0.0;
+    let along = |a: [f64; 2], b: [f64; 2]| (b[0] - a[0]).hypot(b[1] - a[1]);
+    // the routes of these sites go from the left to the right
+    rest.steps.retain(|step| step.x.is_none_or(|x| x > from[0] + 1e-9));
+    let next = route
+        .waypoints
+        .iter()
+        .position(|point| point.x > from[0] + 1e-9)
+        .unwrap_or(route.waypoints.len() - 1);
+    rest.waypoints.drain(..next);
+    let first = Waypoint { x: from[0], y: from[1], ..rest.waypoints[0].clone() };
+    rest.waypoints.insert(0, first);
+    for pair in rest.waypoints.windows(2) {
+        metres += along([pair[0].x, pair[0].y], [pair[1].x, pair[1].y]);
+    }
+    assert!(metres >= off(12.5, 4.0) - 1e-9);
+    Route { start: format!("{},{}", from[0], from[1]), ..rest }
+}
+
 #[test]
 fn orders_of_small_sites_of_chance_are_valid() {
     let Some(schemas) = schemas() else { return };
@@ -347,17 +193,7 @@ fn orders_of_small_sites_of_chance_are_valid() {
         let answer = site.adit("route", &["home", "gate", "--json"]).expecting(0).json();
         let route: Route = serde_json::from_value(answer).unwrap();
         for version in Version::ALL {
-            let mut judge = Judge {
-                schemas: Some(&schemas[version.full()]),
-                version,
-                order: String::new(),
-                update: 0,
-                nodes: Vec::new(),
-                at: 0,
-                actions: Vec::new(),
-                cancelled: None,
-                point: [1.5, 4.0],
-            };
+            let mut judge = Judge::new(version, Some(&schemas[version.full()]), [1.5, 4.0]);
             let fleet = fleet();
             let mut driver =
                 Driver::new(Vehicle { goal: Some("gate".to_owned()), ..fleet.vehicles[0].clone() });
@@ -371,6 +207,7 @@ fn orders_of_small_sites_of_chance_are_valid() {
                     match effect {
                         Effect::Send { topic, message, .. } => judge.hears(topic, &message),
                         Effect::Follow { epoch, .. } => driver.routed(epoch, route.clone()),
+                        Effect::Ask { epoch, start, .. } => driver.answered(epoch, rest(&route, start)),
                         Effect::Arrived { .. } => driver.is_written(),
                         _ => {}
                     }

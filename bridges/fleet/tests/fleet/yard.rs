@@ -107,7 +107,7 @@ pub fn depot(vehicles: &str, rules: &str) -> (TestSite, Service) {
 
 /// The bridge.
 pub struct Bridge {
-    _running: Running,
+    running: Running,
     log: NamedTempFile,
 }
 
@@ -118,13 +118,17 @@ impl Bridge {
         assert!(PathBuf::from(env!("CARGO_BIN_EXE_adit-fleet")).with_file_name("adit") == adit());
         let mut program = Command::new(adit());
         program.args(["fleet", &site, "--mqtt", &broker.url()]).stderr(log.reopen().unwrap());
-        Self { _running: Running(program.spawn().unwrap()), log }
+        Self { running: Running(program.spawn().unwrap()), log }
     }
 
     /// Whether it is on the broker, and knows this vehicle.
     pub fn hears(&self, vehicle: &str) -> bool {
         let log = self.log();
         log.contains("the broker is there") && log.contains(&format!("vehicle {vehicle}: "))
+    }
+
+    pub fn pid(&self) -> u32 {
+        self.running.0.id()
     }
 
     pub fn log(&self) -> String {
