@@ -34,7 +34,7 @@ pub struct Cli {
     /// Metres before such a point at which it is let through already, so that it need not stop
     #[arg(long, default_value_t = 3.0)]
     ahead: f64,
-    /// The name under which the broker knows the bridge
+    /// The name under which the broker knows this program
     #[arg(long, default_value = "adit-fleet")]
     client: String,
 }

@@ -41,11 +41,11 @@ impl Given {
         self.released == self.stops.len()
     }
 
-    /// Releases what lies before the next gate.
+    /// Releases what lies before the next doorway.
     fn release(&mut self) {
         let ahead = &self.stops[self.released..];
-        let gate = ahead.iter().position(|stop| stop.is_gate);
-        self.released += gate.map_or(ahead.len(), |gate| gate + 1);
+        let wait = ahead.iter().position(|stop| stop.is_wait);
+        self.released += wait.map_or(ahead.len(), |wait| wait + 1);
     }
 
     /// An update with another horizon, where there is one, and with more of it released, where it shall be; whether there is
@@ -158,17 +158,17 @@ impl Given {
 fn continued(from: &Stop, mut way: Vec<Stop>) -> Vec<Stop> {
     let leaves = way.first().and_then(|first| first.becomes.clone().or_else(|| first.state.clone()));
     if leaves.is_some() && from.state.is_some() && leaves != from.state && from.becomes != leaves {
-        let first = Stop { state: from.state.clone(), becomes: leaves, is_gate: false, ..way[0].clone() };
+        let first = Stop { state: from.state.clone(), becomes: leaves, is_wait: false, ..way[0].clone() };
         way[0] = from.clone();
         way.insert(1, Stop { id: format!("{} again", first.id), ..first });
     }
     with_changes_apart(way).split_off(1)
 }
 
-/// At a gate nothing is done: who waits there may hear the stop once more. (The start of an order is none.)
+/// Where it waits nothing is done: who waits there may hear the stop once more. (The start of an order is none.)
 fn with_changes_apart(mut way: Vec<Stop>) -> Vec<Stop> {
     for stop in &mut way {
-        stop.is_gate &= stop.becomes.is_none();
+        stop.is_wait &= stop.becomes.is_none();
         stop.deviation = stop.deviation.filter(|_| stop.becomes.is_none());
     }
     way

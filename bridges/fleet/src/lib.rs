@@ -1,6 +1,6 @@
 //! Vehicles that speak VDA 5050 drive the routes of a site that is served.
 //!
-//! The bridge is a client of the site's service as anybody's program would be: it knows nothing of the knowledge base but what
+//! It is a client of the site's service as anybody's program would be: it knows nothing of the knowledge base but what
 //! `kb/SERVICE.md` says. [`driver`] decides, and neither waits nor sends; [`fleet`] does what it says.
 
 mod broker;

@@ -42,7 +42,7 @@ pub struct Stop {
     /// The doorway in which it lies.
     pub doorway: Option<String>,
     /// Whether it is where to wait before a doorway.
-    pub is_gate: bool,
+    pub is_wait: bool,
     /// The state into which the robot changes there.
     pub becomes: Option<String>,
 }
@@ -63,13 +63,13 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
         let (at, leg) = line.at(*s);
         let state = route.waypoints[leg].state.as_deref().unwrap_or_default();
         let keep = half(state);
-        let gate = s - keep - margins.before;
-        let space = line.space(&passages, route, gate);
-        if gate > floor {
-            line.add_gate(&mut marks, gate, floor, format!("before {doorway}, {space}"), route);
-            if gate - margins.ahead > floor {
+        let wait = s - keep - margins.before;
+        let space = line.space(&passages, route, wait);
+        if wait > floor {
+            line.add_wait(&mut marks, wait, floor, format!("before {doorway}, {space}"), route);
+            if wait - margins.ahead > floor {
                 let stop = Stop { words: format!("towards {doorway}, {space}"), ..Stop::default() };
-                line.add(&mut marks, gate - margins.ahead, stop, route);
+                line.add(&mut marks, wait - margins.ahead, stop, route);
             }
         }
         let stop = Stop { words: doorway.clone(), doorway: Some(doorway.clone()), at, ..Stop::default() };
@@ -100,7 +100,7 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
     for index in 1..stops.len().saturating_sub(1) {
         let room = stops[index + 1].clearance.and_then(|next| Some(next.min(stops[index].clearance?)));
         let stop = &mut stops[index];
-        stop.deviation = room.filter(|room| !stop.is_gate && stop.becomes.is_none() && *room > SAME);
+        stop.deviation = room.filter(|room| !stop.is_wait && stop.becomes.is_none() && *room > SAME);
     }
     stops
 }
@@ -251,11 +251,11 @@ impl Line {
     }
 
     /// Adds where to wait. Nothing is done there, so that it can be sent again as it is: a change of shape comes after it.
-    fn add_gate(&self, marks: &mut Vec<Mark>, s: f64, floor: f64, words: String, route: &Route) {
+    fn add_wait(&self, marks: &mut Vec<Mark>, s: f64, floor: f64, words: String, route: &Route) {
         let here = marks.iter_mut().find(|mark| (mark.s - s).abs() < SAME && mark.s > 0.0);
         let s = match here {
             Some(mark) if mark.stop.becomes.is_none() && mark.stop.doorway.is_none() => {
-                mark.stop.is_gate = true;
+                mark.stop.is_wait = true;
                 mark.stop.words = words;
                 return;
             }
@@ -263,7 +263,7 @@ impl Line {
             None => s,
         };
         if s > floor {
-            self.add(marks, s, Stop { words, is_gate: true, ..Stop::default() }, route);
+            self.add(marks, s, Stop { words, is_wait: true, ..Stop::default() }, route);
         }
     }
 }

@@ -48,9 +48,6 @@ codes! {
     /// Nobody holds this token (any more).
     AuthTokenUnknown = "auth/token-unknown", UNAUTHORIZED;
 
-    /// The bridge is a program of its own, and does not lie beside `adit`.
-    BridgeMissing = "bridge/missing", NOT_FOUND;
-
     /// The database cannot be opened, read or written: missing, damaged, of another version, on a full disk.
     Database = "database", INTERNAL_SERVER_ERROR;
     /// Another program holds the database; try again when it is done.
@@ -182,6 +179,9 @@ codes! {
 
     /// A planner could not give its facts.
     PlannerFailed = "planner/failed", UNPROCESSABLE_ENTITY;
+
+    /// The verb is a program of its own, and does not lie beside `adit`.
+    ProgramMissing = "program/missing", NOT_FOUND;
 
     /// The table of robots has no state.
     RobotsEmpty = "robots/empty", BAD_REQUEST;

@@ -158,7 +158,7 @@ impl Driver {
     pub(super) fn begin(&mut self, goal: &str, now: &Now<'_, '_>, effects: &mut Vec<Effect>) -> String {
         let Now { report, world, .. } = now;
         if report.is_busy() {
-            // of a bridge that was ended meanwhile
+            // of before this program was started
             if report.order_id.starts_with(OURS) {
                 return self.cancel("its order is of before", now, effects);
             }

@@ -1,18 +1,18 @@
-//! Messages that are none: each is said in words, and the bridge goes on.
+//! Messages that are none: each is said in words, and the program goes on.
 
 use serde_json::{Value, json};
 
-use crate::yard::{Bridge, Broker, Vehicle, depot, send, within};
+use crate::yard::{Broker, FleetProgram, Vehicle, depot, send, within};
 
 #[test]
 fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {
     let broker = Broker::start();
     let (_site, service) =
         depot("vehicle,manufacturer,robot,goal\ncart-1,acme,cart,\ncart-2,acme,cart,\n", "");
-    let bridge = Bridge::start(&service, &broker);
+    let program = FleetProgram::start(&service, &broker);
     let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [2.0, 6.0, 6.0]);
     let (client, _) = broker.client(&[]);
-    within("it hears", || bridge.hears("cart-2").then_some(()));
+    within("it hears", || program.hears("cart-2").then_some(()));
     let state = json!({
         "headerId": 1, "timestamp": "2026-11-24T08:00:00Z", "version": "2.0.0", "manufacturer": "acme", "serialNumber": "cart-2",
         "orderId": "", "orderUpdateId": 0, "lastNodeId": "", "lastNodeSequenceId": 0, "nodeStates": [], "edgeStates": [],
@@ -59,13 +59,13 @@ fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {
         client
             .publish(format!("uagv/v2/acme/cart-2/{topic}"), rumqttc::QoS::AtLeastOnce, false, message)
             .unwrap();
-        within(words, || bridge.log().contains(words).then_some(()));
+        within(words, || program.log().contains(words).then_some(()));
     }
     for topic in ["uagv/v2/acme/nobody/state", "uagv/state", "uagv/v2/acme/cart-2/thing"] {
         client.publish(topic, rumqttc::QoS::AtLeastOnce, false, whole.clone()).unwrap();
     }
     within("it is a stranger", || {
-        bridge.log().contains("vehicle acme/nobody is on the broker").then_some(())
+        program.log().contains("vehicle acme/nobody is on the broker").then_some(())
     });
 
     // an order is given to the one, and it says that it is where it was never sent
@@ -81,7 +81,7 @@ fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {
         .publish("uagv/v2/acme/cart-2/state", rumqttc::QoS::AtLeastOnce, false, dangling.to_string())
         .unwrap();
     let words = "cart-2 is at node `nowhere`, sequence 4000000000, which was not released to it";
-    within(words, || bridge.log().contains(words).then_some(()));
+    within(words, || program.log().contains(words).then_some(()));
 
     send(&service, "cart-1", "gate");
     cart.arrives("gate");

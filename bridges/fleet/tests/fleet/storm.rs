@@ -9,11 +9,11 @@ use adit_fleet::wire::Version;
 use serde_json::{Value, json};
 
 use crate::judge::{Chance, Judge, schemas};
-use crate::yard::{Bridge, Broker, depot, within};
+use crate::yard::{Broker, FleetProgram, depot, within};
 
 const PLACES: [&str; 4] = ["dock", "gate", "charger", "shelf"];
 
-/// What the bridge hears of a closing after this may not be contradicted by an order that goes out later.
+/// What the program hears of a closing after this may not be contradicted by an order that goes out later.
 const HEARD: Duration = Duration::from_secs(2);
 
 /// Memory in bytes and descriptors of a program.
@@ -54,8 +54,8 @@ fn a_storm_leaves_memory_level_and_no_order_contradicts_what_is_known() {
     let rows: String = (0..count).map(|n| format!("v{n},acme,{},\n", ["dog", "crawler"][n % 2])).collect();
     let broker = Broker::start();
     let (_site, service) = depot(&format!("vehicle,manufacturer,robot,goal\n{rows}"), "");
-    let bridge = Bridge::start(&service, &broker);
-    within("it hears", || bridge.hears(&format!("v{}", count - 1)).then_some(()));
+    let program = FleetProgram::start(&service, &broker);
+    within("it hears", || program.hears(&format!("v{}", count - 1)).then_some(()));
     let (client, heard) = broker.client(&["uagv/v2/acme/+/order", "uagv/v2/acme/+/instantActions"]);
     let all = schemas();
     let schema = all.as_ref().map(|all| &all["2.1.0"]);
@@ -121,7 +121,7 @@ fn a_storm_leaves_memory_level_and_no_order_contradicts_what_is_known() {
             }
         }
         if ticks % 20 == 0 {
-            burdens.push(burden(bridge.pid()));
+            burdens.push(burden(program.pid()));
         }
         std::thread::sleep(Duration::from_millis(500).saturating_sub(tick.elapsed()));
     }

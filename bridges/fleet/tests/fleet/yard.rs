@@ -1,4 +1,4 @@
-//! What the tests drive: a broker, a served depot, vehicles that others wrote, and the bridge between them.
+//! What the tests drive: a broker, a served depot, vehicles that others wrote, and the fleet program between them.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Write};
@@ -105,13 +105,13 @@ pub fn depot(vehicles: &str, rules: &str) -> (TestSite, Service) {
     (site, service)
 }
 
-/// The bridge.
-pub struct Bridge {
+/// The fleet program.
+pub struct FleetProgram {
     running: Running,
     log: NamedTempFile,
 }
 
-impl Bridge {
+impl FleetProgram {
     pub fn start(service: &Service, broker: &Broker) -> Self {
         let log = NamedTempFile::new().unwrap();
         let site = format!("http://{}", service.address);
@@ -136,10 +136,10 @@ impl Bridge {
     }
 }
 
-impl Drop for Bridge {
+impl Drop for FleetProgram {
     fn drop(&mut self) {
         if std::thread::panicking() {
-            eprintln!("the bridge said:\n{}", self.log());
+            eprintln!("the fleet program said:\n{}", self.log());
         }
     }
 }
