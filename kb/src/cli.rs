@@ -2,6 +2,7 @@
 
 mod args;
 mod ask;
+mod beside;
 mod build;
 mod close;
 mod curve;
@@ -103,6 +104,8 @@ pub enum Verb {
     Undo(tune::UndoArgs),
     /// Serve the site: HTTP, live events, and the page where experts tune it
     Serve(serve::ServeArgs),
+    /// Vehicles that speak VDA 5050 drive the routes of a served site (the program `adit-fleet`)
+    Fleet(beside::BesideArgs),
     /// Who may do what by HTTP: add, list and remove tokens
     Token(serve::TokenArgs),
     /// Integrity, versions, backup
@@ -144,6 +147,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::History(args) => (args.site.json, tune::history(args).map(|()| 0)),
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),
         Verb::Serve(args) => (args.site.json, serve::run(args).map(|()| 0)),
+        Verb::Fleet(args) => (false, beside::run("fleet", args)),
         Verb::Token(args) => (args.json, serve::token(args).map(|()| 0)),
         Verb::Doctor(args) => (args.site.json, doctor::doctor(args).map(|sound| u8::from(!sound))),
     };

@@ -68,12 +68,11 @@ pub fn run(args: &NewArgs) -> Result<()> {
     }
     let mut made = Whole::default();
     made.folder(dir)?;
-    let map = match &args.map {
-        Some(map) => copy_map(map, dir, &mut made)?,
-        None => {
-            made.file(&dir.join("map.toml"), robots::map(&args.robot))?;
-            "map.toml".to_owned()
-        }
+    let map = if let Some(map) = &args.map {
+        copy_map(map, dir, &mut made)?
+    } else {
+        made.file(&dir.join("map.toml"), robots::map(&args.robot))?;
+        "map.toml".to_owned()
     };
     let rules = dir.join(Site::RULES);
     made.folder(&rules.join("tests"))?;

@@ -180,6 +180,9 @@ codes! {
     /// A planner could not give its facts.
     PlannerFailed = "planner/failed", UNPROCESSABLE_ENTITY;
 
+    /// The verb is a program of its own, and does not lie beside `adit`.
+    ProgramMissing = "program/missing", NOT_FOUND;
+
     /// The table of robots has no state.
     RobotsEmpty = "robots/empty", BAD_REQUEST;
 

@@ -49,6 +49,9 @@ pub struct Answer {
     pub considered: Vec<Spoke>,
 }
 
+/// A decision, and what happened until then.
+type Found = (Decision, Vec<Happened>);
+
 /// A time that people write may be less than the one of the journal by so much.
 const ROUNDED_S: f64 = 0.005;
 
@@ -72,7 +75,7 @@ pub fn why(
         return Err(Error::said(Code::WhyTime, format!("--at {at} is no time; expected seconds"), None));
     }
     let mut store = Store::open_read_only(database)?;
-    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<(Decision, Vec<Happened>)>)> {
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Found>)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;
         let (count, first, last) = tx.numbers_of_missions(&world)?;
         if !(first..=last).contains(&number) {

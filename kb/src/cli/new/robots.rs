@@ -55,9 +55,13 @@ fn of(name: &str) -> Result<String> {
 
 /// A robot's file among others: each of its entries says of which robot it is.
 fn named(text: &str, name: &str) -> String {
-    let line = |line: &str| match line.starts_with("[[") {
-        true => format!("{line}\nrobot = {}\n", toml::Value::from(name)),
-        false => format!("{line}\n"),
+    let line = |line: &str| {
+        let whose = if line.starts_with("[[") {
+            format!("robot = {}\n", toml::Value::from(name))
+        } else {
+            String::new()
+        };
+        format!("{line}\n{whose}")
     };
     text.lines().map(line).collect()
 }

@@ -1,0 +1,81 @@
+//! The MQTT broker: a connection that comes again whenever it broke.
+
+use std::time::Duration;
+
+use anyhow::{Context, bail};
+use rumqttc::{AsyncClient, Event, EventLoop, MqttOptions, Packet, QoS};
+use tokio::sync::mpsc::UnboundedSender;
+
+use crate::heard::Heard;
+
+/// Messages larger than this break the connection.
+const LARGEST: usize = 16 << 20;
+
+/// How long to wait before a broker is tried again.
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// What vehicles say.
+const TOPICS: [&str; 3] = ["connection", "state", "factsheet"];
+
+/// Where the broker is: `mqtt://[USER[:PASSWORD]@]HOST[:PORT]`.
+pub fn options(url: &str, id: &str) -> anyhow::Result<MqttOptions> {
+    let Some(rest) = url.strip_prefix("mqtt://") else {
+        bail!("`{url}` is no address of a broker: expected `mqtt://[USER[:PASSWORD]@]HOST[:PORT]`");
+    };
+    let (user, place) =
+        rest.trim_end_matches('/').rsplit_once('@').map_or((None, rest), |(user, place)| (Some(user), place));
+    let place = place.trim_end_matches('/');
+    let (host, port) = match place.rsplit_once(':') {
+        Some((host, port)) => {
+            (host, port.parse().with_context(|| format!("`{port}` in `{url}` is no port"))?)
+        }
+        None => (place, 1883),
+    };
+    anyhow::ensure!(!host.is_empty(), "`{url}` names no host");
+    let mut options = MqttOptions::new(id, host.trim_matches(['[', ']']), port);
+    options.set_keep_alive(Duration::from_secs(15)).set_max_packet_size(LARGEST, LARGEST);
+    if let Some(user) = user {
+        let (name, password) = user.split_once(':').unwrap_or((user, ""));
+        options.set_credentials(name, password);
+    }
+    Ok(options)
+}
+
+/// Says how the connection is, and what comes over it, as long as anybody listens.
+pub async fn hear(
+    client: AsyncClient,
+    mut events: EventLoop,
+    interface: String,
+    heard: UnboundedSender<Heard>,
+) {
+    let mut is_up = None;
+    loop {
+        let say = match events.poll().await {
+            Ok(Event::Incoming(Packet::ConnAck(_))) => {
+                is_up = Some(true);
+                // asked for on each connection: the broker may have forgotten
+                for topic in TOPICS {
+                    let all = format!("{interface}/+/+/+/{topic}");
+                    // the queue is empty here
+                    let _ = client.try_subscribe(all, QoS::AtLeastOnce);
+                }
+                Heard::Broker(None)
+            }
+            Ok(Event::Incoming(Packet::Publish(message))) => {
+                Heard::Message(message.topic, message.payload.to_vec())
+            }
+            Ok(_) => continue,
+            Err(error) => {
+                let was = is_up.replace(false);
+                if was != Some(false) && heard.send(Heard::Broker(Some(error.to_string()))).is_err() {
+                    return;
+                }
+                tokio::time::sleep(PAUSE).await;
+                continue;
+            }
+        };
+        if heard.send(say).is_err() {
+            return;
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! What vehicles report, told to the site. In a circle with the vehicle's file, of which it is a part.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use super::{Driver, Effect, Now, words};
+
+impl Driver {
+    /// What errors mean is done once each time that they come.
+    pub(super) fn act_on_errors(&mut self, now: &Now<'_, '_>, effects: &mut Vec<Effect>) {
+        let Now { report, world, .. } = now;
+        let present: BTreeSet<String> = report.errors.iter().map(|error| error.error_type.clone()).collect();
+        self.acted.retain(|known| present.contains(known));
+        for error in &report.errors {
+            let meaning = world.fleet.meaning(&error.error_type, &error.error_level);
+            let (Some(seconds), Some(at)) = (meaning.closes_for, report.position.as_ref()) else {
+                if self.acted.insert(error.error_type.clone()) {
+                    effects.push(Effect::Say(format!("{} reports {}", self.row.name, words::error(error))));
+                }
+                continue;
+            };
+            // who drives on is not blocked
+            if report.driving || !self.acted.insert(error.error_type.clone()) {
+                continue;
+            }
+            let ahead = self.given.as_ref().and_then(|sent| {
+                let next = sent.order.stops.get(sent.reached + 1)?;
+                Some((next.at[1] - at.y).atan2(next.at[0] - at.x))
+            });
+            let only = (!meaning.for_all).then(|| self.row.robot.clone()).flatten();
+            effects.push(Effect::Block {
+                at: [at.x, at.y],
+                heading: ahead.unwrap_or(at.theta).to_degrees().rem_euclid(360.0),
+                seconds,
+                only,
+                why: format!("{} reports {}", self.row.name, words::error(error)),
+            });
+        }
+    }
+
+    /// Writes into the table what it has columns for, where it is another value than before.
+    pub(super) fn tell(&mut self, doing: String, effects: &mut Vec<Effect>) {
+        let mut values = vec![("doing", Value::from(doing))];
+        if let Some(link) = self.link {
+            values.push(("connection", Value::from(link.word())));
+        }
+        if let Some(report) = &self.report {
+            values.push(("localized", Value::from(report.position.as_ref().is_some_and(|at| at.localized))));
+            if let Some(battery) = report.battery {
+                values.push(("battery", Value::from(battery.charge.round())));
+            }
+            let errors: BTreeSet<&str> =
+                report.errors.iter().map(|error| error.error_type.as_str()).collect();
+            values.push(("errors", Value::from(errors.into_iter().collect::<Vec<_>>().join(", "))));
+            let here = self.given.as_ref().filter(|sent| sent.order.id == report.order_id);
+            if let Some(sent) = here {
+                let stop = &sent.order.stops[sent.reached];
+                values.push(("space", Value::from(stop.space.clone())));
+            }
+        }
+        for (column, value) in values {
+            let Some(known) = self.written.get_mut(column) else { continue };
+            if words::is_same(known, &value) {
+                continue;
+            }
+            known.clone_from(&value);
+            effects.push(Effect::Write { column, value });
+        }
+    }
+}

@@ -1,0 +1,335 @@
+//! All vehicles of a site: what is heard goes to the vehicle that it is about, and what follows is done.
+
+mod asked;
+mod clock;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::Duration;
+
+use rumqttc::{AsyncClient, QoS};
+use serde_json::{Value, json};
+use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
+use tokio::task::JoinHandle;
+
+use crate::driver::{Driver, Effect, World};
+use crate::heard::Heard;
+use crate::site::{Fleet as Tables, Site, VEHICLES};
+use crate::way::{Bridge, Margins};
+use crate::wire;
+
+/// How often vehicles are thought of where nothing is heard.
+const TICK: Duration = Duration::from_millis(500);
+
+/// How many vehicles that the site does not know are named.
+const NAMED: usize = 100;
+
+/// The settings.
+pub struct Settings {
+    /// The first part of all topics.
+    pub interface: String,
+    /// How vehicles call the map.
+    pub map: String,
+    pub margins: Margins,
+}
+
+/// The vehicles, and what connects them.
+pub struct Fleet {
+    site: Site,
+    client: AsyncClient,
+    settings: Settings,
+    heard: UnboundedSender<Heard>,
+    tables: Tables,
+    bridges: Vec<Bridge>,
+    drivers: BTreeMap<String, Driver>,
+    follows: BTreeMap<String, asked::Following>,
+    strangers: BTreeSet<String>,
+    writers: BTreeMap<String, JoinHandle<()>>,
+    is_up: bool,
+    trouble: Option<String>,
+    clock: clock::Watch,
+}
+
+impl Fleet {
+    pub fn new(site: Site, client: AsyncClient, settings: Settings, heard: UnboundedSender<Heard>) -> Self {
+        Self {
+            site,
+            client,
+            settings,
+            heard,
+            tables: Tables::default(),
+            bridges: Vec::new(),
+            drivers: BTreeMap::new(),
+            follows: BTreeMap::new(),
+            strangers: BTreeSet::new(),
+            writers: BTreeMap::new(),
+            is_up: false,
+            trouble: None,
+            clock: clock::Watch::start(),
+        }
+    }
+
+    /// Runs until nobody speaks any more.
+    pub async fn run(mut self, mut hears: UnboundedReceiver<Heard>) {
+        let _events = asked::Kept(tokio::spawn(asked::events(self.site.clone(), self.heard.clone())));
+        let heard = self.heard.clone();
+        let _ticks = asked::Kept(tokio::spawn(async move {
+            while heard.send(Heard::Tick).is_ok() {
+                tokio::time::sleep(TICK).await;
+            }
+        }));
+        while let Some(heard) = hears.recv().await {
+            let about = self.take(heard);
+            let names: Vec<String> = match about {
+                About::Nobody => continue,
+                About::One(name) => vec![name],
+                About::All => self.drivers.keys().cloned().collect(),
+            };
+            // where there is no broker nothing can be said, and what is decided now would be forgotten
+            if self.is_up {
+                for name in names {
+                    self.think(&name);
+                }
+            }
+        }
+    }
+
+    fn take(&mut self, heard: Heard) -> About {
+        match heard {
+            Heard::Broker(None) => {
+                say("the broker is there");
+                self.is_up = true;
+                self.drivers.values_mut().for_each(Driver::connected);
+                return About::All;
+            }
+            Heard::Broker(Some(why)) => {
+                say(&format!("the broker is away: {why}"));
+                self.is_up = false;
+            }
+            Heard::Message(topic, payload) => return self.message(&topic, &payload),
+            Heard::Tables(Ok(tables)) => {
+                self.trouble = None;
+                self.read(tables);
+                return About::All;
+            }
+            Heard::Tables(Err(why)) => {
+                if self.trouble.as_ref() != Some(&why) {
+                    say(&why);
+                    self.trouble = Some(why);
+                }
+            }
+            Heard::Bridges(bridges) => self.bridges = bridges,
+            Heard::Floor => {
+                self.drivers.values_mut().for_each(Driver::doubted);
+                return About::All;
+            }
+            Heard::Route { vehicle, epoch, follower, route } => {
+                if let Some(following) = self.follows.get(&vehicle) {
+                    following.is_named(epoch, follower);
+                }
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.routed(epoch, route);
+                    return About::One(vehicle);
+                }
+            }
+            Heard::Fresh { vehicle, epoch, route } => {
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.answered(epoch, route);
+                    return About::One(vehicle);
+                }
+            }
+            Heard::Checked { vehicle, order, update, holds } => {
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.checked(&order, update, holds);
+                    return About::One(vehicle);
+                }
+            }
+            Heard::Cleared { vehicle } => {
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.is_written();
+                    return About::One(vehicle);
+                }
+            }
+            Heard::Said(words) => say(&words),
+            Heard::Tick => return About::All,
+        }
+        About::Nobody
+    }
+
+    /// What a vehicle says, by its topic: `INTERFACE/v2/MANUFACTURER/SERIAL/WHAT`.
+    fn message(&mut self, topic: &str, payload: &[u8]) -> About {
+        let parts: Vec<&str> = topic.rsplitn(5, '/').collect();
+        let [what, serial, manufacturer, ..] = parts[..] else { return About::Nobody };
+        let known = self
+            .drivers
+            .values_mut()
+            .find(|driver| driver.row.serial == serial && driver.row.manufacturer == manufacturer);
+        let Some(driver) = known else {
+            let stranger = format!("{manufacturer}/{serial}");
+            if self.strangers.len() < NAMED && self.strangers.insert(stranger.clone()) {
+                say(&format!("vehicle {stranger} is on the broker and not in table `{VEHICLES}`"));
+            }
+            return About::Nobody;
+        };
+        let read = match what {
+            "state" => wire::state(payload).map(|report| driver.reported(report)),
+            "connection" => wire::connection(payload)
+                .map(|connection| driver.linked(connection.connection_state, &connection.version)),
+            "factsheet" => wire::factsheet(payload).map(|factsheet| driver.described(factsheet)),
+            _ => return About::Nobody,
+        };
+        let name = driver.row.name.clone();
+        match read {
+            Ok(()) => About::One(name),
+            Err(why) => {
+                say(&format!("{name}: {why}"));
+                About::Nobody
+            }
+        }
+    }
+
+    fn read(&mut self, tables: Tables) {
+        self.tables = tables;
+        let rows = self.tables.vehicles.clone();
+        let names: BTreeSet<String> = rows.iter().map(|row| row.name.clone()).collect();
+        self.drivers.retain(|name, _| names.contains(name));
+        self.follows.retain(|name, _| names.contains(name));
+        for row in rows {
+            match self.drivers.get_mut(&row.name) {
+                Some(driver) => driver.read(row),
+                None => {
+                    self.strangers.remove(&format!("{}/{}", row.manufacturer, row.serial));
+                    say(&format!("vehicle {}: {}/{}", row.name, row.manufacturer, row.serial));
+                    self.drivers.insert(row.name.clone(), Driver::new(row));
+                    // what it said before is kept by the broker
+                    let again = ["connection", "factsheet"];
+                    for topic in again {
+                        let all = format!("{}/+/+/+/{topic}", self.settings.interface);
+                        let _ = self.client.try_subscribe(all, QoS::AtLeastOnce);
+                    }
+                }
+            }
+        }
+    }
+
+    fn think(&mut self, name: &str) {
+        let Some(driver) = self.drivers.get_mut(name) else { return };
+        let clock = self.clock.now();
+        let world = World {
+            fleet: &self.tables,
+            margins: &self.settings.margins,
+            bridges: &self.bridges,
+            map: &self.settings.map,
+            clock: &clock,
+        };
+        for effect in driver.think(&world) {
+            self.does(name, effect);
+        }
+    }
+
+    fn does(&mut self, name: &str, effect: Effect) {
+        let (site, heard, vehicle) = (self.site.clone(), self.heard.clone(), name.to_owned());
+        match effect {
+            Effect::Say(words) => say(&words),
+            Effect::Send { to, topic, message } => {
+                let topic = format!(
+                    "{}/{}/{}/{}/{topic}",
+                    self.settings.interface,
+                    to.version.of_topic(),
+                    to.manufacturer,
+                    to.serial
+                );
+                // what does not go out now is not acknowledged, and goes out again
+                if self.client.try_publish(topic, QoS::AtMostOnce, false, message.to_string()).is_err() {
+                    say(&format!("{name}: too much is waiting to go to the broker"));
+                }
+            }
+            Effect::Follow { epoch, start, goal, robot } => {
+                let asked = asked::Way { vehicle, epoch, goal, robot };
+                self.follows.insert(name.to_owned(), asked::Following::begin(site, asked, start, heard));
+            }
+            Effect::Ask { epoch, start, goal, robot } => {
+                let asked = asked::Way { vehicle, epoch, goal, robot };
+                tokio::spawn(asked::once(site, asked, start, heard));
+            }
+            Effect::Moved { at } => {
+                if let Some(following) = self.follows.get(name) {
+                    following.goes_on(at);
+                }
+            }
+            Effect::Unfollow => {
+                self.follows.remove(name);
+            }
+            Effect::Check { order, update, from, to, metres, doorways, robot } => {
+                let along = asked::Along { from, to, metres, doorways, robot };
+                tokio::spawn(async move {
+                    if let Some(holds) = asked::holds(&site, &along).await {
+                        let _ = heard.send(Heard::Checked { vehicle, order, update, holds });
+                    }
+                });
+            }
+            Effect::Block { at, heading, seconds, only, why } => {
+                let mut body =
+                    json!({"x": at[0], "y": at[1], "heading": heading, "for_seconds": seconds, "why": why});
+                if let Some(only) = only {
+                    body["only"] = json!([only]);
+                }
+                tokio::spawn(async move {
+                    let words = match site.post("/api/blocked", &body).await {
+                        Ok(_) => format!("{why}: the way ahead is closed for {seconds} s"),
+                        Err(trouble) => format!("{why}: the way ahead cannot be closed: {trouble}"),
+                    };
+                    let _ = heard.send(Heard::Said(words));
+                });
+            }
+            Effect::Write { column, value } => {
+                self.write(name, json!({"column": column, "value": value}), None);
+            }
+            Effect::Arrived { goal } => {
+                say(&format!("{name} is at {goal}"));
+                self.write(
+                    name,
+                    json!({"column": "goal", "value": Value::Null, "old": goal}),
+                    Some(Heard::Cleared { vehicle }),
+                );
+            }
+        }
+    }
+
+    /// One edit of the vehicle's row after the other.
+    fn write(&mut self, name: &str, cell: Value, then: Option<Heard>) {
+        let (site, heard, vehicle) = (self.site.clone(), self.heard.clone(), name.to_owned());
+        let mut edit = json!({"kind": "set", "table": VEHICLES, "key": name});
+        if let (Some(edit), Some(cell)) = (edit.as_object_mut(), cell.as_object()) {
+            edit.extend(cell.clone());
+        }
+        let body = json!({"edit": edit, "why": asked::SAID});
+        let before = self.writers.remove(name);
+        let task = tokio::spawn(async move {
+            if let Some(before) = before {
+                let _ = before.await;
+            }
+            match (site.post("/api/edits", &body).await, then) {
+                (Ok(_), Some(then)) => drop(heard.send(then)),
+                (Ok(_), None) => {}
+                (Err(trouble), _) => {
+                    let words = format!("{vehicle}: its row cannot be written: {trouble}");
+                    let _ = heard.send(Heard::Said(words));
+                }
+            }
+        });
+        self.writers.insert(name.to_owned(), task);
+    }
+}
+
+/// Which vehicles are to be thought of.
+enum About {
+    Nobody,
+    One(String),
+    All,
+}
+
+/// Into the log.
+#[allow(clippy::print_stderr)] // it is the log
+pub fn say(words: &str) {
+    eprintln!("{words}");
+}

@@ -1,0 +1,9 @@
+//! What goes over the broker: one model of messages, and the one place in which the versions of VDA 5050 differ.
+
+mod heard;
+mod said;
+mod version;
+
+pub use heard::{Connection, Factsheet, Fault, Link, Report, connection, factsheet, state};
+pub use said::{Action, Addressee, Blocking, Edge, Instant, Node, Order};
+pub use version::Version;

@@ -1,0 +1,9 @@
+//! Vehicles on a broker, as a fleet's integrator sees them.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+mod drives;
+mod judge;
+mod malformed;
+mod messages;
+mod storm;
+mod yard;
