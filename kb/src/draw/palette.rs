@@ -135,7 +135,7 @@ mod tests {
     fn of_page(begin: &str) -> String {
         let page = include_str!("../../page/palette.js");
         let list = page.split_once(begin).expect("the page has it").1;
-        list.split_once("\n").expect("a line").0.to_owned()
+        list.split_once('\n').expect("a line").0.to_owned()
     }
 
     #[test]
@@ -147,7 +147,7 @@ mod tests {
         assert_eq!(light, ACTIONS.map(|(colour, _)| colour));
         let dashes = of_page("const DASHES = [").trim_end_matches("];").to_owned();
         let dashes: Vec<String> =
-            dashes.split("],").map(|dash| dash.trim().trim_matches(['[', ']']).replace(", ", " ")).collect();
+            dashes.split("],").map(|dash| dash.trim_matches([' ', '[', ']']).replace(", ", " ")).collect();
         assert_eq!(dashes, ACTIONS.map(|(_, dash)| dash));
     }
 }
