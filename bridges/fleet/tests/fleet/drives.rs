@@ -305,7 +305,8 @@ fn a_site_says_itself_what_errors_mean() {
     std::fs::create_dir_all(site.path().join("tables")).unwrap();
     site.write("tables/vehicles.csv", CART);
     site.write("tables/vehicle_errors.csv", "error,closes_for,stops\npallet,30,\nmotor,,true\n");
-    let service = Service::start(&site.built());
+    let site = site.built();
+    let service = Service::start(&site);
     let tables = Fleet::read(&service.ask("GET", "/api/tables", None).1).unwrap();
     assert_eq!(tables.meaning("pallet", "WARNING").closes_for, Some(30));
     assert!(tables.meaning("motor", "WARNING").stops);
