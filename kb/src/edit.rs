@@ -15,7 +15,7 @@ mod cells;
 mod close;
 mod errand;
 mod lay;
-mod place;
+pub(crate) mod place;
 pub mod rehearse;
 mod tell;
 mod tuning;

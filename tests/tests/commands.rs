@@ -36,6 +36,7 @@ const PAGES: [Page; 5] = [
         file: "README.md",
         blocks: &[
             ("dock to ward 12, hardness", Use::Shown),
+            ("Walk-on-knee in corridor", Use::Shown),
             ("width = 12.0", Use::File("drawn.toml")),
             ("state = \"SQUAT\"", Use::Shown),
             ("load = \"crate\"", Use::Added("my-site/robots.toml")),

@@ -13,12 +13,20 @@ use crate::navigation::why as mission;
 pub struct WhyArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; of a database of `adit simulate --db` instead of a site the
-    /// number of a mission: why the robot stopped
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; with GOAL, where a route starts: a place, a room or `x,y`; of a
+    /// database of `adit simulate --db` instead of a site the number of a mission: why the robot stopped
+    #[arg(allow_hyphen_values = true)]
     pub what: String,
-    /// Of a mission: ask about what the robot did at this time instead of about its last stop
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
-    pub at: Option<f64>,
+    /// Where the route leads: why it does what it does, stretch by stretch
+    #[arg(allow_hyphen_values = true)]
+    pub goal: Option<String>,
+    /// Of a route: only its stretches at this space, doorway, area, named door or point; of a mission: ask about what the robot
+    /// did at this time, in seconds, instead of about its last stop
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// Of a route: which robot, where the site has several
+    #[arg(long, requires = "goal")]
+    pub robot: Option<String>,
     /// Of a mission: the name of its world, where the database has several
     #[arg(long, value_name = "NAME")]
     pub world: Option<String>,
@@ -28,8 +36,8 @@ pub struct WhyArgs {
 pub struct WhyNotArgs {
     #[command(flatten)]
     pub way: WayArgs,
-    /// The room or door: `room d`, `door 7`
-    #[arg(long, value_name = "WHAT")]
+    /// A space, a doorway, an area, a named door, `room d`, `door 7`, a place, or a point `x,y` by which to go
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub through: String,
 }
 
@@ -40,9 +48,14 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     if args.site.site.is_file() {
         return of_mission(args);
     }
+    if let (Some(goal), None) = (&args.goal, &args.world) {
+        return of_route(args, goal);
+    }
     if args.at.is_some() || args.world.is_some() {
-        let message =
-            format!("--at and --world are for missions, and {} is no file", args.site.site.display());
+        let message = format!(
+            "--at is for routes and missions, --world for missions, and {} is no file",
+            args.site.site.display()
+        );
         let help = "`adit simulate WORLD --db FILE` keeps missions; `adit why FILE NUMBER` asks about one";
         return Err(Error::said(Code::WhyNoMissions, message, Some(help.to_owned())));
     }
@@ -53,15 +66,37 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     for conclusion in &answer.conclusions {
         line(&conclusion.why);
     }
+    if let Some(easier) = &answer.easier {
+        line(&format!("nothing easier goes there: {easier}"));
+    }
     if answer.conclusions.is_empty() {
         line(&format!("no rule concluded anything about {}", answer.name));
     }
     Ok(())
 }
 
+fn of_route(args: &WhyArgs, goal: &str) -> Result<()> {
+    let live = Live::open(open(&args.site)?)?;
+    let answer = live.why_way((&args.what, goal), args.at.as_deref(), args.robot.as_deref())?;
+    if args.site.json {
+        return json(&answer);
+    }
+    for sentence in &answer.sentences {
+        line(sentence);
+    }
+    Ok(())
+}
+
 fn of_mission(args: &WhyArgs) -> Result<()> {
     let SiteArgs { site, rules, .. } = &args.site;
-    let answer = mission::why(site, &args.what, args.world.as_deref(), args.at, rules.as_deref())?;
+    let seconds = |at: &String| {
+        at.trim().parse::<f64>().map_err(|_| {
+            let message = format!("--at {at:?} is no time of a mission; expected seconds");
+            Error::said(Code::WhyNoMissions, message, None)
+        })
+    };
+    let at = args.at.as_ref().map(seconds).transpose()?;
+    let answer = mission::why(site, &args.what, args.world.as_deref(), at, rules.as_deref())?;
     if args.site.json {
         return json(&answer);
     }

@@ -28,6 +28,26 @@ impl Path {
         }
     }
 
+    /// It, and from its end on another one.
+    #[must_use]
+    pub fn then(mut self, on: Self) -> Self {
+        self.metres.extend(on.metres);
+        self.doors.extend(on.doors);
+        self
+    }
+
+    /// The same way in another graph.
+    pub fn renamed(
+        self,
+        room: impl Fn(RoomIndex) -> RoomIndex,
+        door: impl Fn(DoorIndex) -> DoorIndex,
+    ) -> Self {
+        Self {
+            metres: self.metres.into_iter().map(|(of, metres)| (room(of), metres)).collect(),
+            doors: self.doors.into_iter().map(door).collect(),
+        }
+    }
+
     /// What it costs; infinite where it is not passed.
     pub fn cost(&self, weights: &Weights) -> f64 {
         let walked = self.metres.iter().map(|&(room, metres)| match weights[room] {
@@ -55,7 +75,13 @@ pub struct Routes {
 
 enum Searched {
     OnDoors(RefCell<CompactGraph>),
-    Measured(Box<RefCell<RouteGraph>>),
+    Measured(Box<RefCell<Measured>>),
+}
+
+/// A graph that is weighed as it was asked for last.
+struct Measured {
+    graph: RouteGraph,
+    now: Weights,
 }
 
 impl Routes {
@@ -71,7 +97,10 @@ impl Routes {
     pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
         let searched = match CompactGraph::new(graph) {
             Some(compact) => Searched::OnDoors(RefCell::new(compact)),
-            None => Searched::Measured(Box::new(RefCell::new(graph.clone()))),
+            None => {
+                let measured = Measured { graph: graph.clone(), now: Weights::of(graph) };
+                Searched::Measured(Box::new(RefCell::new(measured)))
+            }
         };
         Self { start, goal, searched }
     }
@@ -85,9 +114,9 @@ impl Routes {
     pub fn driven_cost(&self, weights: &Weights) -> Option<f64> {
         match &self.searched {
             Searched::OnDoors(_) => Some(self.best(weights)?.cost(weights)),
-            Searched::Measured(graph) => {
-                let mut graph = graph.borrow_mut();
-                reweigh(&mut graph, weights);
+            Searched::Measured(measured) => {
+                let mut measured = measured.borrow_mut();
+                let graph = measured.weighed(weights);
                 graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
             }
         }
@@ -102,22 +131,43 @@ impl Routes {
                 weigh(&mut graph, weights);
                 best_of(&graph.tree(&self.start), &self.goal)
             }
-            Searched::Measured(graph) => {
-                let mut graph = graph.borrow_mut();
-                reweigh(&mut graph, weights);
-                graph
-                    .tightest_way(&self.start, std::slice::from_ref(&self.goal))
-                    .map(|(_, way)| Path::of(&way))
+            Searched::Measured(measured) => {
+                let mut measured = measured.borrow_mut();
+                let graph = measured.weighed(weights);
+                let way = graph.tightest_way(&self.start, std::slice::from_ref(&self.goal));
+                way.map(|(_, way)| Path::of(&way))
             }
         }
     }
+
+    /// By so much more, as a share, a way may cost than the best one and still count as one of the best: where ways are measured,
+    /// two searches for one of them may bend a hair apart.
+    pub fn rounding(&self) -> f64 {
+        if self.is_on_doors() { 1e-9 } else { 1e-6 }
+    }
 }
 
-/// Whether what costs so much costs no more than the best way, to a rounding: where ways are measured, two searches for
-/// one of them may bend a hair apart.
-pub fn is_least(routes: &Routes, cost: f64, best: f64) -> bool {
-    let tolerance = if routes.is_on_doors() { 1e-9 } else { 1e-6 };
-    cost <= best + tolerance * best.abs().max(1e-9)
+impl Measured {
+    /// The graph with these weights.
+    fn weighed(&mut self, weights: &Weights) -> &RouteGraph {
+        let rooms = self.now.rooms.iter().zip(&weights.rooms).enumerate();
+        let rooms: Vec<_> = rooms
+            .filter(|(_, (now, then))| now != then)
+            .map(|(room, (_, then))| (RoomIndex::new(room), *then))
+            .collect();
+        let doors = self.now.doors.iter().zip(&weights.doors).enumerate();
+        let doors: Vec<_> = doors
+            .filter(|(_, (now, then))| now.total_cmp(then).is_ne())
+            .map(|(door, (_, then))| {
+                (DoorIndex::new(door), Some(*then).filter(|weight| weight.is_finite()), then.is_finite())
+            })
+            .collect();
+        if !rooms.is_empty() || !doors.is_empty() {
+            self.graph.reweigh(rooms, doors);
+            self.now.clone_from(weights);
+        }
+        &self.graph
+    }
 }
 
 /// Gives the doors of a graph these weights.
@@ -138,12 +188,4 @@ fn best_of(tree: &CompactTree, goal: &Goal) -> Option<Path> {
     }
     doors.reverse();
     Some(Path { metres: Vec::new(), doors })
-}
-
-/// Gives the rooms and doors of a graph these weights.
-pub fn reweigh(graph: &mut RouteGraph, weights: &Weights) {
-    let doors = (0..).map(DoorIndex::new).zip(weights.doors.iter().copied());
-    let doors =
-        doors.map(|(door, weight)| (door, Some(weight).filter(|w| w.is_finite()), weight.is_finite()));
-    graph.reweigh((0..).map(RoomIndex::new).zip(weights.rooms.iter().copied()), doors);
 }

@@ -1,76 +1,105 @@
-//! What it costs to go on the same way at other weights.
+//! The present way at other weights, driven as is best there: the ways that hold where it is asked how firm a route is.
+//!
+//! What *the same way* is:
+//! - where all hardness lies on the doors (the paper's modes), the same doors in the same order;
+//! - where rooms weigh their metres, the same actions in the same order, each in the rooms in which the route does it now, or
+//!   in rooms beside these: where hardness changes, a way bends a little elsewhere with every value, and that is no other way.
 
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use adit_planners::routes::{
-    Closed, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Way,
+    Closed, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start,
 };
 
-use super::path::reweigh;
-use super::{Path, Prober, Routes, Weights};
+use super::{Contrast, Look, Path, Prober, Routes, Weights};
 use crate::graph::SiteGraph;
 
-/// The present way, as it is driven best at any weights.
-pub struct SameWay {
+/// The present way, as it is driven best at any weights, beside all ways.
+pub struct SameWay<'r> {
     pub path: Path,
+    all: &'r Routes,
     corridor: Option<Corridor>,
     /// So much more than the best may it cost, as a share.
-    pub tolerance: f64,
+    tolerance: f64,
 }
 
 /// The rooms of the way and those beside them, run by run: from a run only the next one is entered.
 struct Corridor {
-    graph: RefCell<RouteGraph>,
-    start: Start,
-    goal: Goal,
+    routes: Routes,
+    runs: Vec<BTreeSet<RoomIndex>>,
     /// The site's rooms and doors, by those of the corridor.
     rooms: Vec<RoomIndex>,
     doors: Vec<DoorIndex>,
 }
 
-/// What finds a best way.
-type Find = fn(&RouteGraph, &Start, &[Goal]) -> Option<(usize, Way)>;
-
-impl SameWay {
+impl<'r> SameWay<'r> {
     /// Of the best way at present.
-    pub fn new(prober: &Prober, routes: &Routes, path: Path) -> Self {
-        if routes.is_on_doors() {
-            return Self { path, corridor: None, tolerance: 1e-9 };
+    pub fn new(prober: &Prober, all: &'r Routes, path: Path) -> Self {
+        let mut same = Self { path, all, corridor: None, tolerance: all.rounding() };
+        if all.is_on_doors() {
+            return same;
         }
-        let corridor = Corridor::new(prober.fork.graph(), routes, &path);
-        let mut same = Self { path, corridor: Some(corridor), tolerance: 1e-6 };
+        same.corridor = Some(Corridor::new(prober.fork.graph(), all, &same.path));
         // two searches for one way may bend a hair apart
-        let (own, best) = (same.cost(&prober.present), same.path.cost(&prober.present));
+        let own = same.best(&prober.present).map_or(f64::INFINITY, |(_, cost)| cost);
+        let best = same.path.cost(&prober.present);
         if own.is_finite() && best > 0.0 {
             same.tolerance += 2.0 * (own / best - 1.0).clamp(0.0, 1e-3);
         }
         same
     }
 
-    /// What it costs; infinite where it is not passed.
-    pub fn cost(&self, weights: &Weights) -> f64 {
-        match &self.corridor {
-            None => self.path.cost(weights),
-            Some(corridor) => corridor
-                .cost(weights, RouteGraph::tightest_way)
-                .unwrap_or(f64::INFINITY)
-                .min(self.path.cost(weights)),
-        }
+    /// As it is driven best at some weights; `None` where it is not passed.
+    fn best(&self, weights: &Weights) -> Option<(Path, f64)> {
+        let as_now = (self.path.clone(), self.path.cost(weights));
+        let bent = self.corridor.as_ref().and_then(|corridor| corridor.best(weights));
+        let (path, cost) = match bent {
+            Some(bent) if bent.1 < as_now.1 => bent,
+            _ => as_now,
+        };
+        cost.is_finite().then_some((path, cost))
     }
 
     /// What it costs as it is driven, off walls.
-    pub fn driven_cost(&self, weights: &Weights) -> f64 {
-        let driven = self.corridor.as_ref().and_then(|corridor| corridor.cost(weights, RouteGraph::way));
-        driven.unwrap_or_else(|| self.cost(weights))
+    pub fn driven_cost(&self, weights: &Weights) -> Option<f64> {
+        let corridor = self.corridor.as_ref();
+        let driven = corridor.and_then(|corridor| corridor.routes.driven_cost(&corridor.weights(weights)));
+        driven.or_else(|| self.best(weights).map(|(_, cost)| cost))
     }
 
-    /// Whether no way that costs `best` is better.
-    pub fn is_best(&self, cost: f64, best: f64) -> bool {
-        cost.is_finite() && cost <= best + self.tolerance * best.abs().max(1e-9)
+    /// Whether a way is this one, driven a little otherwise at most.
+    fn is_this(&self, path: &Path) -> bool {
+        match &self.corridor {
+            None => self.path.doors == path.doors,
+            Some(corridor) => corridor.holds(path),
+        }
     }
 }
 
+impl Contrast for SameWay<'_> {
+    fn look(&self, weights: &Weights) -> Option<Look> {
+        let Some((best, cost)) = self.rival(weights) else {
+            return Some(Look { own: None, rival: None, is_turned: true });
+        };
+        if self.is_this(&best) {
+            let best = Some((best, cost));
+            return Some(Look { own: best.clone(), rival: best, is_turned: false });
+        }
+        let own = self.best(weights);
+        let is_turned = own.as_ref().is_none_or(|(_, own)| self.is_turned(*own, cost));
+        Some(Look { own, rival: Some((best, cost)), is_turned })
+    }
+
+    fn rival(&self, weights: &Weights) -> Option<(Path, f64)> {
+        let path = self.all.best(weights)?;
+        let cost = path.cost(weights);
+        Some((path, cost))
+    }
+
+    fn is_turned(&self, own: f64, rival: f64) -> bool {
+        own > rival + self.tolerance * rival.abs().max(1e-9)
+    }
+}
 /// What tells runs apart: the layer, its facing and the action.
 type Kind<'g> = (Option<&'g (String, String)>, Option<f64>, Option<&'g str>);
 
@@ -150,18 +179,32 @@ impl Corridor {
             ..closed.clone()
         };
         own.close(graph.graph().closed().iter().map(of_copies).collect());
-        Self { graph: RefCell::new(own), start, goal, rooms, doors }
+        Self { routes: Routes::between(&own, start, goal), runs, rooms, doors }
     }
 
-    /// What the way that a search finds costs.
-    fn cost(&self, weights: &Weights, find: Find) -> Option<f64> {
-        let mut graph = self.graph.borrow_mut();
-        let own = Weights {
-            rooms: self.rooms.iter().map(|&room| weights[room]).collect(),
-            doors: self.doors.iter().map(|&door| weights[door]).collect(),
-        };
-        reweigh(&mut graph, &own);
-        find(&graph, &self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
+    fn weights(&self, of_site: &Weights) -> Weights {
+        Weights {
+            rooms: self.rooms.iter().map(|&room| of_site[room]).collect(),
+            doors: self.doors.iter().map(|&door| of_site[door]).collect(),
+        }
+    }
+
+    /// The best way in it, as one of the site, and what it costs.
+    fn best(&self, weights: &Weights) -> Option<(Path, f64)> {
+        let path = self.routes.best(&self.weights(weights))?;
+        let path = path.renamed(|room| self.rooms[room.index()], |door| self.doors[door.index()]);
+        let cost = path.cost(weights);
+        Some((path, cost))
+    }
+
+    /// Whether a way leads through its runs, one after the other.
+    fn holds(&self, path: &Path) -> bool {
+        let mut run = 0;
+        let is_in = |run: usize, room: RoomIndex| self.runs.get(run).is_some_and(|run| run.contains(&room));
+        path.metres.iter().all(|&(room, _)| {
+            run += usize::from(!is_in(run, room));
+            is_in(run, room)
+        }) && run + 1 == self.runs.len()
     }
 }
 

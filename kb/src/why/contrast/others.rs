@@ -1,0 +1,97 @@
+//! All ways, beside some that speak against the best.
+
+use adit_planners::routes::{Goal, RouteGraph, Start, Way};
+
+use super::{Contrast, Look, Path, Routes, Weights};
+
+/// Some of all ways.
+pub trait Ways {
+    /// The best of them.
+    fn best(&self, weights: &Weights) -> Option<Path>;
+
+    /// Whether a way is one of them.
+    fn holds(&self, path: &Path) -> bool;
+}
+
+/// All ways hold, until one of the others is as good.
+pub struct Beside<'c> {
+    pub all: &'c Routes,
+    pub others: &'c dyn Ways,
+}
+
+impl Contrast for Beside<'_> {
+    fn look(&self, weights: &Weights) -> Option<Look> {
+        let own = self.all.best(weights)?;
+        let cost = own.cost(weights);
+        if self.others.holds(&own) {
+            let both = Some((own, cost));
+            return Some(Look { own: both.clone(), rival: both, is_turned: true });
+        }
+        let rival = self.rival(weights);
+        let is_turned = rival.as_ref().is_some_and(|(_, rival)| self.is_turned(cost, *rival));
+        Some(Look { own: Some((own, cost)), rival, is_turned })
+    }
+
+    fn rival(&self, weights: &Weights) -> Option<(Path, f64)> {
+        let path = self.others.best(weights)?;
+        let cost = path.cost(weights);
+        Some((path, cost))
+    }
+
+    fn is_turned(&self, own: f64, rival: f64) -> bool {
+        rival <= own + self.all.rounding() * own.abs().max(1e-9)
+    }
+}
+
+/// A best way: as it is chosen, and as it is driven, farther off walls.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    pub tight: Way,
+    pub driven: Way,
+}
+
+impl Choice {
+    pub fn of(graph: &RouteGraph, start: &Start, goal: &Goal) -> Option<Self> {
+        let goals = std::slice::from_ref(goal);
+        let ((_, tight), (_, driven)) = (graph.tightest_way(start, goals)?, graph.way(start, goals)?);
+        Some(Self { tight, driven })
+    }
+
+    #[must_use]
+    pub fn map(self, of: impl Fn(Way) -> Way) -> Self {
+        Self { tight: of(self.tight), driven: of(self.driven) }
+    }
+
+    /// It, and from its end on another one.
+    #[must_use]
+    pub fn then(self, on: &Self) -> Self {
+        let joined = |mut way: Way, on: &Way| {
+            let before = way.cost;
+            way.legs.extend(
+                on.legs.iter().map(|leg| adit_planners::routes::Leg { cost: leg.cost + before, ..*leg }),
+            );
+            way.cost += on.cost;
+            way
+        };
+        Self { tight: joined(self.tight, &on.tight), driven: joined(self.driven, &on.driven) }
+    }
+
+    /// What the best way and another one cost as they are driven; as they are chosen where keeping off walls costs the best one
+    /// more than the whole difference.
+    pub fn costs(best: Option<&Self>, other: Option<&Self>) -> (Option<f64>, Option<f64>) {
+        let driven = |way: &Self| way.driven.cost;
+        let (Some(one), Some(two)) = (best, other) else { return (best.map(driven), other.map(driven)) };
+        if is_best(one.tight.cost, two.tight.cost) {
+            (Some(driven(one)), Some(driven(one)))
+        } else if is_best(driven(one), driven(two)) {
+            (Some(one.tight.cost), Some(two.tight.cost))
+        } else {
+            (Some(driven(one)), Some(driven(two)))
+        }
+    }
+}
+
+/// Whether a way costs what the best one does; the way through a door is measured by one point of it.
+pub fn is_best(best: f64, cost: f64) -> bool {
+    cost <= best * (1.0 + 1e-6)
+}
