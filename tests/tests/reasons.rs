@@ -52,6 +52,7 @@ struct Desk {
     places: Vec<String>,
     /// Names that a way may lead through.
     things: Vec<String>,
+    changes_cost: bool,
 }
 
 impl Desk {
@@ -73,6 +74,7 @@ impl Desk {
         ]
         .map(|query| site.sqlite3(query));
         let sizes = sizes.collect();
+        let changes_cost = site.sqlite3("SELECT count(*) FROM changes WHERE hardness > 0") != ["0"];
         Self {
             live: Live::open(knowledge).unwrap(),
             solids: Solids::new(&world),
@@ -81,6 +83,7 @@ impl Desk {
             sizes,
             places,
             things,
+            changes_cost,
             _site: site,
         }
     }
@@ -277,7 +280,8 @@ fn check_firm(desk: &Desk, firm: &Firm) {
     assert!(is_near(cost, driven, 1e-9), "{cost} {driven} {ask:?}");
     assert!(!firm.truncated, "{ask:?}");
     let now = course(&route);
-    for of in &firm.cells {
+    // where changing shape costs nothing, it is changed here and there for a few centimetres
+    for of in firm.cells.iter().filter(|_| desk.changes_cost) {
         let cell = (of.table.as_str(), of.key.as_str(), of.column.as_str());
         for (end, out, beyond) in [(of.low, -1.0, &of.below), (of.high, 1.0, &of.above)] {
             let (Some(end), Some(_)) = (end, beyond) else { continue };
@@ -301,7 +305,7 @@ fn check_together(why: &WhyWay, firm: &Firm) {
             .find(|cell| (&cell.table, &cell.key, &cell.column) == (&holds.table, &holds.key, &holds.column));
         let Some(same) = same else { continue };
         // as long as nothing changes, the state is still taken
-        let up = holds.high.is_none_or(|high| same.high.is_some_and(|firm| firm <= high * (1.0 + 1e-5)));
+        let up = holds.high.is_none_or(|high| same.high.is_some_and(|firm| firm <= high * (1.0 + SEARCHED)));
         assert!(up, "{holds:?} {same:?}");
     }
 }

@@ -22,12 +22,13 @@ fn set(table: &str, key: &str, column: &str, value: f64) -> Edit {
     Edit::Set(table.to_owned(), key.to_owned(), column.to_owned(), format!("{value}"))
 }
 
-/// Whether the best way leads through a room or door where a cell has the value that is named.
+/// Whether the best way leads through a room or door where a cell has a value a hair beyond the one that is named.
 fn turns(live: &mut Live, answer: &WhyNot) -> bool {
     let cell = answer.would_win.as_ref().unwrap();
     let author = Author { who: "test".to_owned(), why: String::new() };
     let at = |value: f64| set(&cell.table, &cell.key, &cell.column, value);
-    live.edit(&at(cell.wins_at), &author).unwrap();
+    let hair = 1e-3 * cell.wins_at.abs().max(0.1) * (cell.wins_at - cell.value).signum();
+    live.edit(&at(cell.wins_at + hair), &author).unwrap();
     let there = live.why_not(&answer.start, &answer.goal, &answer.through, None).unwrap();
     live.edit(&at(cell.value), &author).unwrap();
     there.cost.unwrap() <= there.best.unwrap() * (1.0 + 2e-6) && there.reason.starts_with("the best route")

@@ -15,7 +15,7 @@ const LARGEST: f64 = 1e6;
 const TRIED: usize = 8;
 
 /// Most intervals of a piece that are looked into.
-const LOOKS: usize = 400;
+const LOOKS: usize = 60;
 
 /// Ways that cost the same to such a share are as good as each other.
 const TIE: f64 = 2e-9;
@@ -461,7 +461,15 @@ impl<'t> Turn<'t> {
             }
             waiting.push((near, middle));
         }
-        Piece::Unknown
+        // ways bend a little otherwise at each value, and may go on doing so: what is left is as near as makes no difference
+        let turned = waiting.into_iter().rev().find(|(_, far)| far.look.is_turned);
+        turned.map_or(Piece::Nothing, |(near, far)| {
+            let (at, beyond) = match crossing(line, &near, &far) {
+                Some((at, path, cost)) => (at, Takeover::Way(path, cost)),
+                None => (near.value, far.look.takeover().unwrap_or(Takeover::NoWay)),
+            };
+            Piece::End(End { at, is_closed: true, beyond })
+        })
     }
 
     /// A value between two at which the others have not won, if they may have won there: what the others cost at most lies under
