@@ -62,16 +62,22 @@ pub async fn strip_edges(connection: &mut SqliteConnection) -> Result<[Vec<f64>;
     Ok(edges)
 }
 
-/// Replaces a table that is no table of ours, columns and all. A column is a name and a declared type.
+/// Replaces a table that is no table of ours, columns and all. A column is a name and a declared type; `key` names those
+/// of its primary key, and may be empty.
 pub async fn replace_user_table(
     connection: &mut SqliteConnection,
     name: &str,
     columns: &[(&str, &str)],
+    key: &[&str],
     rows: impl IntoIterator<Item = Vec<Cell>>,
 ) -> Result<()> {
     let table = identifier(name);
-    let declared: Vec<String> =
+    let mut declared: Vec<String> =
         columns.iter().map(|(column, kind)| format!("{} {kind}", identifier(column))).collect();
+    if !key.is_empty() {
+        let key: Vec<String> = key.iter().map(|column| identifier(column)).collect();
+        declared.push(format!("PRIMARY KEY ({})", key.join(", ")));
+    }
     dynamic::execute(connection, format!("DROP TABLE IF EXISTS {table}"), &[]).await?;
     dynamic::execute(connection, format!("CREATE TABLE {table} ({})", declared.join(", ")), &[]).await?;
     let holes = vec!["?"; columns.len()].join(", ");
@@ -97,13 +103,15 @@ impl Tx<'_> {
         self.run(strip_edges)
     }
 
-    /// Replaces a table that is no table of ours, columns and all. A column is a name and a declared type.
+    /// Replaces a table that is no table of ours, columns and all. A column is a name and a declared type; `key` names
+    /// those of its primary key, and may be empty.
     pub fn replace_user_table(
         &mut self,
         name: &str,
         columns: &[(&str, &str)],
+        key: &[&str],
         rows: impl IntoIterator<Item = Vec<Cell>>,
     ) -> Result<()> {
-        self.run(async |connection| replace_user_table(connection, name, columns, rows).await)
+        self.run(async |connection| replace_user_table(connection, name, columns, key, rows).await)
     }
 }

@@ -46,6 +46,8 @@ codes! {
     Statement = "rule/statement",
     /// Two rules have one name.
     DuplicateName = "rule/duplicate-name",
+    /// No rule of this name in a rule base beneath.
+    UnknownRule = "rule/unknown-rule",
     /// No such class.
     UnknownClass = "rule/unknown-class",
     /// No such property of a class.

@@ -48,7 +48,7 @@ pub use knowledge::facts::FactError;
 pub use reactions::{Activation, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};
-pub use rule_base::RuleBase;
+pub use rule_base::{Instead, Replaced, RuleBase, Standing};
 pub use rule_test::{RuleTests, TestFailure, TestOutcome};
 pub use schema::Schema;
 pub use script::limits::Limits;

@@ -226,6 +226,7 @@ pub struct Rule {
     pub(crate) position: Position,
     pub(crate) line: usize,
     pub(crate) version: String,
+    pub(crate) text: Arc<str>,
     pub(crate) priority: i64,
     pub(crate) clauses: Vec<Clause>,
     pub(crate) action: Action,
@@ -250,6 +251,7 @@ impl Rule {
             position,
             line: file.source.place(position).line,
             version: String::new(),
+            text: Arc::default(),
             priority: 0,
             clauses,
             action,
@@ -258,6 +260,11 @@ impl Rule {
             hypothesis: None,
             file: Arc::clone(file),
         }
+    }
+
+    /// What stands in its file, from its first word to its last.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     pub fn name(&self) -> &str {

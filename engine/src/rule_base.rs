@@ -16,7 +16,8 @@ use crate::rule::{Action, Operator, PropertyName, Rule};
 use crate::script::desugar::desugar;
 use crate::script::interpreter::{function_names, reader};
 use crate::script::limits::STACK_BYTES;
-use crate::script::read::{Draft, read, version};
+use crate::script::over;
+use crate::script::read::{Draft, Read, read, version};
 use crate::script::resolve::resolve;
 use crate::script::source::SourceFile;
 
@@ -28,6 +29,42 @@ pub struct RuleBase {
     pub(crate) order: Vec<Step>,
     pub(crate) declared: Declarations,
     pub(crate) warnings: Vec<Diagnostic>,
+    pub(crate) replaced: Vec<Replaced>,
+}
+
+/// A rule of a base beneath that does not count, since one above says otherwise.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replaced {
+    /// Its name.
+    pub rule: String,
+    pub beneath: Standing,
+    /// The rule of the same name that counts instead.
+    pub by: Instead,
+}
+
+/// What stands in place of a rule beneath.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Instead {
+    Rule(Standing),
+    /// Nothing: a base above goes without it, and says so here.
+    Without {
+        file: String,
+        line: usize,
+    },
+}
+
+/// Where a rule stands, and which of its versions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Standing {
+    pub file: String,
+    pub line: usize,
+    pub version: String,
+}
+
+impl Standing {
+    fn of(rule: &Rule) -> Self {
+        Self { file: rule.file().to_owned(), line: rule.line, version: rule.version.clone() }
+    }
 }
 
 /// How many rule bases were compiled: the next one's number.
@@ -37,8 +74,16 @@ impl RuleBase {
     /// Reads rule files. All files are reported; after an error of syntax a file is read on from its next item, for
     /// more such errors only.
     pub fn compile(files: &[SourceFile]) -> Result<Self, Diagnostics> {
-        let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(files))).ok());
-        let Some((mut rules, declared, mut problems)) = outcome else {
+        Self::compile_over(&[files])
+    }
+
+    /// As [`compile`](Self::compile), of rule bases that lie over each other, the lowest first. A rule or class of one
+    /// replaces those of its name beneath, and what is declared of a property replaces what is declared of it beneath;
+    /// `without "a rule"` takes one away.
+    pub fn compile_over(bases: &[&[SourceFile]]) -> Result<Self, Diagnostics> {
+        let files = bases.concat();
+        let outcome = on_deep_stack(|| catch_unwind(AssertUnwindSafe(|| read_all(bases))).ok());
+        let Some(All { mut rules, declared, mut problems, replaced }) = outcome else {
             let place = files.first().map(|file| file.place(Position::START));
             let message = "reading the rule files failed inside the engine";
             return Err(Diagnostics(
@@ -60,11 +105,17 @@ impl RuleBase {
         }
         rules.extend(defaults(&declared));
         let order = order(&rules, &declared).map_err(Diagnostics)?;
-        Ok(Self { id: COMPILED.fetch_add(1, Ordering::Relaxed), rules, order, declared, warnings })
+        let id = COMPILED.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { id, rules, order, declared, warnings, replaced })
     }
 
     pub fn rules(&self) -> &[Rule] {
         &self.rules
+    }
+
+    /// The rules of bases beneath that do not count, in their order.
+    pub fn replaced(&self) -> &[Replaced] {
+        &self.replaced
     }
 
     pub const fn declared(&self) -> &Declarations {
@@ -114,32 +165,53 @@ pub(crate) fn on_deep_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     })
 }
 
+struct All {
+    rules: Vec<Rule>,
+    declared: Declarations,
+    problems: Vec<Diagnostic>,
+    replaced: Vec<Replaced>,
+}
+
 /// Reads all files, then looks up what the rules of each name: a declaration counts in all of them.
-fn read_all(files: &[SourceFile]) -> (Vec<Rule>, Declarations, Vec<Diagnostic>) {
+fn read_all(bases: &[&[SourceFile]]) -> All {
     let known = function_names();
-    let mut problems = vec![];
-    let (mut drafts, mut classes, mut properties) = (vec![], vec![], vec![]);
-    for file in files {
-        let read = read(file, reader());
-        drafts.push(read.drafts);
-        classes.extend(read.classes);
-        properties.extend(read.properties);
-        problems.push(read.problems);
-    }
+    let read_base = |files: &&[SourceFile]| files.iter().map(|file| read(file, reader())).collect();
+    let mut bases: Vec<Vec<Read>> = bases.iter().map(read_base).collect();
     let mut wrong = vec![];
-    let declared = declarations(classes, properties, known, &mut wrong);
-    let mut rules = vec![];
-    for (drafts, problems) in drafts.into_iter().zip(&mut problems) {
-        for Draft { mut rule, text, outside } in drafts {
-            let used = desugar(&mut rule, &declared, problems);
-            let shared = resolve(&mut rule, known, problems);
-            let outside = shared.then_some(&*outside);
-            let parts = std::iter::once(text.as_str()).chain(outside).chain(used.iter().map(String::as_str));
-            rule.version = version(parts);
-            rules.push(rule);
-        }
+    let covered = over::lay(&mut bases, &mut wrong);
+    let (mut problems, mut classes, mut properties) = (vec![], vec![], vec![]);
+    for read in bases.iter_mut().flatten() {
+        problems.append(&mut read.problems);
+        classes.append(&mut read.classes);
+        properties.append(&mut read.properties);
     }
-    (rules, declared, problems.into_iter().flatten().chain(wrong).collect())
+    let declared = declarations(classes, properties, known, &mut wrong);
+    let finished = |Draft { mut rule, text, outside }: Draft, problems: &mut Vec<Diagnostic>| {
+        let used = desugar(&mut rule, &declared, problems);
+        let shared = resolve(&mut rule, known, problems);
+        let outside = shared.then_some(&*outside);
+        let parts = std::iter::once(text.as_str()).chain(outside).chain(used.iter().map(String::as_str));
+        rule.version = version(parts);
+        rule.text = text.as_str().into();
+        rule
+    };
+    let drafts = bases.into_iter().flatten().flat_map(|read| read.drafts);
+    let rules: Vec<Rule> = drafts.map(|draft| finished(draft, &mut problems)).collect();
+    let replaced = covered.into_iter().map(|covered| {
+        // what is wrong with a rule that does not count is nobody's trouble
+        let beneath = finished(covered.draft, &mut vec![]);
+        let by = match covered.without {
+            Some((file, line)) => Instead::Without { file, line },
+            None => {
+                let above = rules.iter().find(|rule| rule.name() == beneath.name());
+                Instead::Rule(Standing::of(above.unwrap_or(&beneath)))
+            }
+        };
+        Replaced { rule: beneath.name.clone(), beneath: Standing::of(&beneath), by }
+    });
+    let replaced = replaced.collect();
+    problems.extend(wrong);
+    All { rules, declared, problems, replaced }
 }
 
 fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {

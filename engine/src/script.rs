@@ -5,6 +5,7 @@ pub(crate) mod failure;
 pub(crate) mod interpreter;
 pub(crate) mod limits;
 pub(crate) mod names;
+pub(crate) mod over;
 mod reaction;
 pub(crate) mod reactor;
 pub(crate) mod read;

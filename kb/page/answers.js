@@ -1,7 +1,7 @@
-/** The cards under the map: why something is so, why not that way, and facts told from the map. */
+/** The cards under the map: why something is so, and why not that way. */
 
-import { call, get, path, post } from './api.js';
-import { button, byId, el, fill, form } from './dom.js';
+import { call, get, path } from './api.js';
+import { button, byId, el } from './dom.js';
 import { action, cost, list, number, value } from './format.js';
 import { model } from './model.js';
 import { complain, said } from './notice.js';
@@ -10,7 +10,8 @@ import { refresh } from './refresh.js';
 import { address } from './router.js';
 import { showSaved } from './saved.js';
 
-function card(id, title, ...content) {
+/** A card under the map, which has the focus; one of its kind that is there goes. */
+export function card(id, title, ...content) {
   byId(id)?.remove();
   const heading = el('h2', { text: title, tabindex: '-1' });
   const close = button('Close', () => {
@@ -110,35 +111,6 @@ function rejection(of) {
     ? `its ${parts[2]} ${value(of.left)} is not ${COMPARED[parts[3]]} the ${parts[4]}’s ${parts[5]} ${value(of.right)}`
     : `${of.test ?? of.reason}${known ? `: ${value(of.left)} against ${value(of.right)}` : ''}`;
   return el('li', {}, el('b', { text: who }), ` does not fit: ${reason} (rule “${of.rule}”)`);
-}
-
-/** What may be told of a thing from the map: that it is shut. */
-export function tellWays(thing) {
-  const ways = [];
-  if (thing.named) ways.push({ text: `Close ${thing.named.name}…`, fact: { class: 'NAMED_DOORS', object: thing.named.name, property: 'closed', value: true } });
-  if (thing.kind === 'door') ways.push({ text: `Close door ${model.map.doors[thing.index].door}…`, fact: { class: 'DOORS', object: String(model.map.doors[thing.index].door), property: 'passable', value: false } });
-  if (thing.kind === 'room') ways.push({ text: `Keep out of room ${model.map.rooms[thing.index].name}…`, fact: { class: 'ROOMS', object: model.map.rooms[thing.index].name, property: 'passable', value: false } });
-  return ways;
-}
-
-/** Asks until when, and tells it. */
-export function closeDoor(fact, label) {
-  const until = el('input', { type: 'time', id: 'close-until' });
-  const reason = el('input', { id: 'close-why', placeholder: 'why (if you like)' });
-  const asked = form({ class: 'line-form' }, tell,
-    el('label', {}, 'Until (empty: until taken back) ', until), el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
-  const made = card('tell-card', label.replace('…', ''), asked);
-  async function tell() {
-    try {
-      const answer = await post('/api/facts', { ...fact, until: until.value || undefined, why: reason.value || undefined });
-      made.remove();
-      showSaved(`${label.replace('…', '')}: told.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
-      await refresh(answer.generation);
-    } catch (error) {
-      fill(made, said(error), asked);
-    }
-  }
-  until.focus();
 }
 
 /** Takes a told fact back. */

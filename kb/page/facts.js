@@ -2,6 +2,7 @@
 
 import { get, post } from './api.js';
 import { takeBack } from './answers.js';
+import { layForm, lift } from './closing.js';
 import { button, byId, el, fill, form, grid } from './dom.js';
 import { moment, value } from './format.js';
 import { model } from './model.js';
@@ -11,6 +12,8 @@ import { isOpen, onTab } from './router.js';
 import { showSaved } from './saved.js';
 
 const USUAL = {
+  doorway: { text: 'Nobody passes a doorway', class: 'DOORWAYS', property: 'closed', value: 'true', object: 'name of the doorway, or x,y' },
+  space: { text: 'Nobody enters a space', class: 'SPACES', property: 'closed', value: 'true', object: 'name of the space, or x,y' },
   door: { text: 'A door lets nobody through', class: 'DOORS', property: 'passable', value: 'false', object: 'number of the door, or x,y' },
   room: { text: 'A room is not entered', class: 'ROOMS', property: 'passable', value: 'false', object: 'name of the room, or x,y' },
   named: { text: 'A named door is closed', class: 'NAMED_DOORS', property: 'closed', value: 'true', object: 'name of the door' },
@@ -70,12 +73,21 @@ async function load() {
   } catch (error) {
     fill(byId('facts-list'), said(error));
   }
+  try {
+    const { laid } = await get('/api/areas');
+    const rows = laid.map((one) => [one.name, [one.what, one.properties?.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'lifted', one.who ?? '', one.why ?? '',
+      model.may('tell') ? button('Lift', async () => { await lift(one.name); await load(); }, { 'aria-label': `Lift ${one.name}` }) : null]);
+    fill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
+  } catch (error) {
+    fill(byId('laid-list'), said(error));
+  }
 }
 
 function show() {
   if (!byId('fact-kind')) {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
-      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null);
+      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null,
+      el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? layForm(load) : null));
   }
   return load();
 }

@@ -4,6 +4,7 @@ import { number } from './format.js';
 import { EASIEST, roomsWeigh } from './layers.js';
 import { model } from './model.js';
 import { boxIn, centreOf } from './shapes.js';
+import { showsPieces } from './thing.js';
 
 const MOST_ROOMS = 500;
 const PLAIN = '12px system-ui, sans-serif';
@@ -65,7 +66,27 @@ export function labelFloor(labels, camera, shown, find) {
     labels.put(area.kind ? `${area.name} (${area.kind})` : area.name, [[px + 4, py - 9, 'left'], [px + 4, py + 9, 'left']]);
   }
   if (!roomsWeigh()) doors(labels, camera, shown, weights);
-  rooms(labels, camera, shown, find);
+  if (showsPieces()) rooms(labels, camera, shown, find);
+  else spaces(labels, camera);
+}
+
+// The largest first: a corridor is known by its name before a niche is.
+function spaces(labels, camera) {
+  const { map, weights } = model;
+  const known = new Set(map.places.map(({ place }) => place));
+  const order = map.spaces.map((_, index) => index).sort((a, b) => map.spaces[b].area - map.spaces[a].area);
+  for (const index of order) {
+    const { at, area } = map.spaces[index];
+    const name = weights.spaces.name[index];
+    if (known.has(name) || Math.sqrt(area) * camera.scale < 40) continue;
+    const [px, py] = camera.toScreen(at);
+    labels.put(weights.spaces.closed[index] ? `${name} ✕` : name, [[px, py, 'center'], [px, py + 16, 'center'], [px, py - 16, 'center']]);
+  }
+  map.doorways.forEach(({ segment: [x0, y0, x1, y1] }, index) => {
+    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24 && !weights.doorways.closed[index]) return;
+    const name = weights.doorways.name[index];
+    labels.put(weights.doorways.closed[index] ? `${name} ✕` : name, around(camera.toScreen([(x0 + x1) / 2, (y0 + y1) / 2]), 9));
+  });
 }
 
 function places(labels, camera) {

@@ -25,6 +25,7 @@ import { startTheme } from './theme.js';
 function inForce() {
   const { site, weights } = model;
   byId('site-name').textContent = site.name;
+  document.body.dataset.rooms = site.rooms_mode;
   document.title = `${site.name} – adit`;
   const since = site.changed_at ? `, in force since ${moment(site.changed_at)}` : '';
   byId('in-force').textContent = `generation ${weights?.generation ?? site.generation}${since}`;

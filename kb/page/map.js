@@ -9,7 +9,7 @@ import { inks, paint } from './paint.js';
 import { Finder } from './places.js';
 import { closePopover, openPopover } from './popover.js';
 import { centreOf, middleOf, polygon } from './shapes.js';
-import { weightsOf } from './thing.js';
+import { showsPieces, weightsOf } from './thing.js';
 import { onTheme } from './theme.js';
 
 const canvas = byId('canvas');
@@ -55,7 +55,7 @@ function newMap() {
     for (const points of list) polygon(path, points);
     return path;
   };
-  still = { walls: polygons(map.walls), areas: polygons(map.areas.map((area) => area.polygon)), bridges: new Path2D(), namedDoors: new Path2D() };
+  still = { walls: polygons(map.walls), areas: polygons(map.areas.map((area) => area.polygon)), spaces: polygons(map.spaces.flatMap(({ rings }) => rings)), bridges: new Path2D(), namedDoors: new Path2D() };
   for (const { rect: [x0, y0, x1, y1] } of map.bridges) still.bridges.rect(x0, y0, x1 - x0, y1 - y0);
   for (const { from, to } of map.named_doors) {
     still.namedDoors.moveTo(...from);
@@ -77,6 +77,7 @@ function layerChoice() {
   fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...options);
   if (options.some((option) => option.value === before)) byId('layer').value = before;
   byId('layer-choice').hidden = options.length < 2;
+  byId('pieces-choice').hidden = !roomsWeigh();
 }
 
 const fit = () => { if (canvas.clientWidth) camera.fit(model.map.bounds); };
@@ -104,12 +105,14 @@ function stroke(name) {
   return line;
 }
 
-/** What lies at a point of the screen: the nearest door that is drawn, else the room on top. */
+/** What lies at a point of the screen: the nearest doorway, or door that is drawn, else the room on top. */
 function thingAt(point, reach = 8) {
   const at = camera.toMap(point);
   const near = reach / camera.scale;
+  const doorway = showsPieces() ? -1 : finder.doorwayAt(at, near);
   const door = finder.doorAt(at, near, (index) => shown.shownDoors.has(index));
-  const common = { at, place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
+  const common = { at, space: finder.spaceAt(at), place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
+  if (doorway >= 0) return { kind: 'doorway', index: doorway, ...common };
   if (door >= 0) return { kind: 'door', index: door, ...common };
   const room = shown.topRoom(finder.roomsAt(at));
   return room >= 0 ? { kind: 'room', index: room, ...common } : { kind: 'wall', index: -1, ...common };
@@ -130,7 +133,7 @@ function hover(point) {
 
 function tipText(thing) {
   const { title, text } = weightsOf(thing);
-  const changed = (thing.kind === 'room' ? shown.changedRooms : shown.changedDoors).get(thing.index);
+  const changed = { room: shown.changedRooms, door: shown.changedDoors }[thing.kind]?.get(thing.index);
   if (!changed) return `${title}: ${text}`;
   const hardness = changed.old.hardness === changed.new.hardness ? '' : ` hardness ${number(changed.old.hardness)} → ${number(changed.new.hardness)}`;
   const acted = changed.old.action === changed.new.action ? '' : ` ${action(changed.old.action)} → ${action(changed.new.action)}`;
@@ -154,7 +157,9 @@ function resize() {
 /** Shows a room or door of the list: in the middle, with a line around it. */
 export function point(kind, index) {
   const { map } = model;
+  if (kind === 'space' || kind === 'doorway') return pointAtNoun(kind, index);
   const layer = kind === 'room' ? map.rooms[index].layer : map.rooms[model.roomIndex.get(map.doors[index].room1)].layer;
+  if (layer !== null) byId('pieces').checked = true;
   if (layer !== null && shown.layer !== EASIEST && shown.layer !== layer) {
     byId('layer').value = String(layer);
     redraw();
@@ -166,7 +171,20 @@ export function point(kind, index) {
   return { thing: { kind, index, at, areas: finder.areasAt(at) }, screen: camera.toScreen(at) };
 }
 
-/** Opens the card of a room or door of the list, as a click on it would. */
+function pointAtNoun(kind, index) {
+  const { map } = model;
+  const at = kind === 'space' ? map.spaces[index].at : middleOf(map.doorways[index].segment);
+  byId('pieces').checked = false;
+  camera.show(at);
+  const common = { at, space: finder.spaceAt(at), areas: finder.areasAt(at), place: finder.placeAt(at, 0) };
+  const room = kind === 'space' ? shown.topRoom(finder.roomsAt(at)) : -1;
+  const thing = kind === 'doorway' ? { kind, index, ...common } : { kind: room >= 0 ? 'room' : 'wall', index: room, ...common };
+  pointed = thing.kind === 'wall' ? null : thing;
+  redraw();
+  return { thing, screen: camera.toScreen(at) };
+}
+
+/** Opens the card of a thing of the list, as a click on it would. */
 export function openCard(kind, index) {
   const { thing, screen } = point(kind, index);
   byId('map-box').scrollIntoView({ block: 'nearest' });
@@ -188,6 +206,7 @@ export function startMap(lead) {
   byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));
   byId('zoom-fit').addEventListener('click', fit);
   byId('layer').addEventListener('change', redraw);
+  byId('pieces').addEventListener('change', redraw);
   model.on('map', newMap);
   model.on('weights preview', redraw);
   let robot = model.ask.robot;

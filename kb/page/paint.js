@@ -3,8 +3,9 @@
 import { Labels, labelFloor } from './labels.js';
 import { model } from './model.js';
 import { hatching } from './palette.js';
-import { trace } from './shapes.js';
+import { polygon, trace } from './shapes.js';
 import { colour } from './theme.js';
+import { showsPieces } from './thing.js';
 import { paintRoutes } from './paint-route.js';
 
 /** Colours and patterns of the present theme, made once until it changes. */
@@ -43,6 +44,7 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
     if (group.kind === -3 && !group.changed) context.globalAlpha = 0.13;
     context.fill(group.path);
     context.globalAlpha = 1;
+    if (!group.changed && !showsPieces()) continue;
     context.lineWidth = group.changed ? 1.5 * pixel : 0.6 * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : ink.line;
     context.stroke(group.path);
@@ -60,6 +62,8 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
   context.stroke(still.areas);
   context.setLineDash([]);
   paintDoors(context, shown, ink, pixel, Math.max(1.5, Math.min(4.5, camera.scale * 0.6)));
+  if (!showsPieces()) paintDoorways(context, ink, pixel);
+  paintClosed(context, ink, pixel);
   context.lineWidth = 4 * pixel;
   context.strokeStyle = ink.ink;
   context.stroke(still.namedDoors);
@@ -95,15 +99,47 @@ function paintDoors(context, shown, ink, pixel, wide) {
   context.setLineDash([]);
 }
 
+function line(context, [x0, y0, x1, y1]) {
+  context.beginPath();
+  context.moveTo(x0, y0);
+  context.lineTo(x1, y1);
+  context.stroke();
+}
+
+// An opening is a thin dotted line from post to post.
+function paintDoorways(context, ink, pixel) {
+  context.strokeStyle = ink.faint;
+  context.lineWidth = 1.5 * pixel;
+  context.setLineDash([2 * pixel, 3 * pixel]);
+  for (const { segment } of model.map.doorways) line(context, segment);
+  context.setLineDash([]);
+}
+
+// What nobody passes, or some robots do not: a bar with a white line in it, as a sign at a street says it.
+function paintClosed(context, ink, pixel) {
+  const { doorways, closings } = model.weights;
+  const shut = [...model.map.doorways.filter((_, index) => doorways.closed[index]), ...closings];
+  for (const { segment } of shut) {
+    context.strokeStyle = ink.shut;
+    context.lineWidth = 7 * pixel;
+    line(context, segment);
+    context.strokeStyle = ink.paper;
+    context.lineWidth = 2 * pixel;
+    line(context, segment);
+  }
+}
+
 function outline(context, pointed, ink, pixel) {
   context.strokeStyle = ink.ink;
   context.lineWidth = 2 * pixel;
   if (pointed.kind === 'room') {
     const path = new Path2D();
-    trace(path, model.map.rooms[pointed.index]);
+    const { rings } = model.map.spaces[pointed.space] ?? {};
+    if (rings && !showsPieces()) rings.forEach((ring) => polygon(path, ring));
+    else trace(path, model.map.rooms[pointed.index]);
     context.stroke(path);
-  } else if (pointed.kind === 'door') {
-    const [x0, y0, x1, y1] = model.map.doors[pointed.index].segment;
+  } else if (pointed.kind === 'door' || pointed.kind === 'doorway') {
+    const [x0, y0, x1, y1] = (pointed.kind === 'door' ? model.map.doors : model.map.doorways)[pointed.index].segment;
     context.lineWidth = 9 * pixel;
     context.globalAlpha = 0.5;
     context.beginPath();

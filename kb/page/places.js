@@ -48,10 +48,13 @@ export class Finder {
     this.map = map;
     this.rooms = new Buckets(map.bounds);
     this.doors = new Buckets(map.bounds);
+    this.spaces = new Buckets(map.bounds);
+    this.doorways = new Buckets(map.bounds);
+    map.spaces.forEach(({ rings: [outer = []] }, index) => this.spaces.add(boxOf(outer), index));
+    map.doorways.forEach(({ segment }, index) => this.doorways.add(boxOf(segment), index));
     map.rooms.forEach((room, index) => this.rooms.add(room.rect, index));
     map.doors.forEach((door, index) => {
-      const [x0, y0, x1, y1] = door.segment;
-      this.doors.add([Math.min(x0, x1), Math.min(y0, y1), Math.max(x0, x1), Math.max(y0, y1)], index);
+      this.doors.add(boxOf(door.segment), index);
     });
   }
 
@@ -62,14 +65,19 @@ export class Finder {
 
   /** The index of the nearest door within reach among those that are drawn, or -1. */
   doorAt(at, reach, drawn) {
-    const [x, y] = at;
-    let best = -1;
-    let least = reach;
-    for (const index of this.doors.near([x - reach, y - reach, x + reach, y + reach])) {
-      const distance = drawn(index) ? distanceTo(at, this.map.doors[index].segment) : Infinity;
-      if (distance <= least) [best, least] = [index, distance];
-    }
-    return best;
+    return nearest(this.doors, this.map.doors, at, reach, drawn);
+  }
+
+  /** The index of the nearest doorway within reach, or -1. */
+  doorwayAt(at, reach) {
+    return nearest(this.doorways, this.map.doorways, at, reach, () => true);
+  }
+
+  /** The index of the space at a point, or -1. */
+  spaceAt([x, y]) {
+    // A hole is a ring more: a point in it is in an even number of rings.
+    const within = (index) => this.map.spaces[index].rings.filter((ring) => inside([x, y], ring)).length % 2 === 1;
+    return this.spaces.near([x, y, x, y]).find(within) ?? -1;
   }
 
   /** The named door within reach, or undefined. */
@@ -86,6 +94,23 @@ export class Finder {
   areasAt([x, y]) {
     return this.map.areas.filter((area) => inside([x, y], area.polygon));
   }
+}
+
+/** The box about points x, y, x, y, … */
+function boxOf(points) {
+  const [x, y] = [0, 1].map((axis) => points.filter((_, i) => i % 2 === axis));
+  return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+}
+
+function nearest(buckets, list, at, reach, drawn) {
+  const [x, y] = at;
+  let best = -1;
+  let least = reach;
+  for (const index of buckets.near([x - reach, y - reach, x + reach, y + reach])) {
+    const distance = drawn(index) ? distanceTo(at, list[index].segment) : Infinity;
+    if (distance <= least) [best, least] = [index, distance];
+  }
+  return best;
 }
 
 function inside([x, y], polygon) {

@@ -1,10 +1,11 @@
 /** What one can do with what lies at a point of the map. */
 
-import { closeDoor, tellWays, why, whyNot } from './answers.js';
+import { why, whyNot } from './answers.js';
+import { close, closings } from './closing.js';
 import { button, byId, el, fill } from './dom.js';
 import { list } from './format.js';
 import { model } from './model.js';
-import { endOf, nameOf, weightsOf } from './thing.js';
+import { endOf, nameOf, nounOf, pieceOf, weightsOf } from './thing.js';
 import { lead } from './ends.js';
 
 let before = null;
@@ -32,11 +33,12 @@ export function openPopover(thing, [px, py]) {
     el('h3', { text: thing.place ? `${thing.place.place}, ${title}` : title }),
     el('p', { text }),
     around,
+    thing.kind === 'room' && nounOf(thing) ? el('p', { class: 'hint', text: `here ${pieceOf(thing)}` }) : null,
     solid ? null : act('Start here', () => lead('start', thing)),
     solid ? null : act('Go here', () => lead('goal', thing)),
-    solid ? null : act('Why is it so?', () => why(named)),
+    solid || thing.kind === 'doorway' ? null : act('Why is it so?', () => why(pieceOf(thing))),
     !solid && model.ask.start && model.ask.goal ? act(`Why not through ${named}?`, () => whyNot(named)) : null,
-    ...(model.may('tell') ? tellWays(thing).map(({ text: label, fact }) => act(label, () => closeDoor(fact, label))) : []),
+    ...(model.may('tell') ? closings(thing).map(({ text: label, edit }) => act(label, () => close(edit, label))) : []),
     button('Close', closePopover, { class: 'quiet' }),
   );
   box.hidden = false;

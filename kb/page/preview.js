@@ -59,7 +59,7 @@ export function summary(preview) {
   const { rooms, doors, routes } = preview;
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
-  else if (!preview.layout_changed) parts.push('No room and no door would weigh otherwise.');
+  else if (!preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
   // Where there are too many to compare while somebody types, the service says how many it did.
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
@@ -74,7 +74,8 @@ export function summary(preview) {
   return parts;
 }
 
-function thisRoute(preview) {
+/** What becomes of the way that is looked at. */
+export function thisRoute(preview) {
   const [before, after] = [preview.before, preview.route];
   if (!before && !after) return null;
   const was = before?.cost;

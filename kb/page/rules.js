@@ -13,22 +13,25 @@ const WAIT = 300;
 
 /** Files and tests as the service has them, by name. */
 let files = new Map();
-let folder = null;
 let open = null;
 /** Texts that were changed here and are not saved: name to {text, version}. */
 const drafts = new Map();
 let pane = null;
 let saving = false;
 
+const isTest = (name) => name.startsWith('tests/') || name.includes('/tests/');
+/** What a file of a rule base beneath is called where this site has its own. */
+const ownName = (name) => name.slice(isTest(name) ? name.lastIndexOf('/tests/') + 1 : name.lastIndexOf('/') + 1);
 const languageOf = (name) => (name.endsWith('.toml') ? 'toml' : 'rhai');
 
 async function load() {
   const answer = await get('/api/rules');
   files = new Map([...answer.files, ...answer.tests].map((file) => [file.file, file]));
-  folder = answer.folder;
 }
 
-const mayEdit = () => folder !== null && model.may('rules');
+const mayEdit = () => model.may('rules') && files.get(open)?.own === true;
+
+const first = () => [...files.keys()].find((name) => files.get(name).own) ?? [...files.keys()][0];
 
 const check = debounced(async () => {
   const draft = drafts.get(open);
@@ -56,7 +59,7 @@ function result(problems, tests, error) {
 }
 
 function jump(problem) {
-  const name = [...files.keys()].find((file) => problem.file?.endsWith(file)) ?? open;
+  const name = files.has(problem.file) ? problem.file : [...files.keys()].findLast((file) => problem.file?.endsWith(file)) ?? open;
   if (name !== open) openFile(name);
   pane.go(problem.line, problem.column);
 }
@@ -72,7 +75,7 @@ async function save(version) {
     // What was typed meanwhile is not saved yet.
     if (now === draft) drafts.delete(file);
     else if (now) now.version = answer.version;
-    files.set(file, { file, version: answer.version, text: draft.text });
+    files.set(file, { file, own: true, version: answer.version, text: draft.text });
     pane.mark([]);
     list();
     fill(byId('rules-result'), el('p', { class: 'right', role: 'status', text: `Saved and in force: generation ${answer.generation}, ${count(answer.tests.passed, 'test')} of the rules passed.` }));
@@ -99,9 +102,12 @@ async function conflict(error) {
 function list() {
   const entry = (name) => el('li', {}, button(`${name}${drafts.has(name) ? ' •' : ''}`, () => openFile(name), { class: 'link', 'aria-current': name === open ? 'true' : null }));
   const names = [...files.keys()];
-  const rules = names.filter((name) => !name.startsWith('tests/'));
-  const tests = names.filter((name) => name.startsWith('tests/'));
-  fill(byId('rules-files'), el('h2', { text: 'Rules' }), el('ul', { class: 'plain' }, ...rules.map(entry)), el('h2', { text: 'Their tests' }), el('ul', { class: 'plain' }, ...tests.map(entry)));
+  const part = (title, own, test) => {
+    const found = names.filter((name) => files.get(name).own === own && isTest(name) === test);
+    return found.length ? [el('h2', { text: title }), el('ul', { class: 'plain' }, ...found.map(entry))] : [];
+  };
+  fill(byId('rules-files'), ...part('Rules of this site', true, false), ...part('Their tests', true, true),
+    ...part('Rules beneath', false, false), ...part('Tests beneath', false, true));
 }
 
 function openFile(name, line) {
@@ -110,6 +116,7 @@ function openFile(name, line) {
   open = name;
   pane.show(drafts.get(name)?.text ?? file.text, languageOf(name));
   pane.area.readOnly = !mayEdit();
+  standing();
   pane.area.setAttribute('aria-label', `Text of ${name}`);
   byId('rules-name').textContent = name;
   fill(byId('rules-result'));
@@ -134,7 +141,9 @@ function typed(text) {
 async function follow() {
   const before = files;
   await load();
-  adoption();
+  for (const [name, draft] of drafts) {
+    if (!files.has(name) && draft.version === null) files.set(name, before.get(name));
+  }
   for (const [name, draft] of drafts) {
     const now = files.get(name);
     if (name === open && now && now.version !== draft.version) {
@@ -143,27 +152,29 @@ async function follow() {
         button('Keep what I typed', () => { drafts.set(name, { ...draft, version: now.version }); fill(byId('rules-result')); }));
     }
   }
-  if (open && !drafts.has(open) && files.get(open)?.version !== before.get(open)?.version) openFile(files.has(open) ? open : [...files.keys()][0]);
+  if (open && !drafts.has(open) && files.get(open)?.version !== before.get(open)?.version) openFile(files.has(open) ? open : first());
   list();
 }
 
-function adoption() {
-  const note = folder === null && model.may('rules')
-    ? [el('p', { text: 'These are the rules that the program carries. To change them, this site needs a copy of its own.' }), button('Copy the rules into this site to edit them', adopt, { id: 'adopt', class: 'strong' })]
-    : mayEdit() ? [] : [el('p', { class: 'hint', text: 'You may read the rules, not change them.' })];
+function standing() {
+  const file = files.get(open);
+  const note = !model.may('rules') ? [el('p', { class: 'hint', text: 'You may read the rules, not change them.' })]
+    : file && !file.own ? [
+      el('p', { text: 'This file lies beneath the rules of this site. A rule of this site replaces the one of the same name here.' }),
+      button(files.has(ownName(open)) ? `Open ${ownName(open)} of this site` : 'Write over it in this site', writeOver, { id: 'write-over', class: 'strong' })]
+      : [];
   fill(byId('rules-note'), ...note);
   byId('rules-save').hidden = !mayEdit();
 }
 
-async function adopt() {
-  try {
-    await post('/api/rules/adopt', {});
-    await load();
-    adoption();
-    openFile(files.has(open) ? open : [...files.keys()][0]);
-  } catch (error) {
-    byId('rules-note').append(said(error));
+/** Begins a file of this site with the text of the one beneath; nothing is saved yet. */
+function writeOver() {
+  const [name, { text }] = [ownName(open), files.get(open)];
+  if (!files.has(name)) {
+    files.set(name, { file: name, own: true, version: null, text: '' });
+    drafts.set(name, { text, version: null });
   }
+  openFile(name);
 }
 
 async function show(params) {
@@ -172,10 +183,9 @@ async function show(params) {
   } catch (error) {
     return fill(byId('rules-note'), said(error));
   }
-  adoption();
   const wanted = params.get('file');
-  const found = [...files.keys()].find((name) => name === wanted) ?? [...files.keys()].find((name) => name.endsWith(`/${wanted}`));
-  return openFile(found ?? open ?? [...files.keys()][0], params.get('line'));
+  const found = [...files.keys()].find((name) => name === wanted) ?? [...files.keys()].findLast((name) => name.endsWith(`/${wanted}`));
+  return openFile(found ?? open ?? first(), params.get('line'));
 }
 
 /** Makes the tab. */

@@ -1,22 +1,48 @@
 /** What a room or a door is, in words and in the service's names. */
 
-import { action, number } from './format.js';
+import { byId } from './dom.js';
+import { action, list, metres, number } from './format.js';
 import { layerName, roomsWeigh } from './layers.js';
 import { model } from './model.js';
 
-/** As the service names it in why and why-not: `room d`, `door 7`. */
-export function nameOf({ kind, index }) {
+/** Whether the map shows the pieces of rooms that routes are searched in; else it shows the building. */
+export const showsPieces = () => !roomsWeigh() || byId('pieces').checked;
+
+/** As people call the space or doorway that it is, or lies in; undefined where it is of none. */
+export function nounOf({ kind, index, space }) {
+  if (kind === 'doorway') return model.weights.doorways.name[index];
+  return kind === 'room' && !showsPieces() && space >= 0 ? model.weights.spaces.name[space] : undefined;
+}
+
+/** As the service names it in why and why-not: `room d`, `door 7`, `doorway 12`, `ward 3`. */
+export function nameOf(thing) {
+  return nounOf(thing) ?? pieceOf(thing);
+}
+
+/** The piece of a room, or the door between pieces, as the service names it. */
+export function pieceOf({ kind, index }) {
   return kind === 'room' ? `room ${model.map.rooms[index].name}` : `door ${model.map.doors[index].door}`;
 }
 
 /** Its title, its hardness and action in words. */
 export function weightsOf(thing) {
   if (thing.kind === 'wall') return { title: 'Wall', text: 'or no room for the robot' };
+  if (thing.kind === 'doorway') return doorway(thing);
   const weights = model.weights[thing.kind === 'room' ? 'rooms' : 'doors'];
   const [hardness, how, passable] = [weights.hardness[thing.index], weights.action[thing.index], weights.passable[thing.index]];
   const layer = thing.kind === 'room' ? model.map.rooms[thing.index].layer : null;
   const state = layer === null ? '' : ` (${layerName(model.map.layers[layer])})`;
-  return { title: `${nameOf(thing)}${state}`, text: inWords(thing.kind, hardness, how, passable) };
+  const noun = nounOf(thing);
+  const shut = noun !== undefined && model.weights.spaces.closed[thing.space] ? 'closed; ' : '';
+  return { title: noun ?? `${nameOf(thing)}${state}`, text: `${shut}${inWords(thing.kind, hardness, how, passable)}` };
+}
+
+function doorway({ index }) {
+  const { width, height, spaces } = model.map.doorways[index];
+  const between = spaces.map((number) => model.weights.spaces.name[model.map.spaces.findIndex(({ space }) => space === number)]);
+  const wide = `${metres(width)} wide${height === null ? '' : `, ${metres(height)} high`}`;
+  const shut = model.weights.doorways.closed[index] ? 'closed; ' : '';
+  return { title: model.weights.doorways.name[index], text: `${shut}${wide}, between ${list(between)}` };
 }
 
 /** Hardness, action and whether it is passable, in words. */

@@ -143,7 +143,7 @@ pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
             Error::said(
                 Code::RouteUnbuilt,
                 "the site has no robot yet",
-                Some("run `adit build` first".to_owned()),
+                Some("run `adit build` first; a site without a map has none".to_owned()),
             )
         }),
     }

@@ -17,6 +17,7 @@ mod output;
 mod picture;
 mod plan;
 mod route;
+mod rules;
 mod serve;
 mod simulate;
 mod sql;
@@ -45,7 +46,7 @@ pub struct Cli {
 pub enum Verb {
     /// Build the bundled examples, show rooms, routes and a picture, and say what to try next
     Demo(demo::DemoArgs),
-    /// Start a site: map, robot table, a copy of the rule base to edit
+    /// Start a site: map, robot table, and a place for rules of its own
     New(new::NewArgs),
     /// Map, facts, rules, routes: into the site's database
     Build(build::BuildArgs),
@@ -67,6 +68,8 @@ pub enum Verb {
     Tuning(tuning::TuningArgs),
     /// Lint rules, tables and map without building
     Check(SiteArgs),
+    /// The rules that count, by the rule bases that lie over each other; the text of one of them
+    Rules(rules::RulesArgs),
     /// Run the tests of the site's rules
     Test(SiteArgs),
     /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
@@ -119,6 +122,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Lift(args) => (args.site.json, lay::lift(args).map(|()| 0)),
         Verb::Tuning(args) => (args.site.json, tuning::run(args).map(|()| 0)),
         Verb::Check(args) => (args.json, doctor::check(args).map(|sound| u8::from(!sound))),
+        Verb::Rules(args) => (args.site.json, rules::run(args).map(|()| 0)),
         Verb::Test(args) => (args.json, test::run(args).map(|passed| u8::from(!passed))),
         Verb::Watch(args) => (args.json, watch::run(args).map(|()| 0)),
         Verb::Why(args) => (args.site.json, why::why(args).map(|()| 0)),

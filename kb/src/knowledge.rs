@@ -35,11 +35,12 @@ use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
+use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
 use crate::site::lint;
-use crate::site::rules;
-use crate::site::rules::Rules;
+use crate::site::over;
+use crate::site::rules::{self, Rules};
 use crate::site::states;
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
@@ -91,6 +92,35 @@ pub struct Tested {
     pub generation: u64,
     /// One for each test, in the order of the files.
     pub outcomes: Vec<TestOutcome>,
+    /// What the tests of the rule bases beneath gave: they need not hold.
+    pub beneath: Vec<Beneath>,
+}
+
+/// What the tests of a rule base gave over which another one lies.
+pub struct Beneath {
+    /// Its name, or folder.
+    pub base: String,
+    pub outcomes: Vec<TestOutcome>,
+    /// Why its tests cannot be run any more.
+    pub trouble: Option<Error>,
+}
+
+impl Beneath {
+    /// The tests that do not hold with the rules above them, in sentences.
+    pub(crate) fn findings(&self) -> Vec<Finding> {
+        let base = &self.base;
+        let failed = self.outcomes.iter().filter(|outcome| !outcome.passed).map(|outcome| {
+            let (test, file, line) = (&outcome.test, &outcome.file, outcome.line);
+            Finding::note(format!(
+                "with these rules the test \"{test}\" of {base} ({file}, line {line}) does not hold"
+            ))
+        });
+        let trouble = self.trouble.iter().flat_map(Error::problems);
+        let trouble = trouble.map(|problem| {
+            Finding::note(format!("with these rules the tests of {base} cannot be run: {problem}"))
+        });
+        failed.chain(trouble).collect()
+    }
 }
 
 /// A site with its planners, ready to be built and edited.
@@ -113,11 +143,15 @@ impl KnowledgeBase {
         let database = site.database();
         let mode = site.rooms;
         let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
-        let planners: Vec<Arc<dyn Planner>> = vec![overlays.clone()];
+        let planners: Vec<Arc<dyn Planner>> =
+            if site.has_map() { vec![overlays.clone()] } else { Vec::new() };
         let mut knowledge =
             Self { site, planners, overlays, database, rules: None, reseed: false, at: None, within: None };
-        knowledge.register(Box::new(SpacesAndDoorways));
+        if mode != Rooms::Nothing {
+            knowledge.register(Box::new(SpacesAndDoorways));
+        }
         match mode {
+            Rooms::Nothing => {}
             Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
@@ -209,9 +243,19 @@ impl KnowledgeBase {
         &self.database
     }
 
-    /// The folder that the rules are read from; `None` where they are the shipped ones.
-    pub fn rule_folder(&self) -> Option<&Path> {
-        rules::folder(&self.site, self.rules.as_deref())
+    /// The rule bases that count, the lowest first.
+    pub(crate) fn rule_bases(&self) -> Vec<Base> {
+        rules::bases(&self.site, self.rules.as_deref())
+    }
+
+    /// The rules that count, compiled.
+    pub(crate) fn rule_base(&self) -> Result<RuleBase> {
+        Ok(rules::load(&self.site, self.rules.as_deref())?.base)
+    }
+
+    /// The folder in which the user's own rules are written; it may be still to be made.
+    pub fn rule_folder(&self) -> PathBuf {
+        rules::own(&self.site, self.rules.as_deref())
     }
 
     /// What the rules would be worth if a file of theirs held this text; nothing is saved.
@@ -219,20 +263,19 @@ impl KnowledgeBase {
     /// # Arguments
     /// `file` is a name in the folder of the rules, as `doors.rhai` or `tests/doors.toml`; without `text` it would be gone.
     pub fn try_rules(&self, file: &str, text: Option<&str>) -> Result<Tested> {
-        let Rules { base, tests } = rules::load_with(&self.site, self.rules.as_deref(), (file, text))?;
+        let Rules { base, tests, .. } = rules::load_with(&self.site, self.rules.as_deref(), (file, text))?;
         let mut store = Store::open_read_only(&self.database)?;
         let (told, generation) =
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?;
         let limits = Limits { inference: TRIAL, rule: TRIAL, ..Limits::default() };
-        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told, limits)? })
+        let outcomes = self.run_tests(&base, &tests, &told, limits)?;
+        Ok(Tested { generation, outcomes, beneath: Vec::new() })
     }
 
     /// The files that a build reads, `site.toml` first.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = self.site.files();
-        if let Some(folder) = rules::folder(&self.site, self.rules.as_deref()) {
-            files.extend(rules::files(folder));
-        }
+        files.extend(self.rule_bases().iter().filter_map(Base::folder).flat_map(base::files));
         files
     }
 
@@ -373,7 +416,7 @@ impl KnowledgeBase {
         }
         // what a rule sets and nothing reads is often why
         let failures = failures.into_iter().map(|failure| Finding::from(failure.diagnostic));
-        Err(Error::all(failures.chain(lint::unread(rules, &self.planners))))
+        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners))))
     }
 
     /// Runs tests; all of them together may take what one inference may.
@@ -396,7 +439,7 @@ impl KnowledgeBase {
 
     /// Runs the tests of the rule base that is in force; nothing is changed.
     pub fn test(&self) -> Result<Tested> {
-        let Rules { base, tests } = rules::load(&self.site, self.rules.as_deref())?;
+        let Rules { base, tests, beneath } = rules::load(&self.site, self.rules.as_deref())?;
         let (told, generation) = if self.database.exists() {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
@@ -404,7 +447,15 @@ impl KnowledgeBase {
             (Told { classes: tables::unbuilt(), ..Told::default() }, 0)
         };
         let limits = Limits::default();
-        Ok(Tested { generation, outcomes: self.run_tests(&base, &tests, &told, limits)? })
+        let outcomes = self.run_tests(&base, &tests, &told, limits)?;
+        let beneath = beneath.into_iter().map(|(name, tests)| {
+            let (outcomes, trouble) = match self.run_tests(&base, &tests, &told, limits) {
+                Ok(outcomes) => (outcomes, None),
+                Err(trouble) => (Vec::new(), Some(trouble)),
+            };
+            Beneath { base: name, outcomes, trouble }
+        });
+        Ok(Tested { generation, outcomes, beneath: beneath.collect() })
     }
 
     pub(crate) fn robots(&self, tx: &mut Tx<'_>) -> Result<Vec<String>> {
@@ -433,6 +484,7 @@ impl KnowledgeBase {
         };
         let watched: Vec<&str> = own.iter().filter(read).map(String::as_str).collect();
         tx.watch_tables(&watched)?;
+        over::keep(tx, rules)?;
         tx.mark_fresh()?;
         Ok(())
     }

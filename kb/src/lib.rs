@@ -42,7 +42,7 @@ pub use edit::Tell;
 pub use error::problem::Problem;
 pub use error::{Code, Error, Finding, Nearest, Result};
 pub use knowledge::{KnowledgeBase, Tested};
-pub use live::report::{Change, Counts, Report, Routes};
+pub use live::report::{Change, Concluded, Counts, Report, Routes};
 pub use live::{Live, Outcome, Renewal, View};
 pub use site::{Rooms, Site, Starts};
 pub use state::State;

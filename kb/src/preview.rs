@@ -44,6 +44,8 @@ pub struct Preview {
     pub rooms: Changed<RoomChange>,
     /// Doors with another hardness, action or passability.
     pub doors: Changed<DoorChange>,
+    /// What would be closed and is not now, or no longer be, in sentences.
+    pub closings: Vec<String>,
     /// Routes between places.
     pub routes: PlaceRoutes,
     /// The route that was asked for, with the edits.
@@ -141,6 +143,7 @@ impl State {
         Ok(Preview {
             generation: self.generation,
             cells,
+            closings: after.building.turned(&before.building),
             layout_changed,
             rooms: rooms(&before, &after, &weighed, layout_changed),
             doors: doors(&before, &after, &weighed, layout_changed),

@@ -1,18 +1,22 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
+pub(crate) mod base;
 pub(crate) mod clock;
 pub(crate) mod hours;
 pub(crate) mod lint;
+pub(crate) mod over;
 pub(crate) mod robots;
 pub(crate) mod rules;
 pub(crate) mod shipped;
 pub(crate) mod states;
+pub(crate) mod tables;
 pub(crate) mod whole;
 
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
+use adit_planners::geometry::Rect;
 use adit_planners::read::{
     Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map, read_world,
 };
@@ -21,6 +25,7 @@ use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
 use crate::error::{self, Error, Result};
+use crate::site::base::Base;
 use crate::words::suggest::did_you_mean;
 use siphasher::sip::SipHasher13;
 
@@ -34,12 +39,18 @@ pub enum Rooms {
     Paper,
     /// As few rectangles as possible.
     Minimum,
+    /// There is no map: tables and rules alone.
+    Nothing,
 }
 
 impl Rooms {
     /// The names in `site.toml`.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("by-state", Self::ByState), ("paper", Self::Paper), ("minimum", Self::Minimum)];
+    pub const NAMES: [(&'static str, Self); 4] = [
+        ("by-state", Self::ByState),
+        ("paper", Self::Paper),
+        ("minimum", Self::Minimum),
+        ("none", Self::Nothing),
+    ];
 
     /// The name in `site.toml`.
     pub fn name(self) -> &'static str {
@@ -47,10 +58,11 @@ impl Rooms {
     }
 
     /// The shipped rule base that goes with it.
-    pub fn rule_base(self) -> &'static str {
+    pub fn rule_base(self) -> Option<&'static str> {
         match self {
-            Self::ByState => "rooms/by-state",
-            Self::Paper | Self::Minimum => "rooms/paper",
+            Self::ByState => Some("rooms/by-state"),
+            Self::Paper | Self::Minimum => Some("rooms/paper"),
+            Self::Nothing => None,
         }
     }
 }
@@ -69,10 +81,8 @@ pub struct Site {
     pub map: PathBuf,
     /// The file that seeds the robot table.
     pub robots: PathBuf,
-    /// Folder of the site's own rule base; `None`: the shipped one.
-    pub rules: Option<PathBuf>,
-    /// The folder `rules`, where `site.toml` names another one: it does not count.
-    pub idle_rules: Option<PathBuf>,
+    /// The rule bases that count, the lowest first.
+    pub rules: Vec<Base>,
     /// How the map is cut into rooms.
     pub rooms: Rooms,
     /// From where routes are kept; `None`: not said.
@@ -85,6 +95,9 @@ pub struct Site {
     overlay: Overlay,
     text: String,
 }
+
+/// The keys of a site without a map.
+const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
 
 const KEYS: [&str; 12] = [
     "name",
@@ -102,6 +115,9 @@ const KEYS: [&str; 12] = [
 ];
 
 impl Site {
+    /// The folder of a site's own rules.
+    pub const RULES: &str = "rules";
+
     /// Reads `site.toml` of a folder.
     pub fn open(folder: &Path) -> Result<Self> {
         let file = folder.join("site.toml");
@@ -110,21 +126,24 @@ impl Site {
         let document = Document::parse(&name, &text).map_err(|error| Error::all(error.problems))?;
         let fields = document.fields("site.toml");
         let mut problems = Vec::new();
-        let mut keys = KEYS.to_vec();
-        keys.extend(Overlay::KEYS);
-        fields.refuse_unknown(&keys, &mut problems);
+        let rooms = rooms(&fields, &mut problems);
+        if rooms == Rooms::Nothing {
+            fields.refuse_unknown(&KEYS_WITHOUT_MAP, &mut problems);
+        } else {
+            fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
+        }
         let path =
             |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
-        let (rules, idle_rules) = own_rules(folder, optional_text(&fields, "rules", &mut problems));
+        let shipped = || rooms.rule_base().map(str::to_owned).into_iter().collect();
+        let beneath = named_rules(&fields, &mut problems).unwrap_or_else(shipped);
         let site = Self {
             folder: folder.to_owned(),
             name: optional_text(&fields, "name", &mut problems)
                 .unwrap_or_else(|| folder.display().to_string()),
             map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
-            rules,
-            idle_rules,
-            rooms: rooms(&fields, &mut problems),
+            rules: bases(folder, &beneath),
+            rooms,
             starts: starts(&fields, &mut problems),
             hours: hours::read(&fields, &mut problems),
             zone: zone(&fields, &mut problems),
@@ -154,9 +173,35 @@ impl Site {
         self.folder.join("site.db")
     }
 
+    /// The folder of tables that seed the site's own.
+    pub fn tables(&self) -> PathBuf {
+        self.folder.join("tables")
+    }
+
+    /// Whether there is a map, and so rooms, robots and routes.
+    pub fn has_map(&self) -> bool {
+        self.rooms != Rooms::Nothing
+    }
+
+    /// Refuses what needs a map where there is none.
+    pub fn needs_map(&self) -> Result<()> {
+        if self.has_map() {
+            return Ok(());
+        }
+        let message = format!("{} has no map: it has tables and rules, and no rooms or routes", self.name);
+        let help =
+            "site.toml says `rooms = \"none\"`; what rules conclude is in the view `conclusions`".to_owned();
+        Err(Error::said(error::Code::SiteNoMap, message, Some(help)))
+    }
+
     /// The files that it is made of, besides its rules: `site.toml` first.
     pub fn files(&self) -> Vec<PathBuf> {
-        let mut files = vec![self.folder.join("site.toml"), self.map.clone(), self.robots.clone()];
+        let mut files = vec![self.folder.join("site.toml")];
+        files.extend(tables::files(self));
+        if !self.has_map() {
+            return files;
+        }
+        files.extend([self.map.clone(), self.robots.clone()]);
         let is_text = self.map.is_file() && self.map.extension().is_none_or(|extension| extension != "toml");
         if is_text && let Ok(text) = fs::read_to_string(&self.map) {
             let image = text.lines().find_map(|line| line.strip_prefix("image:"));
@@ -192,6 +237,9 @@ impl Site {
 
     /// Reads the map and lays over it what `site.toml` says.
     pub fn world(&self) -> Result<World> {
+        if !self.has_map() {
+            return Ok(World::empty(Rect::new(0.0, 0.0, 1.0, 1.0)));
+        }
         let read = read_world(&self.map, &self.settings);
         let (mut world, _) = read.map_err(|errors| Error::all(errors.problems))?;
         self.lay_over(&mut world)?;
@@ -200,6 +248,9 @@ impl Site {
 
     /// As [`world`](Self::world), with what it cost or gave of free space to read it so, and notes.
     pub fn measured_world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
+        if !self.has_map() {
+            return Ok((self.world()?, MapReport::default(), Vec::new()));
+        }
         let (mut world, report) =
             read_map(&self.map, &self.settings).map_err(|errors| Error::all(errors.problems))?;
         let mut notes = report.notes.clone();
@@ -219,21 +270,43 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
     )
 }
 
-/// The folder of a site's own rules: the one that `site.toml` names, else `rules` if there is one; and `rules` where it is
-/// there beside the one that is named.
-fn own_rules(folder: &Path, named: Option<String>) -> (Option<PathBuf>, Option<PathBuf>) {
-    let usual = folder.join("rules");
+/// The rule bases of these names with the site's folder `rules` over them, which always counts.
+fn bases(folder: &Path, names: &[String]) -> Vec<Base> {
+    let mut bases: Vec<Base> = names.iter().map(|name| Base::named(name, folder)).collect();
+    let own = folder.join(Site::RULES);
+    let is_own = |base: &Base| {
+        let same = |one: &Path| fs::canonicalize(one).ok() == fs::canonicalize(&own).ok();
+        base.folder().is_some_and(|folder| folder == own || same(folder))
+    };
     // a link that leads nowhere is there as well: it is read, and the error says so
-    let is_there = fs::symlink_metadata(&usual).is_ok();
-    match named.map(|named| folder.join(named)) {
-        None => (is_there.then_some(usual), None),
-        Some(named) => {
-            let is_same =
-                |one: &Path, other: &Path| fs::canonicalize(one).ok() == fs::canonicalize(other).ok();
-            let is_idle = is_there && !is_same(&named, &usual);
-            (Some(named), is_idle.then_some(usual))
-        }
+    if fs::symlink_metadata(&own).is_ok() && !bases.iter().any(is_own) {
+        bases.push(Base::Folder(own));
     }
+    bases
+}
+
+fn named_rules(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Vec<String>> {
+    let value = fields.get("rules")?;
+    let found = match value.get_ref() {
+        DeValue::String(name) => Some(vec![name.to_string()]),
+        _ => texts(value).filter(|names| !names.is_empty()),
+    };
+    if found.is_none() {
+        let message = "`rules` must be a rule base or a list of some, the lowest first";
+        let help = "a folder, or one that the program carries, like \"rooms/by-state\"; the site's folder `rules` lies over them";
+        problems.push(fields.text.problem(Code::WrongType, &value.span(), message).with_help(help));
+    }
+    found
+}
+
+/// A list of texts.
+fn texts(value: &toml::Spanned<DeValue<'_>>) -> Option<Vec<String>> {
+    let DeValue::Array(entries) = value.get_ref() else { return None };
+    let text = |entry: &toml::Spanned<DeValue<'_>>| match entry.get_ref() {
+        DeValue::String(text) => Some(text.to_string()),
+        _ => None,
+    };
+    entries.iter().map(text).collect()
 }
 
 fn optional_text(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<String> {
@@ -275,14 +348,9 @@ fn zone(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<TimeZone
 
 fn starts(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Starts> {
     let value = fields.get("starts")?;
-    let named = |entry: &toml::Spanned<DeValue<'_>>| match entry.get_ref() {
-        DeValue::String(name) => Some(name.to_string()),
-        _ => None,
-    };
     let found = match value.get_ref() {
         DeValue::String(all) if all == "all" => Some(Starts::All),
-        DeValue::Array(entries) => entries.iter().map(named).collect::<Option<Vec<_>>>().map(Starts::Named),
-        _ => None,
+        _ => texts(value).map(Starts::Named),
     };
     if found.is_none() {
         let message = "`starts` must be \"all\" or a list of places and rooms";

@@ -43,8 +43,7 @@ const PAGES: [Page; 5] = [
             ("rule \"a room is as hard as its state\"", Use::Shown),
             ("by the tap", Use::Added("my-site/site.toml")),
             ("revise \"wet floors are slippery\"", Use::File("my-site/rules/wet.rhai")),
-            // tests/tests/readme.rs tries this edit
-            ("door.passable = !(", Use::Shown),
+            ("rule \"a raised arm", Use::File("my-site/rules/arm.rhai")),
             ("a metre weighs what the state weighs", Use::File("my-site/rules/tests/metre.toml")),
             ("timezone = ", Use::Shown),
             ("distance,measured", Use::File("runs.csv")),

@@ -1,14 +1,20 @@
-//! Rules are never ignored in silence: a folder `rules` counts, and what does not count is said.
+//! A site's rules lie over others, and are never ignored in silence: what they replace is said, and what does not count.
 
 use adit_tests::TestSite;
 
-/// The paper's example with the shipped rules as its own, and nothing of them in `site.toml`.
+/// The paper's example with a copy of the shipped rules as all there is.
 fn with_rules() -> TestSite {
     let site = TestSite::example("paper");
-    let plain = site.read("site.toml");
     site.copy_rules_and_tests("paper");
-    site.write("site.toml", plain);
     site
+}
+
+fn said(ran: &adit_tests::Ran) -> String {
+    format!("{}{}", ran.stdout, ran.stderr)
+        .split_whitespace()
+        .filter(|word| *word != "│")
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 #[test]
@@ -36,20 +42,100 @@ fn the_rules_of_the_folder_decide() {
     assert_ne!(hardness(&site.built()), shipped);
 }
 
-#[test]
-fn a_second_folder_of_rules_is_said_not_to_count() {
-    let site = with_rules();
-    std::fs::rename(site.path().join("rules"), site.path().join("night")).expect("renamed");
-    site.write("rules/slip.rhai", "rule \"slip\" each room in\n");
-    site.write("site.toml", format!("rules = \"night\"\n{}", site.read("site.toml")));
-    site.adit("build", &[]).expect_status(0);
-    site.adit("check", &[]).expecting(1).complains(&["/rules do not count: site.toml names", "/night"]);
+/// A site over a rule base of a company's own: two rules are replaced, one is left out, three are added.
+fn over_a_company() -> TestSite {
+    let site = TestSite::example("paper");
+    site.copy_rules_and_tests("paper");
+    std::fs::rename(site.path().join("rules"), site.path().join("company")).expect("renamed");
+    let plain = site.read("site.toml").replacen("rules = \"rules\"", "rules = \"company\"", 1);
+    site.write("site.toml", plain);
+    site.write("company/grey.rhai", "rule \"a grey door\" each door in DOORS then { door.grey = 1.0; }\n");
+    let room = site.read("company/rooms.rhai");
+    let rule = &room[room.find("rule \"").expect("a rule")..];
+    let own = format!(
+        "// mine\n{rule}\nwithout \"a grey door\"\n\n\
+         rule \"a blue door\" each door in DOORS then {{ door.blue = 1.0; }}\n\
+         rule \"a green door\" each door in DOORS then {{ door.green = door.blue + 1.0; }}\n\
+         revise \"doors are hard on Mondays\" each door in DOORS where door.green > 1.0 set door.hardness by * 2.0 level 5\n"
+    );
+    site.write("rules/own.rhai", own.replacen("then {", "then { room.told = 1.0;", 1));
+    site
 }
 
 #[test]
-fn a_folder_without_a_rule_is_refused() {
-    let site = TestSite::example("paper");
-    site.write("rules/tests/rooms.toml", "[given]\n");
+fn check_says_what_is_replaced_and_left_out_and_what_was_changed_beneath_since() {
+    let site = over_a_company();
+    let plain = TestSite::example("paper").built();
+    let hardness = |site: &TestSite| site.sqlite3("SELECT round(sum(hardness), 3) FROM doors WHERE passable");
+    let doubled = plain.sqlite3("SELECT round(2 * sum(hardness), 3) FROM doors WHERE passable");
+    let site = site.built();
+    assert_eq!(hardness(&site), doubled);
+    let check = site.adit("check", &[]);
+    let words = said(&check);
+    assert!(words.contains("replaces the one beneath it"), "{words}");
+    assert!(words.contains("the rules go without \"a grey door\""), "{words}");
+    assert!(!words.contains("was changed since"), "{words}");
+
+    let listed = site.adit("rules", &["--json"]).expecting(0).json();
+    assert_eq!(listed["bases"].as_array().map(Vec::len), Some(2));
+    let rule = listed["replaced"]
+        .as_array()
+        .and_then(|all| all.iter().find(|one| !one["by"].is_null()))
+        .expect("one")
+        .clone();
+    let name = rule["rule"].as_str().expect("a name");
+    let text = site.adit("rules", &[name]).expecting(0);
+    assert!(text.stdout.contains("room.told = 1.0"), "the one that counts: {}", text.stdout);
+
+    // the company mends the rule that is replaced here
+    let file = "company/rooms.rhai";
+    site.write(file, site.read(file).replacen("then {", "then { room.mended = 1.0;", 1));
+    let words = said(&site.adit("check", &[]).expecting(1));
+    assert!(words.contains("was changed since") && words.contains(name), "{words}");
+    let site = site.built();
+    assert!(
+        said(&site.adit("check", &[])).contains("was changed since"),
+        "a build alone takes nothing into account"
+    );
+    site.edit("rules/own.rhai", "room.told = 1.0", "room.told = 2.0");
+    let site = site.built();
+    assert!(!said(&site.adit("check", &[])).contains("was changed since"));
+}
+
+#[test]
+fn what_is_left_out_must_be_there() {
+    let site = TestSite::example("paper").with("rules/own.rhai", "\nwithout \"doors of the papr\"\n");
+    site.adit("build", &[])
+        .expecting(2)
+        .complains(&["no rule beneath is called \"doors of the papr\"", "own.rhai:2:9"]);
+}
+
+#[test]
+fn tests_beneath_need_not_hold_and_are_named() {
+    let site = TestSite::example("paper")
+        .with("rules/own.rhai", "revise \"twice\" each door in DOORS set door.hardness by * 2.0 level 5\n");
+    site.adit("build", &[]).expect_status(0);
+    let test = site.adit("test", &[]).expecting(0);
+    assert!(said(&test).contains("do not hold with your rules"), "{}", test.stdout);
+    let check = site.adit("check", &[]).expecting(0);
+    assert!(said(&check).contains("of rooms/paper"), "{}", check.stderr);
+    site.write("rules/tests/mine.toml", site_test("4.0"));
+    site.adit("test", &[]).expect_status(1);
+    site.adit("build", &[]).expect_status(2);
+}
+
+/// A test that no rules of the paper hold.
+fn site_test(hardness: &str) -> String {
+    format!(
+        "[given]\nDOORS = [{{ door = 1 }}]\n[[test]]\nname = \"none\"\n[test.conclude]\nDOORS.1.hardness = {hardness}\n"
+    )
+}
+
+#[test]
+fn a_base_without_a_rule_is_refused() {
+    let site = TestSite::example("paper").with("rules/readme.txt", "");
+    site.adit("build", &[]).expect_status(0);
+    site.write("site.toml", format!("rules = \"rules\"\n{}", site.read("site.toml")));
     site.adit("build", &[]).expecting(2).complains(&["there is no rule in", "NAME.rhai"]);
     site.write("rules/doors.RHAI", "");
     site.adit("build", &[])
@@ -61,6 +147,19 @@ fn a_folder_without_a_rule_is_refused() {
     ran.expecting(2).complains(&["there is no rule in"]);
     let file = TestSite::example("paper").with("rules", "");
     file.adit("build", &[]).expecting(2).complains(&["read the rule base"]);
+    let missing = TestSite::example("paper");
+    missing.write("site.toml", format!("rules = [\"rooms/papr\"]\n{}", missing.read("site.toml")));
+    missing.adit("build", &[]).expecting(2).complains(&["rooms/papr"]);
+}
+
+#[test]
+fn a_copy_of_the_base_is_a_base_of_ones_own() {
+    let site = TestSite::example("paper");
+    site.adit("rules", &["--copy", "base"]).expect_status(0);
+    site.adit("rules", &["--copy", "base"]).expecting(2).complains(&["there already"]);
+    let before = site.copied().built().sqlite3("SELECT sum(hardness) FROM doors");
+    site.write("site.toml", format!("rules = \"base\"\n{}", site.read("site.toml")));
+    assert_eq!(site.built().sqlite3("SELECT sum(hardness) FROM doors"), before);
 }
 
 #[test]

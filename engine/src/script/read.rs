@@ -27,11 +27,20 @@ pub(crate) struct Draft {
     pub(crate) outside: Arc<str>,
 }
 
+/// `without NAME`: a rule of a base beneath that is not to count.
+#[derive(Debug)]
+pub(crate) struct Without {
+    pub(crate) name: String,
+    pub(crate) position: Position,
+    pub(crate) file: Arc<FileScope>,
+}
+
 #[derive(Debug, Default)]
 pub(crate) struct Read {
     pub(crate) drafts: Vec<Draft>,
     pub(crate) classes: Vec<ClassItem>,
     pub(crate) properties: Vec<PropertyItem>,
+    pub(crate) withouts: Vec<Without>,
     pub(crate) problems: Vec<Diagnostic>,
 }
 
@@ -110,6 +119,11 @@ fn items(source: &SourceFile, ast: &AST, read: &mut Read) {
         match item.word() {
             Word::Class => read.classes.extend(declared::class(item, text, &file)),
             Word::Property => read.properties.extend(declared::property(item, &text, &file)),
+            Word::Without => {
+                let named = item.name().map(|(name, position)| (name.to_owned(), position));
+                let without = |(name, position)| Without { name, position, file: Arc::clone(&file) };
+                read.withouts.extend(named.map(without));
+            }
             Word::Rule | Word::Revise | Word::On | Word::Table => {
                 let rule = rule::rule(item, &file, problems);
                 let outside = Arc::clone(&outside);
@@ -166,8 +180,8 @@ fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> File
                 Diagnostic::error(
                     Code::Statement,
                     &source.place(other.position()),
-                    "a rule file holds rules, revisions, reactions, tables, classes, properties, functions and constants; nothing \
-                     in it runs by itself",
+                    "a rule file holds rules, revisions, reactions, tables, classes, properties, functions, constants and what it goes \
+                     without; nothing in it runs by itself",
                 )
                 .label("not one of them"),
             ),

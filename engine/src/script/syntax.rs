@@ -60,7 +60,11 @@ impl Shape {
         match self.at {
             At::Name if matches!(self.item, Word::Class | Word::Property) => self.declared_name(),
             At::Name => {
-                let at = if self.item == Word::Table { At::Tabling(Tabling::Hit) } else { At::Clause };
+                let at = match self.item {
+                    Word::Table => At::Tabling(Tabling::Hit),
+                    Word::Without => At::End,
+                    _ => At::Clause,
+                };
                 self.input(Slot::Name(self.item), at, "$string$")
             }
             At::Declaring(at) => self.declaring(at, ahead),

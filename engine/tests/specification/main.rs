@@ -19,6 +19,7 @@ mod limits;
 mod manners;
 mod order;
 mod order_of_edits;
+mod over;
 mod priority;
 mod quantifiers;
 mod reaction_limits;

@@ -1,19 +1,20 @@
 //! `adit build`, and what it and `tune` print of a report.
 
+use adit_db::Cell;
 use clap::Args;
 
 use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::live::report::Report;
+use crate::live::report::{Concluded, Report};
 use crate::words::progress::Spinner;
 
 #[derive(Args, Debug)]
 pub struct BuildArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// Take the robot table from the file again, instead of the database's
+    /// Take the tables from their files again, instead of the database's
     #[arg(long)]
     pub reseed: bool,
     /// As if it were this time: `2026-11-21T18:00`, `18:00`, `2h`
@@ -42,6 +43,12 @@ pub fn run(args: &BuildArgs) -> Result<()> {
 }
 
 pub fn show(knowledge: &KnowledgeBase, report: &Report) {
+    if !knowledge.site().has_map() {
+        let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
+        let s = if values == 1 { "" } else { "s" };
+        line(&format!("{name}: {values} value{s} concluded (generation {generation})"));
+        return notes(report);
+    }
     let routes = &report.routes;
     line(&format!(
         "{}: {} rooms, {} doors, routes from {} starts (generation {})",
@@ -92,10 +99,34 @@ pub fn notes(report: &Report) {
     }
 }
 
+/// What rules say otherwise of other things than rooms and doors.
+fn conclusions(report: &Report) {
+    let said = |cell: &Cell| match cell {
+        Cell::Null => "nothing".to_owned(),
+        // of what rules conclude, truth values alone are kept as whole numbers
+        Cell::Integer(truth) => if *truth == 0 { "no" } else { "yes" }.to_owned(),
+        Cell::Real(value) => number(*value),
+        other => other.to_string(),
+    };
+    for Concluded { what, property, old, new } in report.conclusions.iter().take(LISTED) {
+        line(&format!("{what}: {property} {} → {}", said(old), said(new)));
+    }
+    if report.conclusions.len() > LISTED {
+        line(&format!("and {} more", report.conclusions.len() - LISTED));
+    }
+    if report.conclusions.is_empty() && report.rooms.total == 0 {
+        line("no rule concludes anything else than before");
+    }
+}
+
 /// How many rooms and doors are listed one by one.
 const LISTED: usize = 10;
 
 pub fn changes(report: &Report) {
+    conclusions(report);
+    if report.rooms.total == 0 {
+        return;
+    }
     if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
     } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {

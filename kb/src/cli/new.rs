@@ -8,8 +8,7 @@ use clap::Args;
 
 use super::output::{json, line, program, quoted};
 use crate::error::{Code, Error, Result};
-use crate::site::rules::TESTS;
-use crate::site::shipped::{self, Rules, Sites};
+use crate::site::shipped::{self, Sites};
 use crate::site::whole::Whole;
 use crate::site::{Rooms, Site};
 
@@ -23,6 +22,9 @@ pub struct NewArgs {
     /// How the map is cut into rooms
     #[arg(long, value_name = "MODE", default_value = "by-state", value_parser = ["by-state", "paper", "minimum"])]
     pub rooms: String,
+    /// Without a map: tables and rules alone, with an example of them
+    #[arg(long, conflicts_with_all = ["map", "rooms"])]
+    pub no_map: bool,
     /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
@@ -33,6 +35,9 @@ pub fn run(args: &NewArgs) -> Result<()> {
     if args.dir.join("site.toml").exists() {
         let message = format!("{} is a site already", args.dir.display());
         return Err(Error::said(Code::SiteExists, message, None));
+    }
+    if args.no_map {
+        return without_map(args);
     }
     let mode =
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
@@ -46,9 +51,10 @@ pub fn run(args: &NewArgs) -> Result<()> {
         Some(map) => copy_map(map, &args.dir, &mut made)?,
         None => starter(&args.dir, "map.toml", &mut made)?,
     };
-    let rules = args.dir.join("rules");
-    shipped::make::<Rules>(mode.rule_base(), &rules, &mut made)?;
-    shipped::make::<Rules>(&format!("{}/{TESTS}", mode.rule_base()), &rules.join(TESTS), &mut made)?;
+    let rules = args.dir.join(Site::RULES);
+    made.folder(&rules)?;
+    let beneath = mode.rule_base().unwrap_or_default();
+    made.file(&rules.join("own.rhai"), own_rules(beneath))?;
     starter(&args.dir, "robots.toml", &mut made)?;
     made.file(&args.dir.join("site.toml"), site_text(&args.dir, &map, mode))?;
     Site::open(&args.dir)?.measured_world()?;
@@ -59,7 +65,26 @@ pub fn run(args: &NewArgs) -> Result<()> {
     line(&format!("{} is a site now:", args.dir.display()));
     line("  site.toml    what it is made of; places, bridges and obstacles may be laid over the map here");
     line("  robots.toml  the robot's states: height and width in metres, hardness per metre, action");
-    line("  rules/       what decides, with its tests; edit both, and build again");
+    line(&format!("  rules/       your own rules, over those that the program carries ({beneath})"));
+    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
+    Ok(())
+}
+
+/// Starts a site of tables and rules alone: a copy of the shop that the program carries.
+fn without_map(args: &NewArgs) -> Result<()> {
+    let mut made = Whole::default();
+    for folder in ["", "tables", "rules", "rules/tests"] {
+        let from = if folder.is_empty() { "shop".to_owned() } else { format!("shop/{folder}") };
+        shipped::make::<Sites>(&from, &args.dir.join(folder), &mut made)?;
+    }
+    Site::open(&args.dir)?;
+    made.keep();
+    if args.json {
+        return json(&serde_json::json!({"site": args.dir, "map": null, "rooms": Rooms::Nothing.name()}));
+    }
+    line(&format!("{} is a site now, without a map:", args.dir.display()));
+    line("  tables/      one file a table, NAME.csv: each seeds its table once");
+    line("  rules/       what is concluded of them, with its tests");
     line(&format!("next: {} build {}", program(), quoted(&args.dir)));
     Ok(())
 }
@@ -100,6 +125,17 @@ fn starter(into: &Path, name: &str, made: &mut Whole) -> Result<String> {
     Ok(name.to_owned())
 }
 
+/// The file in which a site's own rules begin.
+fn own_rules(base: &str) -> String {
+    format!(
+        r#"// The rules of this site. They lie over those that the program carries: {base}.
+// A rule here replaces the one of the same name there, and any other is added; `without "a rule"` takes one away.
+// `adit rules SITE` lists what counts, `adit rules SITE "a rule"` prints one to begin with, `adit check SITE` says what is
+// replaced. Tests of these rules lie in rules/tests/*.toml.
+"#
+    )
+}
+
 fn site_text(folder: &Path, map: &str, mode: Rooms) -> String {
     let name = folder.file_name().map_or("site".to_owned(), |name| name.to_string_lossy().into_owned());
     let [name, map] = [name.as_str(), map].map(toml::Value::from);
@@ -107,8 +143,8 @@ fn site_text(folder: &Path, map: &str, mode: Rooms) -> String {
         r#"name   = {name}
 map    = {map}
 robots = "robots.toml"     # seeds the table once; from then on `adit tune` changes it
-rules  = "rules"           # without the folder the shipped rules count
 rooms  = "{}"        # or "paper", "minimum"
+# rules = "rooms/by-state" # what lies beneath the folder rules; a folder, or a list of some; "rules": nothing does
 # starts = ["dock"]        # from where routes are kept; every place without this line
 
 # For images:

@@ -14,6 +14,11 @@ pub fn run(args: &SiteArgs) -> Result<bool> {
             "generation": tested.generation,
             "passed": failed == 0,
             "tests": tested.outcomes,
+            "beneath": tested.beneath.iter().map(|beneath| serde_json::json!({
+                "rules": beneath.base,
+                "tests": beneath.outcomes,
+                "trouble": beneath.trouble.as_ref().map(ToString::to_string),
+            })).collect::<Vec<_>>(),
         }))?;
         return Ok(failed == 0);
     }
@@ -26,6 +31,18 @@ pub fn run(args: &SiteArgs) -> Result<bool> {
         (0, all) => format!("{all} tests, all hold"),
         (failed, all) => format!("{failed} of {all} tests fail"),
     });
+    for beneath in &tested.beneath {
+        let failed = beneath.outcomes.iter().filter(|outcome| !outcome.passed).count();
+        let (base, all) = (&beneath.base, beneath.outcomes.len());
+        match failed {
+            0 if all > 0 => line(&format!("beneath, {base}: {all} tests, all hold")),
+            0 => {}
+            _ => line(&format!(
+                "beneath, {base}: {failed} of {all} tests do not hold with your rules; they need not"
+            )),
+        }
+        problems(&beneath.findings());
+    }
     let failures = tested.outcomes.into_iter().flat_map(|outcome| outcome.failures);
     problems(&failures.map(|failure| failure.diagnostic.into()).collect::<Vec<_>>());
     Ok(failed == 0)

@@ -215,6 +215,8 @@ codes! {
     RuleNotCarriedOut = "rule/not-carried-out", UNPROCESSABLE_ENTITY;
     /// A file or folder that looks like rules and does not count.
     RuleNotRead = "rule/not-read", UNPROCESSABLE_ENTITY;
+    /// A rule beneath was changed since the one that replaces it was written.
+    RuleChangedBeneath = "rule/changed-beneath", UNPROCESSABLE_ENTITY;
     /// A property that a rule sets and nothing reads; often a slip of the pen.
     RuleUnreadProperty = "rule/unread-property", UNPROCESSABLE_ENTITY;
 
@@ -228,14 +230,12 @@ codes! {
     RulesName = "rules/name", BAD_REQUEST;
     /// The folder has no rule file.
     RulesNone = "rules/none", UNPROCESSABLE_ENTITY;
-    /// The site has rules of its own already.
-    RulesOwn = "rules/own", CONFLICT;
-    /// The shipped rules cannot be edited; copy them into the site first.
-    RulesShipped = "rules/shipped", CONFLICT;
     /// Tests of the rules fail, so nothing was saved.
     RulesTests = "rules/tests", UNPROCESSABLE_ENTITY;
     /// The rule file is longer than is accepted.
     RulesTooLong = "rules/too-long", BAD_REQUEST;
+    /// No rule of this name counts.
+    RulesUnknown = "rules/unknown", NOT_FOUND;
     /// There is no such rule file.
     RulesUnknownFile = "rules/unknown-file", NOT_FOUND;
 
@@ -308,6 +308,8 @@ codes! {
 
     /// Something is where the site or a part of it would be written.
     SiteExists = "site/exists", UNPROCESSABLE_ENTITY;
+    /// The site has no map, and so no rooms, robots and routes.
+    SiteNoMap = "site/no-map", UNPROCESSABLE_ENTITY;
     /// The folder is no site; `adit new` starts one.
     SiteMissing = "site/missing", UNPROCESSABLE_ENTITY;
     /// A place is named like a point `x,y`; give it another name.
@@ -326,6 +328,8 @@ codes! {
     /// No query of this name is kept.
     SqlUnknownQuery = "sql/unknown-query", NOT_FOUND;
 
+    /// A file of a table does not read as one.
+    TableFile = "table/file", UNPROCESSABLE_ENTITY;
     /// A column of the site's own table holds numbers and texts; a rule needs one or the other.
     TableMixed = "table/mixed", BAD_REQUEST;
     /// A table of one's own has the name of a class that a planner gives, or of a table that a newer version or a plan makes; rename it.

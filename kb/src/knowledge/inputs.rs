@@ -46,7 +46,7 @@ impl Inputs {
         know: impl FnOnce(&World),
     ) -> Result<Self> {
         let began = Instant::now();
-        let rules::Rules { base: rules, tests } = rules::load(site, rule_folder)?;
+        let rules::Rules { base: rules, tests, .. } = rules::load(site, rule_folder)?;
         let (world, map_report, notes) = site.measured_world()?;
         know(&world);
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };

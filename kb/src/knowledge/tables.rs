@@ -155,7 +155,7 @@ pub fn keep(tx: &mut Tx<'_>, name: &str, table: &Table) -> Result<()> {
         .collect();
     let rows =
         (0..table.len()).map(|row| table.columns.iter().map(|(_, column)| cell(column, row)).collect());
-    tx.replace_user_table(name, &columns, rows)?;
+    tx.replace_user_table(name, &columns, &[], rows)?;
     tx.set_site_value(&mark, Some("planner"))?;
     Ok(())
 }

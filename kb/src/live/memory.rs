@@ -9,7 +9,7 @@ use adit_db::history::Author;
 use adit_db::room::Room;
 use adit_db::stale::Mark;
 
-use super::report::{Report, Routes};
+use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
 use crate::edit::{Done, Edit};
@@ -19,7 +19,7 @@ use crate::knowledge::KnowledgeBase;
 use crate::knowledge::generation::{self, Basis};
 use crate::knowledge::inputs::Inputs;
 use crate::state::before::Before;
-use crate::state::keep::{Kept, LastBuild, Written, keep_standings};
+use crate::state::keep::{Kept, LastBuild, Written, differing, keep_standings};
 use crate::state::{Nothing, State, Step, Weighed};
 use crate::words::progress::{Progress, Silent, Stage, Stopwatch};
 
@@ -76,6 +76,8 @@ pub struct Accepted {
     pub weighed: Option<Weighed>,
     /// Rows of routes that were written.
     pub tree_rows: usize,
+    /// What rules say otherwise of other things than rooms and doors.
+    pub conclusions: Vec<Concluded>,
     /// The kept routes, where all were looked at.
     pub routes: Option<Routes>,
     /// Whether planners gave facts anew.
@@ -134,7 +136,8 @@ impl Memory {
         stages.extend(step.stages.iter().cloned().chain(clock.stages));
         state.accept(step);
         state.generation = generation;
-        let report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
+        let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
+        report.concluded = kept.derivations().len();
         Ok((Self::of(state, kept, plan, basis), report))
     }
 
@@ -152,11 +155,13 @@ impl Memory {
         let graph = Arc::clone(memory.state.graph());
         let starts = memory.routes.plan().starts.clone();
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
-        let Accepted { weighed, routes, mut stages, .. } = memory.accept(followed);
+        let Accepted { weighed, conclusions, routes, mut stages, .. } = memory.accept(followed);
         stages.insert(0, inputs.stage.clone());
         let before = Before { graph: &graph, starts: &starts };
         let routes = routes.unwrap_or_default();
-        let report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
+        let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
+        report.conclusions = conclusions;
+        report.concluded = memory.kept.derivations().len();
         // nobody waits until all of it is given back
         rayon::spawn(|| drop((memory, graph)));
         Ok((done, report))
@@ -242,10 +247,18 @@ impl Memory {
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
         self.state.accept(step);
         self.state.generation = generation;
-        match kept {
-            KeptNow::Rows(written) => self.kept.accept(written),
-            KeptNow::All(kept) => self.kept = kept,
-        }
+        let conclusions = match kept {
+            KeptNow::Rows(written) => {
+                let conclusions = Concluded::between(written.gone(), written.new());
+                self.kept.accept(written);
+                conclusions
+            }
+            KeptNow::All(kept) => {
+                let (gone, new) = differing(self.kept.derivations(), kept.derivations());
+                self.kept = kept;
+                Concluded::between(&gone, &new)
+            }
+        };
         let (tree_rows, routes) = match routes {
             RoutesNow::Renewed(renewed) => {
                 let rows = renewed.rows();
@@ -262,7 +275,7 @@ impl Memory {
         if anew {
             self.layout = OnceLock::new();
         }
-        Accepted { done, weighed, tree_rows, routes, anew, stages: clock.stages }
+        Accepted { done, weighed, tree_rows, conclusions, routes, anew, stages: clock.stages }
     }
 
     /// Forgets what was written and not committed.

@@ -16,12 +16,12 @@ use crate::edit::{Done, Edit, Errand};
 use crate::error::{Code, Error, Finding, Result};
 use crate::graph::gauge::sizes_of;
 use crate::graph::{Rules, SiteGraph};
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
+use crate::knowledge::{Beneath, KnowledgeBase};
 use crate::site::robots::RobotFile;
-use crate::site::{lint, rules, states};
+use crate::site::{lint, over, rules, states, tables};
 use crate::words::progress::{Progress, Silent};
 
 impl KnowledgeBase {
@@ -54,9 +54,15 @@ impl KnowledgeBase {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Memory, Report)> {
-        let seed = RobotFile::read(&self.site().robots)?;
+        let (site, again) = (self.site(), self.reseed);
+        let seed = if site.has_map() { Some(RobotFile::read(&site.robots)?) } else { None };
+        let tables = tables::read(site)?;
         store.transaction(|tx| {
-            let notes = seed.seed_tables(tx, &self.site().robots, self.reseed)?;
+            let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
+            let mut notes = notes.unwrap_or_default();
+            for table in &tables {
+                notes.extend(table.seed(tx, again)?);
+            }
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
             Ok((memory, report))
@@ -89,8 +95,11 @@ impl KnowledgeBase {
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
+        problems.extend(lint::replaced(&rules));
         if self.database().exists() {
-            Store::open_read_only(self.database())?.backup(&scratch)?;
+            let mut store = Store::open_read_only(self.database())?;
+            problems.extend(over::changed_beneath(&rules, &store.snapshot(over::kept)?));
+            store.backup(&scratch)?;
         }
         let report = self.build_at(&scratch, &Silent)?;
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
@@ -101,6 +110,7 @@ impl KnowledgeBase {
         let gap = |gap| Finding::warning(Code::Rule(adit_engine::Code::Gap), gap, None);
         problems.extend(report.gaps.into_iter().map(gap));
         problems.extend(lint::never_chosen(&report.dominated));
+        problems.extend(self.test()?.beneath.iter().flat_map(Beneath::findings));
         Ok(problems)
     }
 
@@ -117,6 +127,7 @@ impl KnowledgeBase {
     /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
+        self.site().needs_map()?;
         if self.asks_about_another_moment() {
             return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }

@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
+use adit_db::Cell;
+use adit_db::conclusion::Derivation;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
@@ -213,6 +215,10 @@ pub struct Report {
     pub doors: Counts,
     /// The rooms and doors that changed; none where all were cut anew.
     pub changes: Vec<Change>,
+    /// How many values rules conclude of other things than rooms and doors.
+    pub concluded: usize,
+    /// What rules say otherwise of them.
+    pub conclusions: Vec<Concluded>,
     /// What is closed now and was not before, or no longer is, in sentences.
     pub closings: Vec<String>,
     /// Whether rooms were cut anew.
@@ -231,6 +237,43 @@ pub struct Report {
     pub gaps: Vec<String>,
     /// Rows of tables that no rule can ever choose.
     pub dominated: Vec<Dominated>,
+}
+
+/// A value that rules conclude otherwise than before.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Concluded {
+    /// The class in small letters, and the key.
+    pub what: String,
+    pub property: String,
+    /// `null`: nothing was concluded.
+    pub old: Cell,
+    /// `null`: nothing is concluded any more.
+    pub new: Cell,
+}
+
+impl Concluded {
+    /// What differs between the derivations that went and those that came, in the order of the latter.
+    pub(crate) fn between(gone: &[Derivation], new: &[Derivation]) -> Vec<Self> {
+        let name = |of: &Derivation| (format!("{} {}", of.class, of.key), of.property.clone());
+        let mut before: BTreeMap<(String, String), &Cell> =
+            gone.iter().map(|of| (name(of), &of.value)).collect();
+        let mut found = Vec::new();
+        for of in new {
+            let (what, property) = name(of);
+            let old = before.remove(&(what.clone(), property.clone())).cloned().unwrap_or(Cell::Null);
+            if old != of.value {
+                found.push(Self { what, property, old, new: of.value.clone() });
+            }
+        }
+        let lost = |((what, property), old): ((String, String), &Cell)| Self {
+            what,
+            property,
+            old: old.clone(),
+            new: Cell::Null,
+        };
+        found.extend(before.into_iter().map(lost));
+        found
+    }
 }
 
 impl Report {
@@ -268,7 +311,7 @@ impl Report {
         let idle = state.told.idle_hours(&state.knowledge);
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
-        if graph.rooms.is_empty() {
+        if graph.rooms.is_empty() && state.site.site().has_map() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }
         Self {
@@ -276,6 +319,8 @@ impl Report {
             rooms,
             doors,
             changes,
+            concluded: 0,
+            conclusions: Vec::new(),
             closings: graph.building.turned(&before.graph.building),
             cut_anew: weighed.is_none(),
             routes,
@@ -297,6 +342,8 @@ impl Report {
             "doors": self.doors,
             "cut_anew": self.cut_anew,
             "changes": self.changes,
+            "concluded": self.concluded,
+            "conclusions": self.conclusions,
             "closings": self.closings,
             "routes": self.routes,
             "stages": self.stages.iter().map(stage).collect::<Vec<_>>(),

@@ -7,6 +7,7 @@ use adit_engine::{RuleBase, Schema, Severity};
 
 use super::consult::Class;
 use crate::error::{Code, Error, Finding, Result};
+use crate::site::base::Base;
 use crate::site::lint;
 use crate::site::rules::{self, Rules};
 
@@ -44,11 +45,16 @@ impl Kind {
         self.classes().into_iter().flat_map(named)
     }
 
-    fn folder(self, name: &str) -> String {
-        match self {
-            Self::Channels => format!("channels/{name}"),
-            Self::Navigation | Self::Adapt => name.to_owned(),
-        }
+    /// The rule bases of a name, the lowest first; `None` where none is shipped under it.
+    fn bases(self, name: &str) -> Option<Vec<Base>> {
+        let folders: &[&str] = match (self, name) {
+            (Self::Channels, "corrected") => &["channels/corrected"],
+            (Self::Channels, "printed") => &["channels/corrected", "channels/printed"],
+            (Self::Navigation, "navigation") => &["navigation"],
+            (Self::Adapt, "adapt") => &["adapt"],
+            _ => return None,
+        };
+        Some(folders.iter().map(|folder| Base::Shipped((*folder).to_owned())).collect())
     }
 
     /// The classes and properties that rules may name.
@@ -74,7 +80,7 @@ pub fn load_by(
     beside: &Path,
     schema: &Schema,
 ) -> Result<(Arc<RuleBase>, Vec<String>)> {
-    let Rules { base, tests } = found(kind, name, beside)?;
+    let Rules { base, tests, .. } = found(kind, name, beside)?;
     let (errors, warnings): (Vec<_>, Vec<_>) =
         base.check(schema).into_iter().partition(|found| found.severity == Severity::Error);
     if !errors.is_empty() {
@@ -94,7 +100,7 @@ pub fn load_by(
     let remarks = if kind.shipped().contains(&name) {
         Vec::new()
     } else {
-        let ignored = lint::not_read(Some(&beside.join(name)));
+        let ignored = lint::not_read(&beside.join(name));
         let unread = lint::unread_but(&base, kind.asked());
         let said = warnings.iter().map(ToString::to_string).chain(unread.iter().map(ToString::to_string));
         said.chain(ignored.iter().map(ToString::to_string)).collect()
@@ -104,12 +110,12 @@ pub fn load_by(
 
 /// Reads a rule base that was in use already, whatever it speaks of.
 pub(crate) fn found(kind: Kind, name: &str, beside: &Path) -> Result<Rules> {
-    if kind.shipped().contains(&name) {
-        return rules::shipped(&kind.folder(name));
+    if let Some(bases) = kind.bases(name) {
+        return rules::load_bases(&bases);
     }
     let folder = beside.join(name);
     if folder.is_dir() {
-        return rules::from_folder(&folder);
+        return rules::load_bases(&[Base::Folder(folder)]);
     }
     let message = format!("there is no rule base `{name}`: {} is no folder", folder.display());
     let help =

@@ -5,13 +5,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, RuleBase};
+use adit_engine::{Dominated, Instead, Replaced, RuleBase, Standing};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::NamedSource;
 
 use crate::error::{Code, Finding};
 use crate::site::Site;
+use crate::site::base::{self, Base};
 use crate::site::rules;
 use crate::words::suggest::did_you_mean;
 
@@ -30,8 +31,12 @@ const READ_BY_ROUTES: [&str; 11] = [
     "DOORWAYS.closed",
 ];
 
-/// Every property that is set and never read, in the order of the rules.
-pub fn unread(rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
+/// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people
+/// to read.
+pub fn unread(site: &Site, rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
+    if !site.has_map() {
+        return Vec::new();
+    }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
     unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs))
@@ -66,12 +71,10 @@ pub fn ignored(
     rules: &RuleBase,
     planners: &[Arc<dyn Planner>],
 ) -> Vec<Finding> {
-    let mut found = unread(rules, planners);
+    let mut found = unread(site, rules, planners);
     found.extend(not_carried_out(rules, "sites", Finding::warning));
-    found.extend(not_read(rules::folder(site, instead)));
-    if instead.is_none() {
-        found.extend(idle_folder(site));
-    }
+    let bases = rules::bases(site, instead);
+    found.extend(bases.iter().filter_map(Base::folder).flat_map(not_read));
     found
 }
 
@@ -116,23 +119,52 @@ pub fn not_carried_out(
 }
 
 /// The files among the rules that look like some and are not read.
-pub fn not_read(folder: Option<&Path>) -> Vec<Finding> {
-    let found = folder.map(rules::not_read).unwrap_or_default();
+pub fn not_read(folder: &Path) -> Vec<Finding> {
     let help = "move it or rename it; a name that ends in ~ is left alone";
     let warning = |(file, why): (PathBuf, _)| {
         let message = format!("{} is not read: {why}", file.display());
         Finding::warning(Code::RuleNotRead, message, Some(help.to_owned()))
     };
-    found.into_iter().map(warning).collect()
+    base::not_read(folder).into_iter().map(warning).collect()
 }
 
-/// The folder `rules` of a site that names another one.
-fn idle_folder(site: &Site) -> Option<Finding> {
-    let (idle, named) = (site.idle_rules.as_ref()?, site.rules.as_ref()?);
-    let message =
-        format!("the rules in {} do not count: site.toml names {}", idle.display(), named.display());
-    let help = "move the folder away, or take the line `rules = …` out of site.toml: then it counts";
-    Some(Finding::warning(Code::RuleNotRead, message, Some(help.to_owned())))
+/// Which rules beneath are replaced or left out, in sentences; those that are replaced by the same in one.
+pub fn replaced(rules: &RuleBase) -> Vec<Finding> {
+    let is_same = |replaced: &&Replaced| matches!(&replaced.by, Instead::Rule(by) if by.version == replaced.beneath.version);
+    let (same, others): (Vec<_>, Vec<_>) = rules.replaced().iter().partition(is_same);
+    let said = others.into_iter().map(|Replaced { rule, beneath, by }| {
+        let (place, beneath) = (place(by), standing(beneath));
+        Finding::note(match by {
+            Instead::Rule(_) => format!("rule \"{rule}\" ({place}) replaces the one beneath it ({beneath})"),
+            Instead::Without { .. } => {
+                format!("the rules go without \"{rule}\" ({beneath}), as {place} says")
+            }
+        })
+    });
+    let same = same.split_first().map(|(first, more)| {
+        let others = match more.len() {
+            0 => String::new(),
+            1 => " and one more".to_owned(),
+            more => format!(" and {more} more"),
+        };
+        let place = place(&first.by);
+        Finding::note(format!(
+            "\"{}\" ({place}){others} say what the rules beneath them say: without them those count, and better ones after them",
+            first.rule
+        ))
+    });
+    said.chain(same).collect()
+}
+
+pub(super) fn standing(standing: &Standing) -> String {
+    format!("{}, line {}", standing.file, standing.line)
+}
+
+pub(super) fn place(by: &Instead) -> String {
+    match by {
+        Instead::Rule(by) => standing(by),
+        Instead::Without { file, line } => format!("{file}, line {line}"),
+    }
 }
 
 fn listed(variables: &[String]) -> String {

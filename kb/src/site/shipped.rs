@@ -17,6 +17,8 @@ pub struct Rules;
 #[derive(RustEmbed)]
 #[folder = "$CARGO_MANIFEST_DIR/sites"]
 #[include = "*.toml"]
+#[include = "*.csv"]
+#[include = "*.rhai"]
 pub struct Sites;
 
 /// Files of one folder of `E`, by name, in the order of their names.

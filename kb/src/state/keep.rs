@@ -205,8 +205,7 @@ impl Kept {
             uses.change_all(&graph[*row].weight(), weight);
         }
         if let Some(now) = self.derivations_now(&mut look) {
-            written.gone = self.derivations.iter().filter(|old| !now.contains(old)).cloned().collect();
-            written.new = now.iter().filter(|new| !self.derivations.contains(new)).cloned().collect();
+            (written.gone, written.new) = differing(&self.derivations, &now);
             written.gone.iter().for_each(|old| uses.change(old.witness, None));
             written.new.iter().for_each(|new| uses.change(None, new.witness));
             written.derivations = Some(now);
@@ -242,6 +241,11 @@ impl Kept {
         now
     }
 
+    /// What is concluded of classes without a table of ours.
+    pub fn derivations(&self) -> &[Derivation] {
+        &self.derivations
+    }
+
     /// Makes what was written what is kept.
     pub fn accept(&mut self, written: Written) {
         for (row, area) in written.areas {
@@ -274,6 +278,16 @@ pub struct Written {
 }
 
 impl Written {
+    /// What is no longer concluded of classes without a table of ours.
+    pub fn gone(&self) -> &[Derivation] {
+        &self.gone
+    }
+
+    /// What is concluded of them now and was not before.
+    pub fn new(&self) -> &[Derivation] {
+        &self.new
+    }
+
     /// Writes the rows, with those of rooms and doors.
     pub fn write(&self, tx: &mut Tx<'_>, graph: &SiteGraph, step: &Step) -> Result<()> {
         if !self.witnesses_new.is_empty() || !self.witnesses_gone.is_empty() {
@@ -387,4 +401,25 @@ pub(crate) fn keep_standings(tx: &mut Tx<'_>, told: &Told, attached: &Attached) 
         tx.replace_standings(&standings)?;
     }
     Ok(())
+}
+
+/// Those of some derivations that others have not got, and the other way round.
+pub fn differing(before: &[Derivation], now: &[Derivation]) -> (Vec<Derivation>, Vec<Derivation>) {
+    let named = |all: &[Derivation]| -> BTreeMap<(String, String, String), Vec<usize>> {
+        let mut places: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        for (place, of) in all.iter().enumerate() {
+            let name = (of.class.clone(), of.property.clone(), of.key.to_string());
+            places.entry(name).or_default().push(place);
+        }
+        places
+    };
+    let without = |some: &[Derivation], others: &[Derivation]| {
+        let places = named(others);
+        let has = |of: &Derivation| {
+            let name = (of.class.clone(), of.property.clone(), of.key.to_string());
+            places.get(&name).is_some_and(|places| places.iter().any(|&place| others[place] == *of))
+        };
+        some.iter().filter(|of| !has(of)).cloned().collect()
+    };
+    (without(before, now), without(now, before))
 }

@@ -476,13 +476,21 @@ impl<'g> Search<'g> {
         self.goals.iter().any(is_near)
     }
 
+    fn is_near_a_goal_in(&self, room: RoomIndex, side: &Segment) -> bool {
+        let is_near = |at: Point| side.nearest_to(at).distance(at) <= CLOSE_M;
+        self.targets_in(room).any(|target| target.at.is_some_and(is_near))
+    }
+
+    fn targets_in(&self, room: RoomIndex) -> impl Iterator<Item = Target> {
+        let first = self.targets.partition_point(|(of, _)| *of < room);
+        self.targets[first..].iter().take_while(move |(of, _)| *of == room).map(|(_, target)| *target)
+    }
+
     /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
     /// goals in the room, the ends, and some between.
     fn points(&self, room: RoomIndex, seen: Segment, root: Point) -> Vec<Point> {
         let pieces = (seen.length() / APART_M).ceil().clamp(1.0, 64.0) as u32;
-        let first = self.targets.partition_point(|(of, _)| *of < room);
-        let goals = self.targets[first..].iter().take_while(|(of, _)| *of == room);
-        let feet = goals.filter_map(|(_, target)| target.at.map(|at| seen.nearest_to(at)));
+        let feet = self.targets_in(room).filter_map(|target| target.at.map(|at| seen.nearest_to(at)));
         let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
         let mut points: Vec<Point> = Vec::new();
         for p in std::iter::once(seen.nearest_to(root)).chain(feet).chain(even) {
@@ -547,13 +555,20 @@ impl<'g> Search<'g> {
         if is_at_once && area.contains(node.root) {
             reach(self, node.root);
         }
-        if self.care == Care::Full {
-            for side in area.sides().flat_map(|side| graph.clear_of_walls(room, side)) {
+        let is_anywhere = self.care == Care::Full || node.before == NO_NODE;
+        for side in area.sides() {
+            // who starts or ends in a strip too thin for gates changes at its edge
+            if !is_anywhere && !self.is_near_a_goal_in(room, &side) {
+                continue;
+            }
+            for side in graph.clear_of_walls(room, side) {
                 let Some(seen) = node.view.of(node.root, side) else { continue };
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
                 }
             }
+        }
+        if self.care == Care::Full {
             return;
         }
         let mut is_step_on_a_way = None;

@@ -184,3 +184,21 @@ proptest! {
         }
     }
 }
+
+/// A hall whose walls leave a strip in which one can only stand sideways: whoever starts or ends in it changes at its edge.
+#[test]
+fn whoever_starts_or_ends_in_a_strip_along_a_wall_changes_shape_at_its_edge() {
+    let graph = graph(&hall(&[], &[]), &shapes()[..2], 0.5);
+    // STAND keeps 0.3 m off the walls, SIDE 0.175 m
+    let (from, to) = (Point::new(2.0, 0.2), Point::new(10.0, 0.2));
+    let way = way(&graph, from, to).unwrap();
+    let upright: f64 = way
+        .legs
+        .iter()
+        .filter(|leg| leg.hardness <= leg.from.distance(leg.to) * 1.5)
+        .map(|leg| leg.from.distance(leg.to))
+        .sum();
+    assert!(upright > 7.8, "{upright} m upright of {way:?}");
+    // two changes, eight metres upright, twice the strip sideways
+    assert!(way.cost < 0.5 * 2.0 + 8.0 + 2.0 * 2.0 * 0.11, "{}", way.cost);
+}

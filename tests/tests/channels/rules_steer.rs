@@ -83,14 +83,3 @@ fn rules_that_say_nothing_or_disagree_are_named_with_the_junction() {
     let ran = plan(&folder, "world.toml", &[]).expect_status(1);
     assert!(ran.stdout.contains("\"rihgt\"; expected \"left\", \"right\" or \"keep\""), "{}", ran.stdout);
 }
-
-#[test]
-fn the_two_rule_bases_differ_in_the_tables_alone() {
-    let corrected = adit_tests::repository().join("rules/channels/corrected");
-    let printed = adit_tests::repository().join("rules/channels/printed");
-    for name in ["gap.rhai", "passages.rhai", "refusals.rhai", "table-1-three-dimensions.rhai"] {
-        let read =
-            |folder: &std::path::Path| std::fs::read_to_string(folder.join(name)).expect("a rule file");
-        assert_eq!(read(&corrected), read(&printed), "{name}");
-    }
-}

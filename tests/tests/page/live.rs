@@ -46,10 +46,50 @@ async fn an_expert_closes_a_door_from_the_map() {
     browser.type_into("#outline-search", "door 3").await;
     browser.press("#outline-list", "Show").await;
     browser.press("#popover", "Close door 3").await;
-    browser.press("#tell-card", "Tell it").await;
+    browser.says("#close-preview", "The way that you look at").await;
+    browser.press("#tell-card", "Close door 3").await;
     leads_through_door_5(&browser).await;
-    browser.press("#saved", "Take it back").await;
+    browser.press("#saved", "Undo").await;
     browser.says("#route-title", "92.0").await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_nurse_closes_a_doorway_and_lays_an_area_on_the_page() {
+    let (_site, service, browser) = at_a_desk("clinic", "#map?start=dock&goal=ward%2012").await;
+    let route = || service.ask("GET", "/api/route?start=dock&goal=ward%2012", None).1;
+    let before = route();
+    let steps = before["steps"].as_array().unwrap();
+    let doorway =
+        steps.iter().find_map(|step| step["doorway"].as_str()).expect("a doorway on the way").to_owned();
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", &format!("{doorway} ")).await;
+    browser.press("#outline-list", "Show").await;
+    browser.says("#popover h3", &doorway).await;
+    browser.says("#popover", "wide, between").await;
+    browser.screenshot("doorway").await;
+    browser.press("#popover", &format!("Close {doorway}")).await;
+    browser.says("#close-preview", &format!("{doorway} at")).await;
+    browser.says("#close-preview", "another way").await;
+    assert_eq!(route()["cost"], before["cost"], "nothing is done before it is said");
+    browser.press("#tell-card", &format!("Close {doorway}")).await;
+    browser.says("#saved", "done").await;
+    assert!(route()["cost"].as_f64() > before["cost"].as_f64());
+    browser.screenshot("doorway-closed").await;
+    browser.press("#saved", "Undo").await;
+    browser.says("#saved", "Taken back").await;
+    assert_eq!(route()["cost"], before["cost"]);
+
+    browser.click("nav a[href='#facts']").await;
+    browser.says("#laid-list", "Nothing lies over the map").await;
+    for (field, text) in
+        [("name", "wet floor"), ("kind", "wet"), ("from", "4,0.5"), ("to", "6,1.5"), ("until", "2h")]
+    {
+        browser.type_into(&format!("#lay-{field}"), text).await;
+    }
+    browser.press("#facts", "Lay it").await;
+    browser.says("#laid-list", "wet floor").await;
+    browser.press("#laid-list", "Lift").await;
+    browser.says("#laid-list", "Nothing lies over the map").await;
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -68,13 +68,19 @@ async fn a_saved_rule_is_in_force_and_a_file_edited_elsewhere_is_followed() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn shipped_rules_are_copied_before_they_are_edited() {
+async fn a_shipped_file_is_written_over_by_one_of_the_site() {
     let site = TestSite::example("paper").built();
     let service = Service::start(&site);
-    let browser = Browser::open(&service.page("#rules"), Screen::Desktop).await;
-    browser.says("#rules-note", "the program carries").await;
+    let browser = Browser::open(&service.page("#rules?file=rooms/paper/rooms.rhai"), Screen::Desktop).await;
+    browser.says("#rules-note", "lies beneath the rules of this site").await;
     assert_eq!(browser.value("document.querySelector('#rules textarea').readOnly").await, Value::Bool(true));
-    browser.click("#adopt").await;
+    browser.click("#write-over").await;
+    browser.says("#rules-name", "rooms.rhai").await;
     browser.until("!document.querySelector('#rules textarea').readOnly", "the rules may be edited").await;
-    assert!(site.path().join("rules/doors.rhai").exists());
+    assert!(!site.path().join("rules").exists(), "nothing is saved yet");
+    replace(&browser, "// How the robot moves", "// Mine. How the robot moves").await;
+    browser.says("#rules-result", "Looks right").await;
+    browser.click("#rules-save").await;
+    browser.says("#rules-result", "Saved and in force").await;
+    assert!(site.read("rules/rooms.rhai").contains("// Mine."));
 }

@@ -203,7 +203,7 @@ async fn a_form_that_is_sent_twice_tells_once() {
     browser.press("#popover", "Close door 5").await;
     browser.find("#close-why").await;
     browser.run("const form = document.querySelector('#tell-card form'); form.requestSubmit(); form.requestSubmit()").await;
-    browser.says("#saved", "told").await;
+    browser.says("#saved", "done").await;
     tokio::time::sleep(Duration::from_millis(500)).await;
     let (_, facts) = service.ask("GET", "/api/facts", None);
     assert_eq!(facts["facts"].as_array().unwrap().len(), 2, "{facts}");

@@ -40,7 +40,7 @@ fn a_token_allows_what_its_roles_say_and_no_more() {
             ask("POST", "/api/sql", &json!({"query": "SELECT 1"})),
             ask("POST", "/api/facts", &fact),
             ask("POST", "/api/edits", &hardness("SQUAT", 3.0)),
-            ask("POST", "/api/rules/adopt", &json!({})),
+            ask("PUT", "/api/rules/own.rhai", &json!({"text": "// nothing yet\n"})),
         ];
         for (status, may) in did.into_iter().zip(may) {
             assert_eq!(status != 403, may, "{name}: {did:?}");

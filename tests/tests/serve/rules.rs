@@ -112,18 +112,39 @@ fn a_text_is_tried_without_being_saved() {
 }
 
 #[test]
-fn shipped_rules_are_copied_into_the_site_before_they_are_edited() {
+fn a_rule_of_the_site_replaces_the_shipped_one_of_its_name() {
     let site = TestSite::example("paper").built();
     let service = Service::start(&site);
     let before = cost(&service, "f", "e");
+    let (_, rules) = service.ask("GET", "/api/rules", None);
+    let shipped =
+        rules["files"].as_array().unwrap().iter().find(|file| file["file"] == "rooms/paper/doors.rhai");
+    let shipped = shipped.unwrap_or_else(|| panic!("{rules}"));
+    assert_eq!((&shipped["own"], &rules["folder"]), (&json!(false), &json!("rules")));
+
+    // the text of the shipped file, saved as the site's own, changes nothing
+    let text = shipped["text"].as_str().unwrap();
+    let (status, saved) = save(&service, "doors.rhai", text, &Value::Null);
+    assert_eq!(status, 200, "{saved}");
+    assert_eq!((cost(&service, "f", "e"), site.read("rules/doors.rhai").as_str()), (before, text));
+    let (own, version) = file(&service, "doors.rhai");
+    assert_eq!(own, text);
+    let doubled = text.replacen("= door.distance1 *", "= 2.0 * door.distance1 *", 1);
+    assert_eq!(save(&service, "doors.rhai", &doubled, &version).0, 200);
+    assert!(cost(&service, "f", "e") > before);
     let (_, version) = file(&service, "doors.rhai");
-    assert_eq!(save(&service, "doors.rhai", "", &version).1["error"]["code"], "rules/shipped");
-    let (status, adopted) = service.ask("POST", "/api/rules/adopt", None);
-    assert_eq!((status, &adopted["folder"]), (200, &json!("rules")));
+    let path = format!("/api/rules/doors.rhai?version={}", version.as_str().unwrap());
+    assert_eq!(service.ask("DELETE", &path, None).0, 200, "the shipped rules count again");
     assert_eq!(cost(&service, "f", "e"), before);
-    let (text, version) = file(&service, "doors.rhai");
-    assert_eq!(save(&service, "doors.rhai", &format!("{text}\n// mine\n"), &version).0, 200);
-    assert!(site.read("rules/doors.rhai").ends_with("// mine\n"));
+}
+
+#[test]
+fn a_first_rule_that_is_refused_leaves_no_folder_behind() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let (status, refused) = save(&service, "slip.rhai", "rule \"slip\" each room in", &Value::Null);
+    assert_eq!(status, 422, "{refused}");
+    assert!(!site.path().join("rules").exists());
 }
 
 #[test]

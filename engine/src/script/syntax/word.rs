@@ -12,11 +12,12 @@ pub(crate) enum Word {
     Class,
     Property,
     Table,
+    Without,
 }
 
 impl Word {
-    pub(crate) const ALL: [Self; 6] =
-        [Self::Rule, Self::Revise, Self::On, Self::Class, Self::Property, Self::Table];
+    pub(crate) const ALL: [Self; 7] =
+        [Self::Rule, Self::Revise, Self::On, Self::Class, Self::Property, Self::Table, Self::Without];
 
     pub(crate) fn of(text: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|word| word.as_str() == text)
@@ -30,6 +31,7 @@ impl Word {
             Self::Class => "class",
             Self::Property => "property",
             Self::Table => "table",
+            Self::Without => "without",
         }
     }
 
@@ -42,6 +44,7 @@ impl Word {
             Self::Class => "class:",
             Self::Property => "property:",
             Self::Table => "table:",
+            Self::Without => "without:",
         }
     }
 }

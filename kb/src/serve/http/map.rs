@@ -5,7 +5,8 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::extract::Site;
-use crate::graph::SiteGraph;
+use crate::graph::{Building, SiteGraph};
+use adit_db::space::{Doorway, Space};
 use adit_planners::geometry::Convex;
 use adit_planners::world::{Shape, World};
 
@@ -22,6 +23,10 @@ pub struct MapAnswer {
     areas: Vec<AreaOf>,
     named_doors: Vec<NamedDoorOf>,
     places: Vec<PlaceOf>,
+    /// The rooms of the building as people see them, the same for all robots.
+    spaces: Vec<SpaceOf>,
+    /// The openings between spaces.
+    doorways: Vec<DoorwayOf>,
     /// The layers of robots' states; none in the paper's modes.
     layers: Vec<LayerOf>,
     /// Rooms, by number.
@@ -55,6 +60,30 @@ struct PlaceOf {
     place: String,
     x: f64,
     y: f64,
+}
+
+#[derive(Serialize, ToSchema)]
+struct SpaceOf {
+    space: i64,
+    /// Rings of corners as x, y, x, y, …, the outer one first.
+    rings: Vec<Vec<f64>>,
+    /// Square metres.
+    area: f64,
+    /// Where it is widest.
+    at: [f64; 2],
+}
+
+#[derive(Serialize, ToSchema)]
+struct DoorwayOf {
+    doorway: i64,
+    /// The numbers of the spaces that it is between.
+    spaces: [i64; 2],
+    /// From x0, y0 to x1, y1.
+    segment: [f64; 4],
+    /// Metres.
+    width: f64,
+    /// Of the lowest bridge over it, metres; null: unlimited.
+    height: Option<f64>,
 }
 
 #[derive(Serialize, ToSchema, PartialEq)]
@@ -132,6 +161,8 @@ pub async fn map(site: Site) -> Json<MapAnswer> {
             .iter()
             .map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y })
             .collect(),
+        spaces: graph.building.spaces.iter().map(space).collect(),
+        doorways: graph.building.doorways.iter().map(doorway).collect(),
         layers,
         rooms,
         doors: graph
@@ -147,6 +178,22 @@ pub async fn map(site: Site) -> Json<MapAnswer> {
             })
             .collect(),
     })
+}
+
+fn space(space: &Space) -> SpaceOf {
+    let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(&space.outline).unwrap_or_default();
+    let rings = rings.into_iter().map(|ring| ring.into_iter().flatten().collect());
+    SpaceOf { space: space.space, rings: rings.collect(), area: space.area, at: [space.x, space.y] }
+}
+
+fn doorway(doorway: &Doorway) -> DoorwayOf {
+    DoorwayOf {
+        doorway: doorway.doorway,
+        spaces: [doorway.space1, doorway.space2],
+        segment: [doorway.x0, doorway.y0, doorway.x1, doorway.y1],
+        width: doorway.width,
+        height: doorway.height,
+    }
 }
 
 fn rooms(graph: &SiteGraph) -> (Vec<LayerOf>, Vec<RoomOf>) {
@@ -203,6 +250,27 @@ pub struct WeightsAnswer {
     generation: u64,
     rooms: Weights,
     doors: Weights,
+    spaces: Nouns,
+    doorways: Nouns,
+    /// What is closed to some robots only, or where no doorway is.
+    closings: Vec<ClosingOf>,
+}
+
+/// What rules call things of the building, by index.
+#[derive(Serialize, ToSchema)]
+struct Nouns {
+    /// As people call it.
+    name: Vec<String>,
+    /// Whether nobody passes it; of a space, whether nobody comes in or out.
+    closed: Vec<bool>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct ClosingOf {
+    /// From x0, y0 to x1, y1.
+    segment: [f64; 4],
+    /// In a sentence, with the number of the fact that tells it.
+    why: String,
 }
 
 /// Values by index; null: unknown.
@@ -221,7 +289,7 @@ struct Weights {
 pub async fn weights(site: Site) -> Json<WeightsAnswer> {
     let seen = site.view.load();
     let graph = seen.view.graph();
-    let (rooms, doors) = (&graph.rooms, &graph.doors);
+    let (rooms, doors, building) = (&graph.rooms, &graph.doors, &graph.building);
     Json(WeightsAnswer {
         layout: seen.view.layout().to_owned(),
         generation: seen.view.generation(),
@@ -235,5 +303,18 @@ pub async fn weights(site: Site) -> Json<WeightsAnswer> {
             action: doors.iter().map(|door| door.action.value.clone()).collect(),
             passable: doors.iter().map(|door| door.passable.value).collect(),
         },
+        spaces: Nouns {
+            name: building.spaces.iter().filter_map(|space| building.space(space.space)).collect(),
+            closed: building.spaces.iter().map(|space| space.closed == Some(true)).collect(),
+        },
+        doorways: Nouns {
+            name: building.doorways.iter().map(Building::name).collect(),
+            closed: building.doorways.iter().map(|doorway| doorway.closed == Some(true)).collect(),
+        },
+        closings: building
+            .lines
+            .iter()
+            .map(|line| ClosingOf { segment: line.segment, why: building.why_told_closed(line) })
+            .collect(),
     })
 }

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use adit_engine::SourceFile;
 use axum::Json;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -12,7 +13,7 @@ use super::extract::Site;
 use super::extract::{Asked, Body, Named};
 use crate::error::problem::Problem;
 use crate::error::{Code, Error};
-use crate::knowledge::{KnowledgeBase, Tested};
+use crate::knowledge::Tested;
 use crate::live::View;
 use crate::serve::desk::{Cause, Desk};
 use crate::serve::fault::{Answered, Failure, Fault};
@@ -20,25 +21,28 @@ use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::serve::shared::beside;
 use crate::serve::token::hex;
-use crate::site::rules::{self, TESTS};
-use crate::site::shipped;
-use crate::site::whole::Whole;
+use crate::site::base::Base;
+use crate::site::rules;
 
 /// The longest rule file, bytes.
 const LONGEST: usize = 1 << 20;
 #[derive(Serialize, ToSchema)]
 pub struct RulesAnswer {
     generation: u64,
-    /// The folder's name; null: the rules are the shipped ones, which are only read.
-    folder: Option<String>,
+    /// The name of the folder in which the site's own rules are written.
+    folder: String,
+    /// The files of all rule bases that lie over each other, the lowest first.
     files: Vec<FileOf>,
     tests: Vec<FileOf>,
 }
 
 #[derive(Serialize, ToSchema)]
 struct FileOf {
-    /// Its name in the folder, as `doors.rhai` or `tests/doors.toml`.
+    /// Its name: of the site's own as `doors.rhai` or `tests/doors.toml`, of one beneath with its rule base before it, as
+    /// `rooms/by-state/doors.rhai`.
     file: String,
+    /// Whether it is one of the site's own: others are only read.
+    own: bool,
     /// Names its text: whoever saves says what was read.
     version: String,
     text: String,
@@ -53,21 +57,29 @@ pub async fn list(site: Site) -> Answered<Json<RulesAnswer>> {
 
 fn read(view: &View) -> Answered<RulesAnswer> {
     let site = view.site();
-    let sources = rules::sources(site.site(), site.rule_folder())?;
-    let file = |prefix: &str, name: &str, text: &str| {
-        let name = Path::new(name).file_name().map(|name| name.to_string_lossy().into_owned());
-        let file = format!("{prefix}{}", name.unwrap_or_default());
-        FileOf { file, version: version(text), text: text.to_owned() }
-    };
-    let files = sources.rules.iter().map(|source| file("", source.name(), source.text()));
-    let tests = sources.tests.iter().map(|source| file("tests/", source.name(), source.text()));
-    let folder = site.rule_folder().and_then(Path::file_name);
-    Ok(RulesAnswer {
-        generation: view.generation(),
-        folder: folder.map(|name| name.to_string_lossy().into_owned()),
-        files: files.collect(),
-        tests: tests.collect(),
-    })
+    let folder = site.rule_folder();
+    let (mut files, mut tests) = (Vec::new(), Vec::new());
+    for sources in rules::sources(&site.rule_bases())? {
+        let own = sources.base.folder() == Some(&folder);
+        let before = if own { String::new() } else { format!("{}/", beneath(&sources.base)) };
+        let file = |prefix: &str, source: &SourceFile| {
+            let name = Path::new(source.name()).file_name().unwrap_or_default().to_string_lossy();
+            let file = format!("{before}{prefix}{name}");
+            FileOf { file, own, version: version(source.text()), text: source.text().to_owned() }
+        };
+        files.extend(sources.rules.iter().map(|source| file("", source)));
+        tests.extend(sources.tests.iter().map(|source| file("tests/", source)));
+    }
+    let folder = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    Ok(RulesAnswer { generation: view.generation(), folder, files, tests })
+}
+
+/// A rule base beneath the site's own, as files are called by it.
+fn beneath(base: &Base) -> String {
+    match base {
+        Base::Shipped(name) => name.clone(),
+        Base::Folder(folder) => folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+    }
 }
 
 fn version(text: &str) -> String {
@@ -122,10 +134,6 @@ fn near_all(error: &Error, folder: &Path) -> Vec<Problem> {
     Problem::all(error.problems()).into_iter().map(|problem| near(problem, folder)).collect()
 }
 
-fn folder_of(site: &KnowledgeBase) -> &Path {
-    site.rule_folder().unwrap_or(Path::new(""))
-}
-
 /// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules, in 10 s at most.
 /// Nothing is saved. Role `rules`: what is tried runs.
 #[utoipa::path(post, path = "/api/rules/check", tag = "rules", request_body = CheckBody,
@@ -136,10 +144,10 @@ pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> A
     check_length(&body.text)?;
     let view = site.view.load().view.clone();
     let checked = site.at_length(move || {
-        let (site, folder) = (view.site(), folder_of(view.site()));
+        let (site, folder) = (view.site(), view.site().rule_folder());
         Ok(match site.try_rules(&body.file, Some(&body.text)) {
-            Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, folder)) },
-            Err(error) => Checked { problems: near_all(&error, folder), tests: None },
+            Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, &folder)) },
+            Err(error) => Checked { problems: near_all(&error, &folder), tests: None },
         })
     });
     checked.await.map(Json)
@@ -217,10 +225,7 @@ fn replace(
     read: Option<&str>,
 ) -> Answered<Saved> {
     let site = desk.shared.settings.open()?;
-    let Some(folder) = site.rule_folder().map(Path::to_owned) else {
-        let message = "the rules are the shipped ones, which cannot be edited";
-        return Err(Fault::new(Code::RulesShipped, message).helped("copy them into the site first"));
-    };
+    let folder = site.rule_folder();
     let path = folder.join(file);
     let before = fs::read_to_string(&path).ok();
     if before.is_none() && text.is_none() {
@@ -248,11 +253,15 @@ fn replace(
         let message = format!("{} of {} tests of the rules fail", tests.failed, tests.failed + tests.passed);
         return Err(Fault::new(Code::RulesTests, message).with_problems(tests.failures));
     }
+    let made = !folder.exists();
     put(&path, text.as_deref())?;
-    let outcome = match desk.live.open_again(site) {
+    let outcome = match desk.shared.settings.open().and_then(|site| desk.live.open_again(site)) {
         Ok(outcome) => outcome,
         Err(error) => {
             put(&path, before.as_deref())?;
+            if made {
+                fs::remove_dir_all(&folder).ok();
+            }
             return Err(refused(error));
         }
     };
@@ -302,39 +311,4 @@ fn check_length(text: &str) -> Answered<()> {
         return Ok(());
     }
     Err(Fault::new(Code::RulesTooLong, format!("a rule file may have {LONGEST} bytes")))
-}
-
-/// Copies the shipped rules into the site, so that they can be edited.
-#[utoipa::path(post, path = "/api/rules/adopt", tag = "rules", responses((status = 200, body = RulesAnswer)))]
-pub async fn adopt(site: Site, caller: Caller) -> Answered<Json<RulesAnswer>> {
-    require(&caller, Role::Rules)?;
-    site.edit_at_desk(move |desk| copy(desk, &caller)).await.map(Json)
-}
-
-fn copy(desk: &mut Desk, caller: &Caller) -> Answered<RulesAnswer> {
-    let settings = desk.shared.settings.clone();
-    let site = settings.open()?;
-    if site.rule_folder().is_some() {
-        return Err(Fault::new(Code::RulesOwn, "the site has rules of its own already"));
-    }
-    let (base, into) = (site.site().rooms.rule_base(), settings.folder.join("rules"));
-    let mut made = Whole::default();
-    shipped::make::<shipped::Rules>(base, &into, &mut made)?;
-    shipped::make::<shipped::Rules>(&format!("{base}/{TESTS}"), &into.join(TESTS), &mut made)?;
-    let file = settings.folder.join("site.toml");
-    let text = fs::read_to_string(&file).map_err(|error| Error::io("read", &file, &error))?;
-    put(&file, Some(&format!("rules = \"rules\"\n{text}")))?;
-    let outcome = settings.open().and_then(|site| desk.live.open_again(site));
-    let outcome = match outcome {
-        Ok(outcome) => outcome,
-        Err(error) => {
-            put(&file, Some(&text))?;
-            return Err(error.into());
-        }
-    };
-    made.keep();
-    let what = "the shipped rules were copied into the site".to_owned();
-    desk.publish(&outcome, &Cause { who: caller.name.clone(), why: String::new(), what });
-    desk.files_are_taken();
-    read(&desk.live.view())
 }

@@ -42,8 +42,6 @@ pub struct SiteAnswer {
     changed_at: String,
     /// What is wrong with files that were saved; the site goes on with those of before.
     problems: Vec<Problem>,
-    /// Whether the rules are the shipped ones, which the site has no copy of.
-    shipped_rules: bool,
     /// Whether routes kept in the database have yet to follow the last change; answers of this service do so at once.
     routes_due: bool,
     /// What the expert should know, in sentences.
@@ -72,7 +70,6 @@ pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
         who: caller.name,
         changed_at: seen.since.clone(),
         problems: shared.problems(),
-        shipped_rules: view.site().rule_folder().is_none(),
         routes_due: view.routes_due(),
         notes: seen.notes.clone(),
         version: env!("CARGO_PKG_VERSION"),

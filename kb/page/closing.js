@@ -1,0 +1,101 @@
+/** Closing from the map: doorways, spaces, areas, named doors, rooms and doors, for a time, for all or for some robots. */
+
+import { call, post } from './api.js';
+import { card } from './answers.js';
+import { byId, debounced, el, fill, form } from './dom.js';
+import { model } from './model.js';
+import { said } from './notice.js';
+import { summary, thisRoute } from './preview.js';
+import { refresh } from './refresh.js';
+import { showSaved } from './saved.js';
+import { nounOf, showsPieces } from './thing.js';
+
+const WAIT = 150;
+
+/** What may be closed or opened at a thing of the map, each with its edit. */
+export function closings(thing) {
+  const { weights, map } = model;
+  const way = (name, closed) => ({ text: closed ? `Open ${name} again` : `Close ${name}…`, edit: { kind: closed ? 'open' : 'close', what: name } });
+  const tell = (text, fact) => ({ text, edit: { kind: 'tell', ...fact } });
+  const ways = [];
+  if (thing.kind === 'doorway') ways.push(way(nounOf(thing), weights.doorways.closed[thing.index]));
+  else if (thing.named) ways.push(way(thing.named.name, false));
+  if (thing.kind === 'room' && nounOf(thing)) ways.push(way(nounOf(thing), weights.spaces.closed[thing.space]));
+  for (const area of thing.areas ?? []) if (area.name !== nounOf(thing)) ways.push(way(area.name, false));
+  if (thing.kind === 'door') ways.push(tell(`Close door ${map.doors[thing.index].door}…`, { class: 'DOORS', object: String(map.doors[thing.index].door), property: 'passable', value: false }));
+  if (thing.kind === 'room' && showsPieces()) ways.push(tell(`Keep out of room ${map.rooms[thing.index].name}…`, { class: 'ROOMS', object: map.rooms[thing.index].name, property: 'passable', value: false }));
+  return ways;
+}
+
+/** Asks until when and for whom, shows what would change, and does it. */
+export function close(edit, label) {
+  const title = label.replace('…', '');
+  const until = el('input', { id: 'close-until', placeholder: '18:00, 2h, 2026-12-24T08:00', autocomplete: 'off' });
+  const reason = el('input', { id: 'close-why', placeholder: 'if you like' });
+  const { robots } = model.site;
+  const only = el('select', { id: 'close-only' }, el('option', { value: '', text: 'everybody' }), ...robots.map((robot) => el('option', { value: robot, text: robot })));
+  const would = el('div', { id: 'close-preview', role: 'status' });
+  const ends = edit.kind !== 'open';
+  const forSome = edit.kind === 'close' && robots.length > 1;
+  const asked = form({ class: 'line-form' }, make,
+    ends ? el('label', {}, 'Until (empty: until it is opened) ', until) : null,
+    forSome ? el('label', {}, 'For ', only) : null,
+    el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }));
+  const made = card('tell-card', title, would, asked);
+  const wish = () => ({ ...edit, ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
+  const preview = debounced(async () => {
+    const { start, goal, robot } = model.ask;
+    try {
+      const answer = await post('/api/preview', { edits: [wish()], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
+      fill(would, ...(answer.closings ?? []).map((text) => el('p', { text: `Then: ${text}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
+    } catch (error) {
+      fill(would, said(error));
+    }
+  }, WAIT);
+  for (const field of [until, only]) field.addEventListener('input', preview);
+  preview();
+  async function make() {
+    try {
+      const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
+      made.remove();
+      showSaved(`${title}: done.`, [answer.done.id]);
+      await refresh(answer.generation);
+    } catch (error) {
+      fill(would, said(error));
+    }
+  }
+  (ends ? until : reason).focus();
+}
+
+/** The form that lays an area over the map, and the list of those that lie there. */
+export function layForm(load) {
+  const field = (label, id, attributes = {}) => el('label', {}, `${label} `, el('input', { id: `lay-${id}`, autocomplete: 'off', ...attributes }));
+  const told = el('div', { id: 'lay-said' });
+  const made = form({ class: 'fact-form' }, async () => {
+    const read = (id) => byId(`lay-${id}`).value.trim();
+    const [from, to] = ['from', 'to'].map((id) => read(id).split(',').map(Number));
+    const obstacle = byId('lay-what').value === 'obstacle';
+    const body = { name: read('name'), what: byId('lay-what').value, corners: [from, to], properties: obstacle || !read('kind') ? {} : { kind: read('kind') }, until: read('until') || undefined, why: read('why') || undefined };
+    try {
+      const answer = await post('/api/areas', body);
+      showSaved(`${body.name} lies over the map.`, [answer.done.id]);
+      fill(told);
+      await refresh(answer.generation);
+      await load();
+    } catch (error) {
+      fill(told, said(error));
+    }
+  },
+  el('label', {}, 'What ', el('select', { id: 'lay-what' }, el('option', { value: 'area', text: 'an area' }), el('option', { value: 'obstacle', text: 'an obstacle' }))),
+  field('Name', 'name', { required: true }), field('Kind', 'kind', { placeholder: 'keep-out, wet…' }),
+  field('From corner', 'from', { required: true, placeholder: 'x,y in metres' }), field('To corner', 'to', { required: true, placeholder: 'x,y in metres' }),
+  field('Until', 'until', { placeholder: '18:00, 2h' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Lay it' }));
+  return el('div', {}, made, told);
+}
+
+/** Takes away what lies over the map. */
+export async function lift(name) {
+  const answer = await call('DELETE', `/api/areas/${encodeURIComponent(name)}`);
+  showSaved(`${name} no longer lies over the map.`, answer.done ? [answer.done.id] : []);
+  await refresh(answer.generation);
+}
