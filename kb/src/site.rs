@@ -197,7 +197,7 @@ impl Site {
     /// The files that it is made of, besides its rules: `site.toml` first.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = vec![self.folder.join("site.toml")];
-        files.extend(tables::files(self));
+        files.extend(tables::files(&self.tables()));
         if !self.has_map() {
             return files;
         }

@@ -90,7 +90,7 @@ fn the_recipe_that_forbids_a_state_in_a_region() {
 #[test]
 fn the_edits_of_the_table_work_as_written() {
     let site = starter();
-    for line in block("sh", "adit tune").lines() {
+    for line in block("sh", "new knee pads").lines() {
         let words = line.split('#').next().unwrap().split_whitespace().collect::<Vec<_>>();
         let joined = words.join(" ").replace("\"new knee pads\"", "pads");
         let words: Vec<&str> = joined.split(' ').collect();

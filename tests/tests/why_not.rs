@@ -22,21 +22,15 @@ fn set(table: &str, key: &str, column: &str, value: f64) -> Edit {
     Edit::Set(table.to_owned(), key.to_owned(), column.to_owned(), format!("{value}"))
 }
 
-/// Whether the best way leads through a room or door where a cell has the value that is named, or a little beyond: the search
-/// for ways is not exact, and may keep to one that has lost a little.
+/// Whether the best way leads through a room or door where a cell has the value that is named.
 fn turns(live: &mut Live, answer: &WhyNot) -> bool {
     let cell = answer.would_win.as_ref().unwrap();
     let author = Author { who: "test".to_owned(), why: String::new() };
     let at = |value: f64| set(&cell.table, &cell.key, &cell.column, value);
-    let out = (cell.wins_at - cell.value).signum() * cell.wins_at.abs().max(0.1);
-    let is_turned = [0.0, 1e-3, 0.05].iter().any(|beyond| {
-        live.edit(&at((cell.wins_at + beyond * out).max(0.0)), &author).unwrap();
-        let there = live.why_not(&answer.start, &answer.goal, &answer.through, None).unwrap();
-        there.cost.unwrap() <= there.best.unwrap() * (1.0 + 2e-6)
-            && there.reason.starts_with("the best route")
-    });
+    live.edit(&at(cell.wins_at), &author).unwrap();
+    let there = live.why_not(&answer.start, &answer.goal, &answer.through, None).unwrap();
     live.edit(&at(cell.value), &author).unwrap();
-    is_turned
+    there.cost.unwrap() <= there.best.unwrap() * (1.0 + 2e-6) && there.reason.starts_with("the best route")
 }
 
 /// The rooms and doors of a route.
@@ -77,7 +71,7 @@ fn the_number_that_why_not_names_turns_the_way_and_where_it_names_none_firm_has_
         let now = passed(&live.route(start, &[goal.to_owned()], None).unwrap());
         let mut others = taking_over(&live, &firm);
         others.retain(|other| !now.contains(other));
-        for question in 0..4 {
+        for question in 0..8 {
             let through = match question % 4 {
                 0 => format!("door {}", doors[chance.below(doors.len())]),
                 // what does take over somewhere
@@ -102,7 +96,7 @@ fn the_number_that_why_not_names_turns_the_way_and_where_it_names_none_firm_has_
             }
         }
     }
-    assert!(named >= 2, "{named} named, {none} none, {cut} cut");
+    assert!(named >= 4, "{named} named, {none} none, {cut} cut");
 }
 
 #[test]
@@ -122,6 +116,6 @@ fn on_the_clinic_side_walking_that_gets_harder_turns_the_way_through_the_corrido
         "{}",
         answer.sentence
     );
-    assert!(answer.sentence.contains(" rose to "), "{}", answer.sentence);
+    assert!(!answer.not_looked_further && answer.sentence.contains(" rose to "), "{}", answer.sentence);
     assert!(turns(&mut live, &answer), "{}", answer.sentence);
 }

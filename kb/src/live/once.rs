@@ -56,7 +56,7 @@ impl KnowledgeBase {
     ) -> Result<(Memory, Report)> {
         let (site, again) = (self.site(), self.reseed);
         let seed = if site.has_map() { Some(RobotFile::read(&site.robots)?) } else { None };
-        let tables = tables::read(site)?;
+        let tables = tables::read(&site.tables())?;
         store.transaction(|tx| {
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();

@@ -7,7 +7,6 @@ use adit_db::{Cell, Tx};
 use miette::NamedSource;
 
 use crate::error::{Code, Error, Finding, Result};
-use crate::site::Site;
 
 /// A table of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,9 +20,9 @@ pub struct TableFile {
     rows: Vec<Vec<Cell>>,
 }
 
-/// The files of tables that a site has, by name.
-pub fn files(site: &Site) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(site.tables()).into_iter().flatten().flatten();
+/// The files of tables in a site's folder of tables, by name.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let is_table = |path: &PathBuf| path.extension().is_some_and(|extension| extension == "csv");
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(is_table).collect();
     files.sort();
@@ -31,8 +30,8 @@ pub fn files(site: &Site) -> Vec<PathBuf> {
 }
 
 /// Reads all of them.
-pub fn read(site: &Site) -> Result<Vec<TableFile>> {
-    files(site).iter().map(|path| TableFile::read(path)).collect()
+pub fn read(folder: &Path) -> Result<Vec<TableFile>> {
+    files(folder).iter().map(|path| TableFile::read(path)).collect()
 }
 
 impl TableFile {
