@@ -99,7 +99,7 @@ impl State {
         let easier = states.iter().filter(|(other, least)| other != of && *least < per_m);
         let hindered = easier.filter_map(|(other, _)| self.hindered(other, &driven));
         let hindered: Vec<Hindered> = hindered.filter(|one| one.kind != Kind::Change).collect();
-        let said = hindered::sentence(&hindered, &self.gauge, &of.0);
+        let said = hindered::sentence(&hindered);
         (hindered, (!said.is_empty()).then_some(said))
     }
 

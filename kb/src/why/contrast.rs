@@ -11,19 +11,22 @@
 //! Each rule may use a number as it likes; whether weights are linear in it is looked at, piece by piece, between the values
 //! that other rows of its column have. Where they are not, values are tried and halved, and [`Found::is_exact`] is false.
 
+mod end;
 mod levers;
 mod linear;
 mod others;
 mod path;
 mod probe;
 pub mod same_way;
+mod straight;
 pub mod through;
 mod turn;
 pub mod without;
 mod words;
 
+pub use end::{Contrast, End, Found, Look, Side, Takeover, least};
 pub use others::{Beside, Choice, Ways, is_best};
 pub use path::{Path, Routes};
 pub use probe::{Lever, Probe, Prober, Weights};
-pub use turn::{Contrast, Course, End, Found, Look, Side, Takeover, Turn, least};
+pub use turn::{Course, Turn};
 pub use words::{actions, instead};

@@ -6,7 +6,6 @@ use adit_planners::geometry::{Point, Segment};
 use adit_planners::routes::{RoomIndex, Walking};
 use serde::Serialize;
 
-use crate::graph::gauge::Gauge;
 use crate::graph::{SiteGraph, is_weighed};
 use crate::state::State;
 use crate::why::said::listed;
@@ -29,7 +28,7 @@ pub enum Kind {
     Shut,
     /// It is no easier there.
     Harder,
-    /// It fits; but to change into it and back costs more than it saves.
+    /// It fits; but a change into it and back saves nothing.
     Change,
 }
 
@@ -140,7 +139,7 @@ pub(super) fn by_ease(graph: &SiteGraph, robot: &str) -> Vec<((String, String), 
 }
 
 /// What keeps states out, in one sentence: states that the same thing keeps out stand together.
-pub(super) fn sentence(hindered: &[Hindered], gauge: &Gauge, robot: &str) -> String {
+pub(super) fn sentence(hindered: &[Hindered]) -> String {
     let mut parts: Vec<String> = Vec::new();
     let mut said = vec![false; hindered.len()];
     for (index, one) in hindered.iter().enumerate() {
@@ -156,12 +155,12 @@ pub(super) fn sentence(hindered: &[Hindered], gauge: &Gauge, robot: &str) -> Str
         };
         let alike: Vec<&Hindered> = hindered.iter().filter(|other| is_same(other)).collect();
         said.iter_mut().zip(hindered).for_each(|(said, other)| *said |= is_same(other));
-        parts.push(part(one, &alike, gauge, robot));
+        parts.push(part(one, &alike));
     }
     parts.join("; ")
 }
 
-fn part(one: &Hindered, alike: &[&Hindered], gauge: &Gauge, robot: &str) -> String {
+fn part(one: &Hindered, alike: &[&Hindered]) -> String {
     let at = format!("({:.1}, {:.1})", one.x, one.y);
     let leaves = one.leaves.map(number).unwrap_or_default();
     let each = |words: &dyn Fn(&Hindered) -> String| -> String {
@@ -172,12 +171,14 @@ fn part(one: &Hindered, alike: &[&Hindered], gauge: &Gauge, robot: &str) -> Stri
     let in_area = one.area.as_ref().map_or_else(String::new, |area| format!(" in {area}"));
     match one.kind {
         Kind::Low => {
-            let high = |one: &Hindered| {
-                let of = (robot.to_owned(), one.state.clone());
-                let height = gauge.size(&of).map_or(0.0, |size| size.height);
-                format!("{} is {} m high", one.state, number(height))
+            let heights: Vec<String> =
+                alike.iter().map(|one| number(one.needs.unwrap_or_default())).collect();
+            let high = if heights.iter().all(|height| *height == heights[0]) {
+                format!("{names} {} {} m high", is("is", "are"), heights[0])
+            } else {
+                each(&|one| format!("{} is {} m high", one.state, number(one.needs.unwrap_or_default())))
             };
-            format!("what it passes under at {at} leaves {leaves} m, and {}", each(&high))
+            format!("what it passes under at {at} leaves {leaves} m, and {high}")
         }
         Kind::Narrow => {
             let needs =
@@ -198,7 +199,7 @@ fn part(one: &Hindered, alike: &[&Hindered], gauge: &Gauge, robot: &str) -> Stri
             number(one.needs.unwrap_or_default())
         ),
         Kind::Change => {
-            format!("{names} {} there, too, but to change shape costs more than it saves", is("fits", "fit"))
+            format!("{names} {} there, too, but changing shape for it gains nothing", is("fits", "fit"))
         }
     }
 }

@@ -3,32 +3,29 @@
 //!
 //! The words are put together from the answer, and the answer is made of them: a circle that stays.
 
+mod parts;
 mod words;
 
 use std::time::{Duration, Instant};
 
 use adit_engine::Value;
 use adit_planners::geometry::{Point, Segment};
-use adit_planners::routes::{DoorIndex, RoomIndex, Walking};
+use adit_planners::routes::DoorIndex;
 use serde::Serialize;
 
 use super::contrast::without::Without;
 use super::contrast::{Beside, Choice, Lever, Prober, Routes, Side, Turn, is_best};
-use super::hindered::{Driven, Hindered, by_ease};
-use super::meant::Meant;
+use super::hindered::{Driven, Hindered};
 use crate::answer;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::state::State;
-use crate::why::contrast::through::Via;
 use crate::why::why_not::failures;
+use parts::{Ease, Manner, Part, is_at, parts, spaces_of};
 
 /// How long is looked for the value up to which a choice holds.
 const PATIENCE: Duration = Duration::from_secs(10);
-
-/// A stretch that is shorter is none, metres.
-const SHORT_M: f64 = 1e-6;
 
 /// Why a route does what it does.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -108,26 +105,6 @@ pub struct Holds {
     pub exact: bool,
 }
 
-/// What is done on a stretch: in a state, or by an action.
-#[derive(Clone, Debug, PartialEq)]
-enum Manner {
-    State((String, String)),
-    Action(String),
-}
-
-/// A stretch as it is found on a way.
-struct Part {
-    manner: Manner,
-    action: String,
-    spaces: Vec<String>,
-    legs: Vec<Segment>,
-    cost: f64,
-    /// What a metre of it weighs at most.
-    per_m: f64,
-    doors: Vec<DoorIndex>,
-    rooms: Vec<RoomIndex>,
-}
-
 impl Live {
     /// Why the best route from `start` to `goal` does what it does.
     ///
@@ -180,7 +157,7 @@ impl State {
             if !manners.contains(&part.manner) {
                 manners.push(part.manner.clone());
             }
-            let mut stretch = part.stretch();
+            let mut stretch = Stretch::of(part);
             match &part.manner {
                 Manner::State(of) => {
                     let driven = Driven { legs: &part.legs, per_m: part.per_m };
@@ -207,14 +184,14 @@ impl State {
         let mut holds = Vec::new();
         for (manner, others, other) in &contrasts {
             let is_dearer = other.as_ref().is_some_and(|other| !is_best(best.tight.cost, other.tight.cost));
-            let found = if is_dearer { manner.holds(&mut prober, &routes, others)? } else { None };
+            let found = if is_dearer { Holds::of(manner, &mut prober, &routes, others)? } else { None };
             holds.push(found);
         }
         for (stretch, part) in answer.stretches.iter_mut().zip(&asked) {
             let Some(place) = manners.iter().position(|manner| *manner == part.manner) else { continue };
             (stretch.without, stretch.holds) = (said[place].clone(), holds[place].clone());
         }
-        answer.sentences = words::sentences(&answer, &prober.fork, meant.as_ref());
+        answer.sentences = words::sentences(&answer, meant.as_ref());
         Ok(answer)
     }
 
@@ -230,71 +207,19 @@ impl State {
     }
 }
 
-/// How easy what a robot does is.
-struct Ease {
-    /// By state, the easiest first.
-    states: Vec<((String, String), f64)>,
-    /// What is done in the state that the tables say is easiest.
-    action: Option<String>,
-}
-
-impl Ease {
-    fn of(fork: &State, robot: &str) -> Self {
-        let knowledge = &fork.knowledge;
-        let texts = |property| knowledge.texts("ROBOTS", property).unwrap_or_default();
-        let (robots, actions) = (texts("robot"), texts("action"));
-        let hardness = knowledge.numbers("ROBOTS", "hardness").unwrap_or_default();
-        let rows = (0..robots.len()).filter(|&row| robots[row].as_deref() == Some(robot));
-        let weighed = rows.filter_map(|row| Some((hardness.get(row).copied()??, actions.get(row)?.clone()?)));
-        let action = weighed.min_by(|one, two| one.0.total_cmp(&two.0)).map(|(_, action)| action.to_string());
-        Self { states: by_ease(fork.graph(), robot), action }
-    }
-
-    fn easiest(&self, fork: &State) -> Option<String> {
-        let of = self.states.first().map(|(of, _)| of);
-        let room = of.and_then(|of| fork.graph().rooms.iter().find(|room| room.layer.as_ref() == Some(of)));
-        room.and_then(|room| room.action.value.clone()).or_else(|| self.action.clone())
-    }
-
-    fn is_easiest(&self, manner: &Manner) -> bool {
-        match manner {
-            Manner::State(of) => self.states.first().is_none_or(|(easiest, _)| easiest == of),
-            Manner::Action(action) => self.action.as_ref().is_none_or(|easiest| easiest == action),
-        }
-    }
-
-    /// The states of which a metre weighs less somewhere than so much.
-    fn easier_than(&self, of: &(String, String), per_m: f64) -> Vec<&(String, String)> {
-        let easier = self.states.iter().filter(|(other, least)| other != of && *least < per_m);
-        easier.map(|(other, _)| other).collect()
-    }
-}
-
-impl Manner {
-    /// The rooms and doors in which this is done.
-    fn without(&self, graph: &SiteGraph) -> (Vec<RoomIndex>, Vec<DoorIndex>) {
-        match self {
-            Self::State(of) => {
-                let is_own = |room: &RoomIndex| graph[*room].layer.as_ref() == Some(of);
-                (graph.graph().room_indices().filter(is_own).collect(), Vec::new())
-            }
-            Self::Action(action) => {
-                let is_own = |door: &DoorIndex| graph[*door].action.value.as_ref() == Some(action);
-                (Vec::new(), graph.graph().door_indices().filter(is_own).collect())
-            }
-        }
-    }
-
+impl Holds {
     /// Up to where the cells of its own row hold the choice.
-    fn holds(&self, prober: &mut Prober, routes: &Routes, others: &Without) -> Result<Option<Holds>> {
-        let is_own = |lever: &Lever, fork: &State| match self {
-            Self::State((robot, state)) => lever.class == "ROBOTS" && lever.key == format!("{robot}/{state}"),
-            Self::Action(action) => {
+    fn of(manner: &Manner, prober: &mut Prober, routes: &Routes, others: &Without) -> Result<Option<Self>> {
+        let is_own = |lever: &Lever, fork: &State| match manner {
+            Manner::State((robot, state)) => {
+                lever.class == "ROBOTS" && lever.key == format!("{robot}/{state}")
+            }
+            Manner::Action(action) => {
                 lever.class == "ROBOTS"
                     && matches!(fork.knowledge.value_at("ROBOTS", lever.row, "action"), Some(Value::Text(of)) if *of == **action)
             }
         };
-        let beside = Beside { all: routes, others };
+        let beside = Beside::new(routes, others);
         let levers = prober.levers_in("ROBOTS")?;
         let deadline = Instant::now() + PATIENCE;
         for lever in levers.iter().filter(|lever| is_own(lever, &prober.fork)).cloned().collect::<Vec<_>>() {
@@ -307,27 +232,27 @@ impl Manner {
             if low.is_some() || high.is_some() {
                 let (table, key, column) =
                     (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());
-                return Ok(Some(Holds { table, key, column, value: lever.value, low, high, exact }));
+                return Ok(Some(Self { table, key, column, value: lever.value, low, high, exact }));
             }
         }
         Ok(None)
     }
 }
 
-impl Part {
-    fn stretch(&self) -> Stretch {
+impl Stretch {
+    fn of(part: &Part) -> Self {
         let end = |p: Option<Point>| p.map_or([0.0; 2], |p| [p.x, p.y]);
-        Stretch {
-            state: match &self.manner {
+        Self {
+            state: match &part.manner {
                 Manner::State((_, state)) => Some(state.clone()),
                 Manner::Action(_) => None,
             },
-            action: self.action.clone(),
-            spaces: self.spaces.clone(),
-            from: end(self.legs.first().map(|leg| leg.a)),
-            to: end(self.legs.last().map(|leg| leg.b)),
-            metres: self.legs.iter().map(Segment::length).sum(),
-            cost: self.cost,
+            action: part.action.clone(),
+            spaces: part.spaces.clone(),
+            from: end(part.legs.first().map(|leg| leg.a)),
+            to: end(part.legs.last().map(|leg| leg.b)),
+            metres: part.legs.iter().map(Segment::length).sum(),
+            cost: part.cost,
             hindered: Vec::new(),
             failed: Vec::new(),
             without: None,
@@ -343,73 +268,5 @@ impl Other {
         let mut by = spaces_of(graph, other);
         by.retain(|space| !passed.contains(space));
         Self { cost, more: cost - than, by }
-    }
-}
-
-/// The spaces that a way leads through, each once, in their order.
-pub(super) fn spaces_of(graph: &SiteGraph, way: &Choice) -> Vec<String> {
-    let mut spaces: Vec<String> = Vec::new();
-    for leg in &way.driven.legs {
-        let space = graph[leg.room].space.filter(|_| leg.length() > SHORT_M);
-        if let Some(space) = space.and_then(|space| graph.building.space(space))
-            && !spaces.contains(&space)
-        {
-            spaces.push(space);
-        }
-    }
-    spaces
-}
-
-/// The stretches of a way: by state, or where all hardness lies on the doors door by door.
-fn parts(graph: &SiteGraph, way: &Choice, is_on_doors: bool) -> Vec<Part> {
-    let mut parts: Vec<Part> = Vec::new();
-    for leg in &way.driven.legs {
-        let room = &graph[leg.room];
-        let space = room.space.and_then(|space| graph.building.space(space));
-        let (manner, action, cost) = if is_on_doors {
-            let Some(door) = leg.door else { continue };
-            let Some(action) = graph[door].action.value.clone() else { continue };
-            (Manner::Action(action.clone()), action, graph[door].hardness.value.unwrap_or_default())
-        } else {
-            let Some(layer) = room.layer.clone() else { continue };
-            (Manner::State(layer), room.action.value.clone().unwrap_or_default(), leg.hardness)
-        };
-        if parts.last().is_none_or(|part| part.manner != manner) {
-            let (spaces, legs, doors, rooms) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-            parts.push(Part { manner, action, spaces, legs, cost: 0.0, per_m: 0.0, doors, rooms });
-        }
-        let Some(part) = parts.last_mut() else { continue };
-        part.cost += cost;
-        part.doors.extend(leg.door.filter(|_| is_on_doors));
-        part.rooms.push(leg.room);
-        part.legs.push(Segment::new(leg.from, leg.to));
-        if let Walking::PerMetre(per_m) = graph.graph()[leg.room].walking
-            && leg.length() > SHORT_M
-        {
-            part.per_m = part.per_m.max(per_m);
-        }
-        if let Some(space) = space.filter(|space| part.spaces.last() != Some(space))
-            && (leg.length() > SHORT_M || is_on_doors)
-        {
-            part.spaces.push(space);
-        }
-    }
-    parts.retain(|part| is_on_doors || part.legs.iter().map(Segment::length).sum::<f64>() > SHORT_M);
-    parts
-}
-
-/// Whether a stretch leads through what is meant; of a point, whether it lies in one of its rooms' spaces.
-fn is_at(graph: &SiteGraph, meant: &Meant, part: &Part) -> bool {
-    match &meant.via {
-        Via::Rooms(rooms) => part.rooms.iter().any(|room| rooms.contains(room)),
-        Via::Doors(doors) => {
-            let sides = doors.iter().flat_map(|&door| [graph.graph()[door].room1, graph.graph()[door].room2]);
-            let is_own = part.doors.iter().any(|door| doors.contains(door));
-            is_own || sides.into_iter().any(|room| part.rooms.contains(&room))
-        }
-        Via::Point(_, entries) => {
-            let spaces: Vec<Option<i64>> = entries.iter().map(|entry| graph[entry.room].space).collect();
-            part.rooms.iter().any(|&room| spaces.contains(&graph[room].space))
-        }
     }
 }

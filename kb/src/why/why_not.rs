@@ -186,7 +186,7 @@ impl WhyNot {
 fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<(Option<WouldWin>, bool)> {
     let deadline = Instant::now() + PATIENCE;
     let levers = prober.levers()?;
-    let beside = Beside { all: routes, others };
+    let beside = Beside::new(routes, others);
     let mut turn = Turn::new(prober, &beside, deadline);
     let mut guessed = Vec::new();
     for lever in levers {
@@ -206,7 +206,8 @@ fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<
                     continue;
                 }
                 let side = turn.end(course, side, least)?;
-                is_cut |= !side.is_whole;
+                // between values that were tried there may be one that would do
+                is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
                 let Some((wins_at, cost)) = side.end.and_then(|end| end.way()) else { continue };
                 let share = (wins_at - lever.value).abs() / lever.scale();
                 if least.is_none_or(|least| share < least) {

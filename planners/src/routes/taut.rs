@@ -7,7 +7,7 @@
 //! either state: there the search goes on from points of the segment, and [`super::pull`] slides them afterwards.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View};
 use super::graph::RouteGraph;
@@ -69,6 +69,8 @@ pub(super) struct Outcome {
     pub goals: Vec<Vec<Found>>,
     /// For each room the least-cost way to its nearest point, where that was asked for.
     pub rooms: Vec<Option<Found>>,
+    /// Nodes that were not gone on from, since others come to their rooms at a little less cost before ways are pulled tight.
+    pub passed_over: Vec<u32>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -165,8 +167,12 @@ impl<'g> Search<'g> {
         let rooms = graph.rooms().len();
         let kept = if wanted == Wanted::Rooms { rooms } else { 0 };
         let turning = graph.turning();
-        let outcome =
-            Outcome { nodes: Vec::new(), goals: vec![Vec::new(); goals.len()], rooms: vec![None; kept] };
+        let outcome = Outcome {
+            nodes: Vec::new(),
+            goals: vec![Vec::new(); goals.len()],
+            rooms: vec![None; kept],
+            passed_over: Vec::new(),
+        };
         Self {
             graph,
             turning,
@@ -256,6 +262,7 @@ impl<'g> Search<'g> {
     fn expand(&mut self, index: u32) {
         let node = self.nodes[index as usize];
         if self.is_superfluous(&node) {
+            self.outcome.passed_over.push(index);
             return;
         }
         let side = match node.view {
@@ -265,11 +272,13 @@ impl<'g> Search<'g> {
         };
         let (x, y) = (node.root.x.to_bits(), node.root.y.to_bits());
         if side.is_some_and(|side| !self.looked.insert((node.room, x, y, side))) {
+            self.outcome.passed_over.push(index);
             return;
         }
         let end = if node.bent { self.end_at(&node) } else { NONE };
         if end != NONE {
             if self.bent[end as usize] < node.cost - EPSILON {
+                self.outcome.passed_over.push(index);
                 return;
             }
             self.bent[end as usize] = node.cost;
@@ -402,9 +411,13 @@ impl<'g> Search<'g> {
                 continue;
             }
             let cost = node.cost + per_m * node.root.distance(root);
+            let view = View::Side { from: node.root, left };
+            let bent = Node { root, cost, before: index, bent: true, view, ..*node };
             if cost <= self.bent[end as usize] + EPSILON {
-                let view = View::Side { from: node.root, left };
-                self.push(Node { root, cost, before: index, bent: true, view, ..*node });
+                self.push(bent);
+            } else if cost <= self.bent[end as usize] + self.graph.saved_by_arcs() {
+                self.outcome.passed_over.push(self.nodes.len() as u32);
+                self.nodes.push(bent);
             }
         }
     }
@@ -585,6 +598,56 @@ impl<'g> Search<'g> {
                 }
             }
         }
+    }
+}
+
+impl Outcome {
+    /// Where a way that was found may come to one of its rooms otherwise: a node of its own, and the one that was passed over.
+    /// What arcs about corners save is not known before ways are pulled tight, so one that lagged behind by no more may be better.
+    pub fn otherwise(&self, graph: &RouteGraph, found: &Found) -> Vec<(u32, u32)> {
+        let saved = graph.saved_by_arcs();
+        // the rooms of the way, with their nodes and where each is left
+        let mut own: BTreeMap<RoomIndex, (u32, Point)> = BTreeMap::new();
+        let (mut index, mut to) = (found.node, found.at);
+        while index != NO_NODE {
+            let node = &self.nodes[index as usize];
+            own.entry(node.room).or_insert((index, to));
+            let door = self.crossing_of(graph, node);
+            to = door.map_or(node.root, |door| door.passed_at(node.root, to));
+            index = node.before;
+        }
+        // of those that come from one bend, the one that lags least
+        let mut others: BTreeMap<(u64, u64), (f64, u32, u32)> = BTreeMap::new();
+        for &other in &self.passed_over {
+            let node = &self.nodes[other as usize];
+            let Some(&(index, to)) = own.get(&node.room) else { continue };
+            let mine = &self.nodes[index as usize];
+            if mine.bend() == node.bend() {
+                continue;
+            }
+            let cost = |node: &Node| node.cost + node.root.distance(to) * graph.per_m(node.room);
+            let lag = cost(node) - cost(mine);
+            let known = others.entry(node.bend()).or_insert((f64::INFINITY, index, other));
+            if lag < known.0 {
+                *known = (lag, index, other);
+            }
+        }
+        others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
+    }
+
+    fn crossing_of(&self, graph: &RouteGraph, node: &Node) -> Option<Segment> {
+        if node.door == DoorIndex::end() { None } else { graph[node.door].crossing.segment() }
+    }
+}
+
+impl Node {
+    /// Where it was bent last before it came to its root, or came to it.
+    fn bend(&self) -> (u64, u64) {
+        let at = match self.view {
+            View::Side { from, .. } if self.bent => from,
+            _ => self.root,
+        };
+        (at.x.to_bits(), at.y.to_bits())
     }
 }
 

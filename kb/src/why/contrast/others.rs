@@ -1,5 +1,7 @@
 //! All ways, beside some that speak against the best.
 
+use std::cell::RefCell;
+
 use adit_planners::routes::{Goal, RouteGraph, Start, Way};
 
 use super::{Contrast, Look, Path, Routes, Weights};
@@ -15,20 +17,42 @@ pub trait Ways {
 
 /// All ways hold, until one of the others is as good.
 pub struct Beside<'c> {
-    pub all: &'c Routes,
-    pub others: &'c dyn Ways,
+    all: &'c Routes,
+    others: &'c dyn Ways,
+    /// Ways that were the best somewhere, and are none of the others.
+    known: RefCell<Vec<Path>>,
+}
+
+impl<'c> Beside<'c> {
+    pub fn new(all: &'c Routes, others: &'c dyn Ways) -> Self {
+        Self { all, others, known: RefCell::default() }
+    }
+
+    /// The one that costs least of the ways that are known.
+    fn known(&self, weights: &Weights) -> Option<(Path, f64)> {
+        let known = self.known.borrow();
+        let costs = known.iter().map(|path| (path, path.cost(weights)));
+        let least = costs.min_by(|(_, one), (_, two)| one.total_cmp(two));
+        least.map(|(path, cost)| (path.clone(), cost))
+    }
 }
 
 impl Contrast for Beside<'_> {
     fn look(&self, weights: &Weights) -> Option<Look> {
+        let rival = self.rival(weights);
+        let is_won = |own: f64| rival.as_ref().is_some_and(|(_, rival)| self.is_turned(own, *rival));
+        // where the others lose against a way that is known already, they lose against the best one
+        if let Some((own, cost)) = self.known(weights).filter(|(_, cost)| !is_won(*cost)) {
+            return Some(Look { own: Some((own, cost)), rival, is_turned: false });
+        }
         let own = self.all.best(weights)?;
         let cost = own.cost(weights);
         if self.others.holds(&own) {
             let both = Some((own, cost));
             return Some(Look { own: both.clone(), rival: both, is_turned: true });
         }
-        let rival = self.rival(weights);
-        let is_turned = rival.as_ref().is_some_and(|(_, rival)| self.is_turned(cost, *rival));
+        self.known.borrow_mut().push(own.clone());
+        let is_turned = is_won(cost);
         Some(Look { own: Some((own, cost)), rival, is_turned })
     }
 
@@ -52,8 +76,7 @@ pub struct Choice {
 
 impl Choice {
     pub fn of(graph: &RouteGraph, start: &Start, goal: &Goal) -> Option<Self> {
-        let goals = std::slice::from_ref(goal);
-        let ((_, tight), (_, driven)) = (graph.tightest_way(start, goals)?, graph.way(start, goals)?);
+        let [tight, driven] = graph.tightest_way_and_way(start, goal)?;
         Some(Self { tight, driven })
     }
 

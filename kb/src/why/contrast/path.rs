@@ -82,6 +82,8 @@ enum Searched {
 struct Measured {
     graph: RouteGraph,
     now: Weights,
+    /// The first question with its answer: how it is at present, which is asked again.
+    first: Option<(Weights, Option<Path>)>,
 }
 
 impl Routes {
@@ -98,7 +100,7 @@ impl Routes {
         let searched = match CompactGraph::new(graph) {
             Some(compact) => Searched::OnDoors(RefCell::new(compact)),
             None => {
-                let measured = Measured { graph: graph.clone(), now: Weights::of(graph) };
+                let measured = Measured { graph: graph.clone(), now: Weights::of(graph), first: None };
                 Searched::Measured(Box::new(RefCell::new(measured)))
             }
         };
@@ -133,9 +135,14 @@ impl Routes {
             }
             Searched::Measured(measured) => {
                 let mut measured = measured.borrow_mut();
+                if let Some((_, path)) = measured.first.as_ref().filter(|(of, _)| of == weights) {
+                    return path.clone();
+                }
                 let graph = measured.weighed(weights);
                 let way = graph.tightest_way(&self.start, std::slice::from_ref(&self.goal));
-                way.map(|(_, way)| Path::of(&way))
+                let path = way.map(|(_, way)| Path::of(&way));
+                measured.first.get_or_insert_with(|| (weights.clone(), path.clone()));
+                path
             }
         }
     }

@@ -3,13 +3,11 @@
 use std::rc::Rc;
 use std::time::Instant;
 
+use super::end::LARGEST;
 use super::linear::Line;
-use super::probe::Probe;
-use super::{Lever, Path, Prober, Weights};
+use super::straight::{At, Straight, crossing, is_inside};
+use super::{Contrast, End, Found, Lever, Look, Path, Probe, Prober, Side, Takeover, Weights, least};
 use crate::error::Result;
-
-/// Values beyond this are not looked at: there is no end.
-const LARGEST: f64 = 1e6;
 
 /// Values that are tried in a piece where weights are not linear.
 const TRIED: usize = 8;
@@ -26,96 +24,6 @@ const LAST: f64 = 1e-4;
 /// So often the first value is guessed from ways that took over elsewhere.
 const GUESSES: usize = 4;
 
-/// Two sets of ways: those that hold, and those that speak against them.
-pub trait Contrast {
-    /// The best of both at some weights; `None` where there is nothing to compare.
-    fn look(&self, weights: &Weights) -> Option<Look>;
-
-    /// The best of the others, and what it costs.
-    fn rival(&self, weights: &Weights) -> Option<(Path, f64)>;
-
-    /// Whether the others have won where the ways that hold cost so much, and the others so much.
-    fn is_turned(&self, own: f64, rival: f64) -> bool;
-}
-
-/// The best of both sets of ways at some weights.
-#[derive(Clone, Debug)]
-pub struct Look {
-    /// The best way of those that hold, and what it costs.
-    pub own: Option<(Path, f64)>,
-    /// The best of the others.
-    pub rival: Option<(Path, f64)>,
-    /// Whether the others have won.
-    pub is_turned: bool,
-}
-
-/// What takes over.
-#[derive(Clone, Debug)]
-pub enum Takeover {
-    /// Another way, with what it costs at the end.
-    Way(Path, f64),
-    /// Rooms and doors are cut anew.
-    CutAnew,
-    /// Rules give no hardness that counts.
-    Refused,
-    NoWay,
-}
-
-/// The value up to which ways hold.
-#[derive(Clone, Debug)]
-pub struct End {
-    pub at: f64,
-    /// Whether they still hold there.
-    pub is_closed: bool,
-    pub beyond: Takeover,
-}
-
-impl End {
-    /// Where another way takes over, and what it costs there.
-    pub fn way(&self) -> Option<(f64, f64)> {
-        match &self.beyond {
-            Takeover::Way(_, cost) => Some((self.at, *cost)),
-            _ => None,
-        }
-    }
-}
-
-/// To which side of the present value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    Below,
-    Above,
-}
-
-impl Side {
-    /// The last value on it, or as far as is looked.
-    fn limit(self, lever: &Lever, within: Option<f64>) -> f64 {
-        let reach = within.map_or(f64::INFINITY, |share| share * lever.scale());
-        match self {
-            Self::Below => (lever.value - reach).max(least(lever)),
-            Self::Above => (lever.value + reach).min(LARGEST.max(lever.value * 2.0)),
-        }
-    }
-}
-
-/// What one side of a cell showed.
-#[derive(Clone, Debug)]
-pub struct Found {
-    /// `None`: there is none, as far as is known.
-    pub end: Option<End>,
-    /// Whether it is exact but for rounding.
-    pub is_exact: bool,
-    /// Whether all values were looked at, or all up to the end.
-    pub is_whole: bool,
-}
-
-impl Found {
-    /// That there is no end.
-    pub fn nothing() -> Self {
-        Self { end: None, is_exact: true, is_whole: true }
-    }
-}
-
 /// What the values of a cell make of all weights.
 pub struct Course {
     pub lever: Lever,
@@ -123,13 +31,6 @@ pub struct Course {
     lines: [Option<Line>; 2],
     /// Whether any value weighs something otherwise.
     pub weighs: bool,
-}
-
-/// A look at a value.
-#[derive(Clone)]
-struct At {
-    value: f64,
-    look: Look,
 }
 
 /// What a piece of the range showed.
@@ -311,7 +212,7 @@ impl<'t> Turn<'t> {
         for value in values {
             match self.probe(lever, value)? {
                 Probe::Weighs(found) => weights.push(found),
-                probe => other = other.or(takeover_of(&probe)),
+                probe => other = other.or(Takeover::of(&probe)),
             }
         }
         if let (true, Some(beyond)) = (weights.is_empty(), other) {
@@ -345,7 +246,7 @@ impl<'t> Turn<'t> {
     fn beyond(&mut self, lever: &Lever, value: f64) -> Result<Option<Takeover>> {
         let weights = match self.probe(lever, value)? {
             Probe::Weighs(weights) => weights,
-            probe => return Ok(takeover_of(&probe)),
+            probe => return Ok(Takeover::of(&probe)),
         };
         if weights == *self.prober.present {
             return Ok(None);
@@ -511,66 +412,4 @@ impl<'t> Turn<'t> {
         }
         Ok(Piece::Nothing)
     }
-}
-
-impl Look {
-    /// What has taken over, if anything has.
-    fn takeover(self) -> Option<Takeover> {
-        self.is_turned.then(|| match self.rival {
-            Some((path, cost)) => Takeover::Way(path, cost),
-            None => Takeover::NoWay,
-        })
-    }
-}
-
-/// What a way costs between two values of a cell in which weights are linear.
-struct Straight {
-    from: f64,
-    to: f64,
-}
-
-impl Straight {
-    fn of(line: &Line, path: &Path, near: &At, far: &At) -> Option<Self> {
-        let cost =
-            |at: &At| line.at(at.value).map(|weights| path.cost(&weights)).filter(|cost| cost.is_finite());
-        Some(Self { from: cost(near)?, to: cost(far)? })
-    }
-
-    fn at(&self, share: f64) -> f64 {
-        self.from + (self.to - self.from) * share
-    }
-
-    /// At which share of both they cost the same.
-    fn meets(&self, other: &Self) -> Option<f64> {
-        let (begins, ends) = (self.from - other.from, self.to - other.to);
-        let share = begins / (begins - ends);
-        share.is_finite().then_some(share)
-    }
-}
-
-/// Where the way that holds at the one value comes to cost what the one costs that wins at the other; with that and its cost.
-fn crossing(line: &Line, near: &At, far: &At) -> Option<(f64, Path, f64)> {
-    let ((own, _), (rival, _)) = (near.look.own.as_ref()?, far.look.rival.as_ref()?);
-    let (one, two) = (Straight::of(line, own, near, far)?, Straight::of(line, rival, near, far)?);
-    let share = one.meets(&two)?.clamp(0.0, 1.0);
-    Some((near.value + (far.value - near.value) * share, rival.clone(), two.at(share)))
-}
-
-/// Whether a value is another one than two about it.
-fn is_inside(value: f64, near: &At, far: &At) -> bool {
-    let is_other = |at: &At| (value - at.value).abs() > 1e-9 * value.abs().max(1e-6);
-    is_other(near) && is_other(far)
-}
-
-fn takeover_of(probe: &Probe) -> Option<Takeover> {
-    match probe {
-        Probe::Weighs(_) => None,
-        Probe::CutAnew => Some(Takeover::CutAnew),
-        Probe::Refused => Some(Takeover::Refused),
-    }
-}
-
-/// The least value that a cell may have.
-pub fn least(lever: &Lever) -> f64 {
-    if lever.value < 0.0 { -LARGEST } else { 0.0 }
 }

@@ -1,16 +1,15 @@
 //! Why a route does what it does, in the building's words.
 
 use super::{Holds, Stretch, WhyWay};
-use crate::state::State;
 use crate::why::hindered::sentence;
 use crate::why::meant::Meant;
 use crate::why::said::{capital, cell, listed, roughly};
 use crate::words::number::number;
 
 /// A paragraph a stretch; one sentence where nothing is done but what is easiest.
-pub fn sentences(answer: &WhyWay, fork: &State, at: Option<&Meant>) -> Vec<String> {
+pub fn sentences(answer: &WhyWay, at: Option<&Meant>) -> Vec<String> {
     if !answer.stretches.is_empty() {
-        return answer.stretches.iter().map(|stretch| paragraph(stretch, &answer.robot, fork)).collect();
+        return answer.stretches.iter().map(|stretch| paragraph(stretch, &answer.robot)).collect();
     }
     let place = at.map_or_else(|| "all along".to_owned(), Meant::words);
     let easiest = answer.easiest.as_ref().map_or_else(
@@ -20,7 +19,7 @@ pub fn sentences(answer: &WhyWay, fork: &State, at: Option<&Meant>) -> Vec<Strin
     vec![format!("From {} to {} {easiest}.", answer.start, answer.goal)]
 }
 
-fn paragraph(stretch: &Stretch, robot: &str, fork: &State) -> String {
+fn paragraph(stretch: &Stretch, robot: &str) -> String {
     let action = stretch.action.to_lowercase();
     let name = stretch.state.clone().unwrap_or_else(|| stretch.action.clone());
     let place =
@@ -28,7 +27,7 @@ fn paragraph(stretch: &Stretch, robot: &str, fork: &State) -> String {
     let [[x0, y0], [x1, y1]] = [stretch.from, stretch.to];
     let stretch_words = format!("{action}{place}, from ({x0:.1}, {y0:.1}) to ({x1:.1}, {y1:.1})");
     let mut said = capital(&stretch_words);
-    let why = sentence(&stretch.hindered, &fork.gauge, robot);
+    let why = sentence(&stretch.hindered);
     if !why.is_empty() {
         said.push_str(": ");
         said.push_str(&why);

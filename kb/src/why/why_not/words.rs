@@ -147,9 +147,9 @@ pub(super) fn sentence(answer: &WhyNot, meant: &Meant) -> String {
             write!(said, " It would be the best way if {name} {verb} to {to} (it is {is}).").ok();
         }
         None if answer.not_looked_further => said.push_str(
-            " No number of the tables that was looked at makes it the best way; not all were, to the end.",
+            " No number of the tables that was looked at makes it the best way; not all were looked at to the end.",
         ),
-        None => said.push_str(" No single number of the tables makes it the best way."),
+        None => said.push_str(" No single number of the tables that says how hard something is makes it the best way."),
     }
     said
 }
