@@ -117,6 +117,6 @@ fn between(one: &Segment, other: &Segment) -> Segment {
     let least = feet.iter().map(Segment::length).fold(f64::INFINITY, f64::min);
     let mut shortest = feet.into_iter().filter(|foot| foot.length() <= least + ROUNDING_M);
     let Some(first) = shortest.next() else { return feet[0] };
-    let last = shortest.last().unwrap_or(first);
+    let last = shortest.next_back().unwrap_or(first);
     Segment::new(first.a.midpoint(last.a), first.b.midpoint(last.b))
 }

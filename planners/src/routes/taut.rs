@@ -612,7 +612,7 @@ impl Outcome {
         while index != NO_NODE {
             let node = &self.nodes[index as usize];
             own.entry(node.room).or_insert((index, to));
-            let door = self.crossing_of(graph, node);
+            let door = crossing_of(graph, node);
             to = door.map_or(node.root, |door| door.passed_at(node.root, to));
             index = node.before;
         }
@@ -634,10 +634,11 @@ impl Outcome {
         }
         others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
     }
+}
 
-    fn crossing_of(&self, graph: &RouteGraph, node: &Node) -> Option<Segment> {
-        if node.door == DoorIndex::end() { None } else { graph[node.door].crossing.segment() }
-    }
+/// The segment of the door by which a node came into its room.
+fn crossing_of(graph: &RouteGraph, node: &Node) -> Option<Segment> {
+    if node.door == DoorIndex::end() { None } else { graph[node.door].crossing.segment() }
 }
 
 impl Node {

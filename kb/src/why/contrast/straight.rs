@@ -1,4 +1,4 @@
-//! Ways as straight lines between two values of a cell in which weights are linear, and where two of them cross.
+//! Ways as straight lines between two values of a cell in which weights are linear.
 
 use super::linear::Line;
 use super::{Look, Path};
@@ -33,14 +33,6 @@ impl Straight {
         let share = begins / (begins - ends);
         share.is_finite().then_some(share)
     }
-}
-
-/// Where the way that holds at the one value comes to cost what the one costs that wins at the other; with that and its cost.
-pub fn crossing(line: &Line, near: &At, far: &At) -> Option<(f64, Path, f64)> {
-    let ((own, _), (rival, _)) = (near.look.own.as_ref()?, far.look.rival.as_ref()?);
-    let (one, two) = (Straight::of(line, own, near, far)?, Straight::of(line, rival, near, far)?);
-    let share = one.meets(&two)?.clamp(0.0, 1.0);
-    Some((near.value + (far.value - near.value) * share, rival.clone(), two.at(share)))
 }
 
 /// Whether a value is another one than two about it.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::end::LARGEST;
 use super::linear::Line;
-use super::straight::{At, Straight, crossing, is_inside};
+use super::straight::{At, Straight, is_inside};
 use super::{Contrast, End, Found, Lever, Look, Path, Probe, Prober, Side, Takeover, Weights, least};
 use crate::error::Result;
 
@@ -20,6 +20,9 @@ const TIE: f64 = 2e-9;
 
 /// So near to the last value of a range, as a share of it, there is no end.
 const LAST: f64 = 1e-4;
+
+/// Values so near to each other, as a share, are one end.
+const NARROW: f64 = 1e-5;
 
 /// So often the first value is guessed from ways that took over elsewhere.
 const GUESSES: usize = 4;
@@ -343,15 +346,14 @@ impl<'t> Turn<'t> {
                 return Piece::Unknown;
             }
             let middle = if far.look.is_turned {
-                let Some((crossing, path, cost)) = crossing(line, &near, &far) else {
+                let Some(end) = self.between(line, &near, &far) else {
                     let beyond = far.look.takeover().unwrap_or(Takeover::NoWay);
                     return Piece::End(End { at: near.value, is_closed: true, beyond });
                 };
-                if !is_inside(crossing, &near, &far) {
-                    let beyond = Takeover::Way(path, cost);
-                    return Piece::End(End { at: crossing, is_closed: true, beyond });
+                match end {
+                    Ok(end) => return Piece::End(end),
+                    Err(middle) => Some(middle),
                 }
-                Some(crossing)
             } else {
                 self.may_turn(line, &near, &far)
             };
@@ -364,13 +366,41 @@ impl<'t> Turn<'t> {
         }
         // ways bend a little otherwise at each value, and may go on doing so: what is left is as near as makes no difference
         let turned = waiting.into_iter().rev().find(|(_, far)| far.look.is_turned);
-        turned.map_or(Piece::Nothing, |(near, far)| {
-            let (at, beyond) = match crossing(line, &near, &far) {
-                Some((at, path, cost)) => (at, Takeover::Way(path, cost)),
-                None => (near.value, far.look.takeover().unwrap_or(Takeover::NoWay)),
-            };
-            Piece::End(End { at, is_closed: true, beyond })
+        turned.map_or(Piece::Nothing, |(near, far)| match self.between(line, &near, &far) {
+            Some(Ok(end)) => Piece::End(end),
+            found => {
+                let beyond = far.look.takeover().unwrap_or(Takeover::NoWay);
+                let at = found.and_then(std::result::Result::err).unwrap_or(near.value);
+                Piece::End(End { at, is_closed: true, beyond })
+            }
         })
+    }
+
+    /// The end between a value at which the others have not won and one at which they have, if it lies at the one or the other;
+    /// else a value between them to look at. `None` where ways cannot be compared.
+    fn between(&self, line: &Line, near: &At, far: &At) -> Option<std::result::Result<End, f64>> {
+        let ((own, _), (rival, _)) = (near.look.own.as_ref()?, far.look.rival.as_ref()?);
+        let (one, two) = (Straight::of(line, own, near, far)?, Straight::of(line, rival, near, far)?);
+        let meet = one.meets(&two)?.clamp(0.0, 1.0);
+        let value = near.value + (far.value - near.value) * meet;
+        if is_inside(value, near, far) {
+            return Some(Err(value));
+        }
+        let end = |at: f64| {
+            Some(Ok(End { at, is_closed: true, beyond: Takeover::Way(rival.clone(), two.at(meet)) }))
+        };
+        // where a tie is no end yet, the end is where both cost the same
+        if !self.contrast.is_turned(1.0, 1.0) {
+            return end(value);
+        }
+        let is_at_far = (far.value - value).abs() < (value - near.value).abs();
+        let middle = f64::midpoint(near.value, far.value);
+        let is_narrow = (far.value - near.value).abs() <= NARROW * far.value.abs().max(1e-3);
+        // a search nearby may miss the way that won
+        if !is_at_far && !is_narrow && is_inside(middle, near, far) {
+            return Some(Err(middle));
+        }
+        end(far.value)
     }
 
     /// A value between two at which the others have not won, if they may have won there: what the others cost at most lies under
@@ -382,7 +412,7 @@ impl<'t> Turn<'t> {
             return None;
         };
         let (one, two) = (Straight::of(line, one, near, far)?, Straight::of(line, two, near, far)?);
-        let share = one.meets(&two)?;
+        let share = one.meets(&two).filter(|share| (0.0..=1.0).contains(share))?;
         let value = near.value + (far.value - near.value) * share;
         let is_won = self.contrast.is_turned(one.at(share), from + (to - from) * share);
         (is_won && is_inside(value, near, far)).then_some(value)
