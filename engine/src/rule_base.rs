@@ -200,12 +200,11 @@ fn read_all(bases: &[&[SourceFile]]) -> All {
     let replaced = covered.into_iter().map(|covered| {
         // what is wrong with a rule that does not count is nobody's trouble
         let beneath = finished(covered.draft, &mut vec![]);
-        let by = match covered.without {
-            Some((file, line)) => Instead::Without { file, line },
-            None => {
-                let above = rules.iter().find(|rule| rule.name() == beneath.name());
-                Instead::Rule(Standing::of(above.unwrap_or(&beneath)))
-            }
+        let by = if let Some((file, line)) = covered.without {
+            Instead::Without { file, line }
+        } else {
+            let above = rules.iter().find(|rule| rule.name() == beneath.name());
+            Instead::Rule(Standing::of(above.unwrap_or(&beneath)))
         };
         Replaced { rule: beneath.name.clone(), beneath: Standing::of(&beneath), by }
     });

@@ -9,6 +9,9 @@ use super::way::Way;
 use crate::geometry::Point;
 
 /// The way between a start and the goal's point, which may lie outside of the rooms.
+///
+/// # Arguments
+/// `instead` is a node on the way, and one in its room by which the way comes there instead.
 pub(super) fn trace(
     graph: &RouteGraph,
     nodes: &[Node],
