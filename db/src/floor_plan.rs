@@ -7,7 +7,7 @@ use crate::bulk::{Record, Values, insert};
 use crate::error::Result;
 use crate::transaction::Tx;
 
-/// A floor plan with its network, and the path that was asked for last.
+/// A floor plan with its network.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FloorPlan {
     /// The name of its world.
@@ -20,12 +20,6 @@ pub struct FloorPlan {
     pub margin: f64,
     /// Of the free space, square metres.
     pub area: f64,
-    /// Why there is no path; `None` where there is one.
-    pub reason: Option<String>,
-    /// Of the path, metres.
-    pub length: Option<f64>,
-    /// Of the path.
-    pub weight: Option<f64>,
     /// Outline and area of each region.
     pub regions: Vec<(Vec<[f64; 2]>, f64)>,
     /// The regions on either side and the two ends of each doorway.
@@ -36,8 +30,6 @@ pub struct FloorPlan {
     pub places: Vec<Place>,
     /// Ways by number.
     pub ways: Vec<Way>,
-    /// The points of the path.
-    pub waypoints: Vec<[f64; 2]>,
 }
 
 /// What two regions share.
@@ -109,7 +101,6 @@ const DOORWAYS: usize = 2;
 const ADITS: usize = 3;
 const PLACES: usize = 4;
 const WAYS: usize = 5;
-const WAYPOINTS: usize = 6;
 
 impl Record for Row<'_, f64, REGIONS> {
     const TABLE: &'static str = "floor_regions";
@@ -214,19 +205,6 @@ impl Record for Row<'_, Way, WAYS> {
     }
 }
 
-impl Record for Row<'_, [f64; 2], WAYPOINTS> {
-    const TABLE: &'static str = "floor_waypoints";
-    const COLUMNS: &'static [&'static str] = &["world", "point", "x", "y"];
-
-    fn bind(&self, values: &mut Values) {
-        values.text(self.world);
-        values.integer(self.number);
-        for metres in self.rest {
-            values.real(*metres);
-        }
-    }
-}
-
 /// Rows with their numbers from 0.
 fn rows<'r, T, const TABLE: usize>(
     world: &'r str,
@@ -241,21 +219,14 @@ pub async fn keep(connection: &mut SqliteConnection, plan: &FloorPlan) -> Result
         .bind(&plan.world)
         .execute(&mut *connection)
         .await?;
-    sqlx::query(
-        "INSERT INTO floor_plans (world, rules, radius, margin, area, status, reason, length, weight)
-         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-    )
-    .bind(&plan.world)
-    .bind(&plan.rules)
-    .bind(plan.radius)
-    .bind(plan.margin)
-    .bind(plan.area)
-    .bind(if plan.reason.is_none() { "ok" } else { "no_path" })
-    .bind(plan.reason.as_deref())
-    .bind(plan.length)
-    .bind(plan.weight)
-    .execute(&mut *connection)
-    .await?;
+    sqlx::query("INSERT INTO floor_plans (world, rules, radius, margin, area) VALUES (?, ?, ?, ?, ?)")
+        .bind(&plan.world)
+        .bind(&plan.rules)
+        .bind(plan.radius)
+        .bind(plan.margin)
+        .bind(plan.area)
+        .execute(&mut *connection)
+        .await?;
     let world = plan.world.as_str();
     insert(connection, rows::<_, REGIONS>(world, plan.regions.iter().map(|(_, area)| area))).await?;
     for (region, (outline, _)) in (0..).zip(&plan.regions) {
@@ -266,7 +237,6 @@ pub async fn keep(connection: &mut SqliteConnection, plan: &FloorPlan) -> Result
     insert(connection, rows::<_, ADITS>(world, &plan.adits)).await?;
     insert(connection, rows::<_, PLACES>(world, &plan.places)).await?;
     insert(connection, rows::<_, WAYS>(world, &plan.ways)).await?;
-    insert(connection, rows::<_, WAYPOINTS>(world, &plan.waypoints)).await?;
     Ok(())
 }
 

@@ -41,6 +41,8 @@ pub struct Edit {
     pub new: Cell,
     /// The edit that took this one back.
     pub undone: Option<i64>,
+    /// The first of those that were made together with it: in one transaction.
+    pub change_set: i64,
 }
 
 /// What an edit did, before it has a number.
@@ -81,22 +83,19 @@ fn edit(row: &SqliteRow) -> Result<Edit> {
         old: Cell::of(row, 7)?,
         new: Cell::of(row, 8)?,
         undone: row.try_get(9)?,
+        change_set: row.try_get(10)?,
     })
 }
 
 /// Edits, the newest first; at most `most`.
 pub async fn read(connection: &mut SqliteConnection, most: u32) -> Result<Vec<Edit>> {
-    let query = sqlx::query(
-        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history
-         ORDER BY id DESC LIMIT ?",
-    );
-    query.bind(most).fetch_all(connection).await?.iter().map(edit).collect()
+    before(connection, None, most).await
 }
 
 /// Edits before one of a number, the newest first; at most `most`.
 pub async fn before(connection: &mut SqliteConnection, before: Option<i64>, most: u32) -> Result<Vec<Edit>> {
     let query = sqlx::query(
-        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone, coalesce(change_set, id) FROM history
          WHERE ?1 IS NULL OR id < ?1 ORDER BY id DESC LIMIT ?2",
     );
     query.bind(before).bind(most).fetch_all(connection).await?.iter().map(edit).collect()
@@ -105,9 +104,26 @@ pub async fn before(connection: &mut SqliteConnection, before: Option<i64>, most
 /// One edit.
 pub async fn entry(connection: &mut SqliteConnection, id: i64) -> Result<Option<Edit>> {
     let query = sqlx::query(
-        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone FROM history WHERE id = ?",
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone, coalesce(change_set, id) FROM history WHERE id = ?",
     );
     query.bind(id).fetch_optional(connection).await?.as_ref().map(edit).transpose()
+}
+
+/// Those that were made together with one, and it itself, in their order.
+pub async fn together(connection: &mut SqliteConnection, id: i64) -> Result<Vec<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone, coalesce(change_set, id) FROM history
+         WHERE change_set = (SELECT change_set FROM history WHERE id = ?1) OR id = ?1 ORDER BY id",
+    );
+    query.bind(id).fetch_all(connection).await?.iter().map(edit).collect()
+}
+
+/// Joins what was written since the last transaction to a change set.
+pub(crate) async fn join(connection: &mut SqliteConnection) -> Result<()> {
+    let sql = "UPDATE history SET change_set = (SELECT min(id) FROM history WHERE change_set IS NULL)
+               WHERE change_set IS NULL";
+    sqlx::query(sql).execute(connection).await?;
+    Ok(())
 }
 
 /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.
@@ -128,6 +144,11 @@ impl Tx<'_> {
     /// Edits before one of a number, the newest first; at most `most`.
     pub fn history_before(&mut self, id: Option<i64>, most: u32) -> Result<Vec<Edit>> {
         self.run(async |connection| before(connection, id, most).await)
+    }
+
+    /// Those that were made together with one, and it itself, in their order.
+    pub fn made_together(&mut self, id: i64) -> Result<Vec<Edit>> {
+        self.run(async |connection| together(connection, id).await)
     }
 
     /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.

@@ -87,6 +87,13 @@ pub async fn replace_user_table(
     Ok(())
 }
 
+/// Adds a column to a table that is no table of ours.
+async fn add_column(connection: &mut SqliteConnection, table: &str, column: &str, kind: &str) -> Result<()> {
+    let sql = format!("ALTER TABLE {} ADD COLUMN {} {kind}", identifier(table), identifier(column));
+    dynamic::execute(connection, sql, &[]).await?;
+    Ok(())
+}
+
 impl Tx<'_> {
     /// All starts, in the order of their trees.
     pub fn starts(&mut self) -> Result<Vec<Start>> {
@@ -113,5 +120,10 @@ impl Tx<'_> {
         rows: impl IntoIterator<Item = Vec<Cell>>,
     ) -> Result<()> {
         self.run(async |connection| replace_user_table(connection, name, columns, key, rows).await)
+    }
+
+    /// Adds a column to a table that is no table of ours, with the type that it is declared with.
+    pub fn add_column(&mut self, table: &str, column: &str, kind: &str) -> Result<()> {
+        self.run(async |connection| add_column(connection, table, column, kind).await)
     }
 }

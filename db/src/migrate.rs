@@ -76,6 +76,12 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v7/10-spaces.sql")]),
     Step::of_all(&[include_str!("../sql/v8/10-laid.sql")]),
     Step::of_all(&[include_str!("../sql/v9/10-berth.sql")]),
+    Step::of_all(&[include_str!("../sql/v10/10-carried-out.sql")]),
+    Step::of_all(&[include_str!("../sql/v11/10-courses.sql")]),
+    Step {
+        all: &[include_str!("../sql/v12/20-change-sets.sql")],
+        worlds: &[include_str!("../sql/v12/10-plans-are-sites.sql")],
+    },
 ];
 
 /// The newest schema version.

@@ -7,6 +7,7 @@ use crate::cell::Cell;
 use crate::dynamic::{self, identifier};
 use crate::error::{Error, Result};
 use crate::transaction::Tx;
+use crate::worlds;
 
 /// Our own tables and views.
 pub(crate) const OWN: &[&str] = &[
@@ -14,10 +15,14 @@ pub(crate) const OWN: &[&str] = &[
     "active_tunings",
     "attachments",
     "blocks",
+    "carried_out",
     "cells_in_force",
     "changes",
     "changes_in_force",
     "conclusions",
+    "course_steps",
+    "course_waypoints",
+    "courses",
     "derivations",
     "doors",
     "doorways",
@@ -119,13 +124,16 @@ pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTa
          WHERE type IN ('table', 'view') AND substr(name, 1, 7) <> 'sqlite_' ORDER BY name",
     );
     let mut tables = Vec::new();
-    for row in query.fetch_all(connection).await? {
+    for row in query.fetch_all(&mut *connection).await? {
         let name: String = row.try_get(0)?;
         let form = if row.try_get::<&str, _>(1)? == "view" { Form::View } else { Form::Table };
         if !OWN.contains(&name.as_str()) {
             tables.push(UserTable { name, form });
         }
     }
+    let names: Vec<String> = tables.iter().map(|table| table.name.clone()).collect();
+    let of_worlds = worlds::own(connection, &names).await?;
+    tables.retain(|table| !of_worlds.contains(&table.name.as_str()));
     Ok(tables)
 }
 

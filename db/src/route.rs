@@ -44,7 +44,7 @@ pub struct Route {
 }
 
 /// A row of the view `action_sequence`.
-#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Step {
     /// From 1.
     pub step: i64,
@@ -72,10 +72,13 @@ pub struct Step {
     pub space: Option<String>,
     /// Of a door the doorway through which it leads into another space.
     pub doorway: Option<String>,
+    /// Where the step ends, metres, on maps with heights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
 }
 
 /// A row of the view `waypoints`: where a route bends, changes shape, starts or ends.
-#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Waypoint {
     /// From 1.
     pub waypoint: i64,
@@ -98,6 +101,18 @@ pub struct Waypoint {
     pub distance: Option<f64>,
     /// Cost so far, with what is passed at that point.
     pub cost: f64,
+    /// Metres, on maps with heights.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+    /// Of an arc that leads there, the centre, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_x: Option<f64>,
+    /// Of an arc that leads there, the centre, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centre_y: Option<f64>,
+    /// Of an arc that leads there, to which side it turns: left or right.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn: Option<String>,
 }
 
 /// The waypoints of a route, in order; none where there is no route or no such name.
@@ -108,7 +123,8 @@ pub async fn waypoints(
     goal: &str,
 ) -> Result<Vec<Waypoint>> {
     let query = sqlx::query(
-        "SELECT waypoint, x, y, heading, state, action, facing, clearance, distance, cost FROM waypoints
+        "SELECT waypoint, x, y, heading, state, action, facing, clearance, distance, cost, z, centre_x, centre_y, turn
+         FROM waypoints
          WHERE robot = ? AND start = ? AND goal = ? ORDER BY waypoint",
     );
     let read = |row: &SqliteRow| -> sqlx::Result<Waypoint> {
@@ -123,6 +139,10 @@ pub async fn waypoints(
             clearance: row.try_get(7)?,
             distance: row.try_get(8)?,
             cost: row.try_get(9)?,
+            z: row.try_get(10)?,
+            centre_x: row.try_get(11)?,
+            centre_y: row.try_get(12)?,
+            turn: row.try_get(13)?,
         })
     };
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;
@@ -144,6 +164,7 @@ fn step(row: &SqliteRow) -> sqlx::Result<Step> {
         rule: row.try_get(10)?,
         space: row.try_get(11)?,
         doorway: row.try_get(12)?,
+        z: row.try_get(13)?,
     })
 }
 
@@ -155,7 +176,7 @@ pub async fn action_sequence(
     goal: &str,
 ) -> Result<Vec<Step>> {
     let query = sqlx::query(
-        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway
+        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway, z
          FROM action_sequence WHERE robot = ? AND start = ? AND goal = ? ORDER BY step",
     );
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;

@@ -9,6 +9,7 @@ use crate::backup;
 use crate::connection::{Connection, options};
 use crate::doctor::{self, Health};
 use crate::error::{Error, Result};
+use crate::history;
 use crate::migrate::{self, Kind, STEPS, VERSION};
 use crate::query::{self, Answer, Limits};
 use crate::transaction::Tx;
@@ -111,6 +112,7 @@ impl Store {
     ) -> std::result::Result<T, E> {
         let mut tx = Tx::begin(&mut self.connection, "BEGIN IMMEDIATE")?;
         let value = work(&mut tx)?;
+        tx.run(history::join)?;
         tx.commit()?;
         Ok(value)
     }

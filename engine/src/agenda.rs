@@ -107,6 +107,10 @@ impl Agenda {
         self.rules.iter().flat_map(|reacting| reacting.set.open().map(|binding| (reacting.rule, binding)))
     }
 
+    pub(crate) fn fired(&self) -> impl Iterator<Item = (usize, &Binding)> {
+        self.rules.iter().flat_map(|reacting| reacting.set.fired().map(|binding| (reacting.rule, binding)))
+    }
+
     #[cfg(test)]
     pub(crate) fn all(&self, rule: usize) -> Vec<Binding> {
         let reacting = self.rules.iter().filter(|reacting| reacting.rule == rule);

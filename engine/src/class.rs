@@ -65,6 +65,7 @@ pub struct Class {
     key: Vec<String>,
     properties: Vec<(String, Given)>,
     nulls: Vec<(String, Value)>,
+    numbered: bool,
 }
 
 impl Class {
@@ -75,7 +76,15 @@ impl Class {
             key: key.iter().map(ToString::to_string).collect(),
             properties: vec![],
             nulls: vec![],
+            numbered: false,
         }
+    }
+
+    /// Objects that rules tell without a key get the next whole number; the key must be one property that holds numbers.
+    #[must_use]
+    pub fn numbered(mut self) -> Self {
+        self.numbered = true;
+        self
     }
 
     /// Adds a property that holds numbers. NaN is unknown.
@@ -156,12 +165,15 @@ pub(crate) struct Table {
     /// Columns in which NULL is a value, with that value.
     pub(crate) nulls: Vec<(usize, Cell)>,
     pub(crate) len: usize,
+    /// Whether objects that rules tell are numbered.
+    numbered: bool,
 }
 
 impl Table {
     pub(crate) fn new(class: Class, symbols: &mut Symbols) -> Result<Self, ClassError> {
-        let Class { name, key, properties, nulls } = class;
-        let mut table = Self { name, key: vec![], names: vec![], columns: vec![], nulls: vec![], len: 0 };
+        let Class { name, key, properties, nulls, numbered } = class;
+        let mut table =
+            Self { name, key: vec![], names: vec![], columns: vec![], nulls: vec![], len: 0, numbered };
         for (property, given) in properties {
             let column = match given {
                 Given::Column(column) => column,
@@ -269,6 +281,14 @@ impl Table {
             Some(row) => Err(ClassError::SameKey { class: class(), key: self.key_text(row, symbols) }),
             None => Ok(()),
         }
+    }
+
+    /// The property that numbers the objects, and the next number; `None` where they are not numbered.
+    pub(crate) fn next_number(&self) -> Option<(&str, f64)> {
+        let &[at] = self.key.as_slice() else { return None };
+        let Column::Numbers(numbers) = &self.columns[at] else { return None };
+        let next = numbers.iter().copied().fold(0.0, f64::max).floor() + 1.0;
+        self.numbered.then(|| (self.names[at].as_str(), next))
     }
 
     pub(crate) fn column(&self, property: &str) -> Option<&Column> {

@@ -36,7 +36,7 @@ use crate::rule::PropertyName;
 use crate::schema::Schema;
 use crate::script::limits::Limits;
 use crate::symbols::Symbols;
-use crate::value::{Cell, Value};
+use crate::value::{Cell, Type, Value};
 use derived::Derived;
 use network::Network;
 use pending::{Held, Pending};
@@ -156,6 +156,11 @@ impl KnowledgeBase {
     pub fn value_at(&self, class: &str, row: usize, property: &str) -> Option<Value> {
         let column = self.column(&PropertyName::new(class, property))?;
         value(column.cell(row), &self.symbols.borrow())
+    }
+
+    /// The type of a property's values; `None` where nobody has told or concluded any.
+    pub fn kind_of(&self, class: &str, property: &str) -> Option<Type> {
+        self.column(&PropertyName::new(class, property)).map(Column::kind)
     }
 
     /// As [`value_at`](Self::value_at), of several rows.

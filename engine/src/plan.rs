@@ -5,7 +5,7 @@ pub(crate) mod call;
 pub(crate) mod clause;
 mod effect;
 pub(crate) mod fragment;
-mod kinds;
+pub(crate) mod kinds;
 pub(crate) mod link;
 pub(crate) mod lower;
 pub(crate) mod node;

@@ -32,6 +32,8 @@ pub struct Firing {
     pub version: String,
     /// The objects, as they were called then.
     pub witnesses: Vec<Witness>,
+    /// What the rule reads of them and knew then, as in `door 3: closed = true`.
+    pub because: String,
     pub told: Vec<Told>,
 }
 
@@ -42,6 +44,16 @@ pub struct Activation {
     pub version: String,
     pub priority: i64,
     pub witnesses: Vec<Witness>,
+}
+
+/// An activation that was carried out, and that would be carried out again if its clauses were met anew, or if another value
+/// stood in what the rule reads.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+pub struct CarriedOut {
+    pub rule: String,
+    pub version: String,
+    /// The objects with what the rule reads of them.
+    pub because: String,
 }
 
 /// Something that a rule told. Keys are those at that moment; an object of a class without a key is called by
@@ -59,6 +71,9 @@ pub enum Told {
         key: String,
         property: String,
         value: Option<Value>,
+        /// For how many seconds, where the rule says so; the host takes it back then.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        lasts: Option<f64>,
     },
     Gone {
         class: String,

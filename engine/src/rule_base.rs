@@ -20,6 +20,7 @@ use crate::script::over;
 use crate::script::read::{Draft, Read, read, version};
 use crate::script::resolve::resolve;
 use crate::script::source::SourceFile;
+use crate::told::NamesTold;
 
 /// The rules of a site: read, ordered, and free of errors that can be seen without objects.
 #[derive(Clone, Debug, Default)]
@@ -107,6 +108,11 @@ impl RuleBase {
         let order = order(&rules, &declared).map_err(Diagnostics)?;
         let id = COMPILED.fetch_add(1, Ordering::Relaxed);
         Ok(Self { id, rules, order, declared, warnings, replaced })
+    }
+
+    /// The classes of which rules that react tell new objects, in order.
+    pub fn tells(&self) -> impl Iterator<Item = &str> {
+        NamesTold::of(&self.rules).classes.into_keys()
     }
 
     pub fn rules(&self) -> &[Rule] {

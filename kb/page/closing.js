@@ -7,7 +7,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { summary, thisRoute } from './preview.js';
 import { refresh } from './refresh.js';
-import { showSaved } from './saved.js';
+import { andRules, showSaved } from './saved.js';
 import { nounOf, showsPieces } from './thing.js';
 
 const WAIT = 150;
@@ -58,7 +58,7 @@ export function close(edit, label) {
     try {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
       made.remove();
-      showSaved(`${title}: done.`, [answer.done.id]);
+      showSaved(`${title}: done.${andRules([answer])}`, [answer.done.id]);
       await refresh(answer.generation);
     } catch (error) {
       fill(would, said(error));
@@ -78,7 +78,7 @@ export function layForm(load) {
     const body = { name: read('name'), what: byId('lay-what').value, corners: [from, to], properties: obstacle || !read('kind') ? {} : { kind: read('kind') }, until: read('until') || undefined, why: read('why') || undefined };
     try {
       const answer = await post('/api/areas', body);
-      showSaved(`${body.name} lies over the map.`, [answer.done.id]);
+      showSaved(`${body.name} lies over the map.${andRules([answer])}`, [answer.done.id]);
       fill(told);
       await refresh(answer.generation);
       await load();

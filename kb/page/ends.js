@@ -48,7 +48,7 @@ export const lead = (end, thing) => setEnds({ [end]: endOf(thing) });
 
 // The two places that lie farthest apart: the way between them shows most of the floor.
 function farApart(places) {
-  let best = [places[0]?.place ?? '', ''];
+  let best = [places[0]?.place ?? '', model.site.layout_kind ? places[1]?.place ?? '' : ''];
   let most = 0;
   for (const one of places) {
     for (const other of places) {

@@ -2,6 +2,7 @@
 
 import { get, post } from './api.js';
 import { takeBack } from './answers.js';
+import { askCard } from './ask.js';
 import { layForm, lift } from './closing.js';
 import { button, byId, el, fill, form, grid } from './dom.js';
 import { moment, value } from './format.js';
@@ -9,7 +10,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
-import { showSaved } from './saved.js';
+import { andRules, showSaved } from './saved.js';
 
 const USUAL = {
   doorway: { text: 'Nobody passes a doorway', class: 'DOORWAYS', property: 'closed', value: 'true', object: 'name of the doorway, or x,y' },
@@ -19,6 +20,8 @@ const USUAL = {
   named: { text: 'A named door is closed', class: 'NAMED_DOORS', property: 'closed', value: 'true', object: 'name of the door' },
   other: { text: 'Something else' },
 };
+/** What may be closed: in the paper's modes doorways and spaces close nothing, and without a map there is nothing to close. */
+const usualHere = () => ({ 'by-state': Object.keys(USUAL), none: ['other'] })[model.site.rooms_mode] ?? ['door', 'room', 'named', 'other'];
 const STANDING = { holds: 'holds', lost: 'lost: what it is about is no longer there', expired: 'over' };
 
 function field(label, id, attributes = {}) {
@@ -26,7 +29,7 @@ function field(label, id, attributes = {}) {
 }
 
 function tellForm() {
-  const kind = el('select', { id: 'fact-kind' }, ...Object.entries(USUAL).map(([name, { text }]) => el('option', { value: name, text })));
+  const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
   const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
     field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { type: 'time' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
   const choose = () => {
@@ -56,7 +59,7 @@ async function tell() {
     const answer = await post('/api/facts', fact);
     byId('fact-object').value = '';
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
     await refresh(answer.generation);
     await load();
   } catch (error) {
@@ -73,6 +76,7 @@ async function load() {
   } catch (error) {
     fill(byId('facts-list'), said(error));
   }
+  if (!byId('laid-list')) return;
   try {
     const { laid } = await get('/api/areas');
     const rows = laid.map((one) => [one.name, [one.what, one.properties?.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'lifted', one.who ?? '', one.why ?? '',
@@ -87,7 +91,8 @@ function show() {
   if (!byId('fact-kind')) {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
       model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null,
-      el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? layForm(load) : null));
+      askCard(),
+      model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? layForm(load) : null));
   }
   return load();
 }

@@ -12,6 +12,7 @@ import { startMap } from './map.js';
 import { model } from './model.js';
 import { banner, complain, where } from './notice.js';
 import { startOutline } from './outline.js';
+import { startPicture } from './picture.js';
 import { startPreview } from './preview.js';
 import { refresh } from './refresh.js';
 import { startRoute } from './route.js';
@@ -25,7 +26,9 @@ import { startTheme } from './theme.js';
 function inForce() {
   const { site, weights } = model;
   byId('site-name').textContent = site.name;
-  document.body.dataset.rooms = site.rooms_mode;
+  document.body.dataset.rooms = site.layout_kind ?? site.rooms_mode;
+  document.body.dataset.drawn = String(Boolean(site.layout_kind));
+  if (site.rooms_mode === 'none' && !site.layout_kind) for (const name of document.querySelectorAll("nav a[href='#map'], #map > h1")) name.textContent = 'Tables';
   document.title = `${site.name} – adit`;
   const since = site.changed_at ? `, in force since ${moment(site.changed_at)}` : '';
   byId('in-force').textContent = `generation ${weights?.generation ?? site.generation}${since}`;
@@ -90,6 +93,7 @@ async function begin() {
 
 function start() {
   startMap(lead);
+  startPicture();
   startEnds();
   startTables();
   startPreview();

@@ -2,13 +2,13 @@
 
 import { post } from './api.js';
 import { button, byId, debounced, el, fill } from './dom.js';
-import { cost, count, list, value } from './format.js';
+import { cost, count, list, number, value } from './format.js';
 import { askFirm, firmWithin } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
-import { focusSaved, showSaved } from './saved.js';
+import { andRules, focusSaved, showSaved } from './saved.js';
 
 const WAIT = 120;
 const QUICK = 30;
@@ -57,9 +57,12 @@ const inOneWord = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', 
 export function summary(preview) {
   const parts = [];
   const { rooms, doors, routes } = preview;
+  if (model.site.layout_kind) {
+    // there are no rooms that could change
+  } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
   if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
   if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
-  else if (!preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
+  else if (!model.site.layout_kind && !preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
   // Where there are too many to compare while somebody types, the service says how many it did.
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
@@ -85,11 +88,20 @@ export function thisRoute(preview) {
       : Math.abs(was - becomes) < 5e-7 * Math.max(1, was) ? `The way that you look at stays at ${cost(was)}.`
         : null;
   if (text) return el('p', { text });
-  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? ', another way (hatched in amber)' : ', the same way');
+  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? (model.site.layout_kind ? ', another way' : ', another way (hatched in amber)') : ', the same way');
 }
 
 const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();
 const leadsElsewhere = (one, other) => through(one) !== through(other);
+
+function conclusionList(conclusions) {
+  if (!conclusions?.length) return null;
+  const items = conclusions.slice(0, MOST_ROUTES).map(({ what, property, old, new: now }) => el('li', {}, `${what}: ${property.replaceAll('_', ' ')} `, el('s', { text: shown(old) }), ' ', el('b', { text: shown(now) })));
+  const more = conclusions.length > MOST_ROUTES ? el('li', { text: `and ${conclusions.length - MOST_ROUTES} more` }) : null;
+  return el('ul', { class: 'plain' }, ...items, more);
+}
+
+const shown = (of) => (typeof of === 'number' ? number(of) : value(of));
 
 function routeList(routes) {
   if (!routes?.list?.length) return null;
@@ -121,7 +133,7 @@ function makeCard() {
 function told(cells) {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
   return cells.every(([, cell]) => cell.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
@@ -174,12 +186,14 @@ async function saveAll(isKnown) {
   const why = card.why.value.trim() || undefined;
   const done = [];
   const words = [];
+  const answers = [];
   let generation;
   for (const edit of edits(true)) {
     const id = cellId(edit.table, edit.key, edit.column);
     try {
       const answer = await post('/api/edits', { edit, why });
       done.push(answer.done.id);
+      answers.push(answer);
       words.push(inOneWord(model.pending.get(id) ?? edit));
       generation = answer.generation;
       const pending = new Map(model.pending);
@@ -191,7 +205,7 @@ async function saveAll(isKnown) {
     }
   }
   if (done.length) {
-    showSaved(`Saved: ${list(words)}.`, done);
+    showSaved(`Saved: ${list(words)}.${andRules(answers)}`, done);
     if (hadFocus) focusSaved();
   }
   const keepRefusal = refused;

@@ -8,7 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { Actions } from './palette.js';
 import { address } from './router.js';
-import { asSql, runs, sentence, stepText, telling } from './runs.js';
+import { asSql, runs, sentence, stepText, telling, why as whyOf } from './runs.js';
 
 const opened = new Set();
 
@@ -22,7 +22,7 @@ function item(all, index, route, actions) {
   const run = all[index];
   const line = el('span', { class: 'line-swatch', 'aria-hidden': 'true' });
   line.style.setProperty('--fill', actions.colour(run.action));
-  const steps = el('ol', { class: 'steps' }, ...run.steps.map((step) => el('li', {}, el('button', { type: 'button', class: 'link', text: stepText(step), on: { click: () => why(`${step.kind === 'room' ? 'room' : 'door'} ${step.place}`) } }), ` ${cost(step.hardness)}`)));
+  const steps = el('ol', { class: 'steps' }, ...run.steps.map((step) => el('li', {}, el('button', { type: 'button', class: 'link', text: stepText(step), on: { click: () => why(whyOf(step)) } }), ` ${cost(step.hardness)}`)));
   const details = el('details', { open: opened.has(index) }, el('summary', {}, `${run.steps.length} step${run.steps.length === 1 ? '' : 's'}`), steps);
   details.addEventListener('toggle', () => (details.open ? opened.add(index) : opened.delete(index)));
   return el('li', {}, el('div', { class: 'run' }, el('b', {}, line, action(run.action)), el('span', { class: 'where', text: sentence(all, index, route.goal) }), el('span', { class: 'cost', text: cost(run.cost) })),
@@ -55,7 +55,7 @@ function show() {
   const far = route.distance === undefined ? '' : `, ${metres(route.distance)}`;
   const same = route.status === 'same_room' ? el('p', { class: 'hint', text: 'Start and goal lie in the same room.' }) : null;
   return fill(byId('route'), el('p', { class: 'hint', text: `${route.robot}: cost ${cost(route.cost)}${far}, ${route.steps.length} steps` }), same,
-    el('ol', { class: 'runs' }, ...all.map((_, index) => item(all, index, route, actions))), el('div', { class: 'buttons' }, firmButton()), copies(route));
+    el('ol', { class: 'runs' }, ...all.map((_, index) => item(all, index, route, actions))), model.site.layout_kind ? null : el('div', { class: 'buttons' }, firmButton()), copies(route));
 }
 
 /** Keeps the card up to date. */

@@ -17,6 +17,12 @@ export function showSaved(text, edits, other) {
   fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text, id: 'saved-said', tabindex: '-1' }), undo, more, button('Close', () => fill(byId('saved')), { class: 'quiet' })));
 }
 
+/** What rules that react did of it, after the word about it. */
+export const andRules = (answers) => {
+  const done = answers.flatMap(({ reacted }) => reacted ?? []);
+  return done.length ? ` Then ${done.join('; ')}.` : '';
+};
+
 /** Gives the focus to the word itself, not to its undo: who holds the key, or presses it once more, must not undo. */
 export const focusSaved = () => byId('saved-said').focus({ preventScroll: true });
 

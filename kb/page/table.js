@@ -1,7 +1,7 @@
 /** The tables beside the map. A cell that is edited shows old and new until it is saved. */
 
 import { byId, el, fill } from './dom.js';
-import { exact, value as inWords } from './format.js';
+import { exact, number, value as inWords } from './format.js';
 import { model } from './model.js';
 import { cellId, discard, editCell, keyName } from './pending.js';
 
@@ -12,7 +12,7 @@ const TITLES = { robots: 'Robot states', changes: 'Changes of shape', loads: 'Lo
 const views = new Map();
 
 function structure(table) {
-  return JSON.stringify([table.columns, table.keys, model.may('tune'), model.ask.robot]);
+  return JSON.stringify([table.columns, table.keys, (table.concluded ?? []).map(({ property }) => property), model.may('tune'), model.ask.robot]);
 }
 
 // Of a fleet, the rows of the robot whose way is asked: the others only take room.
@@ -25,7 +25,7 @@ function rowsOf(table) {
 // The order of rows is no number to tune, and columns in which nothing stands only take room.
 function columnsOf(table) {
   const names = table.columns.map((column, index) => ({ ...column, index }));
-  const used = ({ index, required }) => required || rowsOf(table).some(({ at }) => table.rows[at][index] !== null);
+  const used = ({ index, required }) => required || Boolean(model.site.layout_kind) || rowsOf(table).some(({ at }) => table.rows[at][index] !== null);
   const oneRobot = (column) => column.key && column.name === 'robot' && table.columns.filter(({ key }) => key).length > 1 && new Set(rowsOf(table).map(({ at }) => table.rows[at][column.index])).size <= 1;
   return names.filter((column) => used(column) && !oneRobot(column) && !(table.table === 'robots' && column.name === 'position'));
 }
@@ -33,20 +33,26 @@ function columnsOf(table) {
 function build(table, open) {
   const columns = columnsOf(table);
   const cells = new Map();
-  const head = el('tr', {}, ...columns.map(({ name, unit }) => el('th', { scope: 'col' }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)));
+  const results = [];
+  const concluded = Object.hasOwn(TITLES, table.table) ? [] : table.concluded ?? [];
+  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
   const wanted = rowsOf(table);
   const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
     const cell = makeCell(table, key, column, table.rows[at][column.index]);
     cells.set(cellId(table.table, key, column.name), { ...cell, at, column });
     return cell.td;
+  }), ...concluded.map(({ property }) => {
+    const td = el('td', { class: 'concluded' });
+    results.push({ td, at, property });
+    return td;
   })));
   const title = TITLES[table.table] ?? table.table;
   const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows)));
   const more = wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
   const empty = wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
   const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty);
-  return { node, cells, structure: structure(table) };
+  return { node, cells, results, structure: structure(table) };
 }
 
 function makeCell(table, key, column, value) {
@@ -99,6 +105,11 @@ function update(table) {
     if (!pending && document.activeElement !== cell.input) cell.input.value = exact(now);
     if (pending && pending.old !== now) warn(cell, pending, now);
   }
+  const said = new Map((table.concluded ?? []).map(({ property, values }) => [property, values]));
+  for (const { td, at, property } of view.results) {
+    const of = said.get(property)?.[at];
+    td.textContent = typeof of === 'number' ? number(of) : inWords(of);
+  }
   const marks = new Map((table.overridden ?? []).map((mark) => [cellId(table.table, mark.key, mark.column), mark]));
   for (const [id, cell] of view.cells) {
     const mark = marks.get(id);
@@ -115,14 +126,15 @@ function warn(cell, pending, now) {
 }
 
 function tables() {
-  const present = model.tables.tables;
+  // Without a map there is no robot: its tables are empty, and only take room.
+  const present = model.tables.tables.filter(({ table, rows }) => model.site.rooms_mode !== 'none' || rows.length || !Object.hasOwn(TITLES, table));
   const names = new Set(present.map(({ table }) => table));
   for (const name of [...views.keys()]) if (!names.has(name)) views.delete(name);
   let anew = views.size !== present.length;
   for (const table of present) {
     const known = views.get(table.table);
     if (known?.structure !== structure(table)) {
-      views.set(table.table, build(table, known?.node.open ?? table.table === 'robots'));
+      views.set(table.table, build(table, known?.node.open ?? table === present[0]));
       anew = true;
     }
     update(table);

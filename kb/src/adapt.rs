@@ -6,6 +6,7 @@
 
 mod answer;
 mod cell;
+mod course;
 mod draft;
 mod drawn;
 mod experiment;
@@ -13,6 +14,8 @@ mod explain;
 mod figures;
 mod judge;
 mod keep;
+mod keeping;
+mod kept;
 mod recall;
 pub(crate) mod scenario;
 mod session;
@@ -21,10 +24,11 @@ pub(crate) mod world;
 
 pub use answer::{change_json, change_line, task_json};
 pub use cell::{Cell, is_scenario};
+pub use course::CellOf;
 pub use drawn::drawn;
 pub use experiment::{
     Outcome as ExperimentOutcome, Row, method_of, method_word, run as experiment, write_csv,
 };
 pub(crate) use judge::classes;
-pub use judge::strategy_of;
+pub use judge::{RuleJudge, strategy_of};
 pub use session::{Beginning, Done, Session};

@@ -1,6 +1,7 @@
 //! Answers to "how do I get from here to there": from the kept routes, or computed where none is kept.
 
 mod basis;
+mod course;
 mod ends;
 mod json;
 pub(crate) mod reason;
@@ -73,6 +74,9 @@ pub struct Answer {
     /// The points that were taken instead of a start or goal that would have been refused.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub taken: Vec<Nearest>,
+    /// What is worth a look, in sentences.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remarks: Vec<String>,
     /// The rows of `action_sequence`.
     pub steps: Vec<Step>,
     /// The rows of `waypoints`: where the way bends, changes shape, starts and ends.
@@ -83,6 +87,9 @@ impl State {
     /// The route of least hardness, as [`Live::route`](crate::Live::route) gives it.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = pick(&self.robots(), robot)?;
+        if let Some(courses) = &self.courses {
+            return Ok(Answer::by(courses, (start, goals), &robot, self.generation));
+        }
         let blank = Answer::blank(&robot, start, goals, self.generation);
         self.basis().search(goals, blank)
     }
@@ -113,6 +120,7 @@ impl Answer {
             reason: None,
             nearest: None,
             taken: Vec::new(),
+            remarks: Vec::new(),
             steps: Vec::new(),
             waypoints: Vec::new(),
         }
@@ -135,8 +143,7 @@ pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
             Err(Error::said(Code::RouteUnknownRobot, format!("there is no robot `{name}`"), help))
         }
         None if robots.len() > 1 => {
-            let message =
-                format!("the site has several robots: say which with --robot ({})", robots.join(", "));
+            let message = format!("the site has several robots; say which one: {}", robots.join(", "));
             Err(Error::said(Code::RouteWhichRobot, message, None))
         }
         None => robots.first().cloned().ok_or_else(|| {

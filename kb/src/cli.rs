@@ -1,8 +1,8 @@
 //! The command line `adit`: its verbs, and what they print.
 
 mod args;
+mod ask;
 mod build;
-mod cell;
 mod close;
 mod curve;
 mod demo;
@@ -15,12 +15,13 @@ mod learn;
 mod new;
 mod output;
 mod picture;
-mod plan;
 mod route;
 mod rules;
 mod serve;
 mod simulate;
 mod sql;
+mod table;
+mod tasks;
 mod tell;
 mod test;
 mod tune;
@@ -54,6 +55,8 @@ pub enum Verb {
     Route(route::RouteArgs),
     /// Edit one cell of a table as a transaction, and show what changes
     Tune(tune::TuneArgs),
+    /// A table as a file (CSV, XLSX): written for a spreadsheet, and read back as one edit
+    Table(table::TableArgs),
     /// Tell a fact about one object, with an end if it has one; list and retract what was told
     Tell(tell::TellArgs),
     /// Let nobody pass a doorway, a space, an area, a named door, or the place where a robot was blocked
@@ -74,6 +77,8 @@ pub enum Verb {
     Test(SiteArgs),
     /// Check, test and build on each save of a rule, the map or a table, until Ctrl-C
     Watch(SiteArgs),
+    /// What a value is; what rules lack to conclude it is asked, question by question
+    Ask(ask::AskArgs),
     /// Why something is as it is: the rule and the facts behind it; or why a route does what it does
     Why(why::WhyArgs),
     /// Why the route does not lead through something: what that would cost, what decides, and which number would turn it
@@ -86,8 +91,8 @@ pub enum Verb {
     Sql(sql::SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
-    /// The way of a part, a robot through corridors or over a floor plan, or of one that learns in a cell: a world of its own
-    Plan(args::PlanArgs),
+    /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
+    Tasks(tasks::TasksArgs),
     /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
     Simulate(args::SimulateArgs),
     /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
@@ -115,6 +120,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Build(args) => (args.site.json, build::run(args).map(|()| 0)),
         Verb::Route(args) => (args.way.site.json, route::run(args)),
         Verb::Tune(args) => (args.site.json, tune::tune(args).map(|()| 0)),
+        Verb::Table(args) => (args.site.json, table::run(args).map(|()| 0)),
         Verb::Tell(args) => (args.site.json, tell::run(args).map(|()| 0)),
         Verb::Close(args) => (args.site.json, close::close(args).map(|()| 0)),
         Verb::Open(args) => (args.site.json, close::open(args).map(|()| 0)),
@@ -125,13 +131,14 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Rules(args) => (args.site.json, rules::run(args).map(|()| 0)),
         Verb::Test(args) => (args.json, test::run(args).map(|passed| u8::from(!passed))),
         Verb::Watch(args) => (args.json, watch::run(args).map(|()| 0)),
+        Verb::Ask(args) => (args.site.json, ask::run(args).map(|known| u8::from(!known))),
         Verb::Why(args) => (args.site.json, why::why(args).map(|()| 0)),
         Verb::WhyNot(args) => (args.way.site.json, why::why_not(args).map(|()| 0)),
         Verb::Firm(args) => (args.site.json, firm::run(args).map(|()| 0)),
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
-        Verb::Plan(args) => (args.json, plan::run(args).map(|found| u8::from(!found))),
+        Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),
         Verb::Experiment(args) => (args.json, experiment::run(args).map(|found| u8::from(!found))),
         Verb::History(args) => (args.site.json, tune::history(args).map(|()| 0)),

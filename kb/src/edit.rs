@@ -10,19 +10,23 @@ use adit_engine::RuleBase;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tunings;
+use crate::site::sheet::Sheet;
 
 mod cells;
 mod close;
 mod errand;
 mod lay;
 pub(crate) mod place;
+pub(crate) mod react;
 pub mod rehearse;
+mod table;
 mod tell;
 mod tuning;
+mod undo;
 mod words;
 
 pub(crate) use cells::TUNABLE;
-use cells::{cell, cell_of, columns, explain, row};
+use cells::{cell, cell_of, columns, explain, is_equal, row};
 pub use close::Close;
 pub use errand::Errand;
 pub use lay::{Lay, Thing};
@@ -41,6 +45,8 @@ pub enum Edit {
     Add(String, String, Vec<(String, String)>),
     /// A row that goes: table, key.
     Remove(String, String),
+    /// A table whose rows are those of a file from now on.
+    Table(String, Sheet),
     Tell(Tell),
     /// What nobody passes from now on.
     Close(Close),
@@ -70,6 +76,8 @@ pub struct Done {
     pub old: Cell,
     /// The value, or the row, of now.
     pub new: Cell,
+    /// Entries of the history that were taken back with it.
+    pub with: usize,
 }
 
 impl Edit {
@@ -91,7 +99,7 @@ impl Edit {
             Self::SetFrom([table, key, column], seen, value) => {
                 let set = Self::Set(table.clone(), key.clone(), column.clone(), value.clone());
                 let done = set.apply(tx, site, rules, author)?;
-                if !is_equal(&done.old, &cell(seen)) {
+                if !is_equal(&done.old, &cell(seen)) && crate::words::cells::text(&done.old) != *seen {
                     return Err(conflict(tx, (table, &done, column))?);
                 }
                 return Ok(done);
@@ -107,6 +115,7 @@ impl Edit {
                 let gone = tx.remove_row(table, key, author);
                 gone.map_err(|error| explain(tx, &error, table, key, ""))?
             }
+            Self::Table(table, sheet) => table::take(tx, table, sheet, author)?,
             Self::Tell(tell) => {
                 let row = tell.row(tx, site, rules, author)?;
                 tx.add_row("told", &row, author)?
@@ -131,13 +140,15 @@ impl Edit {
             Self::SetInTuning(tuning, cell) => tuning::set(tx, tuning, cell, author)?,
             Self::UnsetInTuning(tuning, cell) => tuning::unset(tx, tuning, cell, author)?,
             Self::Switch(tuning, on) => tuning::switch(tx, tuning, *on, author)?,
-            Self::Undo(Some(id)) => tx.undo(*id, author)?,
-            Self::Undo(None) => match tx.undoable(1)?.first() {
-                Some(id) => tx.undo(*id, author)?,
+            Self::Undo(id) => match id.or(tx.undoable(1)?.first().copied()) {
+                Some(id) => {
+                    let (done, with) = undo::undo(tx, rules, id, author)?;
+                    return Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new, with });
+                }
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),
             },
         };
-        Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new })
+        Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new, with: 0 })
     }
 }
 
@@ -156,19 +167,6 @@ impl Edit {
                 done.key, cell.value, cell.tuning
             )
         }))
-    }
-}
-
-/// Whether both are the same value; a whole number is the same with and without a point.
-fn is_equal(one: &Cell, other: &Cell) -> bool {
-    let number = |cell: &Cell| match cell {
-        Cell::Integer(value) => Some(*value as f64),
-        Cell::Real(value) => Some(*value),
-        _ => None,
-    };
-    match (number(one), number(other)) {
-        (Some(one), Some(other)) => one.total_cmp(&other).is_eq(),
-        _ => one == other,
     }
 }
 

@@ -14,6 +14,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use adit_db::history::Author;
+use adit_db::place::Place;
 use adit_db::robot::State;
 use adit_db::{Store, Tx};
 use adit_engine::{Limits, RuleBase, RuleTests, Schema, TestOutcome, Type};
@@ -29,12 +30,17 @@ use adit_planners::spaces::SpacesAndDoorways;
 use adit_planners::world::World;
 use jiff::Timestamp;
 use jiff::tz::TimeZone;
+use tempfile::TempDir;
 
 use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
 use crate::knowledge::told::{Fact, Told};
 use crate::knowledge::tunings::RowKeys;
+use crate::plan;
+use crate::plan::consult::Class;
+use crate::plan::course::Course;
+use crate::site::alone;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
@@ -42,6 +48,7 @@ use crate::site::lint;
 use crate::site::over;
 use crate::site::rules::{self, Rules};
 use crate::site::states;
+use crate::site::tables::TableFile;
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
 use crate::words::progress::Progress;
@@ -49,6 +56,15 @@ use crate::words::progress::Progress;
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
 const TRIAL: Duration = Duration::from_secs(10);
+
+/// Under which key the database says what the map is, where it is not cut into rooms.
+pub(crate) const LAYOUT: &str = "layout";
+
+/// Under which key the database says of which map alone it is.
+const ALONE: &str = "alone";
+
+/// The places of a map that is not cut into rooms, as a class.
+const PLACES: &str = "PLACES";
 
 /// A start or goal is moved by at most so many metres: who allows more does not mean the point.
 const MOST_M: f64 = 100.0;
@@ -128,25 +144,54 @@ impl Beneath {
 pub struct KnowledgeBase {
     site: Site,
     planners: Vec<Arc<dyn Planner>>,
+    course: Option<Arc<dyn Course>>,
     overlays: Arc<OverlaysOf>,
     database: PathBuf,
     pub(crate) rules: Option<PathBuf>,
     pub(crate) reseed: bool,
     at: Option<Timestamp>,
     pub(crate) within: Option<f64>,
+    /// The file and the folder of a map that is a site alone.
+    alone: Option<(PathBuf, Arc<TempDir>)>,
 }
 
 impl KnowledgeBase {
-    /// Opens a site's folder and registers the planners that its mode of rooms asks for.
-    pub fn open(folder: &Path) -> Result<Self> {
+    /// Opens a site's folder, or the file of a map that is no more than that, and registers the planners that its mode of rooms
+    /// asks for. What is kept of a map alone goes with the last copy of this, but where it has a database of its own.
+    pub fn open(path: &Path) -> Result<Self> {
+        if !path.is_file() {
+            return Self::of_folder(path);
+        }
+        let folder = Arc::new(alone::folder(path)?);
+        let knowledge = Self::of_folder(folder.path())?;
+        // the file is all that can be edited
+        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(true) })
+    }
+
+    fn of_folder(folder: &Path) -> Result<Self> {
         let site = Site::open(folder)?;
         let database = site.database();
         let mode = site.rooms;
         let overlays = Arc::new(OverlaysOf { site: site.clone(), read: OnceLock::new() });
         let planners: Vec<Arc<dyn Planner>> =
-            if site.has_map() { vec![overlays.clone()] } else { Vec::new() };
-        let mut knowledge =
-            Self { site, planners, overlays, database, rules: None, reseed: false, at: None, within: None };
+            if site.has_rooms() { vec![overlays.clone()] } else { Vec::new() };
+        // a map that cannot be read keeps nobody from the history; whoever needs it says what is wrong
+        let course = site.layout.and_then(|_| plan::course_of(&site.map).ok());
+        let mut knowledge = Self {
+            site,
+            planners,
+            course: None,
+            overlays,
+            database,
+            rules: None,
+            reseed: false,
+            at: None,
+            within: None,
+            alone: None,
+        };
+        if let Some(course) = course {
+            knowledge.register_course(course);
+        }
         if mode != Rooms::Nothing {
             knowledge.register(Box::new(SpacesAndDoorways));
         }
@@ -172,6 +217,48 @@ impl KnowledgeBase {
     /// Adds a planner. What it gives, rules use by name.
     pub fn register(&mut self, planner: Box<dyn Planner>) {
         self.planners.push(planner.into());
+    }
+
+    /// Gives the planner of a map that is not cut into rooms. What it gives rules use by name, and it asks them on its way.
+    pub fn register_course(&mut self, course: Box<dyn Course>) {
+        let course: Arc<dyn Course> = course.into();
+        self.planners.extend(course.planner());
+        self.course = Some(course);
+    }
+
+    /// The properties that the planner of a map that is not cut into rooms asks rules for.
+    pub(crate) fn asked(&self) -> Vec<String> {
+        let asks = self.course.iter().flat_map(|course| course.asks());
+        let of = |class: Class| class.asked.iter().map(move |property| format!("{}.{property}", class.name));
+        asks.flat_map(of).collect()
+    }
+
+    /// Says what is wrong with a map that is not cut into rooms, where it could not be read.
+    fn needs_course(&self) -> Result<()> {
+        if self.site.layout.is_some() && self.course.is_none() {
+            plan::course_of(&self.site.map)?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn course(&self) -> Option<&Arc<dyn Course>> {
+        self.course.as_ref()
+    }
+
+    /// The tables that the map's file fills.
+    pub(crate) fn tables_of_map(&self) -> Vec<TableFile> {
+        self.course.as_ref().map_or_else(Vec::new, |course| course.tables())
+    }
+
+    /// The places that the map's file and `site.toml` name, where the map is not cut into rooms.
+    pub(crate) fn places_of_map(&self) -> Option<Vec<Place>> {
+        let course = self.course.as_ref()?;
+        let of_site =
+            self.site.places().map(|place| Place { place: place.name.clone(), x: place.at.x, y: place.at.y });
+        let mut places = course.places();
+        places.retain(|place| self.site.places().all(|of_site| of_site.name != place.place));
+        places.extend(of_site);
+        Some(places)
     }
 
     /// Keeps the database in another file than `site.db` of the site's folder.
@@ -213,6 +300,42 @@ impl KnowledgeBase {
 
     pub(crate) fn clock(&self) -> Clock {
         Clock::new(self.at, self.site.zone.as_ref().unwrap_or(&TimeZone::UTC))
+    }
+
+    pub(crate) const fn is_map_alone(&self) -> bool {
+        self.alone.is_some()
+    }
+
+    /// Refuses what a map alone cannot keep.
+    pub(crate) fn needs_folder(&self) -> Result<()> {
+        let Some((file, _)) = &self.alone else { return Ok(()) };
+        let file = file.display();
+        let message = format!("{file} is a map alone, which keeps no edits");
+        let help = format!("edit the file, or `adit new DIR --map {file}` makes a site of it");
+        Err(Error::said(Code::SiteMapAlone, message, Some(help)))
+    }
+
+    /// What a map alone is called in its database.
+    fn called_alone(&self) -> Option<String> {
+        let (file, _) = self.alone.as_ref()?;
+        Some(file.file_name().unwrap_or_default().to_string_lossy().into_owned())
+    }
+
+    /// Refuses the database of a site, or of another map, for a map alone: its tables would be filled from the file.
+    pub(crate) fn refuse_anothers(&self, database: &Path) -> Result<()> {
+        let Some(file) = self.called_alone().filter(|_| database.exists()) else { return Ok(()) };
+        let (name, alone) = Store::open_read_only(database)?
+            .snapshot(|tx| Ok::<_, Error>((tx.site_value("name")?, tx.site_value(ALONE)?)))?;
+        match name {
+            Some(name) if alone.as_deref() != Some(file.as_str()) => {
+                let database = database.display();
+                let message =
+                    format!("{database} is the database of {name}, which {file} would be filled into");
+                let help = Some("name a file of its own".to_owned());
+                Err(Error::said(Code::SiteMapAlone, message, help))
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(crate) fn asks_about_another_moment(&self) -> bool {
@@ -281,8 +404,9 @@ impl KnowledgeBase {
 
     pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
         progress.stage("map");
+        self.needs_course()?;
         let know = |world: &World| self.overlays.know(world);
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, know)?))
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked(), know)?))
     }
 
     /// For what holds on to it while others go on.
@@ -307,6 +431,7 @@ impl KnowledgeBase {
 
     /// Classes that are told: the tables of the robots, of the map, and those of the site's own that rules name.
     pub(crate) fn told(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<Told> {
+        self.needs_course()?;
         let classes = Facts::from([
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
@@ -321,13 +446,23 @@ impl KnowledgeBase {
             row_keys.insert(class.clone(), keys(table, classes::key_of(class)));
         }
         let planned = self.planned_classes();
+        let of_map: Vec<String> = self.tables_of_map().into_iter().map(|of| of.name).collect();
+        if self.course.is_some() {
+            let places = tables::places(&tx.places()?);
+            row_keys.insert(PLACES.to_owned(), keys(&places, &["place"]));
+            told.classes.insert(PLACES.to_owned(), places);
+        }
         for table in tx.user_tables()? {
             let class = table.name.to_uppercase();
-            let named = rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
+            let named = of_map.contains(&table.name)
+                || rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
             if named && !planned.contains(&class) {
                 let relation = tx.read_table(&table.name)?;
                 let read = tables::read(&relation)?;
                 row_keys.insert(class.clone(), tables::keys(&relation));
+                if tables::is_numbered(&relation) {
+                    told.numbered.insert(class.clone());
+                }
                 told.classes.insert(class, read);
             }
         }
@@ -376,7 +511,7 @@ impl KnowledgeBase {
         Ok(facts.iter().map(Fact::lost).collect())
     }
 
-    fn planned_classes(&self) -> Vec<String> {
+    pub(crate) fn planned_classes(&self) -> Vec<String> {
         let gives = self.planners.iter().flat_map(|planner| planner.signature().gives);
         let mut classes: Vec<String> = gives.map(|given| classes::split(&given).0.to_owned()).collect();
         classes.dedup();
@@ -400,6 +535,13 @@ impl KnowledgeBase {
         for planner in &self.planners {
             classes::declare(&mut schema, &planner.signature().gives);
         }
+        classes::declare(&mut schema, &classes::ROUTES_GIVE.map(str::to_owned));
+        for asked in self.course.iter().flat_map(|course| course.asks()) {
+            schema = schema.class(asked.name, &asked.told);
+        }
+        if let Some(course) = &self.course {
+            course.declare(&mut schema, &told.classes);
+        }
         told.declare(&mut schema);
         schema
     }
@@ -416,7 +558,7 @@ impl KnowledgeBase {
         }
         // what a rule sets and nothing reads is often why
         let failures = failures.into_iter().map(|failure| Finding::from(failure.diagnostic));
-        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners))))
+        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners, &self.asked()))))
     }
 
     /// Runs tests; all of them together may take what one inference may.
@@ -434,6 +576,14 @@ impl KnowledgeBase {
         if !errors.is_empty() {
             return Err(Error::all(errors));
         }
+        let mut given = self.planned_classes();
+        given.extend(tables::unbuilt().into_keys().chain([classes::ROUTES.to_owned()]));
+        let asked = self.course.iter().flat_map(|course| course.asks());
+        let asked: Vec<&str> = asked.map(|class| class.name).collect();
+        let amiss = lint::reactions(rules, &given, classes::ROUTES, &asked);
+        if !amiss.is_empty() {
+            return Err(Error::all(amiss));
+        }
         tests.run_within(rules, &schema, limits).map_err(|problems| Error::all(problems.0))
     }
 
@@ -444,7 +594,11 @@ impl KnowledgeBase {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
         } else {
-            (Told { classes: tables::unbuilt(), ..Told::default() }, 0)
+            self.needs_course()?;
+            let of_map = self.tables_of_map().into_iter();
+            let mut classes = tables::unbuilt();
+            classes.extend(of_map.map(|table| (table.name.to_uppercase(), table.class())));
+            (Told { classes, ..Told::default() }, 0)
         };
         let limits = Limits::default();
         let outcomes = self.run_tests(&base, &tests, &told, limits)?;
@@ -476,11 +630,15 @@ impl KnowledgeBase {
     pub(crate) fn sign(&self, tx: &mut Tx<'_>, rules: &RuleBase) -> Result<()> {
         tx.set_site_value("texts", Some(&self.site.texts().to_string()))?;
         tx.set_site_value("name", Some(&self.site.name))?;
+        tx.set_site_value(ALONE, self.called_alone().as_deref())?;
         tx.set_site_value("rooms", Some(self.site.rooms.name()))?;
+        tx.set_site_value(LAYOUT, self.course.as_ref().map(|course| course.name()))?;
         let own: Vec<String> = tx.user_tables()?.into_iter().map(|table| table.name).collect();
+        let of_map: Vec<String> = self.tables_of_map().into_iter().map(|of| of.name).collect();
         let read = |table: &&String| {
             let class = table.to_uppercase();
-            rules.rules().iter().any(|rule| rule.classes().any(|name| name == class))
+            of_map.contains(table)
+                || rules.rules().iter().any(|rule| rule.classes().any(|name| name == class))
         };
         let watched: Vec<&str> = own.iter().filter(read).map(String::as_str).collect();
         tx.watch_tables(&watched)?;

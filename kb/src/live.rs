@@ -1,5 +1,6 @@
 //! A site's knowledge held in memory between edits: an edit costs what depends on it, not what there is.
 
+mod courses;
 mod memory;
 mod once;
 mod renewal;
@@ -20,6 +21,7 @@ use crate::edit::{Done, Edit};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::Report;
+use crate::plan::course::Asked;
 use crate::state::State;
 use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
@@ -60,6 +62,8 @@ pub struct Outcome {
     pub anew: bool,
     /// What was done, and how long it took.
     pub stages: Vec<Stage>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     pub meanwhile: Meanwhile,
 }
 
@@ -153,6 +157,7 @@ impl Live {
     /// Edits a table and writes all that follows, in one transaction. If anything fails, database and memory are as
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
+        self.site.needs_folder()?;
         if let Some(outcome) = self.follow(Some((edit, author)))? {
             return Ok(outcome);
         }
@@ -194,6 +199,10 @@ impl Live {
                 let ended = over.map(|before| memory.state.told.ended_since(&before));
                 let meanwhile = Meanwhile::Ended(ended.unwrap_or_default());
                 self.newest = accepted.done.as_ref().map_or(self.newest, |done| done.id);
+                if !accepted.reacted.is_empty() {
+                    let last = self.store.snapshot(|tx| tx.history(1))?;
+                    self.newest = last.first().map_or(self.newest, |entry| entry.id);
+                }
                 if accepted.anew {
                     self.ready();
                 }
@@ -243,6 +252,11 @@ impl Live {
         self.view().route(start, goals, robot)
     }
 
+    /// The rules, to be asked about one object at a time, with all that is known now.
+    pub fn asked(&self) -> Asked<'_> {
+        self.memory.state.asked()
+    }
+
     /// A copy of what is known, in memory only, to try edits on.
     pub fn fork(&self) -> State {
         self.memory.state.fork()
@@ -258,7 +272,7 @@ impl Live {
     }
 
     fn outcome(&self, accepted: Accepted) -> Outcome {
-        let Accepted { done, weighed, tree_rows, anew, stages, .. } = accepted;
+        let Accepted { done, weighed, tree_rows, anew, stages, reacted, .. } = accepted;
         let graph = self.memory.state.graph();
         let all = (graph.rooms.len(), graph.doors.len());
         let (rooms, doors) = weighed.map_or(all, |weighed| (weighed.rooms.len(), weighed.doors.len()));
@@ -271,6 +285,7 @@ impl Live {
             routes_due: self.memory.routes_due,
             anew,
             stages,
+            reacted,
             meanwhile: Meanwhile::Ended(Vec::new()),
         }
     }
@@ -287,6 +302,7 @@ fn anew(report: Report) -> Outcome {
         routes_due: false,
         anew: true,
         stages: report.stages,
+        reacted: report.reacted,
         meanwhile: Meanwhile::Ended(Vec::new()),
     }
 }

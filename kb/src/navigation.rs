@@ -1,6 +1,7 @@
 //! Navigation on floor plans (Crowley): paths over regions and adits, and missions of a simulated robot that meets what
 //! its plan does not know. Rules decide; `adit_planners::navigation` drives.
 
+pub mod course;
 pub mod drive;
 pub mod floor;
 pub mod journal;
@@ -9,6 +10,9 @@ pub mod keep;
 pub mod learning;
 pub mod missions;
 pub mod reading;
+pub mod reporting;
+mod stretches;
 pub mod told;
 pub mod tours;
+mod walks;
 pub mod why;

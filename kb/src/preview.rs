@@ -15,7 +15,8 @@ use crate::edit::rehearse::{Cell, differences};
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
-use crate::state::{Nothing, State, Weighed};
+use crate::live::report::Concluded;
+use crate::state::{Nothing, State, Weighed, keep};
 use crate::words::progress::Silent;
 use routes::LISTED;
 pub use routes::{PlaceRoute, PlaceRoutes};
@@ -44,6 +45,9 @@ pub struct Preview {
     pub rooms: Changed<RoomChange>,
     /// Doors with another hardness, action or passability.
     pub doors: Changed<DoorChange>,
+    /// What rules would say otherwise of other things than rooms and doors, on a site without a map.
+    #[schema(value_type = Vec<Object>)]
+    pub conclusions: Vec<Concluded>,
     /// What would be closed and is not now, or no longer be, in sentences.
     pub closings: Vec<String>,
     /// Routes between places.
@@ -126,15 +130,23 @@ impl State {
             route.map(answer).transpose()
         };
         let before_route = answer(&self)?;
+        let before_courses = self.courses.clone();
         let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
         let gauge = Arc::clone(&self.gauge);
         let robots = self.robots();
+        let concluded = (!self.site.site().has_rooms()).then(|| self.knowledge.fork());
         let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
+        let of = |knowledge: &adit_engine::KnowledgeBase| {
+            keep::touched(knowledge, &self.inputs.rules, &step.changes)
+        };
+        let conclusions = concluded.map(|before| Concluded::between(&of(&before), &of(&self.knowledge)));
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         self.accept(step);
         let after = Arc::clone(self.graph());
         let same = !layout_changed && weighed.is_empty();
-        let routes = if same {
+        let routes = if let (Some(before), Some(after)) = (&before_courses, &self.courses) {
+            routes::between(before, after)
+        } else if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
             let (before, after) = ((&*before, &*gauge), (&*after, &*self.gauge));
@@ -143,6 +155,7 @@ impl State {
         Ok(Preview {
             generation: self.generation,
             cells,
+            conclusions: conclusions.unwrap_or_default(),
             closings: after.building.turned(&before.building),
             layout_changed,
             rooms: rooms(&before, &after, &weighed, layout_changed),

@@ -1,5 +1,6 @@
 //! A site: a folder with `site.toml`, which names its map, robot table and rule base.
 
+pub(crate) mod alone;
 pub(crate) mod base;
 pub(crate) mod clock;
 pub(crate) mod hours;
@@ -7,6 +8,7 @@ pub(crate) mod lint;
 pub(crate) mod over;
 pub(crate) mod robots;
 pub(crate) mod rules;
+pub(crate) mod sheet;
 pub(crate) mod shipped;
 pub(crate) mod states;
 pub(crate) mod tables;
@@ -18,9 +20,9 @@ use std::path::{Path, PathBuf};
 
 use adit_planners::geometry::Rect;
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, read_map, read_world,
+    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, nearest, read_map, read_world,
 };
-use adit_planners::world::World;
+use adit_planners::world::{Place, World};
 use jiff::tz::TimeZone;
 use toml::de::DeValue;
 
@@ -85,6 +87,8 @@ pub struct Site {
     pub rules: Vec<Base>,
     /// How the map is cut into rooms.
     pub rooms: Rooms,
+    /// What the map is, where it is not cut into rooms.
+    pub layout: Option<Layout>,
     /// From where routes are kept; `None`: not said.
     pub starts: Option<Starts>,
     /// When what is open, as the file says.
@@ -95,6 +99,97 @@ pub struct Site {
     overlay: Overlay,
     text: String,
 }
+
+/// What a map is that is not cut into rooms: the table that its file has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// Channels through which a robot drives.
+    Corridor,
+    /// Channels through which a part leaves another one.
+    Assembly,
+    /// Walls, between which a robot walks from region to region.
+    FloorPlan,
+    /// Objects, among which an arm or a disc moves from goal to goal.
+    Cell,
+}
+
+impl Layout {
+    const TABLES: [(&'static str, Self); 4] = [
+        ("corridor", Self::Corridor),
+        ("assembly", Self::Assembly),
+        ("floor_plan", Self::FloorPlan),
+        ("cell", Self::Cell),
+    ];
+
+    /// What the map in a file is; `None` where it is cut into rooms, or cannot be read.
+    pub fn of(map: &Path) -> Option<Self> {
+        if map.extension().is_none_or(|extension| extension != "toml") {
+            return None;
+        }
+        let text = fs::read_to_string(map).ok()?;
+        let document = Document::parse("map", &text).ok()?;
+        let fields = document.fields("the map");
+        Self::TABLES.into_iter().find(|(table, _)| fields.get(table).is_some()).map(|(_, layout)| layout)
+    }
+
+    /// Refuses a map that has one of the tables by a misspelt name: it would be read as one that is cut into rooms.
+    pub fn refuse_slips(map: &Path) -> Result<()> {
+        if map.extension().is_none_or(|extension| extension != "toml") || Self::of(map).is_some() {
+            return Ok(());
+        }
+        let Ok(text) = fs::read_to_string(map) else { return Ok(()) };
+        let name = map.display().to_string();
+        let Ok(document) = Document::parse(&name, &text) else { return Ok(()) };
+        let fields = document.fields("the map");
+        let tables = Self::TABLES.map(|(table, _)| table);
+        for (key, _) in fields.table {
+            let Some(meant) = nearest(key.get_ref(), &tables) else { continue };
+            let message = format!("`{}` is no table of a map", key.get_ref());
+            let problem = fields.text.problem(Code::UnknownKey, &key.span(), message);
+            return Err(Error::all([problem.with_help(format!("did you mean `[{meant}]`?"))]));
+        }
+        Ok(())
+    }
+
+    /// The file that a map of walls names, where it has them in a file of their own.
+    pub fn beside(map: &Path) -> Option<PathBuf> {
+        let text = fs::read_to_string(map).ok()?;
+        let document = Document::parse("map", &text).ok()?;
+        let whole = document.fields("the map");
+        let fields = whole.table("floor_plan", "[floor_plan]", &mut Vec::new())?;
+        let file = ["file", "map"].into_iter().find(|key| fields.get(key).is_some())?;
+        Some(map.with_file_name(fields.string(file, &mut Vec::new())?.value))
+    }
+
+    /// The rule bases that lie beneath the site's own, the lowest first: those that the map's file names, or the shipped one.
+    fn rule_bases(self, map: &Path) -> Vec<Base> {
+        let text = fs::read_to_string(map).unwrap_or_default();
+        let named = Document::parse("map", &text).ok().and_then(|document| {
+            let fields = document.fields("the map");
+            fields.get("rules")?;
+            Some(fields.string("rules", &mut Vec::new())?.value)
+        });
+        let names = match named.as_deref() {
+            None | Some("corrected" | "navigation" | "adapt") => vec![self.rule_base()],
+            Some("printed") => vec![self.rule_base(), "channels/printed"],
+            Some(folder) => vec![folder],
+        };
+        let beside = map.parent().unwrap_or(Path::new(""));
+        names.into_iter().map(|name| Base::named(name, beside)).collect()
+    }
+
+    /// The shipped rule base that goes with it.
+    pub const fn rule_base(self) -> &'static str {
+        match self {
+            Self::Corridor | Self::Assembly => "channels/corrected",
+            Self::FloorPlan => "navigation",
+            Self::Cell => "adapt",
+        }
+    }
+}
+
+/// The keys of a site whose map is not cut into rooms.
+const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours", "timezone", "place"];
 
 /// The keys of a site without a map.
 const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
@@ -126,24 +221,37 @@ impl Site {
         let document = Document::parse(&name, &text).map_err(|error| Error::all(error.problems))?;
         let fields = document.fields("site.toml");
         let mut problems = Vec::new();
-        let rooms = rooms(&fields, &mut problems);
+        let path =
+            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
+        let mut rooms = rooms(&fields, &mut problems);
+        let map = path(optional_text(&fields, "map", &mut problems), "map.toml");
+        let layout = if rooms == Rooms::Nothing { None } else { Layout::of(&map) };
+        if rooms != Rooms::Nothing {
+            Layout::refuse_slips(&map)?;
+        }
         if rooms == Rooms::Nothing {
             fields.refuse_unknown(&KEYS_WITHOUT_MAP, &mut problems);
+        } else if layout.is_some() {
+            fields.refuse_unknown(&KEYS_WITHOUT_ROOMS, &mut problems);
+            rooms = Rooms::Nothing;
         } else {
             fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
         }
-        let path =
-            |value: Option<String>, default: &str| folder.join(value.unwrap_or_else(|| default.to_owned()));
-        let shipped = || rooms.rule_base().map(str::to_owned).into_iter().collect();
-        let beneath = named_rules(&fields, &mut problems).unwrap_or_else(shipped);
+        let named = |names: Vec<String>| names.iter().map(|name| Base::named(name, folder)).collect();
+        let beneath = match (named_rules(&fields, &mut problems), layout) {
+            (Some(names), _) => named(names),
+            (None, Some(layout)) => layout.rule_bases(&map),
+            (None, None) => named(rooms.rule_base().map(str::to_owned).into_iter().collect()),
+        };
         let site = Self {
             folder: folder.to_owned(),
             name: optional_text(&fields, "name", &mut problems)
                 .unwrap_or_else(|| folder.display().to_string()),
-            map: path(optional_text(&fields, "map", &mut problems), "map.toml"),
+            map,
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
-            rules: bases(folder, &beneath),
+            rules: with_own(folder, beneath),
             rooms,
+            layout,
             starts: starts(&fields, &mut problems),
             hours: hours::read(&fields, &mut problems),
             zone: zone(&fields, &mut problems),
@@ -178,15 +286,29 @@ impl Site {
         self.folder.join("tables")
     }
 
-    /// Whether there is a map, and so rooms, robots and routes.
-    pub fn has_map(&self) -> bool {
+    /// Whether there is a map that is cut into rooms, and so states of robots.
+    pub fn has_rooms(&self) -> bool {
         self.rooms != Rooms::Nothing
     }
 
-    /// Refuses what needs a map where there is none.
-    pub fn needs_map(&self) -> Result<()> {
-        if self.has_map() {
+    /// From where routes over rooms are kept; `None`: not said.
+    pub fn starts_in_rooms(&self) -> Option<&Starts> {
+        self.starts.as_ref().filter(|_| self.has_rooms())
+    }
+
+    /// The places that `site.toml` names.
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        self.overlay.places()
+    }
+
+    /// Refuses what needs rooms where there are none.
+    pub fn needs_rooms(&self) -> Result<()> {
+        if self.has_rooms() {
             return Ok(());
+        }
+        if self.layout.is_some() {
+            let message = format!("the map of {} is not cut into rooms, as this needs it to be", self.name);
+            return Err(Error::said(error::Code::CourseUnfit, message, None));
         }
         let message = format!("{} has no map: it has tables and rules, and no rooms or routes", self.name);
         let help =
@@ -198,7 +320,9 @@ impl Site {
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = vec![self.folder.join("site.toml")];
         files.extend(tables::files(&self.tables()));
-        if !self.has_map() {
+        files.extend(self.layout.map(|_| self.map.clone()));
+        files.extend(self.layout.and_then(|_| Layout::beside(&self.map)));
+        if !self.has_rooms() {
             return files;
         }
         files.extend([self.map.clone(), self.robots.clone()]);
@@ -237,7 +361,7 @@ impl Site {
 
     /// Reads the map and lays over it what `site.toml` says.
     pub fn world(&self) -> Result<World> {
-        if !self.has_map() {
+        if !self.has_rooms() {
             return Ok(World::empty(Rect::new(0.0, 0.0, 1.0, 1.0)));
         }
         let read = read_world(&self.map, &self.settings);
@@ -248,7 +372,7 @@ impl Site {
 
     /// As [`world`](Self::world), with what it cost or gave of free space to read it so, and notes.
     pub fn measured_world(&self) -> Result<(World, MapReport, Vec<Problem>)> {
-        if !self.has_map() {
+        if !self.has_rooms() {
             return Ok((self.world()?, MapReport::default(), Vec::new()));
         }
         let (mut world, report) =
@@ -270,9 +394,8 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
     )
 }
 
-/// The rule bases of these names with the site's folder `rules` over them, which always counts.
-fn bases(folder: &Path, names: &[String]) -> Vec<Base> {
-    let mut bases: Vec<Base> = names.iter().map(|name| Base::named(name, folder)).collect();
+/// These rule bases with the site's folder `rules` over them, which always counts.
+fn with_own(folder: &Path, mut bases: Vec<Base>) -> Vec<Base> {
     let own = folder.join(Site::RULES);
     let is_own = |base: &Base| {
         let same = |one: &Path| fs::canonicalize(one).ok() == fs::canonicalize(&own).ok();

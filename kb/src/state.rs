@@ -3,6 +3,7 @@
 //! a step of a fork, an edit a step whose change is kept in the database.
 
 pub(crate) mod before;
+mod courses;
 pub(crate) mod grounds;
 pub(crate) mod keep;
 mod planned;
@@ -23,11 +24,12 @@ use adit_planners::world::World;
 
 use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
-use crate::graph::pairs::Known;
+use crate::graph::pairs::{self, From, Known};
 use crate::graph::{Building, SiteGraph};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
 use crate::knowledge::{KnowledgeBase, tolerance};
+pub(crate) use courses::Courses;
 use planned::Planned;
 pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
@@ -58,6 +60,8 @@ pub struct State {
     /// What rules concluded.
     pub(crate) knowledge: Inference,
     twin: Twin,
+    /// Routes over a map that is not cut into rooms.
+    pub(crate) courses: Option<Arc<Courses>>,
     pub(crate) gauge: Arc<Gauge>,
     /// What has to be undone where a step is not accepted.
     pending: Option<Pending>,
@@ -89,6 +93,7 @@ impl State {
             planned: Planned::default(),
             knowledge,
             twin: Twin::new(graph),
+            courses: None,
             gauge,
             pending: None,
             generation: 0,
@@ -110,6 +115,7 @@ impl State {
             planned: self.planned.clone(),
             knowledge: self.knowledge.fork(),
             twin: self.twin.fork(),
+            courses: self.courses.clone(),
             gauge: Arc::clone(&self.gauge),
             pending: None,
             generation: self.generation,
@@ -142,8 +148,32 @@ impl State {
         self.twin.prepare();
     }
 
+    /// What routes between places cost once a step is accepted: robot, start, goal and cost.
+    pub(crate) fn place_costs(&self, step: &Step) -> Vec<(String, String, String, f64)> {
+        if let Some(courses) = &step.courses {
+            let costs = courses.costs().into_iter();
+            let named = |([robot, start, goal], cost): ([&str; 3], Option<f64>)| {
+                Some((robot.to_owned(), start.to_owned(), goal.to_owned(), cost?))
+            };
+            return costs.filter_map(named).collect();
+        }
+        let (graph, robots) = (self.graph_after(step), step.told.robots());
+        let places = graph.places.len();
+        let all: Vec<From> =
+            (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
+        let rows = pairs::rows((graph, self.gauge_after(step)), &robots, &all, None);
+        let name = |place: usize| graph.places[place].place.clone();
+        let costs = rows.iter().flat_map(|((robot, start), row)| {
+            let robot = robots[*robot].clone();
+            row.iter().enumerate().filter_map(move |(goal, found)| {
+                Some((robot.clone(), name(*start), name(goal), found.as_ref()?.cost))
+            })
+        });
+        costs.collect()
+    }
+
     /// The robots, in the order of their names.
     pub(crate) fn robots(&self) -> Vec<String> {
-        self.told.robots()
+        self.courses.as_ref().map_or_else(|| self.told.robots(), |courses| courses.robots())
     }
 }

@@ -1,12 +1,15 @@
 //! Why something is as it is: the rule behind each conclusion, what it chose, and the values that it read there.
 
+pub mod ask;
 mod contrast;
+mod course;
 mod facts;
 pub mod firm;
 pub mod hindered;
 mod meant;
 mod said;
 pub(crate) mod subject;
+mod told;
 pub mod way;
 pub mod why_not;
 
@@ -21,6 +24,7 @@ use crate::live::Live;
 use crate::state::State;
 use crate::why::hindered::{Driven, Hindered, Kind, by_ease};
 use crate::why::subject::Subject;
+use crate::why::told::Telling;
 use crate::words::suggest::did_you_mean;
 pub use facts::Facts;
 pub(crate) use said::roughly;
@@ -77,8 +81,38 @@ impl Live {
 impl State {
     /// As [`Live::why`].
     pub fn why(&self, what: &str) -> Result<Why> {
+        if let Some(courses) = &self.courses
+            && let Some(why) = course::why(courses, what, self.generation)?
+        {
+            return Ok(why);
+        }
         let subject = Subject::find(self, what)?;
-        let (conclusions, facts) = self.conclusions(&subject)?;
+        let told = told::told(self, &subject)?;
+        let (mut conclusions, facts) = match self.conclusions(&subject) {
+            Ok(found) => found,
+            Err(_) if !told.is_empty() => (Vec::new(), Vec::new()),
+            Err(error) => return Err(error),
+        };
+        // what is told stands before what is concluded, and says who told it
+        conclusions
+            .retain(|known| known.rule.is_some() || told.iter().all(|of| of.property != known.property));
+        let (rule, version, file, line, witness) = (None, None, None, None, None);
+        let none = Reasoned {
+            property: String::new(),
+            value: Cell::Null,
+            rule,
+            version,
+            file,
+            line,
+            witness,
+            why: String::new(),
+        };
+        conclusions.extend(told.into_iter().map(|Telling { property, value, why }| Reasoned {
+            property,
+            value,
+            why,
+            ..none.clone()
+        }));
         let object = format!("{}.{}", subject.class, subject.key);
         let (hindered, easier) = self.easier_there(&subject);
         let (generation, name) = (self.generation, subject.name);

@@ -1,4 +1,5 @@
-//! A task of a two-link arm: the first ones, while it learns, and later ones along what it learned.
+//! Tasks of a two-link arm: the first ones, while it learns, later ones along what it learned; and a hundred with a change of
+//! the cell in the middle, by repair on demand and by Solve alone. `adit experiment` times them with SQLite.
 //! `cargo bench -p adit-planners --bench adapt`
 #![allow(missing_docs)] // divan's macros
 
@@ -6,8 +7,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use adit_planners::adapt::{
-    Adapt, Arm, ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Limit, Object, Plugins, Settings, Shape,
-    Strategy, TOUCHING_M, Trust, Workcell,
+    Adapt, Arm, ChangeFacts, EdgeFacts, Experiment, Judge, KeepNothing, LandmarkFacts, Limit, Method, Object,
+    Plugins, Scenario, Settings, Shape, Strategy, TOUCHING_M, Trust, Workcell,
 };
 use adit_planners::geometry::Point;
 use divan::{Bencher, black_box};
@@ -41,16 +42,17 @@ fn post(name: &str, x: f64, y: f64) -> Object {
     Object::fixed(name, Shape::new(shape).expect("a square is an outline"))
 }
 
-fn planner() -> Adapt {
+fn arm() -> Arc<Arm> {
     let limits = vec![Limit { low: -PI, high: PI }, Limit { low: -2.7, high: 2.7 }];
-    let arm = Arm::new(Point::default(), vec![1.0, 0.9], 0.03, limits).expect("it is an arm");
-    let posts = vec![
-        post("front", 1.3, 0.4),
-        post("left", 0.3, 1.3),
-        post("back", -1.1, 0.9),
-        post("right", 0.8, -1.2),
-    ];
-    let cell = Workcell::new(Arc::new(arm), posts, TOUCHING_M).expect("names differ");
+    Arc::new(Arm::new(Point::default(), vec![1.0, 0.9], 0.03, limits).expect("it is an arm"))
+}
+
+fn posts() -> Vec<Object> {
+    vec![post("front", 1.3, 0.4), post("left", 0.3, 1.3), post("back", -1.1, 0.9), post("right", 0.8, -1.2)]
+}
+
+fn planner() -> Adapt {
+    let cell = Workcell::new(arm(), posts(), TOUCHING_M).expect("names differ");
     Adapt::new(cell, Plugins::standard(), Settings::default(), HOME.to_vec())
 }
 
@@ -74,4 +76,42 @@ fn five_tasks_that_were_done_before(bencher: Bencher) {
             black_box(adapt.task(goal, &mut Table));
         }
     });
+}
+
+/// A hundred tasks; after forty of them another post comes.
+fn hundred_tasks(method: Method) {
+    let scenario = Scenario {
+        name: "posts".to_owned(),
+        robot: arm(),
+        objects: posts(),
+        changed: [posts(), vec![post("new", -1.3, -0.6)]].concat(),
+        change_after_task: 40,
+        tasks: 100,
+        home: HOME.to_vec(),
+        goals: GOALS.map(|goal| goal.to_vec()).to_vec(),
+        added_goals: vec![vec![1.5, -1.2]],
+    };
+    let experiment = Experiment {
+        scenario: &scenario,
+        plugins: &Plugins::standard(),
+        settings: &Settings::default(),
+        touching_m: TOUCHING_M,
+        runs: 1,
+        seed: 1,
+        judge: &|| Box::new(Table),
+        keeper: &|_, _| Box::new(KeepNothing),
+        clock: &|| 0.0,
+        progress: &|| (),
+    };
+    black_box(experiment.run(method).expect("names differ"));
+}
+
+#[divan::bench]
+fn hundred_tasks_by_repair_on_demand() {
+    hundred_tasks(Method::Adapt(Strategy::OnDemand));
+}
+
+#[divan::bench]
+fn hundred_tasks_by_solve_alone() {
+    hundred_tasks(Method::Solve);
 }

@@ -10,8 +10,8 @@ mod arm_scenario;
 use std::time::Instant;
 
 use adit_planners::adapt::{
-    ChangeFacts, Curve, EdgeFacts, Experiment, Judge, LandmarkFacts, Method, Plugins, Scenario, Settings,
-    Strategy, TOUCHING_M, Trust,
+    ChangeFacts, Curve, EdgeFacts, Experiment, Judge, KeepNothing, LandmarkFacts, Method, Plugins, Scenario,
+    Settings, Strategy, TOUCHING_M, Trust,
 };
 use arm_scenario::ArmScenario;
 
@@ -70,6 +70,7 @@ fn print_curves(scenario: &Scenario, runs: u32, seed: u64, peer: &[f64]) {
         runs,
         seed,
         judge: &|| Box::new(Table),
+        keeper: &|_, _| Box::new(KeepNothing),
         clock: &|| began.elapsed().as_secs_f64(),
         progress: &|| (),
     };

@@ -32,7 +32,7 @@ pub use arm::{Arm, ArmError};
 pub use clearance::Clearance;
 pub use execution::{Collision, collision};
 pub use experience::{Edge, EdgeId, Experience, ExperienceError, TagPoint, Vertex, VertexId};
-pub use experiment::{Curve, Experiment, Method, Row, Scenario};
+pub use experiment::{Curve, Experiment, KeepNothing, Keeper, Method, Row, Scenario};
 pub use judge::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 pub use noted::{Noted, ObjectChange, Removal};
 pub use object::Object;

@@ -3,3 +3,6 @@
 
 pub mod assembly;
 pub mod corridor;
+mod junctions;
+
+pub use junctions::{CorridorJunctions, PartJunctions};

@@ -5,6 +5,7 @@ mod check;
 pub mod clear;
 pub mod disc;
 mod face;
+mod facts;
 mod funnel;
 mod layout;
 mod merged;
@@ -22,6 +23,7 @@ mod space;
 mod trees;
 
 pub use disc::Disc;
+pub use facts::{RegionsAndAdits, outline};
 pub use network::{Adit, Network, Spot, Way};
 pub use path::{NoPath, Path, Rule};
 pub use plan::{Drawn, FloorPlan};

@@ -10,6 +10,7 @@ pub mod channels;
 pub mod clearance;
 pub mod doors;
 pub mod facts;
+pub mod figures;
 pub mod floor_plan;
 pub mod geometry;
 mod known;

@@ -15,4 +15,5 @@ mod adapt {
     mod strategies;
     pub mod support;
     mod two_step;
+    mod work;
 }

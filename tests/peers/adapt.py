@@ -33,7 +33,7 @@ def ours(folder):
 
 
 def kept(folder, name):
-    """Seconds a task with planning and SQLite, of runs of `adit plan --db`."""
+    """Seconds a task with planning and SQLite, of runs of `adit tasks --db`."""
     with open(f"{folder}/{name}-kept.json") as file:
         runs = [json.loads(line) for line in file if line.strip()]
     tasks = [task["seconds"] for run in runs for task in run["tasks"]]

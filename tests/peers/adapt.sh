@@ -14,7 +14,7 @@ runs=${runs:-100}
 seed=${SEED:-1000}
 mkdir -p "$work"
 work=$(readlink -f "$work")
-scenarios=tests/tests/adapt/two-link.json
+scenarios=tests/tests/journeys/adapt/two-link.json
 
 install_ompl
 if [ ! -x "$work/ompl_cell" ] || [ tests/peers/ompl_cell.cpp -nt "$work/ompl_cell" ]; then
@@ -32,7 +32,7 @@ for name in two-link-A two-link-B; do
     rm -f "$work/$name-kept.json"
     for run in $(seq "${smallest:-10}"); do
         rm -f "$work/kept.db"*
-        "$adit" plan "$scenarios" --scenario "$name" --tasks 100 --seed "$run" --db "$work/kept.db" --json \
+        "$adit" tasks "$scenarios" --scenario "$name" --tasks 100 --seed "$run" --db "$work/kept.db" --json \
             | python3 -c 'import json, sys; print(json.dumps(json.load(sys.stdin)))' >> "$work/$name-kept.json"
     done
 done

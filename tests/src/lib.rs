@@ -24,7 +24,7 @@ pub fn adit() -> &'static Path {
         let mut build = Command::new(env!("CARGO"));
         // of the whole workspace and with a test, as the tests are built: otherwise crates whose features tests add to would
         // be built anew without them, and with them all that stands on those
-        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit", "--test", "readme"]);
+        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit", "--test", "peers"]);
         if profile.ends_with("release") {
             build.arg("--release");
         }
@@ -73,10 +73,7 @@ impl TestSite {
 
     fn copy_of(folder: &Path) -> Self {
         let site = Self::empty();
-        for entry in fs::read_dir(folder).expect("a site") {
-            let entry = entry.expect("a file");
-            fs::copy(entry.path(), site.path().join(entry.file_name())).expect("copied");
-        }
+        copy(folder, site.path());
         site
     }
 
@@ -232,6 +229,20 @@ impl Ran {
             });
         for text in texts {
             assert!(said.contains(text), "`{text}` is not in:\n{}", self.stderr);
+        }
+    }
+}
+
+/// Copies what is in a folder into another one that is there.
+fn copy(from: &Path, into: &Path) {
+    for entry in fs::read_dir(from).expect("a site") {
+        let entry = entry.expect("a file");
+        let there = into.join(entry.file_name());
+        if entry.path().is_dir() {
+            fs::create_dir_all(&there).expect("folder made");
+            copy(&entry.path(), &there);
+        } else {
+            fs::copy(entry.path(), there).expect("copied");
         }
     }
 }

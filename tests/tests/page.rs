@@ -5,8 +5,12 @@
 mod accessible;
 #[path = "page/ask.rs"]
 mod ask;
+#[path = "page/drawn.rs"]
+mod drawn;
 #[path = "page/experience.rs"]
 mod experience;
+#[path = "page/find_out.rs"]
+mod find_out;
 #[path = "page/keyboard.rs"]
 mod keyboard;
 #[path = "page/latency.rs"]
@@ -15,6 +19,8 @@ mod latency;
 mod live;
 #[path = "page/rules.rs"]
 mod rules;
+#[path = "page/shop.rs"]
+mod shop;
 #[path = "page/sql.rs"]
 mod sql;
 #[path = "page/tune.rs"]

@@ -74,6 +74,9 @@ impl<'t> Table<'t> {
     pub(super) async fn locate(&self, connection: &mut SqliteConnection, key: &str) -> Result<Vec<Cell>> {
         let keys = self.keys();
         let all = |keys: &[String]| keys.join(" || '/' || ");
+        if let Some(found) = self.locate_by_parts(connection, key).await? {
+            return Ok(found);
+        }
         // joined to '', a number is compared as text
         let mut condition = format!("('' || {}) = ?1", all(&keys));
         if keys.len() > 1 && keys[0] == identifier("robot") {
@@ -88,6 +91,26 @@ impl<'t> Table<'t> {
             [row] => (0..keys.len()).map(|index| Cell::of(row, index)).collect(),
             _ => Err(Error::AmbiguousKey { table, key, columns: keys.join(", ") }),
         }
+    }
+
+    /// The key's values of the row whose parts of the key these are, reached by the index.
+    async fn locate_by_parts(
+        &self,
+        connection: &mut SqliteConnection,
+        key: &str,
+    ) -> Result<Option<Vec<Cell>>> {
+        let (keys, parts) = (self.keys(), key.split('/').map(Cell::from).collect::<Vec<_>>());
+        if keys.len() != parts.len() {
+            return Ok(None);
+        }
+        let each: Vec<String> = keys.iter().map(|key| format!("{key} = ?")).collect();
+        let whole = format!("('' || {}) = ?", keys.join(" || '/' || "));
+        let (names, each) = (keys.join(", "), each.join(" AND "));
+        let sql = format!("SELECT {names} FROM {} WHERE {each} AND {whole}", identifier(self.name));
+        let values: Vec<Cell> = parts.into_iter().chain([Cell::from(key)]).collect();
+        let rows = dynamic::fetch(connection, sql, &values).await?;
+        let Some(row) = rows.first() else { return Ok(None) };
+        (0..keys.len()).map(|index| Cell::of(row, index)).collect::<Result<_>>().map(Some)
     }
 
     /// One expression of the row that the key's values find.

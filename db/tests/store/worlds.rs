@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use adit_db::plan::Plan;
+use adit_db::floor_plan::FloorPlan;
 use adit_db::query::Limits;
 use adit_db::{Cell, Error, Store};
 use sqlx::{Connection, SqliteConnection};
@@ -38,15 +38,19 @@ fn a_site_has_none_of_the_tables_until_a_world_is_kept_in_its_database() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("site.db");
     let alone = objects(&Store::create(&path).unwrap());
-    assert!(!alone.iter().any(|object| object[1] == Cell::from("plans")));
+    assert!(!alone.iter().any(|object| object[1] == Cell::from("missions")));
     let mut store = Store::open_for_worlds(&path).unwrap();
-    let plan = Plan { plan: "part".into(), kind: "assembly".into(), ..Plan::default() };
-    store.transaction(|tx| tx.keep_plan(&plan)).unwrap();
+    let plan = FloorPlan { world: "flat".into(), ..FloorPlan::default() };
+    store.transaction(|tx| tx.keep_floor_plan(&plan)).unwrap();
     drop(store);
     let again = Store::open_for_worlds(&path).unwrap();
     assert!(alone.iter().all(|object| objects(&again).contains(object)));
-    let kept = again.query("SELECT plan FROM plans", &Limits::default()).unwrap().rows;
-    assert_eq!(kept, [[Cell::from("part")]]);
+    let kept = again.query("SELECT world FROM floor_plans", &Limits::default()).unwrap().rows;
+    assert_eq!(kept, [[Cell::from("flat")]]);
+    // and what earlier programs kept of plans is gone
+    assert!(
+        !objects(&again).iter().any(|object| ["plans", "junctions"].map(Cell::from).contains(&object[1]))
+    );
 }
 
 #[test]

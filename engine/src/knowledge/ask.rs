@@ -1,6 +1,6 @@
 //! Backward chaining: a value that is asked for, and nothing but what it needs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Instant;
 
 use super::KnowledgeBase;
@@ -11,19 +11,21 @@ use super::memory::{Memory, Shape};
 use super::network::Planned;
 use crate::changes::Changes;
 use crate::declared::{Declaration, Source};
-use crate::machine::lane::Frame;
+use crate::machine::lane::{Frame, NO_ROW};
 use crate::machine::output::{Buffer, Status};
 use crate::order::Step;
+use crate::plan::kinds::{Key, Kind, Kinds};
 use crate::plan::plan;
+use crate::plan::uses::Uses;
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
-use crate::value::{Truth, Value};
+use crate::value::{Truth, Type, Value};
 
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Answer {
     Known(Value),
-    /// No source gives one but the user: tell it, or that it is not known, and ask again.
+    /// What would settle it, or a part of it, and no source gives but the user: tell it, or that it is not known, and ask again.
     Ask(Question),
     NotKnown,
 }
@@ -38,7 +40,8 @@ pub struct Question {
 
 impl KnowledgeBase {
     /// Asks for a value. Of what nobody asked for yet, only what it needs is computed, source by source in the order
-    /// that is declared: told, concluded by rules, a default, a question to the user.
+    /// that is declared: told, concluded by rules, a default, a question to the user. Where rules could conclude it if they
+    /// knew more, what they lack is asked for first, one after the other, as the rules speak of it.
     pub fn ask(
         &mut self,
         rules: &RuleBase,
@@ -50,19 +53,130 @@ impl KnowledgeBase {
             return Err(FactError::NoClass { class: class.to_owned() });
         }
         let row = self.row(class, key).ok_or_else(|| FactError::no_object(class, &key))?;
-        self.ask_rows(rules, class, &[row as u32], &[property]);
-        if let Some(value) = self.value_at(class, row, property) {
-            return Ok(Answer::Known(value));
+        Ok(self.ask_row(rules, class, row, property).0)
+    }
+
+    /// As [`ask`](Self::ask), by the object's row from 0; with it what was computed for it.
+    pub fn ask_row(
+        &mut self,
+        rules: &RuleBase,
+        class: &str,
+        row: usize,
+        property: &str,
+    ) -> (Answer, Changes) {
+        let changes = self.ask_rows(rules, class, &[row as u32], &[property]);
+        (self.answer(rules, &PropertyName::new(class, property), row), changes)
+    }
+
+    fn answer(&mut self, rules: &RuleBase, name: &PropertyName, row: usize) -> Answer {
+        if let Some(value) = self.value_at(&name.class, row, &name.property) {
+            return Answer::Known(value);
         }
-        let name = PropertyName::new(class, property);
-        if self.network.not_known.contains(&(name.clone(), key.to_owned())) {
-            return Ok(Answer::NotKnown);
+        let this = &mut *self;
+        let question = on_deep_stack(move || this.lacking(rules, name, row as u32, &mut BTreeSet::new()));
+        question.map_or(Answer::NotKnown, Answer::Ask)
+    }
+
+    /// The first question that an answer to which may settle a value that is unknown.
+    fn lacking(
+        &mut self,
+        base: &RuleBase,
+        name: &PropertyName,
+        row: u32,
+        seen: &mut BTreeSet<(PropertyName, u32)>,
+    ) -> Option<Question> {
+        let is_known = self.value_at(&name.class, row as usize, &name.property).is_some();
+        let may_come = base.declared.properties.contains_key(name)
+            || base.rules.iter().any(|rule| rule.sets.contains_key(name));
+        if is_known || !may_come || !seen.insert((name.clone(), row)) {
+            return None;
         }
-        let (this, asked) = (&mut *self, &name);
-        let question = on_deep_stack(move || this.question(rules, asked, row as u32));
-        Ok(question.map_or(Answer::NotKnown, |text| {
-            Answer::Ask(Question { property: name, key: key.to_owned(), text })
-        }))
+        for index in 0..base.rules.len() {
+            if base.rules[index].sets.contains_key(name) {
+                for (input, rows) in self.inputs(base, index, name, row) {
+                    let found = rows.into_iter().find_map(|row| self.lacking(base, &input, row, seen));
+                    if found.is_some() {
+                        return found;
+                    }
+                }
+            }
+        }
+        let key = self.key(&name.class, row as usize)?;
+        if self.network.not_known.contains(&(name.clone(), key.clone())) {
+            return None;
+        }
+        let text = self.question(base, name, row)?;
+        Some(Question { property: name.clone(), key, text })
+    }
+
+    /// What a rule may lack to say something of an object, as it speaks of it, with the objects of which it may lack that.
+    fn inputs(
+        &mut self,
+        base: &RuleBase,
+        index: usize,
+        name: &PropertyName,
+        row: u32,
+    ) -> Vec<(PropertyName, Vec<u32>)> {
+        let rule = &base.rules[index];
+        let node = &mut self.network.nodes[index];
+        let (Some(planned), Some(mut memory)) = (node.planned.take(), node.memory.take()) else {
+            return self.awaited(rule, name, row);
+        };
+        let mut inputs: Vec<(PropertyName, Vec<u32>)> = vec![];
+        let sets_first = memory.given.iter().any(|given| given.name == *name && given.variable == 0);
+        let is_whole = memory.shape == Shape::Whole;
+        let drivers = if sets_first && !is_whole { vec![row] } else { self.all_rows(&rule.clauses[0].class) };
+        let until = self.limits.end(self.limits.inference);
+        for driver in drivers {
+            let at = if is_whole { 0 } else { driver };
+            let status = memory.statuses.get(at as usize).copied().unwrap_or(Status::UNASKED);
+            let last = match status.unmet() {
+                Some(clause) => Some(clause),
+                None if status == Status::SILENT && !is_whole => continue,
+                None if status == Status::LEFT_OUT => Some(0),
+                None => None,
+            };
+            // What was not met may be met if more were known of what that clause and those before it look at.
+            let uses = last.map(|last| Uses::of_clauses(&planned.plan.clauses[..=last]));
+            let uses = uses.as_ref().unwrap_or(&planned.uses);
+            for (number, clause) in rule.clauses.iter().enumerate().take(uses.anywhere.len()) {
+                let columns = &uses.anywhere[number];
+                let witness = memory.witness(number, at as usize);
+                let rows = match number {
+                    0 => vec![driver],
+                    _ if status == Status::THEN && memory.shape == Shape::Single && witness != NO_ROW => {
+                        vec![witness]
+                    }
+                    _ => {
+                        let joined = Dirty::Rows(vec![driver]);
+                        match self.joined_to(rule, &planned, &mut memory, &joined, number, until) {
+                            Dirty::Rows(rows) => rows,
+                            Dirty::None => vec![],
+                            Dirty::All => self.all_rows(&clause.class),
+                        }
+                    }
+                };
+                let names = columns.iter().map(|&column| &planned.plan.columns[column]);
+                inputs.extend(names.map(|input| (input.clone(), rows.clone())));
+            }
+        }
+        inputs.sort_by_key(|(input, _)| rule.reads.get(input).map(|at| (at.line(), at.position())));
+        let node = &mut self.network.nodes[index];
+        (node.planned, node.memory) = (Some(planned), Some(memory));
+        inputs
+    }
+
+    /// What a rule that waits reads: something of it has no object yet that it is known of.
+    fn awaited(&self, rule: &Rule, name: &PropertyName, row: u32) -> Vec<(PropertyName, Vec<u32>)> {
+        let mut reads: Vec<_> = rule.reads.iter().collect();
+        reads.sort_by_key(|(_, at)| (at.line(), at.position()));
+        let is_own = |input: &PropertyName| input.class == name.class && rule.clauses[0].class == name.class;
+        let rows = |input: &PropertyName| if is_own(input) { vec![row] } else { self.all_rows(&input.class) };
+        reads.into_iter().map(|(input, _)| (input.clone(), rows(input))).collect()
+    }
+
+    fn all_rows(&self, class: &str) -> Vec<u32> {
+        (0..self.len(class).unwrap_or(0) as u32).collect()
     }
 
     /// Answers a question by "I do not know": it is not asked again, and what comes after it among the sources
@@ -185,6 +299,42 @@ impl KnowledgeBase {
         found
     }
 
+    /// Makes the properties that users are asked for and of which nobody has told anything yet: unknown, they keep no rule
+    /// waiting. What they hold is seen from the rules that read them.
+    pub(super) fn make_askable(&mut self, base: &RuleBase) {
+        let is_asked = |declared: &Vec<Declaration>| {
+            declared.iter().any(|of| of.sources.iter().any(|source| matches!(source, Source::Ask(_))))
+        };
+        let missing: Vec<&PropertyName> = base
+            .declared
+            .properties
+            .iter()
+            .filter(|(name, declared)| is_asked(declared) && self.held.contains_key(&name.class))
+            .map(|(name, _)| name)
+            .filter(|name| self.told_column(name).is_none())
+            .collect();
+        for name in missing {
+            let kind = self.kind_by_use(base, name);
+            if let Some(held) = self.held.get_mut(&name.class) {
+                held.table.widen(&name.property, kind);
+                self.network.recheck = true;
+            }
+        }
+    }
+
+    /// The type with which the rules that read a property find least amiss.
+    fn kind_by_use(&self, base: &RuleBase, name: &PropertyName) -> Type {
+        let kinds = [Type::Truth, Type::Number, Type::Text];
+        let amiss = |kind: &Type| -> usize {
+            let known = super::evaluate::Known { base: self, rule: None, told: None };
+            let supposed = Supposed { known, name, kind: *kind };
+            let readers = base.rules.iter().filter(|rule| rule.reads.contains_key(name));
+            // what else is amiss is so with each of them
+            readers.filter_map(|rule| plan(rule, &supposed, &self.symbols).err()).flatten().count()
+        };
+        kinds.into_iter().min_by_key(amiss).unwrap_or(Type::Truth)
+    }
+
     /// The question that is declared for a property of an object, if there is one.
     fn question(&self, base: &RuleBase, name: &PropertyName, row: u32) -> Option<String> {
         let declared = base.declared.properties.get(name)?;
@@ -227,6 +377,36 @@ impl KnowledgeBase {
             rest = after;
         }
         out + rest
+    }
+}
+
+/// What is known, and of one property a type that is tried.
+struct Supposed<'s> {
+    known: super::evaluate::Known<'s>,
+    name: &'s PropertyName,
+    kind: Type,
+}
+
+impl Kinds for Supposed<'_> {
+    fn kind(&self, property: &PropertyName) -> Kind {
+        match self.known.kind(property) {
+            _ if property == self.name => Kind::Holds(Some(self.kind)),
+            // may be told some day
+            Kind::Missing => Kind::Holds(None),
+            kind @ Kind::Holds(_) => kind,
+        }
+    }
+
+    fn declared(&self, property: &PropertyName) -> Option<Type> {
+        self.known.declared(property)
+    }
+
+    fn key(&self, class: &str) -> Key {
+        self.known.key(class)
+    }
+
+    fn properties(&self, class: &str) -> Vec<String> {
+        self.known.properties(class)
     }
 }
 

@@ -21,7 +21,7 @@ use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
 use crate::script::failure::failure;
 use crate::script::interpreter::start_run;
-use crate::script::reactor::{Object, Write, reactor, with_run};
+use crate::script::reactor::{Lasting, Object, Write, reactor, with_run};
 use crate::told::NamesTold;
 use crate::value::Value;
 
@@ -150,8 +150,19 @@ fn edit(
     };
     Ok(match write {
         Write::Value { variable, property, value: given } => {
-            let value = value(&property, &given)?;
-            object(variable).map(|(class, row)| Edit::Value { class, row, property, value })
+            let lasting = given.clone().try_cast::<Lasting>();
+            let lasts = lasting.as_ref().map(|lasting| lasting.seconds);
+            if lasts.is_some_and(|seconds| !seconds.is_finite() || seconds <= 0.0) {
+                let message = format!(
+                    "rule \"{}\": `{property}` cannot last {seconds} s",
+                    rule.name,
+                    seconds = lasts.unwrap_or_default()
+                );
+                let problem = rule.file.error(Code::Evaluation, body.position, message);
+                return Err(problem.help("nothing of this action was done").into());
+            }
+            let value = value(&property, lasting.as_ref().map_or(&given, |lasting| &lasting.value))?;
+            object(variable).map(|(class, row)| Edit::Value { class, row, property, value, lasts })
         }
         Write::Gone { variable } => object(variable).map(|(class, row)| Edit::Gone { class, row }),
         Write::Object { class, properties } => {

@@ -157,6 +157,7 @@ impl KnowledgeBase {
 
     pub(super) fn begin<'b>(&mut self, base: &'b RuleBase) -> Run<'b> {
         let gone = self.take_over(base);
+        self.make_askable(base);
         let mut run = Run::new(base, self.limits.end(self.limits.inference));
         run.recheck = std::mem::take(&mut self.network.recheck);
         for name in gone {

@@ -12,10 +12,11 @@ use crate::agenda::{Binding, Halt, Outside, Stopped};
 use crate::conclusions::Witness;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::machine::lane::NO_ROW;
-use crate::reactions::{Activation, Firing, Reactions};
+use crate::reactions::{Activation, CarriedOut, Firing, Reactions};
 use crate::rule::{Clause, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::told::NamesTold;
+use crate::value::Value;
 
 /// Firings at the end of a run that is too long, among which the rules of a loop are looked for.
 const WINDOW: usize = 1000;
@@ -50,6 +51,94 @@ impl KnowledgeBase {
             };
             self.agenda.open().map(activation).collect()
         })
+    }
+
+    /// Takes these activations for carried out, which were so in another knowledge base of the same facts.
+    pub fn resume(&mut self, rules: &RuleBase, carried_out: &[CarriedOut]) {
+        if carried_out.is_empty() {
+            return;
+        }
+        on_deep_stack(|| {
+            if !self.match_all(rules) {
+                return;
+            }
+            let mut left: BTreeMap<&CarriedOut, usize> = BTreeMap::new();
+            for of in carried_out {
+                *left.entry(of).or_default() += 1;
+            }
+            let done: Vec<(usize, Binding)> = self
+                .agenda
+                .open()
+                .filter(|(number, binding)| {
+                    let count = left.get_mut(&self.describe(&rules.rules[*number], *number, binding));
+                    count.is_some_and(|count| {
+                        let is_left = *count > 0;
+                        *count = count.saturating_sub(1);
+                        is_left
+                    })
+                })
+                .map(|(number, binding)| (number, Binding::clone(binding)))
+                .collect();
+            for (number, binding) in done {
+                self.agenda.carry_out(number, &binding);
+            }
+        });
+    }
+
+    /// Whether an activation waits to be carried out, or matching would be stopped by a limit, which [`react`](Self::react) then
+    /// says.
+    pub fn is_waiting(&mut self, rules: &RuleBase) -> bool {
+        on_deep_stack(|| !self.match_all(rules) || self.agenda.open().next().is_some())
+    }
+
+    /// What was carried out and would not be carried out again now, in order. Everything derived is made right for that.
+    pub fn carried_out(&mut self, rules: &RuleBase) -> Vec<CarriedOut> {
+        on_deep_stack(|| {
+            self.match_all(rules);
+            let describe =
+                |(number, binding): (usize, &Binding)| self.describe(&rules.rules[number], number, binding);
+            let mut all: Vec<CarriedOut> = self.agenda.fired().map(describe).collect();
+            all.sort();
+            all
+        })
+    }
+
+    fn match_all(&mut self, rules: &RuleBase) -> bool {
+        self.prepare(rules);
+        self.follow(rules);
+        let mut run = Run::new(rules, self.limits.end(self.limits.reactions));
+        self.matching(&mut run, true).is_ok()
+    }
+
+    fn describe(&self, rule: &Rule, number: usize, binding: &Binding) -> CarriedOut {
+        let because = self.because(rule, &self.rows(number, binding));
+        CarriedOut { rule: rule.name.clone(), version: rule.version.clone(), because }
+    }
+
+    /// The objects with what a rule reads of them, as in `door 3: closed = true, width = 1; robot cart`.
+    fn because(&self, rule: &Rule, rows: &[Option<usize>]) -> String {
+        let of = |(variable, (clause, row)): (usize, (&Clause, &Option<usize>))| {
+            let row = (*row)?;
+            let class = &clause.class;
+            let table = self.held.get(class).map(|held| &held.table);
+            let parts: Vec<&String> = table
+                .map_or_else(Vec::new, |table| table.key.iter().map(|&part| &table.names[part]).collect());
+            let key = if parts.is_empty() { String::new() } else { self.key(class, row)? };
+            let reads = rule.reaction().into_iter().flat_map(|reaction| &reaction.reads);
+            let reads = reads.filter(|(of, property)| *of == variable && !parts.contains(&property));
+            let read = reads.map(|(_, property)| {
+                let value = self.value_at(class, row, property);
+                format!("{property} = {}", value.as_ref().map_or_else(|| "unknown".to_owned(), in_short))
+            });
+            let read: Vec<String> = read.collect();
+            // a cart that is called `cart 1` is not called twice what it is
+            let is_said = key.split(' ').next() == Some(&clause.variable);
+            let name = if is_said { key } else { format!("{} {key}", clause.variable) };
+            let name = name.trim_end();
+            Some(if read.is_empty() { name.to_owned() } else { format!("{name}: {}", read.join(", ")) })
+        };
+        let all: Vec<String> = rule.clauses.iter().zip(rows).enumerate().filter_map(of).collect();
+        all.join("; ")
     }
 
     /// How many reactions led to the present state.
@@ -106,7 +195,7 @@ impl KnowledgeBase {
                 return false;
             }
         };
-        let witnesses = self.called(rule, &rows);
+        let (witnesses, because) = (self.called(rule, &rows), self.because(rule, &rows));
         let told = match self.act(&edits, &mut run.undo) {
             Ok(done) => done,
             Err(wrong) => {
@@ -121,6 +210,7 @@ impl KnowledgeBase {
             rule: rule.name.clone(),
             version: rule.version.clone(),
             witnesses,
+            because,
             told,
         });
         true
@@ -223,6 +313,18 @@ impl<'r> Run<'r> {
         };
         std::mem::take(&mut self.failures).into_values().map(said).collect()
     }
+}
+
+/// A value to read: of a number six digits.
+fn in_short(value: &Value) -> String {
+    let &Value::Number(number) = value else { return value.to_string() };
+    if number.abs() < f64::MIN_POSITIVE || !number.is_finite() {
+        return number.to_string();
+    }
+    let digits = (5.0 - number.abs().log10().floor()).clamp(0.0, 15.0);
+    let scale = 10_f64.powf(digits);
+    let rounded = (number * scale).round() / scale;
+    if rounded.is_finite() { rounded.to_string() } else { number.to_string() }
 }
 
 fn late(rule: &Rule) -> Diagnostic {

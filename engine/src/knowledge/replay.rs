@@ -6,6 +6,7 @@ use super::KnowledgeBase;
 use super::facts::FactError;
 use super::undo::{Edit, Undo};
 use crate::reactions::Told;
+use crate::value::Value;
 
 impl KnowledgeBase {
     /// Tells what [`react`](Self::react) told once: with the same facts before, the same facts are there
@@ -37,11 +38,12 @@ impl KnowledgeBase {
             Told::Object { class, properties } => {
                 Edit::Object { class: class.clone(), properties: properties.clone() }
             }
-            Told::Value { class, key, property, value } => Edit::Value {
+            Told::Value { class, key, property, value, lasts } => Edit::Value {
                 row: row(class, key)?,
                 class: class.clone(),
                 property: property.clone(),
                 value: value.clone(),
+                lasts: *lasts,
             },
             Told::Gone { class, key } => Edit::Gone { row: row(class, key)?, class: class.clone() },
         })
@@ -52,7 +54,8 @@ impl KnowledgeBase {
     pub(super) fn act(&mut self, edits: &[Edit], undo: &mut Undo) -> Result<Vec<Told>, FactError> {
         let mut action = Undo::default();
         let mut told = vec![];
-        for edit in ordered(edits) {
+        for mut edit in ordered(edits) {
+            self.number(&mut edit);
             told.push(self.told(&edit));
             if let Err(wrong) = self.edit(&edit, &mut action) {
                 self.take_back_all(&mut action);
@@ -63,14 +66,23 @@ impl KnowledgeBase {
         Ok(told)
     }
 
+    /// Gives a new object of a numbered class its number.
+    fn number(&self, edit: &mut Edit) {
+        let Edit::Object { class, properties } = edit else { return };
+        if let Some((key, next)) = self.held.get(class).and_then(|held| held.table.next_number()) {
+            properties.entry(key.to_owned()).or_insert(Value::Number(next));
+        }
+    }
+
     fn told(&self, edit: &Edit) -> Told {
         let key = |class: &String, row: usize| self.key(class, row).unwrap_or_default();
         match edit {
-            Edit::Value { class, row, property, value } => Told::Value {
+            Edit::Value { class, row, property, value, lasts } => Told::Value {
                 key: key(class, *row),
                 class: class.clone(),
                 property: property.clone(),
                 value: value.clone(),
+                lasts: *lasts,
             },
             Edit::Gone { class, row } => Told::Gone { key: key(class, *row), class: class.clone() },
             Edit::Object { class, properties } => {

@@ -107,6 +107,8 @@ pub(super) enum Edit {
         row: usize,
         property: String,
         value: Option<Value>,
+        /// Seconds, for a host that takes it back then.
+        lasts: Option<f64>,
     },
     Gone {
         class: String,
@@ -121,7 +123,7 @@ pub(super) enum Edit {
 impl KnowledgeBase {
     pub(super) fn edit(&mut self, edit: &Edit, undo: &mut Undo) -> Result<(), super::facts::FactError> {
         match edit {
-            Edit::Value { class, row, property, value } => {
+            Edit::Value { class, row, property, value, .. } => {
                 let before = self.held.get(class).map(|held| &held.table).and_then(|table| {
                     let at = table.names.iter().position(|name| name == property)?;
                     (*row < table.len).then(|| (at, table.columns[at].cell(*row)))

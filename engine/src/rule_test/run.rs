@@ -37,8 +37,10 @@ pub(super) fn run(
     for (number, step) in test.steps.iter().enumerate() {
         run.step = number;
         run.edit(step);
+        let reactions = run.knowledge.react(rules);
         let conclusions = run.knowledge.conclude(rules);
-        for problem in conclusions.diagnostics.iter().filter(|problem| problem.severity == Severity::Error) {
+        let problems = reactions.diagnostics.iter().chain(&conclusions.diagnostics);
+        for problem in problems.filter(|problem| problem.severity == Severity::Error) {
             let what = format!("{} ({}, line {})", problem.message, problem.file, problem.line);
             run.fail(&test.name, &what);
         }

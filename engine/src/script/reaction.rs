@@ -18,13 +18,21 @@ pub(super) fn reaction(body: StmtBlock, clauses: &[Clause]) -> Action {
                 && let Some(variable) =
                     clauses.iter().position(|clause| clause.quantifier.binds() && clause.variable == variable)
             {
-                let value = (!assignment.0.is_op_assignment()).then(|| sides.rhs.clone());
+                let value = (!assignment.0.is_op_assignment()).then(|| lasting(&sides.rhs).clone());
                 sets.push(Setting { variable, property: property.to_owned(), position, value });
             }
         }
         _ => tells.extend(call(path).and_then(telling)),
     });
     Action::React(Box::new(Reaction { body, reads: BTreeSet::new(), tells, sets }))
+}
+
+/// The value of `lasting(value, seconds)`; anything else is the value itself.
+fn lasting(value: &Expr) -> &Expr {
+    match value {
+        Expr::FnCall(call, _) if call.name == "lasting" && call.args.len() == 2 => &call.args[0],
+        value => value,
+    }
 }
 
 pub(super) fn told_by_functions(functions: &Shared<Module>) -> Vec<Telling> {
@@ -57,7 +65,7 @@ fn telling(call: &FnCallExpr) -> Option<Telling> {
     Some(Telling { class: class.to_string(), position: *position, properties })
 }
 
-/// What is wrong with a call of `tell` or `forget`: the rule only concludes, or the number of arguments.
+/// What is wrong with a call of `tell`, `forget` or `lasting`: the rule only concludes, or the number of arguments.
 pub(super) fn call_complaint(
     rule: &Rule,
     (name, arguments, position): (&str, usize, Position),
@@ -68,17 +76,19 @@ pub(super) fn call_complaint(
         let help = "a rule sets a property, as in `door.closed = true`, and takes it back by itself";
         return Some(Diagnostic::error(Code::Assignment, &place(), message).help(help));
     }
-    let (wanted, what) = if name == "tell" {
-        (2, "a class and what the new object is like, as in `tell(\"CLOSURES\", #{ door: 3 })`")
-    } else {
-        (1, "one object, as in `forget(report)`")
+    let (wanted, what) = match name {
+        "tell" => (2, "a class and what the new object is like, as in `tell(\"CLOSURES\", #{ door: 3 })`"),
+        "lasting" => {
+            (2, "a value and for how many seconds it holds, as in `door.closed = lasting(true, 3600)`")
+        }
+        _ => (1, "one object, as in `forget(report)`"),
     };
     let message = || format!("`{name}` takes {what}");
     (arguments != wanted).then(|| Diagnostic::error(Code::Syntax, &place(), message()))
 }
 
 pub(super) fn is_own(name: &str) -> bool {
-    matches!(name, "tell" | "forget")
+    matches!(name, "tell" | "forget" | "lasting")
 }
 
 /// What is wrong with the objects that are forgotten: only what a clause binds can be.
@@ -110,7 +120,7 @@ pub(super) fn forget_complaints(rule: &Rule) -> Vec<Diagnostic> {
     problems
 }
 
-/// `tell` and `forget` are the engine's own.
+/// `tell`, `forget` and `lasting` are the engine's own.
 pub(super) fn taken_names(file: &FileScope, position: Position) -> Option<Diagnostic> {
     let taken = file.function_names.iter().find(|(name, _)| is_own(name))?;
     let message = format!("this file has a function `{}` of its own, which hides the engine's", taken.0);

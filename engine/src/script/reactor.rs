@@ -1,4 +1,4 @@
-//! The interpreter of reactions: objects whose properties can be read and set, `tell` and `forget`.
+//! The interpreter of reactions: objects whose properties can be read and set, `tell`, `forget` and `lasting`.
 //!
 //! What a body does is written down while it runs, and done once it has run to its end.
 
@@ -6,13 +6,20 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use rhai::{Dynamic, Engine, ImmutableString, Map};
+use rhai::{Dynamic, Engine, EvalAltResult, ImmutableString, Map};
 
 use super::interpreter::bare;
 
 /// An object that a clause binds, as a body sees it: the number of its variable.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Object(pub(crate) usize);
+
+/// `lasting(value, seconds)`: a value that holds for so long.
+#[derive(Clone, Debug)]
+pub(crate) struct Lasting {
+    pub(crate) value: Dynamic,
+    pub(crate) seconds: f64,
+}
 
 #[derive(Clone, Debug)]
 pub(crate) enum Write {
@@ -57,7 +64,16 @@ pub(crate) fn reactor() -> &'static Engine {
             .register_fn("tell", |class: ImmutableString, properties: Map| {
                 write(Write::Object { class: class.to_string(), properties });
             })
-            .register_fn("forget", |object: Object| write(Write::Gone { variable: object.0 }));
+            .register_fn("forget", |object: Object| write(Write::Gone { variable: object.0 }))
+            .register_type_with_name::<Lasting>("value with an end")
+            .register_fn(
+                "lasting",
+                |value: Dynamic, seconds: Dynamic| -> Result<Lasting, Box<EvalAltResult>> {
+                    let number = seconds.as_float().or_else(|_| seconds.as_int().map(|whole| whole as f64));
+                    let wrong = |_| format!("a value lasts for a number of seconds, not `{seconds}`");
+                    Ok(Lasting { value, seconds: number.map_err(wrong)? })
+                },
+            );
         engine
     })
 }
@@ -67,7 +83,12 @@ fn read(object: Object, property: &str) -> Dynamic {
     RUN.with_borrow(|run| {
         let own = run.writes.iter().rev().find_map(|write| match write {
             Write::Value { variable, property: set, value } if *variable == object.0 && set == property => {
-                Some(value.clone())
+                Some(
+                    value
+                        .clone()
+                        .try_cast::<Lasting>()
+                        .map_or_else(|| value.clone(), |lasting| lasting.value),
+                )
             }
             _ => None,
         });

@@ -154,3 +154,63 @@ fn what_no_source_gives_is_asked_of_the_user_and_may_be_not_known() {
     assert_eq!(base.ask(&rules, "DOORS", "4", "passable").unwrap(), Answer::Known(Value::Truth(true)));
     assert!(base.ask(&rules, "DOORS", "9", "width").is_err());
 }
+
+const REPAIR: &str = r#"
+    property CARS.starts from ask "Does {car} start?"
+    property CARS.lights from ask "Do the lights of {car} burn?"
+    property CARS.fuel   from ask "How many litres are in the tank of {car}?"
+    property CARS.age    from table
+    rule "no current" each car in CARTS_AND_CARS where !car.starts && !car.lights then { car.fault = "battery"; }
+    rule "no fuel"    each car in CARTS_AND_CARS where !car.starts && car.lights && car.fuel < 1 then { car.fault = "tank"; }
+    rule "what to do" each car in CARTS_AND_CARS some shop in SHOPS where shop.mends == car.fault
+        then { car.advice = shop.name; }
+"#;
+
+fn cars() -> (RuleBase, KnowledgeBase) {
+    let rules = rules(&REPAIR.replace("CARTS_AND_CARS", "CARS"));
+    let mut base = KnowledgeBase::new();
+    let cars = (0..50_000).map(|n| Some(format!("car {n}")));
+    base.assert(Class::new("CARS", &["car"]).texts("car", cars)).unwrap();
+    base.assert(
+        Class::new("SHOPS", &["name"])
+            .texts("name", ["Volt", "Oil"].map(Some))
+            .texts("mends", ["battery", "tank"].map(Some)),
+    )
+    .unwrap();
+    (rules, base)
+}
+
+#[test]
+fn what_rules_lack_is_asked_one_after_the_other_until_it_is_settled() {
+    let (rules, mut base) = cars();
+    let asked = |base: &mut KnowledgeBase| match base.ask(&rules, "CARS", "car 7", "advice").unwrap() {
+        Answer::Ask(question) => question.text,
+        other => format!("{other:?}"),
+    };
+    assert_eq!(asked(&mut base), "Does car 7 start?");
+    base.tell("CARS", "car 7", "starts", Some(false.into())).unwrap();
+    assert_eq!(asked(&mut base), "Do the lights of car 7 burn?");
+    base.tell("CARS", "car 7", "lights", Some(true.into())).unwrap();
+    assert_eq!(asked(&mut base), "How many litres are in the tank of car 7?");
+    base.tell_not_known("CARS", "car 7", "fuel");
+    assert_eq!(base.ask(&rules, "CARS", "car 7", "advice").unwrap(), Answer::NotKnown);
+    base.tell("CARS", "car 7", "fuel", Some(0.5.into())).unwrap();
+    assert_eq!(base.ask(&rules, "CARS", "car 7", "advice").unwrap(), Answer::Known("Oil".into()));
+    let (answer, changes) = base.ask_row(&rules, "CARS", 8, "advice");
+    assert!(matches!(answer, Answer::Ask(_)));
+    assert!(changes.evaluated.iter().all(|(_, objects)| *objects == 1), "{:?}", changes.evaluated);
+}
+
+#[test]
+fn what_cannot_matter_any_more_is_not_asked() {
+    let (rules, mut base) = cars();
+    base.tell("CARS", "car 7", "starts", Some(true.into())).unwrap();
+    assert_eq!(
+        base.ask(&rules, "CARS", "car 7", "fault").unwrap(),
+        Answer::NotKnown,
+        "no rule says anything of it"
+    );
+    base.tell("CARS", "car 8", "lights", Some(false.into())).unwrap();
+    base.tell("CARS", "car 8", "starts", Some(false.into())).unwrap();
+    assert_eq!(base.ask(&rules, "CARS", "car 8", "fault").unwrap(), Answer::Known("battery".into()));
+}

@@ -105,7 +105,9 @@ proptest! {
                         ever.insert(*rule);
                     }
                     Said::Without if before.contains(rule) => {
-                        own.push_str(&format!("without \"r{rule}\"\n"));
+                        own += "without \"r";
+                        own += &rule.to_string();
+                        own += "\"\n";
                         seen.remove(rule);
                     }
                     Said::Without => {}

@@ -323,6 +323,7 @@ fn a_log_that_does_not_fit_is_not_told_at_all() {
         key: lamp.into(),
         property: "level".into(),
         value: Some(Value::Number(9.0)),
+        lasts: None,
     };
     let gone = Told::Gone { class: "LAMPS".into(), key: "b".into() };
     assert!(base.replay(&[value("a"), gone, value("nobody")]).is_err());
@@ -443,4 +444,80 @@ fn asking_for_a_value_does_not_hide_a_change_from_the_agenda() {
     set(&mut base, "b", 5.0);
     base.conclude(&rules);
     assert_eq!(fired(&base.react(&rules)), [("seen", "a"), ("seen", "b")]);
+}
+
+#[test]
+fn another_knowledge_base_of_the_same_facts_goes_on_where_the_first_one_stopped() {
+    let rules = rules(
+        r#"on "low" each lamp in LAMPS where lamp.level < 3 none other in LAMPS where other.note == "off"
+           then { tell("NOTES", #{ lamp: lamp.lamp }); }
+           on "a coin" each coin in COINS then { tell("NOTES", #{ lamp: "coin" }); }"#,
+    );
+    let coins = |count: usize| Class::new("COINS", &[]).texts("metal", vec![Some("gold"); count]);
+    let mut base = lamps([1.0, 2.0, 3.0]);
+    base.assert(coins(2)).unwrap();
+    assert_eq!(base.react(&rules).firings.len(), 4);
+    let done = base.carried_out(&rules);
+    let because: Vec<&str> = done.iter().map(|of| of.because.as_str()).collect();
+    assert_eq!(because, ["coin", "coin", "lamp a: level = 1", "lamp b: level = 2"]);
+
+    let mut again = lamps([1.0, 2.5, 2.0]);
+    again.assert(coins(3)).unwrap();
+    again.resume(&rules, &done);
+    let run = again.react(&rules);
+    let fired: Vec<(&str, &str)> =
+        run.firings.iter().map(|firing| (firing.rule.as_str(), firing.because.as_str())).collect();
+    // one coin more, another value, and one that was not met before
+    assert_eq!(fired, [("low", "lamp b: level = 2.5"), ("low", "lamp c: level = 2"), ("a coin", "coin")]);
+
+    // what is not met any more is not carried out any more either
+    again.tell("LAMPS", "a", "note", Some("off".into())).unwrap();
+    assert_eq!(again.carried_out(&rules).len(), 3, "the coins");
+}
+
+#[test]
+fn a_value_may_last_for_some_time_which_the_host_counts() {
+    let rules = rules(
+        r#"on "rest" each lamp in LAMPS where lamp.level > 2 then { lamp.note = lasting("rests", 90); lamp.spare = lamp.level; }"#,
+    );
+    let mut base = lamps([1.0, 2.0, 3.0]);
+    let log = base.react(&rules).log();
+    assert_eq!(text(&base, "LAMPS", "c", "note"), Some("rests".to_owned()));
+    let lasts: Vec<Option<f64>> =
+        log.iter().map(|told| if let Told::Value { lasts, .. } = told { *lasts } else { None }).collect();
+    assert_eq!(lasts, [Some(90.0), None]);
+
+    let wrong = |value: &str| {
+        let text = format!("on \"r\" each lamp in LAMPS then {{ lamp.spare = {value}; }}");
+        let run = lamps([1.0, 2.0, 3.0]).react(&crate::support::rules(&text));
+        run.diagnostics.first().map(|problem| problem.message.clone()).unwrap_or_default()
+    };
+    assert_eq!(wrong("lasting(1, -1)"), "rule \"r\": `spare` cannot last -1 s");
+    let said = wrong("lasting(1, \"an hour\")");
+    assert!(said.contains("a value lasts for a number of seconds, not `an hour`"), "{said}");
+    assert_eq!(wrong("lasting(\"long\", 5)"), "LAMPS.spare holds numbers, and this gives texts");
+    let one = RuleBase::compile(&[adit_engine::SourceFile::new(
+        "a.rhai",
+        r#"on "r" each lamp in LAMPS then { lamp.spare = lasting(1); }"#,
+    )]);
+    assert_eq!(
+        one.unwrap_err().0[0].message,
+        "`lasting` takes a value and for how many seconds it holds, as in `door.closed = lasting(true, 3600)`"
+    );
+}
+
+#[test]
+fn objects_of_a_numbered_class_that_are_told_without_a_number_get_the_next_one() {
+    let rules = rules(
+        r#"on "note" each lamp in LAMPS where lamp.level > 1
+           then { tell("NOTES", #{ lamp: lamp.lamp }); tell("NOTES", #{ lamp: "also " + lamp.lamp }); }"#,
+    );
+    let mut base = lamps([1.0, 2.0, 3.0]);
+    let notes = Class::new("NOTES", &["note"]).numbers("note", [Some(7.0)]).texts("lamp", [Some("x")]);
+    base.assert(notes.numbered()).unwrap();
+    let run = base.react(&rules);
+    assert_eq!(text(&base, "NOTES", "9", "lamp"), Some("also b".to_owned()));
+    assert_eq!(text(&base, "NOTES", "11", "lamp"), Some("also c".to_owned()));
+    let said = serde_json::to_value(&run.log()[0]).unwrap();
+    assert_eq!(said["object"]["properties"]["note"], 8.0);
 }

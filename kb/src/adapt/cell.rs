@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario};
+use adit_planners::adapt::{Arm, Configuration, Object, PointRobot, Robot, Scenario, Settings};
 use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 
@@ -23,6 +23,8 @@ pub struct Cell {
     /// Where the robot is before its first task.
     pub home: Configuration,
     pub goals: Vec<Goal>,
+    /// Of the planner that learns.
+    pub settings: Settings,
     /// What changes while tasks are done; a cell of a TOML file changes when the file is edited.
     pub change: Option<Change>,
     pub tasks: usize,

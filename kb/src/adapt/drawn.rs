@@ -1,6 +1,6 @@
 //! What is drawn of a cell.
 
-use adit_planners::adapt::{Configuration, between, collision, distance};
+use adit_planners::adapt::{Adapt, Configuration, between, collision, distance};
 use adit_planners::geometry::{Point, Rect};
 
 use super::cell::{Cell, Target};
@@ -14,9 +14,13 @@ const BOXES: usize = 160;
 
 /// The cell as it is, the paths of the tasks, and the experience.
 pub fn drawn(session: &Session, tasks: &[Done]) -> CellPicture {
-    let cell = session.cell();
+    drawn_of(session.cell(), session.adapt(), tasks)
+}
+
+/// A cell, the paths of the tasks, and the experience of a planner.
+pub fn drawn_of(cell: &Cell, adapt: &Adapt, tasks: &[Done]) -> CellPicture {
     let robot = cell.robot.robot();
-    let experience = session.adapt().experience();
+    let experience = adapt.experience();
     let tool = |at: &Configuration| robot.tool(at).at;
     let way = |path: &Vec<Configuration>| finely(path).iter().map(tool).collect::<Vec<Point>>();
     let paths: Vec<&Vec<Configuration>> =
@@ -56,7 +60,7 @@ pub fn drawn(session: &Session, tasks: &[Done]) -> CellPicture {
         title: format!(
             "{}: {} tasks, {} subgoals, {} edges",
             cell.name,
-            session.adapt().progress().tasks,
+            adapt.progress().tasks,
             subgoals.len(),
             edges.len()
         ),

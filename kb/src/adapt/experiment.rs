@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use super::cell::Cell;
 use super::judge::{RuleJudge, strategy_of, strategy_word};
+use super::kept::{Databases, Kept};
 use crate::error::{Code, Error, Result};
 
 /// A row of the table: a task of a method, over all runs.
@@ -31,8 +32,10 @@ pub struct Row {
     pub ratio: f64,
     /// Length of the task's path, mean.
     pub path_length: f64,
-    /// Seconds up to its end, mean.
+    /// Seconds up to its end, mean: planning, checking, and keeping in SQLite what was learned.
     pub seconds: f64,
+    /// Over those of Solve alone, which neither checks nor keeps anything.
+    pub seconds_ratio: f64,
 }
 
 pub fn method_word(method: Method) -> &'static str {
@@ -75,6 +78,7 @@ pub fn run(
         let rules = RuleJudge::new(rules, None, false).expect("another one was made of these rules");
         Box::new(Watched { rules, trouble: Arc::clone(&trouble) })
     };
+    let databases = Databases::new()?;
     let began = Instant::now();
     let (plugins, settings) = (Plugins::standard(), Settings::default());
     let experiment = Experiment {
@@ -85,6 +89,7 @@ pub fn run(
         runs,
         seed,
         judge: &judge,
+        keeper: &|method, seed| Box::new(Kept::new(&databases, cell, (method, seed), &trouble)),
         clock: &|| began.elapsed().as_secs_f64(),
         progress: done,
     };
@@ -108,7 +113,7 @@ pub fn run(
     Ok(outcome)
 }
 
-/// The first thing that rules did not say, in any of the runs.
+/// The first thing that rules did not say, or that was not kept, in any of the runs.
 type Trouble = Arc<Mutex<Option<String>>>;
 
 /// Rules as a judge of one of many runs; what they do not say is known to all.
@@ -152,6 +157,7 @@ fn rows(scenario: &str, method: Method, curve: &Curve, alone: &Curve) -> Vec<Row
         ratio: row.evaluations / alone.evaluations.max(1.0),
         path_length: row.path_length,
         seconds: row.seconds,
+        seconds_ratio: row.seconds / alone.seconds.max(f64::MIN_POSITIVE),
     };
     curve.rows.iter().zip(&alone.rows).map(row).collect()
 }

@@ -9,6 +9,7 @@ use adit_planners::adapt::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strateg
 use super::explain::Explained;
 use crate::plan::consult::Of::{self, Number, Perhaps, Text, Truth};
 use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
+use crate::plan::course::Asked;
 
 /// What rules are told of a change of a cell.
 const CELL_CHANGES: [Property<ChangeFacts>; 15] = [
@@ -95,11 +96,23 @@ pub struct RuleJudge {
 impl RuleJudge {
     /// Makes ready; a `fixed` strategy is taken whatever rules say. Which rules decided is kept if it `explains`.
     pub fn new(rules: &Arc<RuleBase>, fixed: Option<Strategy>, explains: bool) -> Result<Self, ClassError> {
+        Self::made((fixed, explains), |class| class.consultation(rules))
+    }
+
+    /// Makes ready for a site, whose rules may look at all that is known of it.
+    pub fn of_site(asked: &Asked<'_>, fixed: Option<Strategy>, explains: bool) -> crate::error::Result<Self> {
+        Self::made((fixed, explains), |class| asked.consultation(class))
+    }
+
+    fn made<E>(
+        (fixed, explains): (Option<Strategy>, bool),
+        ready: impl Fn(&Class) -> Result<Consultation, E>,
+    ) -> Result<Self, E> {
         let [changes, landmarks, edges] = classes();
         Ok(Self {
-            changes: changes.consultation(rules)?,
-            landmarks: landmarks.consultation(rules)?,
-            edges: edges.consultation(rules)?,
+            changes: ready(&changes)?,
+            landmarks: ready(&landmarks)?,
+            edges: ready(&edges)?,
             fixed,
             considered: Vec::new(),
             explained: explains.then(Explained::default),

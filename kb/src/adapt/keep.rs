@@ -34,9 +34,9 @@ pub(crate) fn step(
             Noted::VertexMoved { id, at } => {
                 moved.insert(i64::from(id.0), at);
             }
-            Noted::VertexRemoved { id, why } => step.subgoals_removed.push(rows::Removed {
+            Noted::VertexRemoved { id, why, task } => step.subgoals_removed.push(rows::Removed {
                 number: i64::from(id.0),
-                task,
+                task: i64::from(task),
                 because: removal(why),
                 revision: None,
                 object: None,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use adit_planners::adapt::Object;
+use adit_planners::adapt::{Object, Settings};
 use adit_planners::read::{Code, Located, Problem, Text};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -202,6 +202,7 @@ impl Written {
             objects: there,
             home: home?,
             goals: goals_there,
+            settings: Settings::default(),
             change,
             tasks: tasks?,
         })

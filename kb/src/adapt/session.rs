@@ -5,16 +5,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use adit_db::Store;
-use adit_engine::RuleBase;
 use adit_planners::adapt::{
-    Adapt, Changed, Configuration, Outcome, Plugins, Report, RrtConnect, Settings, Strategy, TOUCHING_M,
-    Taught, Workcell, distance,
+    Adapt, Changed, Configuration, Outcome, Plugins, Report, RrtConnect, Settings, Taught, Workcell, distance,
 };
 use adit_planners::random::Random;
 
 use super::cell::{Cell, Goal, Target};
 use super::explain::Explained;
 use super::judge::RuleJudge;
+use super::keeping::Keeping;
 use super::{keep, recall};
 use crate::error::{Code, Error, Result};
 use crate::site::whole::Whole;
@@ -27,11 +26,7 @@ pub struct Beginning<'b> {
     pub seed: u64,
     /// The cell whose experience a new one begins with, and the database that it lies in, where that is another one.
     pub from: Option<(&'b str, Option<&'b Path>)>,
-    /// A strategy of repair that counts instead of what rules say.
-    pub strategy: Option<Strategy>,
     pub taught: Vec<Vec<Configuration>>,
-    /// Whether it is asked of every decision which rules made it.
-    pub explains: bool,
     /// The goals that it will go to: one that there is not is said before anything is kept.
     pub goals: Vec<&'b str>,
 }
@@ -42,9 +37,7 @@ pub struct Session {
     described: Cell,
     adapt: Adapt,
     judge: RuleJudge,
-    store: Option<Store>,
-    seed: u64,
-    copied_from: Option<String>,
+    keeping: Option<Keeping>,
 }
 
 /// A task that was done, or tried.
@@ -66,15 +59,16 @@ pub struct Done {
 impl Session {
     /// Begins, with what is kept of the cell, and takes in how it changed since then.
     ///
+    /// # Arguments
+    /// `margin` is how near the robot may come to objects, metres.
+    ///
     /// # Returns
     /// The session, and what the change did; `None` where nothing changed.
     pub fn begin(
-        described: &Cell,
-        rules: &Arc<RuleBase>,
+        (described, margin): (&Cell, f64),
+        judge: RuleJudge,
         beginning: Beginning<'_>,
     ) -> Result<(Self, Option<Changed>)> {
-        let judge = RuleJudge::new(rules, beginning.strategy, beginning.explains)
-            .map_err(Error::of(Code::PlanRules))?;
         let mut made = Whole::default();
         if let Some(db) = beginning.db {
             made.database(db);
@@ -88,26 +82,37 @@ impl Session {
         if !beginning.taught.is_empty() {
             plugins.solve = Arc::new(Taught::new(beginning.taught, RrtConnect::default()));
         }
-        let settings = Settings { seed: beginning.seed, ..Settings::default() };
+        let settings = Settings { seed: beginning.seed, ..described.settings.clone() };
         let (adapt, seed, copied_from) = if let Some(kept) = &kept {
-            let adapt = recall::planner(described, kept, TOUCHING_M, plugins, settings)?;
+            let adapt = recall::planner(described, kept, margin, plugins, settings)?;
             (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
         } else {
             let now = described.after(0);
-            let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), TOUCHING_M)
+            let workcell = Workcell::new(now.robot.robot(), now.objects.clone(), margin)
                 .map_err(Error::of(Code::PlanCell))?;
             (Adapt::new(workcell, plugins, settings, now.home), beginning.seed, None)
         };
         let cell = described.after(adapt.progress().tasks as usize);
         let described = described.clone();
-        let mut session = Self { cell, described, adapt, judge, store, seed, copied_from };
+        let keeping = store.map(|store| Keeping::new(store, seed, copied_from));
+        let mut session = Self { cell, described, adapt, judge, keeping };
         for goal in beginning.goals {
             session.cell.goal(goal)?;
         }
         let changed = session.take_in()?;
-        session.keep(kept.is_none(), None)?;
+        session.keep(kept.is_none())?;
         made.keep();
         Ok((session, changed))
+    }
+
+    /// Of a planner that is made ready; nothing is kept of it.
+    pub const fn of(cell: Cell, described: Cell, adapt: Adapt, judge: RuleJudge) -> Self {
+        Self { cell, described, adapt, judge, keeping: None }
+    }
+
+    /// Puts the robot somewhere else.
+    pub fn put(&mut self, at: Configuration) {
+        self.adapt.put(at);
     }
 
     pub const fn cell(&self) -> &Cell {
@@ -134,9 +139,10 @@ impl Session {
         let tasks = self.adapt.progress().tasks as usize;
         let mut changed = None;
         if self.described.change.as_ref().is_some_and(|change| change.after_task == tasks) {
+            self.settle()?;
             self.cell = self.described.after(tasks);
             changed = self.take_in()?;
-            self.keep(false, None)?;
+            self.keep(false)?;
         }
         let mut done = Done {
             goal: goal.clone(),
@@ -151,9 +157,14 @@ impl Session {
         };
         for at in self.configurations(goal) {
             let report = self.adapt.task(&at, &mut self.judge);
-            let reason = reason(goal, &report);
+            let reason = reason(&goal.name, &report);
             let is_elsewhere = matches!(report.outcome, Outcome::GoalInCollision(_));
-            self.keep(false, Some(keep::task(&goal.name, Some(&at), &report, reason.clone())))?;
+            self.trust_rules()?;
+            let task = keep::task(&goal.name, Some(&at), &report, reason.clone());
+            match &mut self.keeping {
+                Some(keeping) => keeping.task(&self.cell, &mut self.adapt, task)?,
+                None => drop(self.adapt.take_noted()),
+            }
             (done.at, done.report, done.reason) = (Some(at), Some(report), reason);
             if !is_elsewhere {
                 break;
@@ -195,30 +206,34 @@ impl Session {
         found
     }
 
-    /// Keeps what happened since it was last kept, in one transaction; `is_new` where nothing was kept before.
-    fn keep(&mut self, is_new: bool, task: Option<adit_db::experience::Task>) -> Result<()> {
-        // What the planner did then rests on no rule.
-        if let Some(trouble) = self.judge.trouble() {
-            return Err(Error::said(Code::PlanRules, trouble.to_owned(), None));
-        }
+    /// Writes the tasks that are not yet written. One that is done is written within a tenth of a second of further
+    /// planning, or now.
+    pub fn settle(&mut self) -> Result<()> {
+        self.keeping.as_mut().map_or(Ok(()), |keeping| keeping.settle(&self.cell, &mut self.adapt))
+    }
+
+    /// Keeps a change of the cell; `is_new` where nothing was kept before.
+    fn keep(&mut self, is_new: bool) -> Result<()> {
+        self.trust_rules()?;
         let considered = self.judge.take_considered();
-        let mut step =
-            keep::step(&self.cell, self.seed, self.copied_from.as_deref(), &mut self.adapt, &considered);
-        let Some(store) = &mut self.store else { return Ok(()) };
-        if is_new {
-            step.objects = Some(keep::objects(&self.adapt));
+        let Some(keeping) = &mut self.keeping else {
+            self.adapt.take_noted();
+            return Ok(());
+        };
+        keeping.write(&self.cell, &mut self.adapt, &considered, is_new)
+    }
+
+    /// What the planner did after rules failed rests on no rule.
+    fn trust_rules(&self) -> Result<()> {
+        match self.judge.trouble() {
+            Some(trouble) => Err(Error::said(Code::PlanRules, trouble.to_owned(), None)),
+            None => Ok(()),
         }
-        let has_changed = is_new || task.is_some() || !step.object_changes.is_empty();
-        step.tasks.extend(task);
-        if has_changed {
-            store.transaction(|tx| tx.keep_step(&step)).map_err(|error| self.cell.not_kept(error))?;
-        }
-        Ok(())
     }
 }
 
-/// A database to which each task is written: others may read meanwhile, and no task waits for the disk.
-fn open(db: &Path) -> Result<Store> {
+/// A database to which tasks are written: others may read meanwhile, and no task waits for the disk.
+pub(super) fn open(db: &Path) -> Result<Store> {
     let mut store = Store::open_for_worlds(db)?;
     store.share()?;
     store.sync_each(false)?;
@@ -268,8 +283,7 @@ fn experience(
 }
 
 /// Why a task ended without a path.
-fn reason(goal: &Goal, report: &Report) -> Option<String> {
-    let name = &goal.name;
+pub(super) fn reason(name: &str, report: &Report) -> Option<String> {
     match &report.outcome {
         Outcome::Found => None,
         Outcome::GoalBeyondLimits => Some(format!("goal {name} is beyond the limits of the joints")),

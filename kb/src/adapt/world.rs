@@ -2,14 +2,15 @@
 
 use std::ops::Range;
 
-use adit_planners::adapt::Object;
+use adit_planners::adapt::{Object, Settings};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
 use super::cell::{Cell, Goal, RobotKind, Target};
 use super::draft::{ArmDraft, Draft, pose};
+use crate::plan::figures::figures;
 
-const ARM: [&str; 7] = ["links", "link_radius", "base", "joint_limits", "home", "object", "goal"];
-const DISC: [&str; 5] = ["bounds", "radius", "home", "object", "goal"];
+const ARM: [&str; 8] = ["links", "link_radius", "base", "joint_limits", "home", "object", "goal", "learning"];
+const DISC: [&str; 6] = ["bounds", "radius", "home", "object", "goal", "learning"];
 
 /// Reads `[cell]`; `name` is what its experience is kept under.
 pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Cell> {
@@ -22,6 +23,10 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     let home = list(fields, "home", problems);
     let home = home.and_then(|home| draft.configuration("`home`", robot.as_ref(), &home));
     let goals = goals(fields, robot.as_ref(), &mut draft, problems);
+    let mut settings = Settings::default();
+    if let Some(table) = fields.table("learning", "[cell.learning]", problems) {
+        figures(&table, Settings::FIGURES, &mut settings, problems);
+    }
     draft.names("object", objects.iter().map(|(object, span)| (object.name.as_str(), span.clone())));
     draft.names("goal", goals.iter().map(|(goal, span)| (goal.name.as_str(), span.clone())));
     let objects: Vec<Object> = objects.into_iter().map(|(object, _)| object).collect();
@@ -39,6 +44,7 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
         objects,
         home: home?,
         goals,
+        settings,
         change: None,
         tasks: 0,
     };

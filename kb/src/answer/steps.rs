@@ -42,6 +42,7 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
             rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
             space: None,
             doorway: graph.doorway(door),
+            z: None,
         });
     }
     for (number, step) in (1..).zip(&mut steps) {
@@ -66,6 +67,7 @@ fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
         rule: room.action.rule.and_then(|rule| rules.get(&rule).cloned()),
         space: room.space.and_then(|space| graph.building.space(space)),
         doorway: None,
+        z: None,
     }
 }
 
@@ -90,6 +92,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> 
             clearance: None,
             distance: is_measured.then_some(0.0),
             cost: 0.0,
+            ..Waypoint::default()
         };
         if index == 0 {
             points.push(here.clone());

@@ -7,8 +7,9 @@ use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::live::report::{Concluded, Report};
-use crate::words::progress::Spinner;
+use crate::live::report::{Concluded, Report, RouteChange};
+use crate::site::robots::ONLY_ROBOT;
+use crate::words::progress::{Silent, Spinner};
 
 #[derive(Args, Debug)]
 pub struct BuildArgs {
@@ -22,14 +23,25 @@ pub struct BuildArgs {
     pub at: Option<String>,
 }
 
-/// Opens a site as the arguments say.
+/// Opens a site as the arguments say. A map alone is built.
 pub fn open(args: &SiteArgs) -> Result<KnowledgeBase> {
+    let knowledge = unbuilt(args)?;
+    if knowledge.is_map_alone() {
+        notes(&knowledge.build(&Silent)?);
+    }
+    Ok(knowledge)
+}
+
+/// Opens a site as the arguments say, built or not.
+pub fn unbuilt(args: &SiteArgs) -> Result<KnowledgeBase> {
     let knowledge = KnowledgeBase::open(&args.site)?;
     Ok(knowledge.with_database(args.db.as_deref()).with_rules(args.rules.as_deref()))
 }
 
 pub fn run(args: &BuildArgs) -> Result<()> {
-    let knowledge = open(&args.site)?.at(args.at.as_deref())?.reseeding(args.reseed);
+    let knowledge = unbuilt(&args.site)?.at(args.at.as_deref())?;
+    let again = args.reseed || knowledge.is_map_alone();
+    let knowledge = knowledge.reseeding(again);
     let report = {
         let spinner = Spinner::new();
         knowledge.build(&spinner)?
@@ -43,8 +55,14 @@ pub fn run(args: &BuildArgs) -> Result<()> {
 }
 
 pub fn show(knowledge: &KnowledgeBase, report: &Report) {
-    if !knowledge.site().has_map() {
-        let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
+    let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
+    if let Some(map) = &report.course {
+        let starts = report.routes.starts;
+        line(&format!("{name}: {map}, routes from {starts} starts (generation {generation})"));
+        reacted(report);
+        return notes(report);
+    }
+    if !knowledge.site().has_rooms() {
         let s = if values == 1 { "" } else { "s" };
         line(&format!("{name}: {values} value{s} concluded (generation {generation})"));
         return notes(report);
@@ -67,6 +85,7 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
         })
         .collect();
     line(&format!("  {}", stages.join(", ")));
+    reacted(report);
     notes(report);
 }
 
@@ -99,6 +118,19 @@ pub fn notes(report: &Report) {
     }
 }
 
+/// What rules that react told.
+fn reacted(report: &Report) {
+    for said in report.reacted.iter().take(LISTED) {
+        line(said);
+    }
+    if report.reacted.len() > LISTED {
+        line(&format!(
+            "and {} more that rules told; `adit undo --list` has all",
+            report.reacted.len() - LISTED
+        ));
+    }
+}
+
 /// What rules say otherwise of other things than rooms and doors.
 fn conclusions(report: &Report) {
     let said = |cell: &Cell| match cell {
@@ -114,7 +146,7 @@ fn conclusions(report: &Report) {
     if report.conclusions.len() > LISTED {
         line(&format!("and {} more", report.conclusions.len() - LISTED));
     }
-    if report.conclusions.is_empty() && report.rooms.total == 0 {
+    if report.conclusions.is_empty() && report.rooms.total == 0 && report.course.is_none() {
         line("no rule concludes anything else than before");
     }
 }
@@ -123,11 +155,14 @@ fn conclusions(report: &Report) {
 const LISTED: usize = 10;
 
 pub fn changes(report: &Report) {
+    reacted(report);
     conclusions(report);
-    if report.rooms.total == 0 {
+    if report.rooms.total == 0 && report.course.is_none() {
         return;
     }
-    if report.cut_anew {
+    if report.course.is_some() {
+        // there are no rooms that could change
+    } else if report.cut_anew {
         line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
     } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {
         line(&format!("{} rooms and {} doors changed", report.rooms.changed, report.doors.changed));
@@ -153,23 +188,41 @@ pub fn changes(report: &Report) {
         line(&format!("and {} more", report.closings.len() - LISTED));
     }
     match (report.routes.changed, report.routes.rerouted) {
-        (Some(changed), Some(rerouted)) => line(&format!(
-            "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way",
-            report.routes.starts
-        )),
+        (Some(changed), Some(rerouted)) => {
+            let is_otherwise = |change: &&RouteChange| report.course.is_some() && is_driven_otherwise(change);
+            let otherwise = report.routes.changes.iter().filter(is_otherwise).count();
+            let otherwise = match otherwise {
+                0 => String::new(),
+                count => format!("; {count} are driven otherwise"),
+            };
+            line(&format!(
+                "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way{otherwise}",
+                report.routes.starts
+            ));
+        }
         _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
     }
-    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot);
+    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
+        || report.course.is_some() && report.routes.changes.iter().any(|change| change.robot != ONLY_ROBOT);
     for change in report.routes.changes.iter().take(LISTED) {
         let are_both = change.old.is_some() && change.new.is_some();
         let way = if are_both && change.other_way == Some(true) { ", another way" } else { "" };
         let whose = if several { format!(" ({})", change.robot) } else { String::new() };
         let cost = |cost: Option<f64>| cost.map_or("no route".to_owned(), number);
         let (old, new) = (cost(change.old), cost(change.new));
+        if report.course.is_some() && is_driven_otherwise(change) {
+            line(&format!("  {} to {}{whose}: {old}, driven otherwise", change.start, change.goal));
+            continue;
+        }
         line(&format!("  {} to {}{whose}: {old} → {new}{way}", change.start, change.goal));
     }
     if report.routes.changes.len() > LISTED {
         line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
     notes(report);
+}
+
+/// Whether a route costs what it did and leads where it did, by other points.
+fn is_driven_otherwise(change: &RouteChange) -> bool {
+    change.other_way != Some(true) && change.old.map(number) == change.new.map(number)
 }

@@ -1,28 +1,20 @@
 //! `adit simulate --curve`: how well a robot knows where it is.
 
 use std::path::Path;
-use std::sync::Arc;
-
-use adit_engine::RuleBase;
 
 use super::args::SimulateArgs;
 use super::output::{either, table};
 use super::picture;
 use crate::error::{Code, Error, Result};
 use crate::navigation::floor::Floor;
+use crate::navigation::judge::Judges;
 use crate::navigation::tours::{Driven, draw, drive};
 
 /// A drive is at most so long, metres.
 const FARTHEST_M: f64 = 100_000.0;
 
 /// Drives, draws and prints a row a drive.
-pub fn run(
-    args: &SimulateArgs,
-    output: &Path,
-    world: &str,
-    floor: &Floor,
-    rules: &Arc<RuleBase>,
-) -> Result<()> {
+pub fn run(args: &SimulateArgs, output: &Path, floor: &Floor, judges: &Judges) -> Result<()> {
     picture::check(output)?;
     if !(args.metres > 0.0 && args.metres <= FARTHEST_M) {
         let message = format!(
@@ -31,8 +23,8 @@ pub fn run(
         );
         return Err(Error::said(Code::SimulateMetres, message, None));
     }
-    let drives = drive(floor, rules, args.metres, u64::from(args.missions), args.seed)?;
-    picture::save(draw(world, &drives), output, picture::WIDTH)?;
+    let drives = drive(floor, judges, args.metres, u64::from(args.missions), args.seed)?;
+    picture::save(draw(&floor.plan.name, &drives), output, picture::WIDTH)?;
     either(args.json, &drives[..], show)
 }
 

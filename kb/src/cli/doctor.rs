@@ -6,7 +6,7 @@ use adit_db::Store;
 use clap::Args;
 
 use super::args::SiteArgs;
-use super::build::open;
+use super::build::{open, unbuilt};
 use super::output::{as_json, json, line, problems};
 use crate::error::Result;
 
@@ -21,7 +21,14 @@ pub struct DoctorArgs {
 
 /// Lints rules, tables and map; `false` where something is wrong.
 pub fn check(args: &SiteArgs) -> Result<bool> {
-    let (found, sound) = match open(args).and_then(|knowledge| knowledge.check()) {
+    let mut what = "rules, tables and map";
+    let checked = unbuilt(args).and_then(|knowledge| {
+        if !knowledge.site().has_rooms() {
+            what = "rules and tables";
+        }
+        knowledge.check()
+    });
+    let (found, sound) = match checked {
         Ok(found) => {
             let sound =
                 found.iter().all(|problem| problem.diagnostic().severity() == Some(miette::Severity::Advice));
@@ -33,10 +40,10 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         json(&as_json(&found))?;
     } else {
         problems(&found);
-        line(if sound {
-            "rules, tables and map are in order"
+        line(&if sound {
+            format!("{what} are in order")
         } else {
-            "something is wrong; the site is as it was"
+            "something is wrong; the site is as it was".to_owned()
         });
     }
     Ok(sound)

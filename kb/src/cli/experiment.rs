@@ -52,7 +52,7 @@ pub fn run(args: &ExperimentArgs) -> Result<bool> {
     }
     if !is_scenario(&args.scenario) {
         let message = format!("{} is no scenario; expected a .json file", args.scenario.display());
-        let help = "a world of your own (.toml) is planned in by `adit plan`".to_owned();
+        let help = "tasks in a cell of your own (.toml) are done by `adit tasks`".to_owned();
         return Err(Error::said(Code::ExperimentFormat, message, Some(help)));
     }
     let cells = match &args.only {
@@ -150,7 +150,10 @@ fn show(outcome: &ExperimentOutcome) {
             format!("{:.3}", row.ratio),
             number(row.path_length),
             format!("{:.3}", row.seconds * 1e3),
+            format!("{:.3}", row.seconds_ratio),
         ]
     });
-    table(&["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds"], cells);
+    let head =
+        ["strategy", "task", "evaluations", "sd", "ratio", "path length", "milliseconds", "ratio of time"];
+    table(&head, cells);
 }

@@ -2,11 +2,9 @@
 
 use std::io::Read;
 use std::path::Path;
-use std::sync::Arc;
 
 use adit_db::Store;
 use adit_db::learned::Learned as Record;
-use adit_engine::RuleBase;
 use adit_planners::geometry::Segment;
 use adit_planners::navigation::learn::Exploration;
 use adit_planners::navigation::{Outfit, drive as drive_by};
@@ -18,9 +16,11 @@ use super::output::{either, json as print, line, remark, table};
 use crate::error::{Code, Error, Result};
 use crate::navigation::drive::parse;
 use crate::navigation::floor::Floor;
+use crate::navigation::judge::RuleJudge;
 use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
 use crate::navigation::missions::{ending, refuse};
+use crate::plan::course::Asked;
 use crate::site::whole::{self, Whole};
 use crate::words::number::number;
 
@@ -28,16 +28,24 @@ use crate::words::number::number;
 pub fn run(
     args: &SimulateArgs,
     start: &str,
-    world: &str,
-    (floor, rules_name): (&Floor, &str),
-    rules: &Arc<RuleBase>,
+    (floor, rules): (&Floor, &str),
+    asked: &Asked<'_>,
 ) -> Result<bool> {
+    let world = floor.plan.name.as_str();
     let start = Pose { at: floor.point(start)?, heading: heading(args)? };
+    if !floor.plan.is_free(start.at) {
+        let message = format!(
+            "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
+            start.at.x, start.at.y
+        );
+        return Err(Error::said(Code::SimulateImpossible, message, None));
+    }
     let towards = args.towards.as_ref().map(|towards| floor.point(towards)).transpose()?;
     let exploration = Exploration { start, towards, seed: args.seed };
     let mut made = None;
     let film = args.film.as_ref().map(|_| &mut made);
-    let (row, record) = explore((world, rules_name), floor, rules, &exploration, film)?;
+    let mut guide = RuleJudge::of_mission(asked, &floor.told)?;
+    let (row, record) = explore((world, rules), floor, &mut guide, &exploration, film)?;
     if let (Some(file), Some(made)) = (&args.film, &made) {
         whole::write(file, made.svg(args.speed).as_bytes())?;
         remark(&format!("{}: how it was learned", file.display()));
@@ -51,7 +59,7 @@ pub fn run(
             let message = "places that were named in what was learned before are gone";
             remark(&format!("{}: {message}: {}", db.display(), names.join(", ")));
         }
-        keep_learned(db, &record, floor, rules)?;
+        keep_learned(db, &record, floor, asked)?;
         made.keep();
     }
     either(args.json, &row, show)?;
@@ -59,13 +67,10 @@ pub fn run(
 }
 
 /// Keeps what was learned, and the network of places over it.
-fn keep_learned(db: &Path, record: &Record, floor: &Floor, rules: &Arc<RuleBase>) -> Result<()> {
+fn keep_learned(db: &Path, record: &Record, floor: &Floor, asked: &Asked<'_>) -> Result<()> {
     let known = known(record, floor)?;
-    let mut judge = known.judge(rules)?;
-    let [x, y] = record.start;
-    let start = adit_planners::geometry::Point::new(x, y);
-    let walked = known.plan(start, start, &mut judge)?;
-    let network = keep::record(&record.learned, &record.rules, &known, &mut judge, &walked);
+    let mut judge = RuleJudge::of_mission(asked, &known.told)?;
+    let network = keep::record(&record.learned, &record.rules, &known, &mut judge);
     refuse(judge.trouble())?;
     Store::open_for_worlds(db)?.transaction(|tx| {
         tx.keep_learned(record)?;
@@ -103,7 +108,7 @@ pub fn drive(
     args: &SimulateArgs,
     script: &Path,
     (mut stored, truth, learned): (Record, &Floor, &Floor),
-    rules: &Arc<RuleBase>,
+    asked: &Asked<'_>,
 ) -> Result<bool> {
     let text = if script == Path::new("-") {
         let mut text = String::new();
@@ -117,7 +122,7 @@ pub fn drive(
     let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
     let mut outfit = Outfit { navigation: truth.settings, start_sigma_m: START_SIGMA_M, ..Outfit::default() };
     outfit.robot.radius_m = truth.network.disc.radius;
-    let mut judge = learned.judge(rules)?;
+    let mut judge = RuleJudge::of_mission(asked, &learned.told)?;
     let building = learned.building();
     let from = (script.start, args.seed);
     let driven = drive_by(&script.orders, from, &walls, &building, &outfit, &mut judge, |_| {})
@@ -128,7 +133,7 @@ pub fn drive(
         stored.places.push((place.name.clone(), [place.at.x, place.at.y]));
     }
     if let Some(db) = args.db.as_ref().filter(|_| !driven.places.is_empty()) {
-        keep_learned(db, &stored, truth, rules)?;
+        keep_learned(db, &stored, truth, asked)?;
     }
     let in_vain = driven.in_vain.map(|(index, how)| (script.lines[index], ending(how)));
     let pose = |pose: &Pose| [pose.at.x, pose.at.y, pose.heading.to_degrees()];

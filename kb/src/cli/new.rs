@@ -8,9 +8,10 @@ use clap::Args;
 
 use super::output::{json, line, program, quoted};
 use crate::error::{Code, Error, Result};
+use crate::plan::course_of;
 use crate::site::shipped::{self, Sites};
 use crate::site::whole::Whole;
-use crate::site::{Rooms, Site};
+use crate::site::{Layout, Rooms, Site};
 
 #[derive(Args, Debug)]
 pub struct NewArgs {
@@ -39,10 +40,14 @@ pub fn run(args: &NewArgs) -> Result<()> {
     if args.no_map {
         return without_map(args);
     }
+    if let Some((map, layout)) = args.map.as_ref().and_then(|map| Some((map, Layout::of(map)?))) {
+        return without_rooms(args, map, layout);
+    }
     let mode =
         Rooms::NAMES.iter().find(|(name, _)| *name == args.rooms).map_or(Rooms::default(), |(_, mode)| *mode);
     if let Some(map) = &args.map {
         // what is wrong with it is said where the user has it
+        Layout::refuse_slips(map)?;
         read_map(map, &MapSettings::default()).map_err(|errors| Error::all(errors.problems))?;
     }
     let mut made = Whole::default();
@@ -52,7 +57,7 @@ pub fn run(args: &NewArgs) -> Result<()> {
         None => starter(&args.dir, "map.toml", &mut made)?,
     };
     let rules = args.dir.join(Site::RULES);
-    made.folder(&rules)?;
+    made.folder(&rules.join("tests"))?;
     let beneath = mode.rule_base().unwrap_or_default();
     made.file(&rules.join("own.rhai"), own_rules(beneath))?;
     starter(&args.dir, "robots.toml", &mut made)?;
@@ -87,6 +92,58 @@ fn without_map(args: &NewArgs) -> Result<()> {
     line("  rules/       what is concluded of them, with its tests");
     line(&format!("next: {} build {}", program(), quoted(&args.dir)));
     Ok(())
+}
+
+/// Starts a site whose map is not cut into rooms: corridors, or a part in another one.
+fn without_rooms(args: &NewArgs, map: &Path, layout: Layout) -> Result<()> {
+    // what is wrong with it is said where the user has it
+    let course = course_of(map)?;
+    let mut made = Whole::default();
+    made.folder(&args.dir)?;
+    let name = copy_map(map, &args.dir, &mut made)?;
+    if let Some(beside) = Layout::beside(map) {
+        copy_map(&beside, &args.dir, &mut made)?;
+    }
+    let rules = args.dir.join(Site::RULES);
+    made.folder(&rules.join("tests"))?;
+    made.file(&rules.join("own.rhai"), own_rules(layout.rule_base()))?;
+    made.file(&args.dir.join("site.toml"), text_without_rooms(&args.dir, &name, layout))?;
+    Site::open(&args.dir)?;
+    made.keep();
+    if args.json {
+        return json(
+            &serde_json::json!({"site": args.dir, "map": name, "rooms": null, "layout": course.name()}),
+        );
+    }
+    let mut tables: Vec<String> = course.tables().into_iter().map(|table| table.name).collect();
+    tables.extend((!course.places().is_empty()).then(|| "places".to_owned()));
+    line(&format!("{} is a site now ({}):", args.dir.display(), course.name()));
+    line(&format!("  {name}  fills the tables {} once; from then on they are the map", tables.join(", ")));
+    line(&format!("  rules/  your own rules, over those that the program carries ({})", layout.rule_base()));
+    line(&format!("next: {} build {}", program(), quoted(&args.dir)));
+    Ok(())
+}
+
+fn text_without_rooms(folder: &Path, map: &str, layout: Layout) -> String {
+    let name = folder.file_name().map_or("site".to_owned(), |name| name.to_string_lossy().into_owned());
+    let [name, map] = [name.as_str(), map].map(toml::Value::from);
+    let base = layout.rule_base();
+    let mut text = format!(
+        r#"name = {name}
+map  = {map}                # fills tables once; from then on `adit tune` changes them
+# rules = "{base}"  # what lies beneath the folder rules; a folder, or a list of some; "rules": nothing does
+"#
+    );
+    if matches!(layout, Layout::Corridor | Layout::FloorPlan) {
+        text.push_str(
+            r#"# starts = ["dock"]      # from where routes are kept; every place without this line
+# [[place]]                # in the map's coordinates
+# name = "dock"
+# at   = [1.0, 2.0]
+"#,
+        );
+    }
+    text
 }
 
 /// A map of the user's, with its image where it has one, under its own name.

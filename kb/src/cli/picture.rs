@@ -11,6 +11,7 @@ use super::output::{json, line};
 use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, UnknownLayer, render_png, render_svg};
 use crate::error::{Code, Error, Result};
+use crate::knowledge::KnowledgeBase;
 use crate::site::whole;
 use crate::words::suggest::did_you_mean;
 
@@ -46,6 +47,10 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
+    if knowledge.site().layout.is_some() {
+        return course(args, &knowledge, route);
+    }
+    knowledge.site().needs_rooms()?;
     let scene = knowledge.scene(route, args.robot.as_deref())?;
     let states: Vec<&String> = scene.rooms.iter().filter_map(|room| room.state.as_ref()).collect();
     match &layers.state {
@@ -69,6 +74,20 @@ pub fn run(args: &DrawArgs) -> Result<()> {
         return json(&serde_json::json!({"file": args.output, "bytes": bytes}));
     }
     line(&format!("{}: {} rooms, {} doors", args.output.display(), scene.rooms.len(), scene.doors.len()));
+    Ok(())
+}
+
+/// A map that is not cut into rooms.
+fn course(args: &DrawArgs, knowledge: &KnowledgeBase, route: Option<(&str, &str)>) -> Result<()> {
+    if !args.layer.is_empty() || args.state.is_some() {
+        knowledge.site().needs_rooms()?;
+    }
+    let (svg, summary) = knowledge.course_picture(route, args.robot.as_deref())?;
+    let bytes = save(svg, &args.output, args.width)?;
+    if args.site.json {
+        return json(&serde_json::json!({"file": args.output, "bytes": bytes}));
+    }
+    line(&format!("{}: {summary}", args.output.display()));
     Ok(())
 }
 

@@ -117,14 +117,29 @@ pub fn steps(answer: &Answer) {
             number(step.cost),
             maybe(step.x),
             maybe(step.y),
+            step.z.map_or(String::new(), number),
             step.heading.map_or(String::new(), |heading| format!("{heading:.0}°")),
             step.space.clone().or_else(|| step.doorway.clone()).unwrap_or_default(),
         ]
     });
     table(
-        &["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "heading", "where"],
+        &["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where"],
         rows,
     );
+}
+
+/// Prints a route over a map that is not cut into rooms: a line a step, where it leads and through what.
+fn one_by_one(answer: &Answer) {
+    let rows = answer.steps.iter().map(|step| {
+        let [x, y] = [step.x, step.y].map(|value| format!("{:.1}", value.unwrap_or_default()));
+        let to = step.z.map_or_else(|| format!("to {x}, {y}"), |z| format!("to {x}, {y}, {z:.1}"));
+        let hardness = format!("hardness {:.1}", step.hardness.unwrap_or_default());
+        vec![step.action.clone().unwrap_or_default(), to, hardness, step.place.clone()]
+    });
+    table(&["", "", "", ""], rows);
+    for text in &answer.remarks {
+        remark(&format!("note: {text}"));
+    }
 }
 
 /// Steps with one action, one after the other.
@@ -140,6 +155,9 @@ struct Run {
 pub fn summary(answer: &Answer) {
     if !head(answer) {
         return;
+    }
+    if answer.steps.iter().all(|step| !["room", "door", "change"].contains(&step.kind.as_str())) {
+        return one_by_one(answer);
     }
     let mut runs: Vec<Run> = Vec::new();
     for step in &answer.steps {

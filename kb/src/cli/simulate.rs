@@ -1,68 +1,75 @@
 //! `adit simulate`: missions of a simulated robot on a floor plan.
 
+use std::any::Any;
 use std::path::Path;
-use std::sync::Arc;
 
-use adit_db::Store;
-use adit_engine::RuleBase;
+use adit_db::{Store, Tx};
 use adit_planners::navigation::Mission;
 use adit_planners::pose::Pose;
 
-use super::args::{SimulateArgs, heading};
+use super::args::{SimulateArgs, SiteArgs, heading};
+use super::build::open;
 use super::output::{either, line, remark, table};
 use super::picture::extension;
+use crate::answer::pick;
 use crate::error::{Code, Error, Result};
+use crate::knowledge::KnowledgeBase;
+use crate::live::Live;
+use crate::navigation::course::{FloorOf, OfRobot};
 use crate::navigation::floor::Floor;
 use crate::navigation::journal::record;
+use crate::navigation::judge::Judges;
 use crate::navigation::learning;
-use crate::navigation::missions::{Row, Stage, drawn, journalled, run as run_all};
-use crate::plan::{Task, World};
+use crate::navigation::missions::{Row, Stage, drawn, journalled, noted, refuse, run as run_all};
+use crate::navigation::reporting::{Reporting, Reports};
+use crate::site::base::Base;
 use crate::site::whole::{self, Whole};
 use crate::words::number::number;
 use crate::words::progress::Bar;
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs) -> Result<bool> {
-    let world = World::read(&args.world)?;
-    let Task::FloorPlan(floor) = &world.task else {
-        let message = format!("{} has no [floor_plan]: there is nothing to simulate", args.world.display());
-        return Err(Error::said(Code::SimulateNoFloorPlan, message, None));
-    };
     check_film(args)?;
-    let (rules, name, remarks) = world.rules(args.rules.as_deref())?;
-    for text in &remarks {
-        remark(text);
+    let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: args.json };
+    let live = Live::open(open(&site)?)?;
+    let args = &in_own(args, live.site())?;
+    if args.tell {
+        return told(args, live);
     }
+    let asked = live.asked();
+    let floor = &of_robot(&live, args.robot.as_deref())?.1;
+    let (world, rules) = (&floor.plan.name, rules_of(live.site()));
     if let Some(output) = &args.curve {
-        super::curve::run(args, output, &world.name, floor, &rules)?;
+        super::curve::run(args, output, floor, &Judges::new(&asked, &floor.told)?)?;
         return Ok(true);
     }
     if let Some(start) = &args.learn {
-        return super::learn::run(args, start, &world.name, (floor, &name), &rules);
+        return super::learn::run(args, start, (floor, &rules), &asked);
     }
-    let learned = if args.learned { Some(learned(args, &world.name, floor)?) } else { None };
+    let learned = if args.learned { Some(learned(args, world, floor)?) } else { None };
     if let Some(script) = &args.drive {
         return match learned {
-            Some((stored, known)) => super::learn::drive(args, script, (stored, floor, &known), &rules),
+            Some((stored, known)) => super::learn::drive(args, script, (stored, floor, &known), &asked),
             None => Err(Error::said(Code::SimulateDrive, "--drive goes with --learned and --db", None)),
         };
     }
+    let known = learned.as_ref().map_or(floor, |(_, known)| known);
+    let judges = Judges::new(&asked, &known.told)?;
     let stage = match &learned {
-        Some((_, known)) => Stage::learned(floor, known, learning::START_SIGMA_M),
-        None => Stage::new(floor),
+        Some((_, known)) => Stage::learned(floor, known, learning::START_SIGMA_M, &judges)?,
+        None => Stage::new(floor, &judges)?,
     };
-    let known = learned.as_ref().map_or(&**floor, |(_, known)| known);
     let missions = missions(args, floor, known)?;
     let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
-        kept(&world.name, &name, &stage, &rules, &missions, db)?
+        kept((world, &rules), &stage, &judges, &missions, (db, args.keep))?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
-        run_all(&stage, &rules, &missions, || bar.step())?
+        run_all(&stage, &judges, &missions, || bar.step())?
     };
     if let (Some(film), Some(mission)) = (&args.film, filmed) {
         let mut made = None;
-        journalled(&stage, &rules, (args.mission, mission), Some(&mut made))?;
+        journalled(&stage, &judges, (args.mission, mission), Some(&mut made))?;
         if let Some(made) = made {
             whole::write(film, made.svg(args.speed).as_bytes())?;
             remark(&format!("{}: mission {}", film.display(), args.mission));
@@ -70,6 +77,79 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     }
     either(args.json, &rows[..], show)?;
     Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+}
+
+/// The arguments with the site's own database, where what comes of it is kept there.
+fn in_own(args: &SimulateArgs, site: &KnowledgeBase) -> Result<SimulateArgs> {
+    let is_own = args.keep || args.learned && args.db.is_none();
+    if is_own {
+        site.needs_folder()?;
+    }
+    let db = if is_own { Some(site.database().to_owned()) } else { args.db.clone() };
+    Ok(SimulateArgs { db, ..args.clone() })
+}
+
+/// Runs missions one after the other, and tells the site what the robot meets.
+fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
+    live.site().needs_folder()?;
+    let (robot, floor) = of_robot(&live, args.robot.as_deref())?;
+    let rules = rules_of(live.site());
+    let missions = missions(args, &floor, &floor)?;
+    let mut store = args.db.as_ref().map(Store::open_for_worlds).transpose()?;
+    let before = match &mut store {
+        Some(store) if args.keep => store.snapshot(|tx| last_mission(tx, &floor.plan.name))?,
+        _ => 0,
+    };
+    let bar = Bar::new("missions", missions.len() as u64);
+    let (mut rows, mut said) = (Vec::with_capacity(missions.len()), Vec::new());
+    for mission in (before + 1..).zip(&missions) {
+        let (_, floor) = of_robot(&live, Some(&robot))?;
+        let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
+        let reports = Reports::default();
+        let plan = |live: &Live, robot: &str| Ok(of_robot(live, Some(robot))?.1);
+        let mut judge = Reporting::new(&mut live, &reports, plan, (&robot, mission.0))?;
+        let (row, entries, decided_by) =
+            noted(&stage, &mut judge, mission, |entry| reports.hear(entry), None)?;
+        refuse(judge.trouble())?;
+        said.append(&mut judge.said);
+        if let Some(store) = &mut store {
+            let record = record(&floor.plan.name, &rules, &row, &entries, decided_by);
+            store.transaction(|tx| tx.keep_mission(&record))?;
+        }
+        rows.push(row);
+        bar.step();
+    }
+    drop(bar);
+    either(args.json, &rows[..], show)?;
+    for text in &said {
+        remark(text);
+    }
+    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+}
+
+/// The robot that is asked for, and its floor plan.
+fn of_robot(live: &Live, robot: Option<&str>) -> Result<(String, Floor)> {
+    let course = live.site().course().map(|course| &**course as &dyn Any);
+    let Some(map) = course.and_then(|course| course.downcast_ref::<FloorOf>()) else {
+        let message = format!(
+            "the map of {} has no [floor_plan]: there is nothing to simulate",
+            live.site().site().name
+        );
+        return Err(Error::said(Code::SimulateNoFloorPlan, message, None));
+    };
+    let floors = map.floors(&live.asked())?;
+    let robots: Vec<String> = floors.iter().map(|of| of.robot.clone()).collect();
+    let robot = pick(&robots, robot)?;
+    match floors.into_iter().find(|of| of.robot == robot) {
+        Some(OfRobot { floor, unfit: None, .. }) => Ok((robot, floor)),
+        Some(OfRobot { unfit: Some(unfit), .. }) => Err(Error::said(Code::SimulateImpossible, unfit, None)),
+        None => Err(Error::said(Code::SimulateImpossible, "there is no robot", None)),
+    }
+}
+
+/// The rule bases of a site, one a line, the lowest first: missions keep by which rules they were done.
+fn rules_of(site: &KnowledgeBase) -> String {
+    site.rule_bases().iter().map(Base::name).collect::<Vec<_>>().join("\n")
 }
 
 /// Refuses a film that cannot be made.
@@ -100,29 +180,28 @@ fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m
 
 /// Runs missions one after the other, each kept with its journal.
 fn kept(
-    world: &str,
-    rules_name: &str,
+    (world, rules): (&str, &str),
     stage: &Stage<'_>,
-    rules: &Arc<RuleBase>,
+    judges: &Judges,
     missions: &[Mission],
-    db: &Path,
+    (db, goes_on): (&Path, bool),
 ) -> Result<Vec<Row>> {
     let mut made = Whole::default();
     made.database(db);
     let mut store = Store::open_for_worlds(db)?;
-    let written_anew = store.snapshot(|tx| -> Result<i64> {
-        let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
-        Ok(if is_there { tx.numbers_of_missions(world)?.2.min(missions.len() as i64) } else { 0 })
-    })?;
-    if written_anew > 0 {
+    let last = store.snapshot(|tx| last_mission(tx, world))?;
+    // on a site they go on being numbered
+    let before = if goes_on { last } else { 0 };
+    let written_anew = last.min(missions.len());
+    if written_anew > 0 && !goes_on {
         let what = format!("missions of {world} from an earlier run are written anew, 1 to {written_anew}");
         remark(&format!("{}: {what}", db.display()));
     }
     let bar = Bar::new("missions", missions.len() as u64);
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
-        let (row, entries, noting) = journalled(stage, rules, (index + 1, mission), None)?;
-        let record = record(world, rules_name, &row, &entries, noting);
+        let (row, entries, decided_by) = journalled(stage, judges, (before + index + 1, mission), None)?;
+        let record = record(world, rules, &row, &entries, decided_by);
         store.transaction(|tx| tx.keep_mission(&record))?;
         // what was kept stays, whatever comes of the next one
         std::mem::take(&mut made).keep();
@@ -130,6 +209,12 @@ fn kept(
         bar.step();
     }
     Ok(rows)
+}
+
+/// The number of the last mission of a world that is kept; 0 where none is.
+fn last_mission(tx: &mut Tx<'_>, world: &str) -> Result<usize> {
+    let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
+    Ok(if is_there { tx.numbers_of_missions(world)?.2 as usize } else { 0 })
 }
 
 /// What was learned of the world, from the database.
@@ -199,17 +284,23 @@ fn show(rows: &[Row]) {
 
 fn summary(rows: &[Row]) {
     let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
+    let touches: usize = rows.iter().map(|row| row.touches).sum();
     line(&format!(
-        "{} missions: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touches",
+        "{} mission{}: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
         rows.len(),
+        if rows.len() == 1 { "" } else { "s" },
         count("arrived"),
         count("no_way"),
         count("gave_up"),
         rows.iter().filter(|row| row.right == Some(false)).count(),
         rows.iter().filter(|row| row.right.is_none()).count(),
         rows.iter().filter(|row| row.collided).count(),
-        rows.iter().map(|row| row.touches).sum::<usize>(),
+        touches,
+        if touches == 1 { "" } else { "es" },
     ));
+    if rows.iter().any(|row| row.right.is_none()) {
+        line("not judged: rules let nobody through some doorway, and the judge knows of walls alone");
+    }
     let possible = |with_room, radius| {
         let of = rows
             .iter()

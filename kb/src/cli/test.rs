@@ -1,13 +1,13 @@
 //! `adit test`: the tests of the rules, a line a test.
 
 use super::args::SiteArgs;
-use super::build::open;
+use super::build::unbuilt;
 use super::output::{json, line, problems};
 use crate::error::Result;
 
 /// Runs the tests of the rule base that is in force; `false` where one fails.
 pub fn run(args: &SiteArgs) -> Result<bool> {
-    let tested = open(args)?.test()?;
+    let tested = unbuilt(args)?.test()?;
     let failed = tested.outcomes.iter().filter(|outcome| !outcome.passed).count();
     if args.json {
         json(&serde_json::json!({

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::args::SiteArgs;
-use super::build::{changes, notes, open};
+use super::build::{changes, notes, unbuilt};
 use super::output::{as_json, line, problems, remark};
 use crate::error::Result;
 use crate::live::report::Report;
@@ -12,7 +12,9 @@ use crate::live::watch::{Event, PAUSE, watch};
 /// Watches the site; does not come back.
 pub fn run(args: &SiteArgs) -> Result<()> {
     // a folder that is no site is an error at once, not something to wait for
-    let name = open(args)?.site().name.clone();
+    let knowledge = unbuilt(args)?;
+    knowledge.needs_folder()?;
+    let name = &knowledge.site().name;
     remark(&format!("watching {name}; Ctrl-C ends it"));
     let stop = AtomicBool::new(false);
     let mut last = None;
@@ -37,7 +39,7 @@ pub fn run(args: &SiteArgs) -> Result<()> {
             remark("refused; the site is as it was");
         }
     };
-    watch(&|| open(args), &stop, PAUSE, &mut said);
+    watch(&|| unbuilt(args), &stop, PAUSE, &mut said);
     Ok(())
 }
 

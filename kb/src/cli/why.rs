@@ -1,5 +1,7 @@
 //! `adit why` and `adit why-not`.
 
+use std::path::Path;
+
 use clap::Args;
 
 use super::args::{SiteArgs, WayArgs};
@@ -7,14 +9,14 @@ use super::build::open;
 use super::output::{json, line};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
-use crate::navigation::why as mission;
+use crate::navigation::why as of_journal;
 
 #[derive(Args, Debug)]
 pub struct WhyArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; with GOAL, where a route starts: a place, a room or `x,y`; of a
-    /// database of `adit simulate --db` instead of a site the number of a mission: why the robot stopped
+    /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; `mission 3`: why the robot stopped (of a database of `adit
+    /// simulate --db` instead of a site its number alone); with GOAL, where a route starts: a place, a room or `x,y`
     #[arg(allow_hyphen_values = true)]
     pub what: String,
     /// Where the route leads: why it does what it does, stretch by stretch
@@ -45,18 +47,19 @@ pub struct WhyNotArgs {
 const PRINTED: usize = 20;
 
 pub fn why(args: &WhyArgs) -> Result<()> {
-    if args.site.site.is_file() {
-        return of_mission(args);
+    let SiteArgs { site, .. } = &args.site;
+    if site.is_file() && site.extension().is_none_or(|extension| extension != "toml") {
+        return of_mission(args, site, &args.what);
+    }
+    if let Some(mission) = args.what.strip_prefix("mission ") {
+        return of_mission(args, open(&args.site)?.database(), mission);
     }
     if let (Some(goal), None) = (&args.goal, &args.world) {
         return of_route(args, goal);
     }
     if args.at.is_some() || args.world.is_some() {
-        let message = format!(
-            "--at is for routes and missions, --world for missions, and {} is no file",
-            args.site.site.display()
-        );
-        let help = "`adit simulate WORLD --db FILE` keeps missions; `adit why FILE NUMBER` asks about one";
+        let message = format!("--at is for routes and missions, --world for missions, and {} is none", args.what);
+        let help = "`adit simulate SITE --keep` keeps missions; `adit why SITE \"mission 1\"` asks about one";
         return Err(Error::said(Code::WhyNoMissions, message, Some(help.to_owned())));
     }
     let answer = Live::open(open(&args.site)?)?.why(&args.what)?;
@@ -87,8 +90,7 @@ fn of_route(args: &WhyArgs, goal: &str) -> Result<()> {
     Ok(())
 }
 
-fn of_mission(args: &WhyArgs) -> Result<()> {
-    let SiteArgs { site, rules, .. } = &args.site;
+fn of_mission(args: &WhyArgs, database: &Path, mission: &str) -> Result<()> {
     let seconds = |at: &String| {
         at.trim().parse::<f64>().map_err(|_| {
             let message = format!("--at {at:?} is no time of a mission; expected seconds");
@@ -96,7 +98,8 @@ fn of_mission(args: &WhyArgs) -> Result<()> {
         })
     };
     let at = args.at.as_ref().map(seconds).transpose()?;
-    let answer = mission::why(site, &args.what, args.world.as_deref(), at, rules.as_deref())?;
+    let rules = &args.site.rules;
+    let answer = of_journal::why(database, mission, args.world.as_deref(), at, rules.as_deref())?;
     if args.site.json {
         return json(&answer);
     }

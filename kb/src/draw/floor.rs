@@ -17,16 +17,24 @@ const BELOW: f64 = 34.0;
 /// Neighbours differ in these.
 const TINTS: [&str; 6] = ["#dce9f5", "#fbeed5", "#e2f0dd", "#f6e0e0", "#e8e3f3", "#e4efee"];
 
-/// The floor plan with the network of a robot, and the path, as a standalone SVG text.
-pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Option<&Path>) -> String {
+/// The floor plan with the network of a robot, the doorways that are closed, and the path, as a standalone SVG text.
+pub fn render_floor(
+    title: &str,
+    plan: &FloorPlan,
+    network: &Network,
+    is_closed: impl Fn(usize) -> bool,
+    path: Option<&Path>,
+) -> String {
     let frame = Frame::new(bounds(network), LONGEST, MARGIN, MARGIN + TITLE);
     let mut svg = Svg::default();
     let mut labels = Labels::default();
     svg.group("regions", |svg| regions(svg, &frame, network));
     svg.group("solids", |svg| solids(svg, &frame, plan));
     svg.group("doorways", |svg| {
-        for doorway in &network.regions.doorways {
-            line(svg, frame.at(doorway.from), frame.at(doorway.to), BRIDGE, 2.0, "5 3");
+        for (number, doorway) in network.regions.doorways.iter().enumerate() {
+            let (colour, width, dashes) =
+                if is_closed(number) { (CLOSED, 6.0, "") } else { (BRIDGE, 2.0, "5 3") };
+            line(svg, frame.at(doorway.from), frame.at(doorway.to), colour, width, dashes);
         }
     });
     svg.group("walls", |svg| {
@@ -62,7 +70,7 @@ pub fn render_floor(title: &str, plan: &FloorPlan, network: &Network, path: Opti
 /// Smaller regions have no number in the picture.
 const LEAST: f64 = 700.0;
 
-const LEGEND: &str = "numbers: regions; dashes: doorways; rings: adits, joined to their twins; dots: places; thick line: the path";
+const LEGEND: &str = "grey numbers: regions; brown dashes and numbers: doorways (closed: a thick grey line); rings: adits, joined to their twins; dots: places; thick line: the path";
 
 /// Of the free space: what is solid may reach far beyond it.
 fn bounds(network: &Network) -> Rect {
@@ -152,12 +160,24 @@ fn places(svg: &mut Svg, frame: &Frame, plan: &FloorPlan, path: Option<&Path>, l
     }
 }
 
-/// The numbers of regions, by which rules know them.
+/// The numbers of doorways and regions, by which people and rules know them.
 fn numbers(frame: &Frame, network: &Network, labels: &mut Labels) {
     let face = Face { size: 12.0, colour: GREY, strong: false, chip: false };
     for adit in &network.adits {
         let (x, y) = frame.at(adit.at);
         labels.take(Block::about(x, y, 9.0, 9.0));
+    }
+    let of_doorways = Face { size: 11.0, colour: BRIDGE, strong: true, chip: false };
+    for (number, doorway) in network.regions.doorways.iter().enumerate() {
+        let (x, y) = frame.at(doorway.middle());
+        let about = [
+            (x + 11.0, y - 9.0),
+            (x - 11.0, y + 9.0),
+            (x - 11.0, y - 9.0),
+            (x + 11.0, y + 9.0),
+            (x, y - 18.0),
+        ];
+        labels.place(&number.to_string(), of_doorways, &frame.map, about);
     }
     let is_large = |area: f64| area * frame.scale * frame.scale > LEAST;
     let regions = network.regions.regions.iter().enumerate();

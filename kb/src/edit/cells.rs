@@ -5,6 +5,8 @@ use adit_db::cell::Cell;
 use adit_db::relation::RelationColumn;
 
 use crate::error::{Code, Error, Result};
+use crate::knowledge::LAYOUT;
+use crate::knowledge::tables::truth_of;
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::suggest::did_you_mean;
 
@@ -48,13 +50,15 @@ const DERIVED: [&str; 19] = [
 /// The columns of a table that may be edited, its key's first.
 pub(super) fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
-    if DERIVED.contains(&table) {
+    // where the map is not cut into rooms, its places stand in the table alone
+    let is_map = table == "places" && tx.site_value(LAYOUT)?.is_some();
+    if DERIVED.contains(&table) && !is_map {
         let message =
             format!("`{table}` is derived: what is in it follows from the map, the tables and a rule");
         let help = "tune `robots`, `changes` or `loads`, edit a rule, or edit the map and build".to_owned();
         return Err(Error::said(Code::EditDerived, message, Some(help)));
     }
-    if !TUNABLE.contains(&table) && !own.iter().any(|known| known == table) {
+    if !TUNABLE.contains(&table) && !is_map && !own.iter().any(|known| known == table) {
         let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
         return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{table}`"), help));
     }
@@ -68,11 +72,25 @@ pub(super) fn cell_of(table: &str, column: &str, value: &str, columns: &[Relatio
         let message = format!("table `{table}` has no column `{column}`");
         return Err(Error::said(Code::EditUnknownColumn, message, help));
     };
+    let holds_texts = ["TEXT", "CHAR", "CLOB"].iter().any(|kind| known.declared.contains(kind));
+    if holds_texts && !value.is_empty() {
+        return Ok(Cell::Text(value.to_owned()));
+    }
     let cell = cell(value);
     let holds_numbers = ["REAL", "INTEGER"].contains(&known.declared.as_str());
     if holds_numbers && matches!(cell, Cell::Text(_)) {
         let message = format!("`{column}` of `{table}` holds numbers, and `{value}` is none");
         return Err(Error::said(Code::EditNotANumber, message, None));
+    }
+    if known.declared.contains("BOOL") {
+        return match truth_of(value) {
+            Some(truth) => Ok(Cell::Integer(truth.into())),
+            None if value.is_empty() => Ok(Cell::Null),
+            None => {
+                let message = format!("`{column}` of `{table}` is true or false, and `{value}` is neither");
+                Err(Error::said(Code::EditNotANumber, message, None))
+            }
+        };
     }
     Ok(cell)
 }
@@ -98,7 +116,7 @@ pub(super) fn row(
     }
     let mut row: Vec<(String, Cell)> = Vec::new();
     for (name, part) in keys.iter().zip(parts) {
-        row.push(((*name).to_owned(), cell(&part)));
+        row.push(((*name).to_owned(), cell_of(table, name, &part, &columns)?));
     }
     for (name, value) in cells {
         let cell = cell_of(table, name, value, &columns)?;
@@ -129,6 +147,15 @@ pub(super) fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key:
         ),
         _ => None,
     };
+    if let adit_db::Error::Refused { reason, .. } = error {
+        if let Some(cell) = reason.strip_prefix("NOT NULL constraint failed: ") {
+            let message = format!("{cell} must have a value, and `{key}` has none");
+            return Error::said(Code::EditRefused, message, None);
+        }
+        if reason.starts_with("UNIQUE constraint failed") {
+            return Error::said(Code::EditRefused, format!("`{table}` has a row `{key}` already"), None);
+        }
+    }
     let found = if matches!(error, adit_db::Error::Refused { .. }) && !value.is_empty() {
         format!(" (found {value})")
     } else {
@@ -151,4 +178,17 @@ fn keys(tx: &mut Tx<'_>, table: &str) -> Result<Vec<String>> {
         keys.push(key.join("/"));
     }
     Ok(keys)
+}
+
+/// Whether both are the same value; a whole number is the same with and without a point.
+pub(super) fn is_equal(one: &Cell, other: &Cell) -> bool {
+    let number = |cell: &Cell| match cell {
+        Cell::Integer(value) => Some(*value as f64),
+        Cell::Real(value) => Some(*value),
+        _ => None,
+    };
+    match (number(one), number(other)) {
+        (Some(one), Some(other)) => one.total_cmp(&other).is_eq(),
+        _ => one == other,
+    }
 }

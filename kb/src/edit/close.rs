@@ -4,18 +4,27 @@
 use adit_db::Tx;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
+use adit_db::space::Doorway;
 use adit_db::told::Told as Row;
 use adit_engine::RuleBase;
 use adit_planners::facts::Column;
+use adit_planners::geometry::Rect;
 
 use super::place;
 use super::tell::Tell;
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, Named};
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
 use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
+use crate::knowledge::{KnowledgeBase, LAYOUT};
+use crate::plan::course::numbered;
 use crate::words::suggest::did_you_mean;
+
+/// What a channel is called, before its number.
+const CHANNEL: &str = "channel";
+
+/// How far a doorway may be from where a robot was blocked, metres.
+const NEAR_M: f64 = 1.5;
 
 /// Something that is closed, as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,7 +43,11 @@ impl Close {
     /// The fact that says it.
     pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
         let what = self.what.trim();
-        let class = class_of(tx, what)?;
+        let (class, object) = if tx.site_value(LAYOUT)?.is_some() {
+            of_map(tx, what)?
+        } else {
+            (class_of(tx, what)?, what.to_owned())
+        };
         let (property, value) = match (self.only.as_slice(), self.except.as_slice()) {
             ([], []) => (CLOSED, "true".to_owned()),
             (only, []) => (CLOSED_TO, only.join(", ")),
@@ -44,6 +57,11 @@ impl Close {
                 return Err(Error::said(Code::TellUsage, message, None));
             }
         };
+        if property != CLOSED && tx.site_value(LAYOUT)?.is_some() {
+            let message = format!("`{what}` is closed to everybody, or to nobody");
+            let help = "which robots are kept out is for a rule of PASSAGES or WAYS to say".to_owned();
+            return Err(Error::said(Code::TellUsage, message, Some(help)));
+        }
         if property != CLOSED && !lists_robots(class, property) {
             let message = format!("`{what}` is an area, and areas are closed to everybody");
             let help = "close its doorways, or say in rules which robots are kept out".to_owned();
@@ -51,7 +69,7 @@ impl Close {
         }
         Ok(Tell {
             class: class.to_owned(),
-            object: what.to_owned(),
+            object,
             property: property.to_owned(),
             value,
             until: self.until.clone(),
@@ -86,7 +104,14 @@ pub(super) fn open(
             && (fact.segment.is_some()
                 || is_same("x", fact.at.map(|at| at[0])) && is_same("y", fact.at.map(|at| at[1])))
     };
-    let ids: Vec<i64> = tx.facts_told()?.iter().filter(closes).map(|fact| fact.id).collect();
+    let told = tx.facts_told()?;
+    let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
+    let ids: Vec<i64> = told.iter().filter(closes).filter(|fact| !opens(fact)).map(|fact| fact.id).collect();
+    let is_told = told.iter().filter(closes).any(|fact| opens(&fact));
+    if ids.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what)?) {
+        let message = format!("`{what}` is open already");
+        return Err(Error::said(Code::TellUsage, message, None));
+    }
     let mut last = None;
     for id in ids {
         last = Some(tx.remove_row("told", &id.to_string(), author)?);
@@ -97,6 +122,12 @@ pub(super) fn open(
     let tell = Tell { value: "false".to_owned(), ..tell };
     let row = tell.row(tx, site, rules, author)?;
     Ok(tx.add_row("told", &row, author)?)
+}
+
+/// Whether a doorway of this name is closed, by whatever; one that is meant by its point may be.
+fn is_shut(tx: &mut Tx<'_>, what: &str) -> Result<bool> {
+    let building = Building::read(tx)?;
+    Ok(building.doorway_named(what.trim()).is_none_or(|doorway| doorway.closed == Some(true)))
 }
 
 /// Of which class something is that people have a name for.
@@ -122,6 +153,78 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
         format!("the site has nothing called `{what}` that could be closed"),
         help,
     ))
+}
+
+/// Of a map that is not cut into rooms, what can be closed, with its class: a channel, a doorway; or the one at a point, along
+/// the heading where one is said.
+fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
+    let (channels, building) = (channels(tx)?, Building::read(tx)?);
+    let point = place::split(what);
+    if let Some(number) =
+        numbered(what, CHANNEL).filter(|number| channels.iter().any(|(known, _)| known == number))
+    {
+        return Ok(("CHANNELS", number.to_string()));
+    }
+    if building.doorway_named(what).is_some() {
+        return Ok(("DOORWAYS", what.to_owned()));
+    }
+    if let Some((at, heading)) = point {
+        let far = |doorway: &&Doorway| Building::segment(doorway).distance(at);
+        let near = building.doorways.iter().min_by(|one, other| far(one).total_cmp(&far(other)));
+        if let Some(doorway) = near.filter(|doorway| far(doorway) <= NEAR_M) {
+            return Ok(("DOORWAYS", Building::name(doorway)));
+        }
+        let along = |rect: &Rect| {
+            heading.map(f64::to_radians).is_none_or(|heading| {
+                (heading.cos().abs() >= heading.sin().abs()) == (rect.dx() >= rect.dy())
+            })
+        };
+        let here: Vec<_> = channels.iter().filter(|(_, rect)| rect.contains(at)).collect();
+        let meant: Vec<_> = here.iter().filter(|(_, rect)| here.len() == 1 || along(rect)).collect();
+        if let [(number, _)] = meant[..] {
+            return Ok(("CHANNELS", number.to_string()));
+        }
+        if !here.is_empty() {
+            let numbers: Vec<String> = here.iter().map(|(number, _)| format!("channel {number}")).collect();
+            let message = format!("{what} lies in {}", numbers.join(" and in "));
+            let help = "say which, or the heading as well: x,y@90".to_owned();
+            return Err(Error::said(Code::TellUnknownObject, message, Some(help)));
+        }
+    }
+    let mut known: Vec<String> = channels.iter().map(|(number, _)| format!("channel {number}")).collect();
+    known.extend(building.doorways.iter().map(Building::name));
+    let help = match (did_you_mean(what, known.iter().map(String::as_str)), known.first()) {
+        (Some(help), _) => help,
+        (None, Some(first)) => format!("what can be closed here is called like `{first}`"),
+        (None, None) => "nothing of this map can be closed".to_owned(),
+    };
+    Err(Error::said(
+        Code::TellUnknownObject,
+        format!("the site has nothing called `{what}` that could be closed"),
+        Some(help),
+    ))
+}
+
+/// The channels that can be closed, by number; none of a map that has no such.
+fn channels(tx: &mut Tx<'_>) -> Result<Vec<(usize, Rect)>> {
+    if !tx.user_tables()?.iter().any(|table| table.name == "channels") {
+        return Ok(Vec::new());
+    }
+    let relation = tx.read_table("channels")?;
+    let column = |name: &str| relation.columns.iter().find(|column| column.name == name);
+    let (Some(_), Some(numbers)) = (column(CLOSED), column(CHANNEL)) else { return Ok(Vec::new()) };
+    let real = |name: &str, row: usize| match column(name).and_then(|column| column.values.get(row)) {
+        Some(adit_db::Cell::Real(value)) => Some(*value),
+        Some(adit_db::Cell::Integer(value)) => Some(*value as f64),
+        _ => None,
+    };
+    let channel = |(row, number): (usize, &adit_db::Cell)| {
+        let adit_db::Cell::Integer(number) = number else { return None };
+        let side = |name| real(name, row);
+        let rect = Rect { x0: side("x0")?, y0: side("y0")?, x1: side("x1")?, y1: side("y1")? };
+        Some((*number as usize, rect))
+    };
+    Ok(numbers.values.iter().enumerate().filter_map(channel).collect())
 }
 
 /// The names of what planners gave of a class.

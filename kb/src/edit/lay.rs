@@ -74,6 +74,7 @@ impl Lay {
             why: author.why.clone(),
             at: stored(site.clock().now()),
         };
+        site.site().needs_rooms()?;
         laid::check(&row, &mut site.world(tx)?)?;
         let optional = |text: &Option<String>| text.as_deref().map_or(Cell::Null, Cell::from);
         let cells = [

@@ -7,11 +7,13 @@ use adit_planners::facts::Table;
 use serde::Serialize;
 
 use super::Edit;
+use super::react::Recalled;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
 use crate::knowledge::told::{Object, Told};
 use crate::state::State;
+use crate::words::progress::Silent;
 
 /// A cell that would count instead of another: of a table, with the named tunings that are on, or a fact.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -48,6 +50,12 @@ impl State {
             for edit in edits {
                 edit.apply(tx, site, rules, &author)?;
             }
+            let after = site.told(tx, rules)?;
+            if !rules.rules().iter().any(adit_engine::Rule::reacts) {
+                return Ok(Rehearsed { before, after });
+            }
+            // what rules would do then is a part of what would change
+            self.fork().step_and_react(tx, after, Recalled::Nothing, &Silent)?;
             Ok(Rehearsed { before, after: site.told(tx, rules)? })
         })
     }

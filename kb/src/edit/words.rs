@@ -10,13 +10,14 @@ use crate::words::number::number;
 
 impl Edit {
     /// In a few words, what an edit did.
-    pub(crate) fn words(&self, Done { key, old, new, .. }: &Done) -> String {
+    pub(crate) fn words(&self, Done { key, old, new, with, .. }: &Done) -> String {
         match self {
             Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..) => {
                 format!("{table}.{key}.{column}: {old} → {new}")
             }
             Self::Add(table, ..) => format!("{table}.{key} is new"),
             Self::Remove(table, ..) => format!("{table}.{key} is gone"),
+            Self::Table(table, sheet) => format!("{table} is as {} has it: {new}", sheet.path.display()),
             Self::Tell(fact) => {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
             }
@@ -46,11 +47,18 @@ impl Edit {
                 format!("tuning {tuning}: no {table}.{row}.{column} any more")
             }
             Self::Switch(tuning, on) => format!("tuning {tuning} is {}", if *on { "on" } else { "off" }),
-            Self::Undo(_) => match (row(old), row(new)) {
-                (Some(_), None) => format!("undone: {} is gone again", called(key, old)),
-                (None, Some(_)) => format!("undone: {} is back", called(key, new)),
-                _ => format!("undone: {key}: {old} → {new}"),
-            },
+            Self::Undo(_) => {
+                let more = match with {
+                    0 => String::new(),
+                    1 => ", and one more that was made with it".to_owned(),
+                    more => format!(", and {more} more that were made with it"),
+                };
+                match (row(old), row(new)) {
+                    (Some(_), None) => format!("undone: {} is gone again{more}", called(key, old)),
+                    (None, Some(_)) => format!("undone: {} is back{more}", called(key, new)),
+                    _ => format!("undone: {key}: {old} → {new}{more}"),
+                }
+            }
         }
     }
 }

@@ -57,6 +57,11 @@ codes! {
     /// The database was removed or replaced while it was served; start the service again.
     DatabaseReplaced = "database/replaced", INTERNAL_SERVER_ERROR;
 
+    /// The tables of a map that is not cut into rooms make no map.
+    CourseTable = "course/table", BAD_REQUEST;
+    /// What is asked needs a map that is cut into rooms.
+    CourseUnfit = "course/unfit", BAD_REQUEST;
+
     /// A picture is written as .svg or .png.
     DrawFormat = "draw/format", BAD_REQUEST;
     /// There is no route to draw between these ends.
@@ -76,6 +81,8 @@ codes! {
     EditKey = "edit/key", BAD_REQUEST;
     /// The column holds numbers.
     EditNotANumber = "edit/not-a-number", BAD_REQUEST;
+    /// The file says what the table holds already.
+    EditNoDifference = "edit/no-difference", CONFLICT;
     /// No edit is left to take back.
     EditNothingToUndo = "edit/nothing-to-undo", NOT_FOUND;
     /// The table does not take this value or row.
@@ -143,13 +150,9 @@ codes! {
     PlanConfiguration = "plan/configuration", BAD_REQUEST;
     /// Experience that was kept cannot be read; forget it.
     PlanDamagedExperience = "plan/damaged-experience", BAD_REQUEST;
-    /// START and GOAL are missing, or there is one too many.
-    PlanEnds = "plan/ends", BAD_REQUEST;
-    /// The gap is none, or this world has no gap.
-    PlanGap = "plan/gap", BAD_REQUEST;
     /// The cell has experience already, so another's cannot be copied to it.
     PlanHasExperience = "plan/has-experience", BAD_REQUEST;
-    /// The option is for worlds with `[cell]`.
+    /// Tasks are for maps with `[cell]`.
     PlanNoCell = "plan/no-cell", BAD_REQUEST;
     /// There is no experience of this cell.
     PlanNoExperience = "plan/no-experience", BAD_REQUEST;
@@ -157,19 +160,17 @@ codes! {
     PlanNoGoals = "plan/no-goals", BAD_REQUEST;
     /// There is no rule base of this name, and no such folder.
     PlanNoRules = "plan/no-rules", BAD_REQUEST;
-    /// The file is no world of a planner: it needs `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`.
+    /// The file is no map without rooms: it needs `[assembly]`, `[corridor]`, `[floor_plan]` or `[cell]`.
     PlanNoTask = "plan/no-task", BAD_REQUEST;
     /// Experience is of another robot; keep it in another database or under another name.
     PlanOtherRobot = "plan/other-robot", BAD_REQUEST;
-    /// A point is `x,y` in metres.
-    PlanPoint = "plan/point", BAD_REQUEST;
     /// The rules failed while the planner asked them, or gave nothing that it can use.
     PlanRules = "plan/rules", BAD_REQUEST;
     /// The file has no such scenario, or several, or is none.
     PlanScenario = "plan/scenario", BAD_REQUEST;
     /// Another program keeps experience of this cell in this database; run one at a time.
     PlanTwoPrograms = "plan/two-programs", BAD_REQUEST;
-    /// The world has several tasks; it may have one.
+    /// The map's file has several of these tables; it may have one.
     PlanTwoTasks = "plan/two-tasks", BAD_REQUEST;
     /// The cell has no such goal.
     PlanUnknownGoal = "plan/unknown-goal", NOT_FOUND;
@@ -211,7 +212,7 @@ codes! {
     RuleHardness = "rule/hardness", UNPROCESSABLE_ENTITY;
     /// A row of a table that a rule can never choose, since another comes before it wherever it fits.
     RuleNeverChosen = "rule/never-chosen", UNPROCESSABLE_ENTITY;
-    /// A rule that reacts, where reactions are not carried out.
+    /// A rule that reacts and cannot do what it says, or stands in a world, where reactions are not carried out.
     RuleNotCarriedOut = "rule/not-carried-out", UNPROCESSABLE_ENTITY;
     /// A file or folder that looks like rules and does not count.
     RuleNotRead = "rule/not-read", UNPROCESSABLE_ENTITY;
@@ -310,6 +311,8 @@ codes! {
     SiteExists = "site/exists", UNPROCESSABLE_ENTITY;
     /// The site has no map, and so no rooms, robots and routes.
     SiteNoMap = "site/no-map", UNPROCESSABLE_ENTITY;
+    /// The map of a site is its file alone, which keeps no edits; `adit new --map` makes a site of it.
+    SiteMapAlone = "site/map-alone", UNPROCESSABLE_ENTITY;
     /// The folder is no site; `adit new` starts one.
     SiteMissing = "site/missing", UNPROCESSABLE_ENTITY;
     /// A place is named like a point `x,y`; give it another name.

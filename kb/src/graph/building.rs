@@ -102,10 +102,11 @@ impl Building {
 
     /// What a doorway is called, where it is, and between which spaces.
     fn place_of(&self, doorway: &Doorway) -> String {
-        let [one, other] =
-            [doorway.space1, doorway.space2].map(|space| self.space(space).unwrap_or_default());
         let (name, x, y) = (Self::name(doorway), doorway.x, doorway.y);
-        format!("{name} at ({x:.2}, {y:.2}), between {one} and {other},")
+        match [doorway.space1, doorway.space2].map(|space| self.space(space)) {
+            [Some(one), Some(other)] => format!("{name} at ({x:.2}, {y:.2}), between {one} and {other},"),
+            _ => format!("{name} at ({x:.2}, {y:.2})"),
+        }
     }
 
     /// The doorway of this name: what rules call it, or `doorway 3`.

@@ -9,25 +9,37 @@ use crate::error::{Code, Error, Result};
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
 
 /// Classes whose key is not their first property alone.
-const KEYS: [(&str, &[&str]); 6] = [
+const KEYS: [(&str, &[&str]); 7] = [
     ("ROBOTS", &["robot", "state"]),
     ("CHANGES", &["robot", "from_state", "to_state"]),
     ("LOADS", &["robot", "load"]),
     ("STRIPS", &["axis", "strip"]),
     ("AREA_ROOMS", &["room", "area"]),
     ("DOOR_ROOMS", &["room", "door"]),
+    (ROUTES, &["robot", "start", "goal"]),
 ];
+
+/// Routes between places, which only rules that react may read.
+pub const ROUTES: &str = "ROUTES";
+
+/// What is known of them.
+pub const ROUTES_GIVE: [&str; 4] =
+    ["ROUTES.robot: text", "ROUTES.start: text", "ROUTES.goal: text", "ROUTES.cost"];
 
 /// The properties that tell objects of a class with a longer key apart; none of other classes.
 pub fn key_of(class: &str) -> &'static [&'static str] {
     KEYS.iter().find(|(name, _)| *name == class).map_or(&[], |(_, key)| key)
 }
 
-/// Asserts a class; its key is its first property, where that tells the objects apart.
-pub fn assert(knowledge: &mut Inference, name: &str, table: &Table) -> Result<()> {
+/// Asserts a class; its key is its first property, where that tells the objects apart. New objects of one that is numbered get
+/// the next number.
+pub fn assert(knowledge: &mut Inference, name: &str, table: &Table, is_numbered: bool) -> Result<()> {
     let composite = KEYS.iter().find(|(class, _)| *class == name).map(|(_, key)| key.to_vec());
     let key = composite.unwrap_or_else(|| first_if_unique(table));
     let mut class = Class::new(name, &key);
+    if is_numbered {
+        class = class.numbered();
+    }
     for (property, column) in &table.columns {
         class = match column {
             Column::Number(values) => class.numbers(property, values.iter().copied()),

@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use adit_db::load::Load;
+use adit_db::place::Place;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
 use adit_db::{Cell, Tx};
@@ -31,6 +32,14 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("from_state", changes.iter().map(|row| row.from_state.clone()).collect::<Column>())
         .with("to_state", changes.iter().map(|row| row.to_state.clone()).collect::<Column>())
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
+}
+
+/// The places as a class.
+pub fn places(places: &[Place]) -> Table {
+    Table::default()
+        .with("place", places.iter().map(|row| row.place.clone()).collect::<Column>())
+        .with("x", places.iter().map(|row| row.x).collect::<Column>())
+        .with("y", places.iter().map(|row| row.y).collect::<Column>())
 }
 
 /// The class HOURS of a site where nothing has hours.
@@ -68,6 +77,15 @@ pub fn read(relation: &Relation) -> Result<Table> {
     Ok(table)
 }
 
+/// A truth value as people write it.
+pub fn truth_of(text: &str) -> Option<bool> {
+    match text.to_lowercase().as_str() {
+        "true" | "yes" | "1" => Some(true),
+        "false" | "no" | "0" => Some(false),
+        _ => None,
+    }
+}
+
 /// The keys of a table's rows as edits name them: the values of the primary key, joined by `/`. A table without one has
 /// rows that nobody can name.
 pub fn keys(relation: &Relation) -> Vec<String> {
@@ -79,14 +97,35 @@ pub fn keys(relation: &Relation) -> Vec<String> {
     (0..rows).map(key).collect()
 }
 
+/// Whether SQLite numbers the rows of a table: its key is a whole number, which comes first.
+pub fn is_numbered(relation: &Relation) -> bool {
+    let is_key = |column: &RelationColumn| column.key > 0;
+    let first = relation.columns.first().is_some_and(|first| is_key(first) && first.declared == "INTEGER");
+    first && relation.columns.iter().filter(|column| is_key(column)).count() == 1
+}
+
 fn values(table: &str, column: &RelationColumn) -> Result<Column> {
     let declared = column.declared.as_str();
+    let is_other = |found: &str, expected: &str| {
+        let message =
+            format!("column `{}` of table `{table}` holds `{found}`, expected {expected}", column.name);
+        Error::said(Code::TableMixed, message, None)
+    };
     if declared.contains("BOOL") {
         let truth = |cell: &Cell| match cell {
-            Cell::Integer(value) => Some(*value != 0),
-            _ => None,
+            Cell::Integer(value) => Ok(Some(*value != 0)),
+            Cell::Null => Ok(None),
+            other => {
+                let text = other.to_string();
+                truth_of(&text).map(Some).ok_or_else(|| is_other(&text, "true or false"))
+            }
         };
-        return Ok(Column::Truth(column.values.iter().map(truth).collect()));
+        return Ok(Column::Truth(column.values.iter().map(truth).collect::<Result<_>>()?));
+    }
+    if ["REAL", "INTEGER"].contains(&declared)
+        && let Some(text) = column.values.iter().find(|cell| matches!(cell, Cell::Text(_)))
+    {
+        return Err(is_other(&text.to_string(), "numbers"));
     }
     let texts = column.values.iter().filter(|cell| matches!(cell, Cell::Text(_))).count();
     let numbers =

@@ -3,7 +3,7 @@
 pub mod attach;
 pub mod closing;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
 
 use adit_db::space::Doorway;
@@ -28,6 +28,8 @@ pub struct Told {
     pub classes: Facts,
     /// The keys of their rows, as edits name them; empty for a table whose rows nobody can name.
     pub keys: RowKeys,
+    /// Classes of tables whose rows SQLite numbers.
+    pub numbered: BTreeSet<String>,
     /// Facts about single objects that hold now, the oldest first: of two about one property the later one counts.
     pub facts: Vec<Fact>,
     /// Facts whose time is over, by number.

@@ -9,9 +9,11 @@ use adit_db::history::Author;
 use adit_db::room::Room;
 use adit_db::stale::Mark;
 
+use super::courses;
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
+use crate::edit::react::{Recalled, make_tables};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
 use crate::graph::{Building, layout};
@@ -20,7 +22,7 @@ use crate::knowledge::generation::{self, Basis};
 use crate::knowledge::inputs::Inputs;
 use crate::state::before::Before;
 use crate::state::keep::{Kept, LastBuild, Written, differing, keep_standings};
-use crate::state::{Nothing, State, Step, Weighed};
+use crate::state::{State, Step, Weighed};
 use crate::words::progress::{Progress, Silent, Stage, Stopwatch};
 
 /// The mark of routes that have yet to follow.
@@ -78,6 +80,8 @@ pub struct Accepted {
     pub tree_rows: usize,
     /// What rules say otherwise of other things than rooms and doors.
     pub conclusions: Vec<Concluded>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     /// The kept routes, where all were looked at.
     pub routes: Option<Routes>,
     /// Whether planners gave facts anew.
@@ -109,7 +113,7 @@ impl Memory {
         state.accept(step);
         state.generation = generation;
         let floor = (&**state.graph(), &*state.gauge);
-        let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts.as_ref())?;
+        let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts_in_rooms())?;
         let before = Before { graph: state.graph(), starts: &starts };
         Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
     }
@@ -122,11 +126,13 @@ impl Memory {
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
         let starts = tx.starts()?;
+        make_tables(tx, &inputs.rules)?;
         let told = site.told(tx, &inputs.rules)?;
         let mut state = State::new(Arc::clone(site), Arc::clone(inputs), cut(tx)?);
         let graph = Arc::clone(state.graph());
         let before = Before { graph: &graph, starts: &starts };
-        let step = state.step(told, &mut LastBuild(tx), progress)?;
+        let mut step = state.step_and_react(tx, told, Recalled::OfLastBuild, progress)?;
+        let reacted = std::mem::take(&mut step.reacted);
         let mut clock = Stopwatch::new();
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
         let (kept, plan, routes, generation) =
@@ -138,6 +144,7 @@ impl Memory {
         state.generation = generation;
         let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
         report.concluded = kept.derivations().len();
+        report.reacted = reacted;
         Ok((Self::of(state, kept, plan, basis), report))
     }
 
@@ -155,12 +162,12 @@ impl Memory {
         let graph = Arc::clone(memory.state.graph());
         let starts = memory.routes.plan().starts.clone();
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
-        let Accepted { weighed, conclusions, routes, mut stages, .. } = memory.accept(followed);
+        let Accepted { weighed, conclusions, reacted, routes, mut stages, .. } = memory.accept(followed);
         stages.insert(0, inputs.stage.clone());
         let before = Before { graph: &graph, starts: &starts };
         let routes = routes.unwrap_or_default();
         let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
-        report.conclusions = conclusions;
+        (report.conclusions, report.reacted) = (conclusions, reacted);
         report.concluded = memory.kept.derivations().len();
         // nobody waits until all of it is given back
         rayon::spawn(|| drop((memory, graph)));
@@ -195,12 +202,12 @@ impl Memory {
         let site = Arc::clone(&self.state.site);
         let told = site.told(tx, &self.state.inputs.rules)?;
         clock.lap("edit");
-        let step = self.state.step(told, &mut Nothing, progress)?;
+        let step = self.state.step_and_react(tx, told, Recalled::Nothing, progress)?;
         clock.skip();
         clock.stages.extend(step.stages.iter().cloned());
         let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));
         let renewed = match (step.is_anew, promptness) {
-            (false, Promptness::Later) => self.routes.renew(&graph, &step.weighed),
+            (false, Promptness::Later) if step.courses.is_none() => self.routes.renew(&graph, &step.weighed),
             _ => None,
         };
         let before = Before { graph: state.graph(), starts: &self.routes.plan().starts };
@@ -222,7 +229,10 @@ impl Memory {
             } else {
                 KeptSoFar::Of(state.graph(), self.routes.plan())
             };
-            let (plan, routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
+            let (plan, mut routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
+            if let Some(now) = &step.courses {
+                routes = courses::keep(tx, state.courses.as_deref(), now)?;
+            }
             RoutesNow::All(plan, routes)
         };
         let generation = generation::renew(tx, step.weighed.is_empty(), &self.basis.with(&step.told))?;
@@ -243,13 +253,11 @@ impl Memory {
     /// Makes a committed edit part of what is known.
     pub fn accept(&mut self, followed: Followed) -> Accepted {
         let Followed { done, step, kept, routes, generation, clock } = followed;
-        let anew = step.is_anew;
+        let (anew, reacted) = (step.is_anew, step.reacted.clone());
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
-        self.state.accept(step);
-        self.state.generation = generation;
-        let conclusions = match kept {
+        let mut conclusions = match kept {
             KeptNow::Rows(written) => {
-                let conclusions = Concluded::between(written.gone(), written.new());
+                let conclusions = Concluded::between(written.gone(), written.added());
                 self.kept.accept(written);
                 conclusions
             }
@@ -259,6 +267,11 @@ impl Memory {
                 Concluded::between(&gone, &new)
             }
         };
+        // that somebody told something instead, or no longer does, the edit itself says
+        let told = [&self.state.attached, &step.attached];
+        conclusions.retain(|of| of.is_of_rules_alone(&self.state.knowledge, told));
+        self.state.accept(step);
+        self.state.generation = generation;
         let (tree_rows, routes) = match routes {
             RoutesNow::Renewed(renewed) => {
                 let rows = renewed.rows();
@@ -275,7 +288,7 @@ impl Memory {
         if anew {
             self.layout = OnceLock::new();
         }
-        Accepted { done, weighed, tree_rows, conclusions, routes, anew, stages: clock.stages }
+        Accepted { done, weighed, tree_rows, conclusions, reacted, routes, anew, stages: clock.stages }
     }
 
     /// Forgets what was written and not committed.
@@ -308,7 +321,10 @@ fn write_all(
     clock.lap("database");
     progress.stage("routes");
     let so_far = if step.is_cut_anew { KeptSoFar::OfAnotherCut } else { KeptSoFar::Stored };
-    let (plan, routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
+    let (plan, mut routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
+    if let Some(now) = &step.courses {
+        routes = courses::keep(tx, state.courses.as_deref(), now)?;
+    }
     clock.lap("routes");
     let is_same = !step.is_cut_anew && step.weighed.is_empty() && routes.changed == Some(0);
     let generation = generation::renew(tx, is_same, &basis.with(&step.told))?;

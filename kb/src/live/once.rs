@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::history::Author;
+use adit_db::place::Place;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
@@ -19,7 +20,7 @@ use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
-use crate::knowledge::{Beneath, KnowledgeBase};
+use crate::knowledge::{Beneath, KnowledgeBase, LAYOUT};
 use crate::site::robots::RobotFile;
 use crate::site::{lint, over, rules, states, tables};
 use crate::words::progress::{Progress, Silent};
@@ -31,6 +32,7 @@ impl KnowledgeBase {
     }
 
     fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
+        self.refuse_anothers(database)?;
         let inputs = self.inputs(progress)?;
         let fresh = !database.exists();
         let outcome = Store::open_or_create(database)
@@ -55,13 +57,18 @@ impl KnowledgeBase {
         progress: &dyn Progress,
     ) -> Result<(Memory, Report)> {
         let (site, again) = (self.site(), self.reseed);
-        let seed = if site.has_map() { Some(RobotFile::read(&site.robots)?) } else { None };
-        let tables = tables::read(&site.tables())?;
+        let seed = if site.has_rooms() { Some(RobotFile::read(&site.robots)?) } else { None };
+        let mut tables = self.tables_of_map();
+        tables.extend(tables::read(&site.tables())?);
+        let places = self.places_of_map();
         store.transaction(|tx| {
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
                 notes.extend(table.seed(tx, again)?);
+            }
+            if let Some(places) = &places {
+                notes.extend(seed_places(tx, places, again)?);
             }
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
@@ -77,6 +84,9 @@ impl KnowledgeBase {
         rehearse: bool,
         progress: &dyn Progress,
     ) -> Result<(Done, Report)> {
+        if !rehearse {
+            self.needs_folder()?;
+        }
         let inputs = self.inputs(progress)?;
         let mut store = Store::open(self.database())?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
@@ -91,7 +101,8 @@ impl KnowledgeBase {
     /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<Finding>> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
-        let mut problems = lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners());
+        let mut problems =
+            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked());
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
@@ -110,7 +121,8 @@ impl KnowledgeBase {
         let gap = |gap| Finding::warning(Code::Rule(adit_engine::Code::Gap), gap, None);
         problems.extend(report.gaps.into_iter().map(gap));
         problems.extend(lint::never_chosen(&report.dominated));
-        problems.extend(self.test()?.beneath.iter().flat_map(Beneath::findings));
+        let built = self.clone().with_database(Some(&scratch));
+        problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
         Ok(problems)
     }
 
@@ -127,11 +139,42 @@ impl KnowledgeBase {
     /// everything is derived again first. Asked about [another moment](KnowledgeBase::at), it answers for that one, and
     /// leaves the site as it is.
     pub fn route_to_nearest(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        self.site().needs_map()?;
+        if !self.site().has_rooms() && self.site().layout.is_none() {
+            self.site().needs_rooms()?;
+        }
+        if self.course().is_some() && self.within.is_some() {
+            self.site().needs_rooms()?;
+        }
         if self.asks_about_another_moment() {
             return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }
         self.fresh()?.snapshot(|tx| self.answer(tx, (start, goals), robot, [None; 2]))
+    }
+
+    /// A map that is not cut into rooms as an SVG text, with a route where one is asked for; and what there is of what.
+    pub(crate) fn course_picture(
+        &self,
+        route: Option<(&str, &str)>,
+        robot: Option<&str>,
+    ) -> Result<(String, String)> {
+        let inputs = self.inputs(&Silent)?;
+        let memory = self.fresh()?.snapshot(|tx| Memory::open(tx, &self.shared(), &inputs))?;
+        let courses = memory.and_then(|memory| memory.state.courses);
+        let courses = courses.ok_or_else(|| {
+            Error::said(
+                Code::LiveStale,
+                "the site's rules, tables or files were changed since it was built",
+                None,
+            )
+        })?;
+        let name = &self.site().name;
+        let Some((start, goal)) = route else { return Ok((courses.picture(name, None)?, courses.summary())) };
+        let robot = crate::answer::pick(&courses.robots(), robot)?;
+        if let Some(reason) = courses.find(&robot, start, goal)?.row.reason {
+            let message = format!("no route from {start} to {goal}: {reason}");
+            return Err(Error::said(Code::DrawNoRoute, message, None));
+        }
+        Ok((courses.picture(name, Some([robot.as_str(), start, goal]))?, courses.summary()))
     }
 
     /// As [`route_to_nearest`](Self::route_to_nearest), for an errand; the site is left as it is.
@@ -141,6 +184,7 @@ impl KnowledgeBase {
         (start, goals): (&str, &[String]),
         robot: Option<&str>,
     ) -> Result<Answer> {
+        self.site().needs_rooms()?;
         // names are those of the last build
         drop(self.fresh()?);
         let then = self.clone().at(errand.at.as_deref())?;
@@ -187,6 +231,30 @@ impl KnowledgeBase {
         robot: Option<&str>,
         ends_in: [Option<&str>; 2],
     ) -> Result<Answer> {
+        if self.course().is_some() {
+            let robots = tx.course_robots()?;
+            if let Ok(robot) = crate::answer::pick(&robots, robot)
+                && let Some(route) = kept(tx, &robot, start, goals)?
+            {
+                let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
+                (answer.cost, answer.distance) = (route.cost, route.distance);
+                answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
+                answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+                answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
+                answer.goal = route.goal;
+                return Ok(answer);
+            }
+            let inputs = self.inputs(&Silent)?;
+            let memory = Memory::open(tx, &self.shared(), &inputs)?;
+            let memory = memory.ok_or_else(|| {
+                Error::said(
+                    Code::LiveStale,
+                    "the site's rules, tables or files were changed since it was built",
+                    Some("`adit build` says whether something is wrong with them".to_owned()),
+                )
+            })?;
+            return memory.state.route(start, goals, robot);
+        }
         let robot = pick_robot(tx, robot)?;
         let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
         let kept = if ends_in == [None; 2] { kept(tx, &robot, start, goals)? } else { None };
@@ -209,6 +277,22 @@ impl KnowledgeBase {
         rayon::spawn(|| drop(graph));
         answer
     }
+}
+
+/// Fills the places of a map that is not cut into rooms the first time, or when asked; otherwise says where file and table
+/// differ.
+fn seed_places(tx: &mut Tx<'_>, places: &[Place], again: bool) -> Result<Option<String>> {
+    let kept = tx.places()?;
+    // what a build has signed was filled before, and whoever took all places away meant it
+    if again || tx.site_value(LAYOUT)?.is_none() {
+        tx.replace_places(places)?;
+        return Ok(None);
+    }
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|one, other| one.place.cmp(&other.place));
+    let note =
+        "the files name other places than the table places; the database counts (--reseed takes the files)";
+    Ok((kept != sorted).then(|| note.to_owned()))
 }
 
 /// Whether no build has ever come to its end in the database, nor is at work there now.

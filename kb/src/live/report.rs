@@ -8,12 +8,14 @@ use adit_db::conclusion::Derivation;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Dominated};
+use adit_engine::{Conclusions, Dominated, KnowledgeBase as Inference};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
 
 use crate::graph::SiteGraph;
+use crate::knowledge::KnowledgeBase;
+use crate::knowledge::told::Attached;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::progress::Stage;
@@ -219,6 +221,10 @@ pub struct Report {
     pub concluded: usize,
     /// What rules say otherwise of them.
     pub conclusions: Vec<Concluded>,
+    /// What there is of what on a map that is not cut into rooms: `6 channels, 8 junctions`.
+    pub course: Option<String>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     /// What is closed now and was not before, or no longer is, in sentences.
     pub closings: Vec<String>,
     /// Whether rooms were cut anew.
@@ -274,6 +280,18 @@ impl Concluded {
         found.extend(before.into_iter().map(lost));
         found
     }
+
+    /// Whether rules said it before and say it now, or nobody told anything in their place.
+    pub(crate) fn is_of_rules_alone(&self, knowledge: &Inference, told: [&Attached; 2]) -> bool {
+        if self.old != Cell::Null && self.new != Cell::Null {
+            return true;
+        }
+        let Some((class, key)) = self.what.split_once(' ') else { return true };
+        let class = class.to_uppercase();
+        let Some(row) = knowledge.row(&class, key) else { return true };
+        let cell = (class, row, self.property.clone());
+        !told.iter().any(|told| told.cells().contains_key(&cell))
+    }
 }
 
 impl Report {
@@ -311,7 +329,7 @@ impl Report {
         let idle = state.told.idle_hours(&state.knowledge);
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
-        if graph.rooms.is_empty() && state.site.site().has_map() {
+        if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         }
         Self {
@@ -320,7 +338,9 @@ impl Report {
             doors,
             changes,
             concluded: 0,
+            course: state.courses.as_ref().map(|courses| courses.summary()),
             conclusions: Vec::new(),
+            reacted: Vec::new(),
             closings: graph.building.turned(&before.graph.building),
             cut_anew: weighed.is_none(),
             routes,
@@ -328,7 +348,7 @@ impl Report {
             map: inputs.map_report.clone(),
             notes,
             lost,
-            gaps: gaps(&conclusions, graph),
+            gaps: gaps(&conclusions, graph, &state.site),
             dominated,
         }
     }
@@ -343,7 +363,9 @@ impl Report {
             "cut_anew": self.cut_anew,
             "changes": self.changes,
             "concluded": self.concluded,
+            "map": self.course,
             "conclusions": self.conclusions,
+            "reacted": self.reacted,
             "closings": self.closings,
             "routes": self.routes,
             "stages": self.stages.iter().map(stage).collect::<Vec<_>>(),
@@ -384,9 +406,13 @@ impl Change {
 }
 
 /// What routes need and no rule gave, in sentences.
-fn gaps(conclusions: &Conclusions, graph: &SiteGraph) -> Vec<String> {
+fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> Vec<String> {
     let mut notes = Vec::new();
-    for waiting in &conclusions.waiting {
+    // what a planner asks about comes when it asks
+    let asked: Vec<&str> =
+        site.course().iter().flat_map(|course| course.asks()).map(|class| class.name).collect();
+    let is_asked = |need: &String| asked.contains(&need.split('.').next().unwrap_or_default());
+    for waiting in conclusions.waiting.iter().filter(|waiting| !waiting.needs.iter().any(is_asked)) {
         notes.push(format!(
             "rule \"{}\" waits for {}, which nothing gives",
             waiting.rule,

@@ -138,7 +138,7 @@ pub fn keep(
     let site = &state.site;
     let graph: &SiteGraph = state.graph_after(step);
     let gauge = state.gauge_after(step);
-    let plan = plan((graph, gauge), &site.robots(tx)?, site.site().starts.as_ref())?;
+    let plan = plan((graph, gauge), &site.robots(tx)?, site.site().starts_in_rooms())?;
     let comparable = !matches!(so_far, KeptSoFar::OfAnotherCut) && before.same_starts(&plan.starts);
     let mut routes = Routes::new(plan.starts.len(), comparable);
     let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };

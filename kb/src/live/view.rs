@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
+use adit_db::place::Place;
 use adit_planners::routes::Goal;
 use adit_planners::world::World;
 
 use super::memory::Memory;
 use super::report::PlaceCosts;
 use crate::answer::{self, Answer};
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::graph::gauge::Gauge;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::{KnowledgeBase, tolerance};
+use crate::state::Courses;
 
 /// The site at one moment. A copy costs nothing, and may be asked from any thread while edits go on.
 #[derive(Clone)]
@@ -21,6 +23,7 @@ pub struct View {
     inputs: Arc<Inputs>,
     world: Arc<World>,
     graph: Arc<SiteGraph>,
+    courses: Option<Arc<Courses>>,
     gauge: Arc<Gauge>,
     robots: Arc<[String]>,
     layout: Arc<str>,
@@ -36,6 +39,7 @@ impl View {
             inputs: Arc::clone(&memory.state.inputs),
             world: Arc::clone(&memory.state.world),
             graph: Arc::clone(memory.state.graph()),
+            courses: memory.state.courses.clone(),
             gauge: Arc::clone(&memory.state.gauge),
             robots: memory.state.robots().into(),
             layout: memory.layout(),
@@ -54,6 +58,9 @@ impl View {
     /// The route of least hardness to the one of several goals that costs least. Nothing is read but memory.
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = answer::pick(&self.robots, robot)?;
+        if let Some(courses) = &self.courses {
+            return Ok(Answer::by(courses, (start, goals), &robot, self.generation));
+        }
         let blank = Answer::blank(&robot, start, goals, self.generation);
         self.basis().search(goals, blank)
     }
@@ -65,6 +72,9 @@ impl View {
         goals: &[String],
         robot: Option<&str>,
     ) -> Result<Option<Vec<u8>>> {
+        if self.courses.is_some() {
+            return Ok(None);
+        }
         let robot = answer::pick(&self.robots, robot)?;
         let blank = Answer::blank(&robot, start, goals, self.generation);
         self.basis().quick(goals, blank)
@@ -81,8 +91,31 @@ impl View {
         }
     }
 
+    /// The places, by name.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Place> {
+        let of_course = self.courses.iter().flat_map(|courses| courses.ends());
+        self.graph.places.clone().into_iter().chain(of_course)
+    }
+
+    /// A map that is not cut into rooms as an SVG text, with a route where one is asked for.
+    pub(crate) fn picture(&self, route: Option<(&str, &str)>, robot: Option<&str>) -> Result<String> {
+        let Some(courses) = &self.courses else {
+            let message =
+                "this map is cut into rooms: `/api/map` has what is drawn of it, and `adit draw` draws it";
+            return Err(Error::said(Code::CourseUnfit, message, None));
+        };
+        let Some((start, goal)) = route else { return courses.picture("", None) };
+        let robot = answer::pick(&self.robots, robot)?;
+        courses.picture("", Some([robot.as_str(), start, goal]))
+    }
+
     /// What routes between places cost, by robot, start and goal; those that there are.
     pub fn place_costs(&self) -> PlaceCosts {
+        if let Some(courses) = &self.courses {
+            let costs = courses.costs().into_iter();
+            let named = |(key, cost): ([&str; 3], Option<f64>)| Some((key.map(str::to_owned).into(), cost?));
+            return costs.filter_map(named).collect();
+        }
         let graph = &self.graph;
         let place = |index| End::Place(index);
         let all = 0..graph.places.len();

@@ -1,17 +1,23 @@
 //! The journal of a mission: what happened, and by which rule.
 
 use adit_db::mission::{Entry, Mission as Record};
-use adit_engine::Datum;
+use adit_engine::{Considered, Datum};
 use adit_planners::navigation::{self, Happening, StateFacts};
 use adit_planners::pose::Pose;
 use serde_json::{Value, json};
 
-use super::judge::{Noting, action_word, state_word, told_of};
+use super::judge::{action_word, state_word, told_of};
 use super::missions::Row;
 use crate::plan::decided;
 
-pub fn record(world: &str, rules: &str, row: &Row, entries: &[navigation::Entry], noted: Noting) -> Record {
-    let mut spoke = noted.into_decided();
+pub fn record(
+    world: &str,
+    rules: &str,
+    row: &Row,
+    entries: &[navigation::Entry],
+    decided_by: Vec<Option<Considered>>,
+) -> Record {
+    let mut spoke = decided_by.into_iter();
     let entry = |entry: &navigation::Entry| {
         let (event, change, detail) = told(&entry.event.what);
         let rule = change.as_ref().and_then(|_| spoke.next().flatten());

@@ -1,16 +1,20 @@
 //! The navigator's judge: rules say what the robot does next, what becomes of a segment, what a way weighs, and which
 //! opening it explores next.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type};
+use adit_engine::{ClassError, Considered, Consultation, Datum, RuleBase, Type, Value};
+use adit_planners::floor_plan::Way;
 use adit_planners::local_model::{SegmentFacts, Source, Transition};
 use adit_planners::navigation::learn::{Guide, OpeningFacts};
 use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, StateFacts, WayFacts};
 
 use super::told::{self, Told};
+use crate::error::{Code, Error, Result};
 use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
 use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
+use crate::plan::course::Asked;
+use crate::plan::{Said, Spoke, said};
 
 /// What rules are told of a situation.
 const SITUATIONS: [Property<StateFacts>; 31] = [
@@ -78,6 +82,9 @@ const OPENINGS: [Property<OpeningFacts>; 8] = [
     ("radius", Number(|of| of.radius_m)),
 ];
 
+/// What is asked of ways.
+const OF_WAYS: &[&str] = &["weight", "passable", "action"];
+
 /// The classes of objects that rules are asked about.
 pub(crate) fn classes() -> [Class; 4] {
     const OF_SEGMENTS: &[&str] =
@@ -85,7 +92,7 @@ pub(crate) fn classes() -> [Class; 4] {
     [
         Class::new("SITUATIONS", SITUATIONS, &["next", "action"]),
         Class::new("SEGMENTS", SEGMENTS, OF_SEGMENTS),
-        Class { name: "WAYS", told: told::ways(), asked: &["weight", "passable"] },
+        Class { name: "WAYS", told: told::ways(), asked: OF_WAYS },
         Class::new("OPENINGS", OPENINGS, &["explore", "worth"]),
     ]
 }
@@ -100,26 +107,43 @@ pub struct RuleJudge {
     of_ways: Vec<String>,
     told: Told,
     trouble: Option<String>,
+    /// Whether a way of which rules say nothing is just not taken.
+    leaves_unsaid: bool,
 }
 
 impl RuleJudge {
-    /// Makes ready for a world that tells nothing of its doorways and regions.
-    pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
-        Self::with(rules, &Told::default())
+    /// Makes rules ready that know nothing but what they are told.
+    pub fn new(rules: &Arc<RuleBase>) -> std::result::Result<Self, ClassError> {
+        let told = Told::default();
+        Self::made(&told, |class, told, asked| Consultation::new(Arc::clone(rules), class, told, asked))
     }
 
-    /// Makes ready for a world that tells this of its doorways and regions.
-    pub fn with(rules: &Arc<RuleBase>, told: &Told) -> Result<Self, ClassError> {
+    /// Makes ready for routes over a site, whose rules may look at all that is known of it.
+    pub fn of_routes(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        Ok(Self { leaves_unsaid: true, ..Self::of_mission(asked, told)? })
+    }
+
+    /// Makes ready for a mission on a site, which ends where rules do not say what they are asked.
+    pub fn of_mission(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        Self::made(told, |class, told, outputs| asked.about(class, told, outputs))
+    }
+
+    fn made<E>(
+        told: &Told,
+        ready: impl Fn(&str, &[(&str, Type)], &[&str]) -> std::result::Result<Consultation, E>,
+    ) -> std::result::Result<Self, E> {
         let [situations, segments, ways, openings] = classes();
         let of_ways: Vec<(&str, Type)> = ways.told.iter().copied().chain(told.further()).collect();
+        let made = |class: &Class| ready(class.name, &class.told, class.asked);
         Ok(Self {
-            situations: situations.consultation(rules)?,
-            segments: segments.consultation(rules)?,
-            ways: Consultation::new(Arc::clone(rules), ways.name, &of_ways, ways.asked)?,
-            openings: openings.consultation(rules)?,
+            situations: made(&situations)?,
+            segments: made(&segments)?,
+            ways: ready(ways.name, &of_ways, ways.asked)?,
+            openings: made(&openings)?,
             of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
             told: told.clone(),
             trouble: None,
+            leaves_unsaid: false,
         })
     }
 
@@ -128,15 +152,38 @@ impl RuleJudge {
         self.situations.is_direct() && self.segments.is_direct() && self.ways.is_direct()
     }
 
+    /// What the robot does on the way that was asked about last, if rules say so.
+    pub fn action(&self) -> Option<Arc<str>> {
+        self.ways.text(2)
+    }
+
+    /// What rules were told of a way and what they said; `place` is what people call it.
+    pub fn said_of(&mut self, way: &Way, place: String) -> Said {
+        self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+        let considered = self.ways.considered("weight").into_iter().map(Spoke::from).collect();
+        let facts = said::facts(&mut self.ways, "WAYS", &told::ways(), OF_WAYS);
+        Said { junction: 0, place, considered, facts, action: self.action() }
+    }
+
+    /// Why nobody comes along a way: that it is told to be closed, or the rule that lets nobody; `None` where it is neither.
+    pub fn refused_by(&mut self, way: &Way) -> Option<String> {
+        self.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+        if self.ways.truth(1) == Some(true) {
+            return None;
+        }
+        let facts = said::facts(&mut self.ways, "WAYS", &told::ways(), &["passable"]);
+        let is_closed = |fact: &said::Fact| fact.property == "closed" && fact.value == Value::Truth(true);
+        if facts.iter().any(is_closed) {
+            return Some("is closed".to_owned());
+        }
+        let rule = facts.iter().find_map(|fact| fact.rule.as_ref().filter(|_| fact.property == "passable"));
+        rule.map(|(rule, _)| format!("lets nobody through by the rule \"{rule}\""))
+    }
+
     /// The first thing that failed, or that the rules did not say, or said in words that mean nothing. From then on they
     /// are not asked any more: there is no way, and what comes of it counts for nothing.
     pub fn trouble(&self) -> Option<&str> {
         self.trouble.as_deref()
-    }
-
-    /// Which rules spoke of the last situation, and why the others did not.
-    pub fn considered(&mut self) -> Vec<Considered> {
-        self.situations.considered("next")
     }
 
     /// Asks about a situation of which a value is known for each property that has one.
@@ -248,6 +295,7 @@ impl Judge for RuleJudge {
         match (self.ways.truth(1), self.ways.number(0)) {
             (Some(false), _) => None,
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Some(weight),
+            _ if self.leaves_unsaid => None,
             _ => {
                 self.missing("what a way weighs, or whether it is passable", None);
                 None
@@ -273,30 +321,60 @@ impl Guide for RuleJudge {
     }
 }
 
+/// Judges for missions that are run side by side, one for each thread.
+#[derive(Debug)]
+pub struct Judges(Mutex<Vec<RuleJudge>>);
+
+impl Judges {
+    pub fn new(asked: &Asked<'_>, told: &Told) -> Result<Self> {
+        let judge = |_| RuleJudge::of_mission(asked, told);
+        let judges = (0..rayon::current_num_threads().max(1)).map(judge).collect::<Result<_>>();
+        Ok(Self(Mutex::new(judges?)))
+    }
+
+    /// Lets a judge work, and ends with an error where rules failed, or did not say what they were asked.
+    pub fn ask<T>(&self, work: impl FnOnce(&mut RuleJudge) -> Result<T>) -> Result<T> {
+        let taken = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let Some(mut judge) = taken else {
+            return Err(Error::said(Code::SimulateRules, "more missions at a time than threads", None));
+        };
+        let done = work(&mut judge);
+        let trouble = judge.trouble().map(str::to_owned);
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(judge);
+        match trouble {
+            Some(trouble) => Err(Error::said(Code::SimulateRules, trouble, None)),
+            None => done,
+        }
+    }
+}
+
+/// A judge of whom it is known which rules spoke.
+pub trait Considers: Judge {
+    /// Which rules spoke of the last situation, and why the others did not.
+    fn considered(&mut self) -> Vec<Considered>;
+}
+
+impl Considers for RuleJudge {
+    fn considered(&mut self) -> Vec<Considered> {
+        self.situations.considered("next")
+    }
+}
+
 /// A judge that notes which rule decided, where the state changed or something was done.
 #[derive(Debug)]
-pub struct Noting {
-    judge: RuleJudge,
-    decided: Vec<Option<Considered>>,
+pub struct Noting<'j, J> {
+    judge: &'j mut J,
+    /// For each decision that was told the rule that spoke.
+    pub decided: Vec<Option<Considered>>,
 }
 
-impl Noting {
-    pub const fn new(judge: RuleJudge) -> Self {
+impl<'j, J: Considers> Noting<'j, J> {
+    pub const fn new(judge: &'j mut J) -> Self {
         Self { judge, decided: Vec::new() }
     }
-
-    /// What the rules did not say.
-    pub fn trouble(&self) -> Option<&str> {
-        self.judge.trouble()
-    }
-
-    /// For each decision that was told the rule that spoke.
-    pub(super) fn into_decided(self) -> impl Iterator<Item = Option<Considered>> {
-        self.decided.into_iter()
-    }
 }
 
-impl Judge for Noting {
+impl<J: Considers> Judge for Noting<'_, J> {
     fn next_state(&mut self, facts: &StateFacts) -> StateDecision {
         let decision = self.judge.next_state(facts);
         // the decisions that the navigator tells of

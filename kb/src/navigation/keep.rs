@@ -5,13 +5,12 @@ use adit_planners::floor_plan::Spot;
 use adit_planners::geometry::Point;
 use adit_planners::navigation::{Judge, WayFacts};
 
-use super::floor::{Floor, Walked};
+use super::floor::Floor;
 use super::judge::RuleJudge;
 
-/// What is kept of a floor plan, of what rules say that its ways weigh, and of a path on it.
-pub fn record(world: &str, rules: &str, floor: &Floor, judge: &mut RuleJudge, walked: &Walked) -> FloorPlan {
+/// What is kept of a floor plan, and of what rules say that its ways weigh.
+pub fn record(world: &str, rules: &str, floor: &Floor, judge: &mut RuleJudge) -> FloorPlan {
     let network = &floor.network;
-    let path = walked.tight.as_ref().ok();
     let mut weigh = |way| judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
     let ways = network.ways.iter().filter_map(|way| {
         let Spot::Adit(to) = way.to else { return None };
@@ -38,9 +37,6 @@ pub fn record(world: &str, rules: &str, floor: &Floor, judge: &mut RuleJudge, wa
         radius: network.disc.radius,
         margin: network.disc.margin,
         area: floor.plan.free_area(),
-        reason: walked.tight.as_ref().err().map(ToString::to_string),
-        length: path.map(|path| path.length),
-        weight: path.map(|path| path.weight),
         regions: network
             .regions
             .regions
@@ -78,7 +74,6 @@ pub fn record(world: &str, rules: &str, floor: &Floor, judge: &mut RuleJudge, wa
             })
             .collect(),
         ways: ways.collect(),
-        waypoints: path.map_or_else(Vec::new, |path| path.points.iter().map(pair).collect()),
     }
 }
 

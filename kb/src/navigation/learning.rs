@@ -1,9 +1,6 @@
 //! Learn mode: a simulated robot explores a world of which it knows nothing, and what it has learned is kept.
 
-use std::sync::Arc;
-
 use adit_db::learned::Learned as Record;
-use adit_engine::RuleBase;
 use adit_planners::floor_plan::Network;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::learn::{Exploration, Learned, score};
@@ -13,6 +10,7 @@ use adit_planners::world::Place;
 use serde::Serialize;
 
 use super::floor::Floor;
+use super::judge::RuleJudge;
 use super::missions::refuse;
 use super::told::Told;
 use crate::error::{Code, Error, Result};
@@ -70,15 +68,14 @@ impl Row {
 pub fn explore(
     (world, rules_name): (&str, &str),
     floor: &Floor,
-    rules: &Arc<RuleBase>,
+    guide: &mut RuleJudge,
     exploration: &Exploration,
     film: Option<&mut Option<Film>>,
 ) -> Result<(Row, Record)> {
     let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
     outfit.robot.radius_m = floor.network.disc.radius;
-    let mut guide = floor.judge(rules)?;
     let explored = exploration
-        .run(&floor.plan, &outfit, &mut guide, |_| {}, film)
+        .run(&floor.plan, &outfit, guide, |_| {}, film)
         .map_err(Error::of(Code::SimulateImpossible))?;
     refuse(guide.trouble())?;
     let learned = &explored.learned;

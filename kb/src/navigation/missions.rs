@@ -1,17 +1,18 @@
 //! Missions of a simulated robot, judged by rules.
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use adit_engine::RuleBase;
+use adit_engine::Considered;
 use adit_planners::geometry::Segment;
-use adit_planners::navigation::{Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, draw};
+use adit_planners::navigation::{
+    Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, WayFacts, draw,
+};
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::judge::{Noting, RuleJudge};
+use super::judge::{Considers, Judges, Noting};
 use crate::error::{Code, Error, Result};
 
 #[derive(Clone, Debug, Serialize)]
@@ -80,44 +81,44 @@ pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> 
 #[derive(Debug)]
 pub struct Stage<'f> {
     truth: &'f Floor,
-    known: &'f Floor,
     walls: Vec<Segment>,
     building: Building,
     outfit: Outfit,
+    /// Whether rules let the robot wherever there is room: who judges its missions knows of room alone.
+    is_open: bool,
 }
 
 impl<'f> Stage<'f> {
     /// A world that the robot knows.
-    pub fn new(floor: &'f Floor) -> Self {
-        Self::learned(floor, floor, Outfit::default().start_sigma_m)
+    pub fn new(floor: &'f Floor, judges: &Judges) -> Result<Self> {
+        Self::learned(floor, floor, Outfit::default().start_sigma_m, judges)
     }
 
     /// A world of which the robot knows what was learned of it.
     ///
     /// # Arguments
     /// `start_sigma_m` is how sure it is of where it begins: the model is a little off.
-    pub fn learned(truth: &'f Floor, known: &'f Floor, start_sigma_m: f64) -> Self {
+    pub fn learned(truth: &'f Floor, known: &'f Floor, start_sigma_m: f64, judges: &Judges) -> Result<Self> {
         let mut outfit = Outfit { navigation: truth.settings, start_sigma_m, ..Outfit::default() };
         outfit.robot.radius_m = truth.network.disc.radius;
         let walls = truth.plan.barriers().into_iter().map(Segment::from).collect();
-        Self { truth, known, walls, building: known.building(), outfit }
-    }
-
-    /// The judge that decides for the robot.
-    fn judge(&self, rules: &Arc<RuleBase>) -> Result<RuleJudge> {
-        self.known.judge(rules)
+        let is_open = judges.ask(|judge| {
+            let mut weigh = |way| judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
+            Ok(known.network.ways.iter().all(|way| weigh(way).is_some()))
+        })?;
+        Ok(Self { truth, walls, building: known.building(), outfit, is_open })
     }
 }
 
 /// Runs missions on all cores; `done` is told of each. Rules that fail end it with an error.
 pub fn run(
     stage: &Stage<'_>,
-    rules: &Arc<RuleBase>,
+    judges: &Judges,
     missions: &[Mission],
     done: impl Fn() + Sync,
 ) -> Result<Vec<Row>> {
     let run = |(index, mission): (usize, &Mission)| {
-        let row = one(stage, rules, index + 1, mission);
+        let row = judges.ask(|judge| judged(stage, judge, index + 1, mission, |_| {}, None));
         done();
         row
     };
@@ -129,25 +130,36 @@ pub fn refuse(trouble: Option<&str>) -> Result<()> {
     trouble.map_or(Ok(()), |trouble| Err(Error::said(Code::SimulateRules, trouble.to_owned(), None)))
 }
 
-fn one(stage: &Stage<'_>, rules: &Arc<RuleBase>, number: usize, mission: &Mission) -> Result<Row> {
-    let mut judge = stage.judge(rules)?;
-    let row = judged(stage, &mut judge, number, mission, |_| {}, None)?;
-    refuse(judge.trouble())?;
-    Ok(row)
-}
-
-/// Runs a mission and keeps all that happened; `film` is made where it is wanted.
+/// Runs a mission and keeps all that happened, with the rule that decided it; `film` is made where it is wanted.
 pub fn journalled(
     stage: &Stage<'_>,
-    rules: &Arc<RuleBase>,
-    (number, mission): (usize, &Mission),
+    judges: &Judges,
+    mission: (usize, &Mission),
     film: Option<&mut Option<Film>>,
-) -> Result<(Row, Vec<Entry>, Noting)> {
-    let mut noting = Noting::new(stage.judge(rules)?);
+) -> Result<Journal> {
+    judges.ask(|judge| noted(stage, judge, mission, |_| {}, film))
+}
+
+/// A mission, all that happened, and for each decision the rule that spoke.
+pub type Journal = (Row, Vec<Entry>, Vec<Option<Considered>>);
+
+/// As [`journalled`], by one judge; `hear` is told what happens when it does.
+pub fn noted<J: Considers>(
+    stage: &Stage<'_>,
+    judge: &mut J,
+    (number, mission): (usize, &Mission),
+    mut hear: impl FnMut(&Entry),
+    film: Option<&mut Option<Film>>,
+) -> Result<Journal> {
+    let mut noting = Noting::new(judge);
     let mut entries = Vec::new();
-    let row = judged(stage, &mut noting, number, mission, |entry| entries.push(entry), film)?;
-    refuse(noting.trouble())?;
-    Ok((row, entries, noting))
+    let journal = |entry: Entry| {
+        hear(&entry);
+        entries.push(entry);
+    };
+    let row = judged(stage, &mut noting, number, mission, journal, film)?;
+    let decided = noting.decided;
+    Ok((row, entries, decided))
 }
 
 fn judged(
@@ -164,7 +176,7 @@ fn judged(
         .map_err(Error::of(Code::SimulateImpossible))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let radius = stage.truth.network.disc.radius;
-    let possible = mission.possible(&stage.truth.plan, radius);
+    let possible = mission.possible(&stage.truth.plan, radius).filter(|_| stage.is_open);
     Ok(Row {
         mission: number,
         seed: mission.seed,

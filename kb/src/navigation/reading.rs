@@ -13,6 +13,7 @@ use toml::de::DeValue;
 use super::floor::Floor;
 use super::told::{self, Told};
 use crate::error::{Error, Result};
+use crate::plan::figures::figures;
 use crate::site::{Site, not_negative};
 use crate::words::suggest::did_you_mean;
 
@@ -21,29 +22,6 @@ const KEYS: [&str; 8] = ["file", "map", "unknown", "speck_area", "open", "closed
 const OF_MAPS: [&str; 4] = ["unknown", "speck_area", "open", "closed"];
 /// What a world lays over its map.
 const LAID: [&str; 3] = ["place", "obstacle", "bridge"];
-/// What a user may set of the navigator: figures above 0.
-const FIGURES: [(&str, Set); 7] = [
-    ("goal_tolerance", |settings, metres| settings.goal_tolerance_m = metres),
-    ("turning_resolution", |settings, degrees| settings.turning_resolution = degrees.to_radians()),
-    ("highway_half_width", |settings, metres| settings.highway_half_width_m = metres),
-    ("look_ahead", |settings, metres| settings.look_ahead_m = metres),
-    ("speed", |settings, metres| settings.speed_m_s = metres),
-    ("detour_clearance", |settings, metres| settings.detour_clearance_m = metres),
-    ("room", |settings, metres| settings.detour_room_m = metres),
-];
-/// How many times it does a thing; 0 is never.
-const TIMES: [(&str, SetTimes); 4] = [
-    ("most_waits", |settings, times| settings.most_waits = times),
-    ("most_detours", |settings, times| settings.most_detours = times),
-    ("most_retries", |settings, times| settings.most_retries = times),
-    ("most_back_offs", |settings, times| settings.most_back_offs = times),
-];
-/// For so long there may be a way again, seconds; 0 is not at all.
-const NO_WAY_AFTER: &str = "no_way_after";
-
-type Set = fn(&mut Settings, f64);
-type SetTimes = fn(&mut Settings, u32);
-
 /// The keys that a world may have beside `[floor_plan]`.
 pub fn keys() -> impl Iterator<Item = &'static str> {
     told::KEYS.into_iter().chain(LAID)
@@ -265,42 +243,11 @@ fn robot(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Robot> 
     Some(Robot { disc: Disc { radius, margin }, height: height.map(|height| height.value), span })
 }
 
-fn times(fields: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<u32> {
-    let number = fields.number(key, problems)?;
-    if number.value.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number.value) {
-        return Some(number.value as u32);
-    }
-    let message = format!("`{key}` is {} and must be a whole number from 0 on", number.value);
-    problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
-    None
-}
-
+/// `[floor_plan.navigation]`: figures of the navigator by name.
 fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Settings {
     let mut settings = Settings::default();
-    let Some(table) = fields.table("navigation", "[floor_plan.navigation]", problems) else {
-        return settings;
-    };
-    let figures = FIGURES.iter().map(|(key, _)| *key);
-    let keys: Vec<&str> = figures.chain(TIMES.iter().map(|(key, _)| *key)).chain([NO_WAY_AFTER]).collect();
-    table.refuse_unknown(&keys, problems);
-    for (key, set) in FIGURES {
-        if table.get(key).is_some()
-            && let Some(figure) = table.positive(key, problems)
-        {
-            set(&mut settings, figure.value);
-        }
-    }
-    for (key, set) in TIMES {
-        if table.get(key).is_some()
-            && let Some(times) = times(&table, key, problems)
-        {
-            set(&mut settings, times);
-        }
-    }
-    if table.get(NO_WAY_AFTER).is_some()
-        && let Some(seconds) = not_negative(&table, NO_WAY_AFTER, problems)
-    {
-        settings.no_way_after_s = seconds;
+    if let Some(table) = fields.table("navigation", "[floor_plan.navigation]", problems) {
+        figures(&table, Settings::FIGURES, &mut settings, problems);
     }
     settings
 }

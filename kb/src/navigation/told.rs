@@ -27,7 +27,7 @@ pub(super) const fn measured<'w>() -> [consult::Property<WayFacts<'w>>; 6] {
 
 /// What rules may know of every way: what is measured, and what shipped rules read of what worlds tell.
 pub(super) fn ways() -> Vec<(&'static str, Type)> {
-    [typed(measured()), vec![("squeaks", Type::Truth)]].concat()
+    [typed(measured()), vec![("squeaks", Type::Truth), ("closed", Type::Truth)]].concat()
 }
 
 /// The tables that say it.
@@ -43,6 +43,33 @@ pub struct Told {
     properties: Vec<(String, Type)>,
     doorways: BTreeMap<usize, Vec<(usize, Property)>>,
     regions: BTreeMap<usize, Vec<(usize, Property)>>,
+    /// As it was said.
+    marks: Vec<Mark>,
+}
+
+/// What is said of the doorway or region at a point: a property, and its value as text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// `doorway` or `region`.
+    pub what: String,
+    pub at: Point,
+    pub property: String,
+    pub value: String,
+}
+
+/// What a value is that is written as text: a number, `true` or `false`, else a text.
+fn value_of(text: &str) -> Property {
+    match (text, text.parse::<f64>()) {
+        ("true", _) => Property::Truth(true),
+        ("false", _) => Property::Truth(false),
+        (_, Ok(number)) if number.is_finite() => Property::Number(number),
+        _ => Property::Text(text.to_owned()),
+    }
+}
+
+/// The type of a value that is written as text.
+pub fn kind_of(text: &str) -> Type {
+    kind(&value_of(text))
 }
 
 /// What is said of whatever is at a point.
@@ -101,6 +128,39 @@ const fn kind(value: &Property) -> Type {
 }
 
 impl Told {
+    /// What is said of doorways and regions, and which doorways are closed.
+    pub fn by(marks: &[Mark], closed: &[usize], network: &Network) -> Result<Self, String> {
+        let mut told = Self { marks: marks.to_vec(), ..Self::default() };
+        for mark in marks {
+            let value = value_of(&mark.value);
+            let place =
+                if mark.what == "doorway" { doorway(network, mark.at) } else { region(network, mark.at) }?;
+            let property = told.property(&mark.property, kind(&value))?;
+            let of = if mark.what == "doorway" { &mut told.doorways } else { &mut told.regions };
+            of.entry(place).or_default().push((property, value));
+        }
+        if !closed.is_empty() {
+            let property = told.property("closed", Type::Truth)?;
+            for place in closed {
+                told.doorways.entry(*place).or_default().push((property, Property::Truth(true)));
+            }
+        }
+        Ok(told)
+    }
+
+    /// Whether a doorway is told to be closed.
+    pub fn is_closed(&self, doorway: usize) -> bool {
+        let told = self.doorways.get(&doorway).into_iter().flatten();
+        told.into_iter().any(|(property, value)| {
+            self.properties[*property].0 == "closed" && *value == Property::Truth(true)
+        })
+    }
+
+    /// As it was said.
+    pub fn marks(&self) -> &[Mark] {
+        &self.marks
+    }
+
     /// Finds the doorways and regions that were spoken of.
     pub fn new(
         said: &[Said],
@@ -125,6 +185,16 @@ impl Told {
             for (name, value) in &one.values {
                 match told.property(name, kind(&value.value)) {
                     Ok(property) => {
+                        told.marks.push(Mark {
+                            what: one.key.to_owned(),
+                            at: one.at.value,
+                            property: name.clone(),
+                            value: match &value.value {
+                                Property::Number(number) => number.to_string(),
+                                Property::Text(text) => text.clone(),
+                                Property::Truth(truth) => truth.to_string(),
+                            },
+                        });
                         let of = if one.key == "doorway" { &mut told.doorways } else { &mut told.regions };
                         of.entry(place).or_default().push((property, value.value.clone()));
                     }

@@ -1,15 +1,12 @@
 //! How well a robot knows where it is: long drives with the walls known, and with a model that is built on the way.
 
-use std::sync::Arc;
-
-use adit_engine::RuleBase;
 use adit_planners::navigation::{Building, Outfit, Tour, Wrong, stops};
 use adit_planners::pose::Pose;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
-use super::missions::refuse;
+use super::judge::{Judges, RuleJudge};
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Code, Error, Result};
 
@@ -43,13 +40,7 @@ pub struct Driven {
 }
 
 /// Drives so far with each of so many seeds, with walls known and unknown.
-pub fn drive(
-    floor: &Floor,
-    rules: &Arc<RuleBase>,
-    far_m: f64,
-    seeds: u64,
-    first: u64,
-) -> Result<Vec<Driven>> {
+pub fn drive(floor: &Floor, judges: &Judges, far_m: f64, seeds: u64, first: u64) -> Result<Vec<Driven>> {
     let known = floor.building();
     let unknown = Building { network: known.network.clone(), walls: Vec::new() };
     let drives: Vec<(bool, u64)> = [true, false]
@@ -57,7 +48,6 @@ pub fn drive(
         .flat_map(|is_known| (0..seeds).map(move |n| (is_known, first.wrapping_add(n))))
         .collect();
     let one = |&(is_known, seed): &(bool, u64)| -> Result<Driven> {
-        let mut judge = floor.judge(rules)?;
         let radius = floor.network.disc.radius;
         let stops = stops(&floor.plan, &known.network, radius, STOPS, seed);
         let [start, _, ..] = stops[..] else {
@@ -69,10 +59,10 @@ pub fn drive(
         let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
         outfit.robot.radius_m = radius;
         let of_robot = if is_known { &known } else { &unknown };
-        let wrong = tour
-            .run(&known.walls, of_robot, &outfit, &mut judge)
-            .map_err(Error::of(Code::SimulateImpossible))?;
-        refuse(judge.trouble())?;
+        let drive = |judge: &mut RuleJudge| {
+            tour.run(&known.walls, of_robot, &outfit, judge).map_err(Error::of(Code::SimulateImpossible))
+        };
+        let wrong = judges.ask(drive)?;
         Ok(Driven::new(seed, is_known, wrong))
     };
     drives.par_iter().map(one).collect()

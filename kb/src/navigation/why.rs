@@ -12,7 +12,8 @@ use serde_json::{Map, Value};
 use super::judge::RuleJudge;
 use crate::error::{Code, Error, Result};
 use crate::plan::Spoke;
-use crate::plan::rules::{self, Kind};
+use crate::site::base::Base;
+use crate::site::rules;
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 
@@ -56,7 +57,7 @@ pub fn why(
     at: Option<f64>,
     rules: Option<&Path>,
 ) -> Result<Answer> {
-    let number: i64 = mission.trim().parse().map_err(|_| {
+    let number: i64 = mission.trim().trim_start_matches("mission ").trim().parse().map_err(|_| {
         let message = format!("`{mission}` is no mission of {}: missions have numbers", database.display());
         Error::said(Code::WhyNoMission, message, None)
     })?;
@@ -120,8 +121,9 @@ fn facts(decision: &Decision) -> Map<String, Value> {
 
 fn explained((world, mission): (String, i64), decision: Decision, rules: Option<&Path>) -> Result<Answer> {
     let instead = rules.map(|rules| rules.display().to_string());
-    let name = instead.unwrap_or_else(|| decision.rules.clone());
-    let base = Arc::new(rules::found(Kind::Navigation, &name, Path::new(""))?.base);
+    let names = instead.unwrap_or_else(|| decision.rules.clone());
+    let bases: Vec<Base> = names.lines().map(|name| Base::named(name, Path::new(""))).collect();
+    let base = Arc::new(rules::load_bases(&bases)?.base);
     let mut judge = RuleJudge::new(&base).map_err(Error::of(Code::WhyRules))?;
     let facts = facts(&decision);
     let (said, considered) = judge.consider(|name| match facts.get(name) {
@@ -144,7 +146,7 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
         state: decision.state,
         next: decision.next,
         action: decision.action,
-        rules: name,
+        rules: names.replace('\n', ", "),
         now: (said != was).then_some(said),
         considered: considered.into_iter().map(Spoke::from).collect(),
         facts,

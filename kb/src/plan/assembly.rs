@@ -3,10 +3,13 @@
 use adit_planners::channels::assembly::{self as geometry, Cuboid, Decision, PartPath, PathError};
 use adit_planners::read::{Code, Fields, Located, Problem};
 
-use super::gap::{Asked, Wanted, refuse_beyond};
+use super::gap::{Wanted, refuse_beyond};
 use super::refusal::NoPath;
 use super::said::{Answer, Said};
 use super::steps::Steps;
+
+/// What the part that moves is called.
+const PART: &str = "part";
 
 /// A part in channels, and what is asked of its path.
 #[derive(Clone, Debug)]
@@ -32,8 +35,9 @@ impl<const D: usize> Assembly<D> {
         let mut said = Vec::new();
         let path = self.path(|facts| {
             let decision = steps.decide(facts, self.wanted.at(facts.number));
-            let (considered, facts_said) = (steps.considered(), steps.facts());
-            said.push(Said { junction: facts.number, considered, facts: facts_said });
+            let (considered, facts_said, action) = (steps.considered(), steps.facts(), steps.action());
+            let place = format!("junction {}", facts.number);
+            said.push(Said { junction: facts.number, place, considered, facts: facts_said, action });
             decision
         });
         Answer { path, said }
@@ -44,12 +48,6 @@ impl<const D: usize> Assembly<D> {
         decide: impl FnMut(&geometry::StepFacts<D>) -> Result<Decision<D>, NoPath>,
     ) -> Result<PartPath<D>, NoPath> {
         self.geometry.disassemble(self.displacement, decide).map_err(|error| no_path(&error))
-    }
-
-    /// The same with another gap everywhere.
-    #[must_use]
-    pub fn with_gap(&self, gap: Asked<D>) -> Self {
-        Self { wanted: self.wanted.with_gap(gap), ..self.clone() }
     }
 
     /// What the part is in at a waypoint: assembled where it starts (definition 3.1), disassembled where it is above
@@ -98,7 +96,7 @@ pub(super) fn read<const D: usize>(
     problems: &mut Vec<Problem>,
 ) -> Option<Assembly<D>> {
     fields.refuse_unknown(&[&KEYS[..], &Wanted::<D>::KEYS].concat(), problems);
-    let wanted = Wanted::read(fields, problems);
+    let wanted = Wanted::read(PART, fields, problems);
     let female_moves = match fields.get("moves").and_then(|_| fields.string("moves", problems)) {
         None => false,
         Some(moves) if moves.value == "male" => false,

@@ -53,19 +53,6 @@ impl<const N: usize> Asked<N> {
         }
     }
 
-    /// As people write it, on the command line.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        match text {
-            "safest" => return Ok(Self::Safest),
-            "rules" => return Ok(Self::Rules),
-            _ => {}
-        }
-        let numbers: Option<Vec<f64>> = text.split('/').map(|part| part.trim().parse().ok()).collect();
-        numbers
-            .and_then(|numbers| Self::of(&numbers))
-            .ok_or_else(|| format!("`{text}` is {}", Self::wanted()))
-    }
-
     fn of(numbers: &[f64]) -> Option<Self> {
         if numbers.iter().any(|number| !number.is_finite()) {
             return None;
@@ -74,11 +61,6 @@ impl<const N: usize> Asked<N> {
             [one] => Some(Self::Gap([*one; N])),
             all => all.try_into().ok().map(Self::Gap),
         }
-    }
-
-    fn wanted() -> String {
-        let list = if N > 1 { format!(", {N} of them, one an axis") } else { String::new() };
-        format!("no gap: a number of metres{list}, `safest` or `rules`")
     }
 
     /// The key `gap` of a table; where it is missing, rules choose.
@@ -121,6 +103,8 @@ impl<const N: usize> Asked<N> {
 /// What a world asks for at one junction, besides its geometry.
 #[derive(Clone, Copy, Debug)]
 pub struct Wishes<'a, const N: usize> {
+    /// The name of what moves.
+    pub mover: &'a str,
     pub gap: &'a Asked<N>,
     /// Whether the part, or the load, must not be scratched.
     pub fragile: bool,
@@ -131,6 +115,8 @@ pub struct Wishes<'a, const N: usize> {
 /// What a world asks for at all of its junctions.
 #[derive(Clone, Debug)]
 pub struct Wanted<const N: usize> {
+    /// The name of what moves.
+    pub mover: String,
     pub gap: Asked<N>,
     /// Where it is another one: the number of the junction.
     pub gaps: BTreeMap<usize, Asked<N>>,
@@ -144,8 +130,9 @@ impl<const N: usize> Wanted<N> {
     /// The keys of it in a world.
     pub(super) const KEYS: [&str; 4] = ["gap", "junction", "fragile", "hurry"];
 
-    pub(super) fn read(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
+    pub(super) fn read(mover: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Self {
         Self {
+            mover: mover.to_owned(),
             gap: Asked::read(fields, problems),
             gaps: gaps_of_junctions(fields, problems),
             fragile: flag(fields, "fragile", problems),
@@ -155,18 +142,12 @@ impl<const N: usize> Wanted<N> {
 
     /// What is asked for where no junction is meant.
     pub fn general(&self) -> Wishes<'_, N> {
-        Wishes { gap: &self.gap, fragile: self.fragile, hurry: self.hurry }
+        Wishes { mover: &self.mover, gap: &self.gap, fragile: self.fragile, hurry: self.hurry }
     }
 
     /// What is asked for at a junction.
     pub fn at(&self, junction: usize) -> Wishes<'_, N> {
         Wishes { gap: self.gaps.get(&junction).unwrap_or(&self.gap), ..self.general() }
-    }
-
-    /// The same with another gap everywhere.
-    #[must_use]
-    pub fn with_gap(&self, gap: Asked<N>) -> Self {
-        Self { gap, gaps: BTreeMap::new(), fragile: self.fragile, hurry: self.hurry }
     }
 }
 

@@ -7,15 +7,12 @@ use adit_engine::{Considered, Consultation, Severity};
 use serde::Serialize;
 
 /// There is no path: a result, not an error.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NoPath {
     /// The junction at which it ended; `None` where it is not about one.
     pub junction: Option<usize>,
     /// In a sentence, with the numbers.
     pub reason: String,
-    /// Which rules were looked at there, and why they did not speak.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub considered: Vec<Spoke>,
 }
 
 /// A rule, or a row of a table, at a junction.
@@ -75,12 +72,7 @@ impl NoPath {
 
     /// For a reason that is not about one junction.
     pub(super) fn because(reason: String) -> Self {
-        Self { junction: None, reason, considered: Vec::new() }
-    }
-
-    pub(super) fn lines(&self) -> Vec<String> {
-        let considered = self.considered.iter().map(|rule| format!("  {}", rule.text()));
-        std::iter::once(format!("no path: {}", self.reason)).chain(considered).collect()
+        Self { junction: None, reason }
     }
 }
 
@@ -104,6 +96,5 @@ pub(super) fn silent(
         (None, Some(failed)) => format!("at junction {junction} a rule failed: {failed}"),
         (None, None) => format!("at junction {junction} no rule gives {property}"),
     };
-    let considered = consultation.considered(property).into_iter().map(Spoke::from).collect();
-    NoPath { junction: Some(junction), reason, considered }
+    NoPath::at(junction, reason)
 }

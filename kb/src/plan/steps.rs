@@ -5,13 +5,14 @@ use std::sync::Arc;
 use adit_engine::{ClassError, Consultation, Datum, RuleBase, Type};
 use adit_planners::channels::assembly::{Decision, Margin, StepFacts};
 
-use super::consult::{Class, is_same, meant};
+use super::consult::{Class, consult, is_same, meant};
 use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke};
 use super::said::Fact;
 
 /// What rules are told of a step of a part: it is about to enter a junction.
 const STEPS: &[(&str, Type)] = &[
+    ("part", Type::Text),
     ("dimensions", Type::Number),
     ("junction", Type::Number),
     ("next", Type::Number),
@@ -47,11 +48,13 @@ const STEPS: &[(&str, Type)] = &[
     ("hurry", Type::Truth),
 ];
 
-const OUTPUTS: [&str; 8] = ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal"];
+const OUTPUTS: [&str; 9] =
+    ["rule", "margin_x", "margin_y", "margin_z", "gap_x", "gap_y", "gap_z", "refusal", "action"];
 const RULE: usize = 0;
 const MARGIN: usize = 1;
 const GAP: usize = 4;
 const REFUSAL: usize = 7;
+const ACTION: usize = 8;
 pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What rules are told of steps, and what they are asked.
@@ -61,11 +64,26 @@ pub(super) fn class() -> Class {
 
 /// The rules, ready to be asked step after step.
 #[derive(Debug)]
-pub struct Steps(Consultation);
+pub struct Steps(Consultation, Option<String>);
 
 impl Steps {
     pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
-        Ok(Self(class().consultation(rules)?))
+        Ok(Self::of(class().consultation(rules)?))
+    }
+
+    /// Of rules that are ready to be asked about steps.
+    pub const fn of(steps: Consultation) -> Self {
+        Self(steps, None)
+    }
+
+    /// The first rule that failed when it was asked.
+    pub fn trouble(&self) -> Option<&str> {
+        self.1.as_deref()
+    }
+
+    /// What the part does on its way into the last step's junction, if rules say so.
+    pub fn action(&self) -> Option<Arc<str>> {
+        self.0.text(ACTION)
     }
 
     /// What the rules say of a step.
@@ -74,7 +92,7 @@ impl Steps {
         facts: &StepFacts<D>,
         wishes: Wishes<'_, D>,
     ) -> Result<Decision<D>, NoPath> {
-        self.0.consult(&object(facts, wishes));
+        consult(&mut self.0, &object(facts, wishes), &mut self.1);
         if let Some(reason) = self.0.text(REFUSAL) {
             return Err(NoPath::at(facts.number, reason.to_string()));
         }
@@ -139,6 +157,7 @@ pub(super) const fn named<const D: usize>(axis: usize) -> usize {
 
 fn object<'a, const D: usize>(facts: &StepFacts<D>, wishes: Wishes<'a, D>) -> [Datum<'a>; STEPS.len()] {
     let mut object = [Datum::Unknown; STEPS.len()];
+    object[const { place("part") }] = Datum::Text(wishes.mover);
     object[const { place("dimensions") }] = Datum::Number(D as f64);
     object[const { place("junction") }] = Datum::Number(facts.number as f64);
     object[const { place("entering") }] = Datum::Text(AXES[named::<D>(facts.entering)]);

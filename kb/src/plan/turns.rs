@@ -8,20 +8,30 @@ use adit_planners::channels::corridor::{
 };
 
 use super::consult::Of::{Number, Perhaps, Text, Truth};
-use super::consult::{Class, Property, is_same, meant, object, typed, word_for};
+use super::consult::{Class, Property, consult, is_same, meant, object, typed, word_for};
 use super::gap::Wishes;
 use super::refusal::{NoPath, Spoke, silent};
-use super::said::Fact;
+use super::said::{Fact, Said};
 
-const OUTPUTS: [&str; 10] =
-    ["rule", "gap", "corner_x", "corner_y", "turns", "arrive_x", "arrive_y", "offset", "refusal", "remark"];
+const OUTPUTS: [&str; 12] = [
+    "rule",
+    "gap",
+    "corner_x",
+    "corner_y",
+    "turns",
+    "arrive_x",
+    "arrive_y",
+    "offset",
+    "refusal",
+    "remark",
+    "action",
+    "falls_back",
+];
+const OF_PASSAGES: [&str; 4] = ["weight", "passable", "refusal", "action"];
 
 /// What rules are told of turns and passages, and what they are asked.
 pub(super) fn classes() -> [Class; 2] {
-    [
-        Class::new("TURNS", told_of_turns(), &OUTPUTS),
-        Class::new("PASSAGES", told_of_passages(), &["weight", "passable", "refusal"]),
-    ]
+    [Class::new("TURNS", told_of_turns(), &OUTPUTS), Class::new("PASSAGES", told_of_passages(), &OF_PASSAGES)]
 }
 
 /// The rules, ready to be asked turn after turn.
@@ -31,16 +41,19 @@ pub struct Turns {
     passages: Consultation,
     /// Why passages were refused, since the last path was looked for.
     refusals: Vec<Arc<str>>,
+    /// The first rule that failed.
+    trouble: Option<String>,
 }
 
 impl Turns {
     pub fn new(rules: &Arc<RuleBase>) -> Result<Self, ClassError> {
         let [junctions, passages] = classes();
-        Ok(Self {
-            junctions: junctions.consultation(rules)?,
-            passages: passages.consultation(rules)?,
-            refusals: Vec::new(),
-        })
+        Ok(Self::of(junctions.consultation(rules)?, passages.consultation(rules)?))
+    }
+
+    /// Of rules that are ready to be asked about turns and passages.
+    pub const fn of(junctions: Consultation, passages: Consultation) -> Self {
+        Self { junctions, passages, refusals: Vec::new(), trouble: None }
     }
 
     /// Why passages were refused since this was last asked.
@@ -49,24 +62,46 @@ impl Turns {
     }
 
     /// What a passage weighs; `None` where it must not be used.
-    pub fn weigh(
-        &mut self,
-        passage: &Passage,
-        robot: Robot,
-        wishes: Wishes<'_, 1>,
-    ) -> Result<Option<f64>, NoPath> {
-        self.passages.consult(&object(told_of_passages(), &(passage, robot, wishes)));
-        let said =
-            |what: &str| NoPath::because(format!("no rule says {what} of {passage}, or several disagree"));
-        match self.passages.truth(1) {
-            None => Err(said("whether it is passable")),
-            Some(false) => {
-                let refusal = self.passages.text(2);
-                self.refusals.extend(refusal.filter(|refusal| !self.refusals.contains(refusal)));
-                Ok(None)
+    pub fn weigh(&mut self, passage: Entered<'_>) -> Option<f64> {
+        consult(&mut self.passages, &object(told_of_passages(), &passage), &mut self.trouble);
+        let number = passage.passage.channel;
+        let unsaid = |what: &str| Arc::from(format!("rules do not say {what} channel {number}, or disagree"));
+        let refusal = match (self.passages.truth(1), self.passages.number(0)) {
+            (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => return Some(weight),
+            (Some(true), Some(weight)) => {
+                Some(Arc::from(format!("rules weigh channel {number} {weight}, which is no weight")))
             }
-            Some(true) => self.passages.number(0).map(Some).ok_or_else(|| said("what the weight is")),
-        }
+            (Some(true), None) => Some(unsaid("how heavy is")),
+            (Some(false), _) => self.passages.text(2),
+            (None, _) => Some(unsaid("whether one may drive through")),
+        };
+        self.refusals.extend(refusal.filter(|refusal| !self.refusals.contains(refusal)));
+        None
+    }
+
+    /// The first rule that failed when it was asked.
+    pub fn trouble(&self) -> Option<&str> {
+        self.trouble.as_deref()
+    }
+
+    /// What rules were told of a passage that is driven, and what they said.
+    pub fn driven_in(&mut self, passage: Entered<'_>) -> Said {
+        self.passages.consult(&object(told_of_passages(), &passage));
+        let considered = self.passages.considered("weight").into_iter().map(Spoke::from).collect();
+        let facts =
+            super::said::facts(&mut self.passages, "PASSAGES", &typed(told_of_passages()), &OF_PASSAGES);
+        let place = format!("channel {}", passage.passage.channel);
+        Said { junction: 0, place, considered, facts, action: self.passages.text(3) }
+    }
+
+    /// What the robot does in the last turn, if rules say so.
+    pub fn action(&self) -> Option<Arc<str>> {
+        self.junctions.text(const { output("action") })
+    }
+
+    /// Whether rules say of the last turn that the safest gap is driven where the one that is asked for cannot be kept.
+    pub fn falls_back(&self) -> bool {
+        self.junctions.truth(const { output("falls_back") }) == Some(true)
     }
 
     /// How the rules turn the robot, and what they remark on.
@@ -75,7 +110,7 @@ impl Turns {
         facts: &StepFacts,
         wishes: Wishes<'_, 1>,
     ) -> Result<(Steer, Option<Arc<str>>), NoPath> {
-        self.junctions.consult(&object(told_of_turns(), &(facts, wishes)));
+        consult(&mut self.junctions, &object(told_of_turns(), &(facts, wishes)), &mut self.trouble);
         if let Some(reason) = self.junctions.text(const { output("refusal") }) {
             return Err(NoPath::at(facts.junction, reason.to_string()));
         }
@@ -147,8 +182,9 @@ const fn output(name: &str) -> usize {
 }
 
 /// What rules are told of a turn of a robot: it is about to enter a junction.
-const fn told_of_turns<'t>() -> [Property<(&'t StepFacts, Wishes<'t, 1>)>; 16] {
+const fn told_of_turns<'t>() -> [Property<(&'t StepFacts, Wishes<'t, 1>)>; 17] {
     [
+        ("robot", Text(|(_, wishes)| Some(wishes.mover))),
         ("junction", Number(|(facts, _)| facts.junction as f64)),
         ("entering", Text(|(facts, _)| word_for(&AXES, &facts.entering))),
         ("junction_x", Number(|(facts, _)| facts.rect.centre().x)),
@@ -168,16 +204,28 @@ const fn told_of_turns<'t>() -> [Property<(&'t StepFacts, Wishes<'t, 1>)>; 16] {
     ]
 }
 
-/// What rules are told of a passage: a stretch of one corridor, between two junctions, the start or the goal.
-const fn told_of_passages<'p>() -> [Property<(&'p Passage, Robot, Wishes<'p, 1>)>; 8] {
+/// A passage that a robot is about to enter: a stretch of one corridor, between two junctions, the start or the goal.
+#[derive(Clone, Copy, Debug)]
+pub struct Entered<'p> {
+    pub passage: &'p Passage,
+    pub robot: Robot,
+    pub wishes: Wishes<'p, 1>,
+    /// Whether its corridor is closed.
+    pub is_closed: bool,
+}
+
+/// What rules are told of a passage.
+const fn told_of_passages<'p>() -> [Property<Entered<'p>>; 10] {
     [
-        ("channel", Number(|(passage, ..)| passage.channel as f64)),
-        ("length", Number(|(passage, ..)| passage.length)),
-        ("corridor", Number(|(passage, ..)| passage.width)),
-        ("room", Number(|(passage, robot, _)| (passage.width - robot.width) / 2.0)),
-        ("width", Number(|(_, robot, _)| robot.width)),
-        ("asked_gap", Perhaps(|(.., wishes)| wishes.gap.along(0))),
-        ("fragile", Truth(|(.., wishes)| wishes.fragile)),
-        ("hurry", Truth(|(.., wishes)| wishes.hurry)),
+        ("channel", Number(|of| of.passage.channel as f64)),
+        ("robot", Text(|of| Some(of.wishes.mover))),
+        ("length", Number(|of| of.passage.length)),
+        ("corridor", Number(|of| of.passage.width)),
+        ("room", Number(|of| (of.passage.width - of.robot.width) / 2.0)),
+        ("width", Number(|of| of.robot.width)),
+        ("asked_gap", Perhaps(|of| of.wishes.gap.along(0))),
+        ("fragile", Truth(|of| of.wishes.fragile)),
+        ("hurry", Truth(|of| of.wishes.hurry)),
+        ("closed", Truth(|of| of.is_closed)),
     ]
 }

@@ -70,6 +70,9 @@ impl KnowledgeBase {
                 Edit::Switch(tuning.to_owned(), true).apply(tx, self, &inputs.rules, &author)?;
             }
             Memory::build(tx, &self.shared(), inputs, &Silent)?;
+            if self.course().is_some() {
+                return Ok(tx.course_costs()?.into_iter().collect());
+            }
             costs_between_places(tx)
         })
     }

@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
 use crate::graph::pairs::{self, Found, From, Known};
+use crate::state::Courses;
 
 /// How many rooms, doors or routes are listed.
 pub(super) const LISTED: usize = 5_000;
@@ -76,7 +77,7 @@ pub(super) fn compare(
         (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
     let old = known.rows(before, robots, &wanted, began + patience / 2);
     let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
-    let new = pairs::rows(after, robots, &wanted, began + patience);
+    let new = pairs::rows(after, robots, &wanted, Some(began + patience));
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
             let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);
@@ -101,6 +102,32 @@ pub(super) fn compare(
     };
     all.list.sort_by(|one, two| by(two).total_cmp(&by(one)));
     all.list.truncate(LISTED);
+    all
+}
+
+/// Compares the routes over a map that is not cut into rooms.
+pub(super) fn between(before: &Courses, after: &Courses) -> PlaceRoutes {
+    let total = after.kept().len();
+    let mut all = PlaceRoutes { total, compared: total, ..PlaceRoutes::default() };
+    for route in after.changed(before) {
+        all.changed += 1;
+        all.rerouted += usize::from(route.is_rerouted());
+        match (route.old, route.new) {
+            (Some(_), None) => all.lost += 1,
+            (None, Some(_)) => all.found += 1,
+            (Some(old), Some(new)) if new > old => all.longer += 1,
+            (Some(old), Some(new)) if new < old => all.shorter += 1,
+            _ => {}
+        }
+        all.list.push(PlaceRoute {
+            robot: route.robot,
+            start: route.start,
+            goal: route.goal,
+            old: route.old,
+            new: route.new,
+            other_way: Some(route.other_way),
+        });
+    }
     all
 }
 

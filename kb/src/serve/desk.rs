@@ -150,12 +150,17 @@ impl Desk {
     /// Shows the site as it now is, and says what changed.
     pub fn publish(&mut self, outcome: &Outcome, cause: &Cause) {
         let seen = seen(&self.live);
+        let what: Vec<&str> = std::iter::once(&cause.what)
+            .chain(&outcome.reacted)
+            .map(String::as_str)
+            .filter(|what| !what.is_empty())
+            .collect();
         let changed = Changed {
             generation: outcome.generation,
             layout: seen.view.layout().to_owned(),
             who: cause.who.clone(),
             why: cause.why.clone(),
-            what: cause.what.clone(),
+            what: what.join("; "),
             rooms: outcome.rooms,
             doors: outcome.doors,
             anew: outcome.anew,

@@ -77,6 +77,7 @@ impl Question {
 
     /// The route on an errand of its own, on a copy of what is known.
     pub fn answer_on_errand(&self, fork: State) -> Result<Answer> {
+        fork.site.site().needs_rooms()?;
         let ends = (self.start.as_str(), self.goals.as_slice());
         fork.within(self.within)?.route_on_errand(&self.errand, ends, self.robot.as_deref())
     }

@@ -31,6 +31,7 @@ impl Settings {
     /// The site, opened as its files now are.
     pub fn open(&self) -> Result<KnowledgeBase> {
         let site = KnowledgeBase::open(&self.folder)?;
+        site.needs_folder()?;
         Ok(site.with_database(self.database.as_deref()).with_rules(self.rules.as_deref()))
     }
 }

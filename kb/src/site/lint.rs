@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, Instead, Replaced, RuleBase, Standing};
+use adit_engine::{Dominated, Instead, Replaced, Rule, RuleBase, Standing};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::NamedSource;
@@ -33,9 +33,20 @@ const READ_BY_ROUTES: [&str; 11] = [
 
 /// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people
 /// to read.
-pub fn unread(site: &Site, rules: &RuleBase, planners: &[Arc<dyn Planner>]) -> Vec<Finding> {
-    if !site.has_map() {
-        return Vec::new();
+/// Where the map is not cut into rooms, `asked` are the properties that its planner asks for, and those of other classes are
+/// for people.
+pub fn unread(
+    site: &Site,
+    rules: &RuleBase,
+    planners: &[Arc<dyn Planner>],
+    asked: &[String],
+) -> Vec<Finding> {
+    if !site.has_rooms() {
+        let is_asked =
+            |name: &str| asked.iter().any(|asked| asked.split('.').next() == name.split('.').next());
+        let for_people = rules.rules().iter().flat_map(Rule::sets).map(ToString::to_string);
+        let for_people = for_people.filter(|name| !is_asked(name));
+        return unread_but(rules, asked.iter().cloned().chain(for_people));
     }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
@@ -70,9 +81,9 @@ pub fn ignored(
     instead: Option<&Path>,
     rules: &RuleBase,
     planners: &[Arc<dyn Planner>],
+    asked: &[String],
 ) -> Vec<Finding> {
-    let mut found = unread(site, rules, planners);
-    found.extend(not_carried_out(rules, "sites", Finding::warning));
+    let mut found = unread(site, rules, planners, asked);
     let bases = rules::bases(site, instead);
     found.extend(bases.iter().filter_map(Base::folder).flat_map(not_read));
     found
@@ -91,6 +102,53 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
             format!("the site has {count} {what}, and no rule reads {rooms}: they change nothing")
         })
         .collect()
+}
+
+/// Rules that make objects which are not for rules to make, and rules that read routes, which follow from what they conclude:
+/// only rules that react may, and those that conclude something of routes alone.
+///
+/// # Arguments
+/// `given` are the classes whose objects planners and tables give; `routes` is the class of routes; `asked` are those of
+/// which rules are asked about one object at a time, which nobody else sees.
+pub fn reactions(rules: &RuleBase, given: &[String], routes: &str, asked: &[&str]) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for rule in rules.rules() {
+        let Some(class) = rule.classes().find(|class| asked.contains(class)) else { continue };
+        let elsewhere = rule.sets().find(|set| set.class != *class);
+        let (what, help) = match elsewhere {
+            _ if rule.reacts() => ("reacts to", "react to what is told, or to ROUTES"),
+            Some(_) => (
+                "concludes something of other objects from",
+                "it may read those, and conclude something of this one",
+            ),
+            None => continue,
+        };
+        let message = format!(
+            "rule \"{}\" {what} {class}, of which rules are asked about one at a time: it would never be carried out",
+            rule.name()
+        );
+        let (text, span) = rule.place();
+        let source = NamedSource::new(text.name(), text.text().to_owned());
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help.to_owned())).at(source, span));
+    }
+    for class in rules.tells().filter(|class| given.iter().any(|of| of == class)) {
+        let message = format!(
+            "a rule tells new objects of {class}, and which of those there are is not for rules to say"
+        );
+        let help = "set a property of one that is there, or tell of a class of your own".to_owned();
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help)));
+    }
+    let reads = |rule: &&Rule| rule.classes().any(|class| class == routes);
+    let concludes = |rule: &&Rule| !rule.reacts() && rule.sets().any(|set| set.class != routes);
+    for rule in rules.rules().iter().filter(concludes).filter(reads) {
+        let (text, span) = rule.place();
+        let message =
+            format!("rule \"{}\" reads {routes}, which follow from what rules conclude", rule.name());
+        let help = "say it with `on`: rules that react are carried out once routes are known".to_owned();
+        let source = NamedSource::new(text.name(), text.text().to_owned());
+        found.push(Finding::said(Code::RuleNotCarriedOut, message, Some(help)).at(source, span));
+    }
+    found
 }
 
 /// The rules that react: they wait in vain, since what they would do is carried out by nobody yet.

@@ -10,13 +10,13 @@ use adit_db::place::Frame;
 use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::weight::Weight;
-use adit_engine::RuleBase;
+use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase};
 use adit_planners::facts::{Facts, Table};
 use adit_planners::planner::Planner;
 
 use crate::error::Result;
 use crate::graph::SiteGraph;
-use crate::knowledge::classes;
+use crate::knowledge::classes::{self, ROUTES};
 use crate::knowledge::tables::{self, content};
 use crate::knowledge::told::{Attached, Told};
 use crate::state::grounds::Reasons;
@@ -159,7 +159,9 @@ impl Kept {
         tx.replace_rooms(&graph.rooms)?;
         tx.replace_doors(&graph.doors)?;
         tx.replace_spaces(&graph.building.spaces, &graph.building.doorways)?;
-        tx.replace_places(&graph.places)?;
+        if state.site.course().is_none() {
+            tx.replace_places(&graph.places)?;
+        }
         let frame = Frame {
             frame: "map".to_owned(),
             x: world.frame.at.x,
@@ -284,7 +286,7 @@ impl Written {
     }
 
     /// What is concluded of them now and was not before.
-    pub fn new(&self) -> &[Derivation] {
+    pub fn added(&self) -> &[Derivation] {
         &self.new
     }
 
@@ -346,11 +348,19 @@ fn witnesses(facts: BTreeMap<i64, String>, is_wanted: impl Fn(i64) -> bool) -> V
     wanted.map(|(witness, facts)| Witness { witness, facts }).collect()
 }
 
-/// What rules conclude that has no column of ours.
+/// What rules conclude that has no column of ours. Routes are told once a step is over, so that what is concluded of them is
+/// of the moment.
 fn untabled(rules: &RuleBase) -> impl Iterator<Item = (&str, &str)> {
     let names = rules.concluded().into_iter();
     let names = names.map(|name| (name.class.as_str(), name.property.as_str()));
-    names.filter(|name| !TABLED.contains(name))
+    names.filter(|name| !TABLED.contains(name) && name.0 != ROUTES)
+}
+
+/// What rules conclude of classes without a table of ours, of the objects that a step touched.
+pub fn touched(knowledge: &Inference, rules: &RuleBase, changes: &Changes) -> Vec<Derivation> {
+    let mut reasons = Reasons::new(knowledge, rules);
+    let mut look = Look { knowledge, rules, which: Which::Touched(changes), reasons: Some(&mut reasons) };
+    untabled(rules).flat_map(|(class, property)| derivations_of(&mut look, class, property)).collect()
 }
 
 /// Values that rules concluded of one property that has no column of ours.

@@ -15,7 +15,7 @@ use super::planned::{self, Planned};
 pub use super::planned::{Nothing, Recall};
 use super::twin::Twin;
 use super::weighed::{Look, Weighed, Which, is_same_cut};
-use super::{Pending, State};
+use super::{Courses, Pending, State};
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
@@ -50,6 +50,10 @@ pub struct Step {
     pub facts: BTreeMap<i64, String>,
     /// What was done, in order.
     pub stages: Vec<Stage>,
+    /// Routes over a map that is not cut into rooms.
+    pub courses: Option<Arc<Courses>>,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     gauge: Option<Arc<Gauge>>,
 }
 
@@ -131,6 +135,10 @@ impl State {
             Some(Arc::new(Gauge::new(&world, sizes(&self.knowledge))))
         };
         clock.lap("graph");
+        let courses = self.courses_now()?.map(Arc::new);
+        if courses.is_some() {
+            clock.lap("routes");
+        }
         let (planned, is_anew, stages) = (given.planned, given.is_any, clock.stages);
         Ok(Step {
             world,
@@ -144,6 +152,8 @@ impl State {
             changes,
             facts,
             stages,
+            courses,
+            reacted: Vec::new(),
             gauge,
         })
     }
@@ -160,6 +170,7 @@ impl State {
         if let Some(gauge) = step.gauge {
             self.gauge = gauge;
         }
+        self.courses = step.courses;
         self.known = Arc::default();
         self.pending = None;
     }
@@ -177,7 +188,7 @@ impl State {
         let told = self.told.clone();
         self.tell_of_planned(&attached, &self.attached.clone(), &told)?;
         for (class, table) in &told.classes {
-            classes::assert(&mut self.knowledge, class, table)?;
+            classes::assert(&mut self.knowledge, class, table, told.numbered.contains(class))?;
             told.tell(&mut self.knowledge, class, &mut Attached::default())?;
         }
         self.knowledge.update(&self.inputs.rules);
@@ -210,7 +221,7 @@ impl State {
         for (class, table) in &told.classes {
             let is_same = self.told.classes.get(class) == Some(table);
             if !is_same || !self.told.facts_of(class).eq(told.facts_of(class)) {
-                classes::assert(&mut self.knowledge, class, table)?;
+                classes::assert(&mut self.knowledge, class, table, told.numbered.contains(class))?;
             }
             told.tell(&mut self.knowledge, class, &mut attached)?;
         }
@@ -300,7 +311,7 @@ impl State {
                 planned::facts(planner, world, &known)?
             };
             for (class, table) in facts {
-                classes::assert(&mut self.knowledge, &class, &table)?;
+                classes::assert(&mut self.knowledge, &class, &table, false)?;
                 told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
                 given.take(class, table)?;
             }

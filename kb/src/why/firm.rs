@@ -78,6 +78,7 @@ impl Live {
 impl State {
     /// As [`Live::firm`], of the state that was forked; the site is not held up meanwhile.
     pub fn firm(self, start: &str, goal: &str, robot: Option<&str>) -> Result<Firm> {
+        self.site.site().needs_rooms()?;
         let robot = answer::pick(&self.robots(), robot)?;
         let routes = Routes::new(&self, start, goal, &robot)?;
         let mut prober = Prober::new(self);

@@ -1,6 +1,7 @@
 //! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
 
 use crate::error::{Code, Error, Result};
+use crate::graph::Building;
 use crate::state::State;
 use crate::words::suggest::did_you_mean;
 
@@ -19,9 +20,20 @@ impl Subject {
     /// Finds out what a text means; an object that is not there is an error.
     pub fn find(fork: &State, text: &str) -> Result<Self> {
         if let Some((kind, name)) = text.trim().split_once(' ')
-            && let Some(class) = ["doors", "rooms"].into_iter().find(|class| is_called(class, kind))
+            && let Some(class) =
+                ["doors", "rooms", "doorways", "spaces"].into_iter().find(|class| is_called(class, kind))
         {
-            return Self::of(fork, class, name.trim(), None).ok_or_else(|| unknown(fork, class, name));
+            let found =
+                Self::of(fork, class, name.trim(), None).or_else(|| Self::of(fork, class, text.trim(), None));
+            return found.ok_or_else(|| unknown(fork, class, name));
+        }
+        if let Some((kind, key)) = text.trim().split_once(' ') {
+            // of a map that is not cut into rooms: `channel 3`, `goal load`
+            let class = format!("{}s", kind.to_lowercase());
+            let found = Self::of(fork, &class, key.trim(), None).filter(|_| fork.courses.is_some());
+            if let Some(found) = found {
+                return Ok(Self { name: text.trim().to_owned(), ..found });
+            }
         }
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");
@@ -50,10 +62,25 @@ impl Subject {
                 let door = &graph[graph.door(key.parse().ok()?)?];
                 Some(found(door.door.to_string(), format!("door {}", door.door)))
             }
+            "doorways" => {
+                let graph = fork.graph();
+                let doorway = graph.building.doorway_named(key).or_else(|| {
+                    graph.building.doorways.iter().find(|doorway| doorway.doorway.to_string() == key)
+                })?;
+                Some(found(doorway.doorway.to_string(), Building::name(doorway)))
+            }
+            "spaces" => {
+                let graph = fork.graph();
+                let space = graph
+                    .building
+                    .space_named(key)
+                    .or_else(|| graph.building.spaces.iter().find(|space| space.space.to_string() == key))?;
+                let name =
+                    graph.building.space(space.space).unwrap_or_else(|| format!("space {}", space.space));
+                Some(found(space.space.to_string(), name))
+            }
             _ => {
-                let of = class.to_uppercase();
-                let is_concluded = fork.inputs.rules.concluded().iter().any(|name| name.class == of);
-                let is_there = is_concluded && fork.knowledge.row(&of, key).is_some();
+                let is_there = fork.knowledge.row(&class.to_uppercase(), key).is_some();
                 is_there.then(|| found(key.to_owned(), format!("{class} {key}")))
             }
         }

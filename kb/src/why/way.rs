@@ -123,6 +123,7 @@ impl State {
         at: Option<&str>,
         robot: Option<&str>,
     ) -> Result<WhyWay> {
+        self.site.site().needs_rooms()?;
         let robot = answer::pick(&self.robots(), robot)?;
         let meant = at.map(|at| self.meant(at, &robot)).transpose()?;
         let routes = Routes::new(&self, start, goal, &robot)?;

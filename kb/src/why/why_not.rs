@@ -3,6 +3,7 @@
 //!
 //! The contrast puts the answer into words, and the answer is made of them: a circle that stays.
 
+mod course;
 mod words;
 
 pub(super) use words::failures;
@@ -92,6 +93,10 @@ impl Live {
 impl State {
     /// As [`Live::why_not`], of the state that was forked; the site is not held up meanwhile.
     pub fn why_not(mut self, start: &str, goal: &str, through: &str, robot: Option<&str>) -> Result<WhyNot> {
+        if let Some(courses) = &self.courses {
+            let robot = answer::pick(&self.robots(), robot)?;
+            return course::why_not(courses, [&robot, start, goal], through, self.generation);
+        }
         let robot = answer::pick(&self.robots(), robot)?;
         let meant = self.meant(through, &robot)?;
         let routes = Routes::new(&self, start, goal, &robot)?;

@@ -86,6 +86,20 @@ impl Arm {
         })
     }
 
+    /// For each link the sum over the links up to it of their lengths times something of how far they turn. The joints turn in
+    /// step, so each link turns evenly, by the sum of the turns below it.
+    fn turned(&self, from: &[f64], to: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
+        let (mut sum, mut turned) = (0.0, 0.0);
+        let turns = from.iter().zip(to).map(|(a, b)| b - a).zip(&self.lengths);
+        turns
+            .map(|(turn, length)| {
+                turned += turn;
+                sum += of(turned) * length;
+                sum
+            })
+            .collect()
+    }
+
     fn is_at(&self, at: &[f64], place: Point) -> bool {
         self.tool(at).at.distance(place) <= inverse::TOLERANCE_M
     }
@@ -102,16 +116,13 @@ impl Robot for Arm {
     }
 
     fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
-        let turns = || from.iter().zip(to).map(|(a, b)| (b - a).abs()).zip(&self.lengths);
-        // The end of a link moves at most by each turn below it times the stretched length from that joint on.
-        let mut travel = Vec::with_capacity(self.lengths.len());
-        let (mut sum, mut turned) = (0.0, 0.0);
-        for (turn, length) in turns() {
-            turned += turn;
-            sum += turned * length;
-            travel.push(sum);
-        }
-        travel
+        // Each joint goes at most as far as the links below take it.
+        self.turned(from, to, f64::abs)
+    }
+
+    fn bend(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        // What turns evenly accelerates by the square of its turn times its length, towards its middle.
+        self.turned(from, to, |turned| turned * turned)
     }
 
     fn tool(&self, at: &[f64]) -> Pose {

@@ -2,6 +2,13 @@
 //!
 //! All of it lies in the frame of the object, so it holds wherever the object is moved or turned, until its shape changes.
 
+mod rooms;
+mod taken;
+
+pub(super) use rooms::Room;
+use rooms::Rooms;
+use taken::Taken;
+
 use super::robot::Link;
 use super::shape::Distance;
 use crate::geometry::tolerance::ROUNDING_M;
@@ -22,106 +29,76 @@ pub enum Clearance {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Known {
-    free: Vec<Room>,
-    taken: Vec<(Point, f64)>,
-}
-
-/// Free room about a segment, made ready for many questions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Room {
-    axis: Segment,
-    within_m: f64,
-    along: Point,
-    /// One over the square of the segment's length; 0 where it is a point.
-    per_square: f64,
-}
-
-impl Room {
-    fn new(axis: Segment, within_m: f64) -> Self {
-        let along = axis.b - axis.a;
-        let square = along.dot(along);
-        Self { axis, within_m, along, per_square: if square > 0.0 { 1.0 / square } else { 0.0 } }
-    }
-
-    fn squared(&self, p: Point) -> f64 {
-        let out = p - self.axis.a;
-        let off = out - self.along * (out.dot(self.along) * self.per_square).clamp(0.0, 1.0);
-        off.dot(off)
-    }
-
-    /// Square of the distance to the farther end of an axis. The room is convex, so what holds both ends holds the axis.
-    fn farther_squared(&self, axis: &Segment) -> f64 {
-        self.squared(axis.a).max(self.squared(axis.b))
-    }
-
-    fn slack(&self, link: &Link) -> f64 {
-        self.within_m - link.radius - self.farther_squared(&link.axis).sqrt()
-    }
+    free: Rooms,
+    taken: Taken,
 }
 
 /// Places that are taken are kept no closer than this: what lies between them is met on the way from one to the next.
 const SPACING_M: f64 = 0.03;
 
+/// Room is not kept again where no more of what it leaves about the link is new than this share.
+const WORTHWHILE: f64 = 0.1;
+
+/// A disc as wide is as good as all that lies on one side of a line: over 10 m it bends away by 5 µm.
+const FAR_M: f64 = 1e7;
+
 impl Known {
-    /// By how many metres the known free room exceeds a link there, and which room that is; the slack is negative or
-    /// `-INFINITY` where the link is not known to be free.
-    pub fn slack(&self, link: &Link) -> (f64, usize) {
-        let mut best = (f64::NEG_INFINITY, 0);
-        for (index, room) in self.free.iter().enumerate() {
-            let left = room.within_m - best.0;
-            if left > 0.0 {
-                let squared = room.farther_squared(&link.axis);
-                if squared < left * left {
-                    best = (room.within_m - squared.sqrt(), index);
-                }
-            }
-        }
-        (best.0 - link.radius, best.1)
+    /// By how many metres the known free room exceeds a link there, or that it does by `enough`; negative or `-INFINITY`
+    /// where it is not known to be free.
+    pub fn slack(&self, link: &Link, enough: f64) -> f64 {
+        self.room(link, enough).map_or(f64::NEG_INFINITY, |(slack, _)| slack)
     }
 
-    /// The same by one room alone; less than what all of them give.
-    pub fn slack_in(&self, room: usize, link: &Link) -> f64 {
-        self.free.get(room).map_or(f64::NEG_INFINITY, |room| room.slack(link))
+    /// The room that exceeds a link by most metres, or any that exceeds it by `enough`, and by how many, which may be less than
+    /// none; `None` where none holds even its axis.
+    pub fn room(&self, link: &Link, enough: f64) -> Option<(f64, &Room)> {
+        self.free.widest(link, enough)
     }
 
-    /// Whether a link there is known to overlap the object. What only touches it is not: room that is known to be free goes up
-    /// to there, and what was free must not be refused later.
-    pub fn takes(&self, link: &Link) -> bool {
-        let is_taken = |(at, within_m): &(Point, f64)| {
-            let near = within_m + link.radius - ROUNDING_M;
-            near > 0.0 && link.axis.squared_distance(*at) < near * near
-        };
-        self.taken.iter().any(is_taken)
+    /// Metres from a link to the nearest place that is known to be taken, if that is nearer than so many metres; negative
+    /// where they overlap. What only touches does not: room that is known to be free goes up to there, and what was free
+    /// must not be refused later.
+    pub fn nearer(&self, link: &Link, than_m: f64) -> Option<f64> {
+        let thick = link.radius - ROUNDING_M;
+        self.taken.nearer(&link.axis, than_m + thick).map(|metres| metres - thick)
     }
 
     /// Keeps what an evaluation found, where it says more than what is known; gives what was kept.
-    pub fn learn(&mut self, link: &Link, distance: &Distance) -> Vec<Clearance> {
-        let mut kept = Vec::new();
+    pub fn learn(&mut self, link: &Link, distance: &Distance) -> impl Iterator<Item = Clearance> + use<> {
         let within_m = distance.metres;
-        if within_m > 0.0 && self.slack(&Link { axis: link.axis, radius: within_m }).0 < 0.0 {
-            kept.push(Clearance::Free { axis: link.axis, within_m });
-        }
+        let spare_m = if within_m > link.radius { within_m - link.radius } else { within_m };
+        let known = Link { axis: link.axis, radius: within_m - WORTHWHILE * spare_m };
+        let is_free = within_m > 0.0 && self.slack(&known, 0.0) < 0.0;
         let depth_m = (-within_m).max(0.0);
-        let is_news =
-            |(at, within_m): &(Point, f64)| at.distance(distance.witness) + depth_m > within_m + SPACING_M;
-        if distance.metres.is_finite() && self.taken.iter().all(is_news) {
-            kept.push(Clearance::Taken { at: distance.witness, within_m: depth_m });
-        }
-        for clearance in &kept {
+        let is_taken = within_m.is_finite() && !self.taken.is_near(distance.witness, depth_m, SPACING_M);
+        let room = || match distance.ahead {
+            // All that is ahead of the object is free: nearly so much lies in a disc that is as wide.
+            Some(ahead) => {
+                let within_m = FAR_M - ROUNDING_M;
+                let middle = distance.witness + ahead * FAR_M;
+                Clearance::Free { axis: Segment::new(middle, middle), within_m }
+            }
+            None => Clearance::Free { axis: link.axis, within_m },
+        };
+        let kept = [
+            is_free.then(room),
+            is_taken.then_some(Clearance::Taken { at: distance.witness, within_m: depth_m }),
+        ];
+        for clearance in kept.iter().flatten() {
             self.put(clearance);
         }
-        kept
+        kept.into_iter().flatten()
     }
 
     pub fn put(&mut self, clearance: &Clearance) {
         match *clearance {
-            Clearance::Free { axis, within_m } => self.free.push(Room::new(axis, within_m)),
-            Clearance::Taken { at, within_m } => self.taken.push((at, within_m)),
+            Clearance::Free { axis, within_m } => self.free.put(axis, within_m),
+            Clearance::Taken { at, within_m } => self.taken.put(at, within_m),
         }
     }
 
     pub fn clearances(&self) -> impl Iterator<Item = Clearance> + '_ {
-        let free = self.free.iter().map(|room| Clearance::Free { axis: room.axis, within_m: room.within_m });
-        free.chain(self.taken.iter().map(|&(at, within_m)| Clearance::Taken { at, within_m }))
+        let free = self.free.all().map(|(axis, within_m)| Clearance::Free { axis, within_m });
+        free.chain(self.taken.all().map(|(at, within_m)| Clearance::Taken { at, within_m }))
     }
 }

@@ -24,42 +24,88 @@ pub fn collision<'o>(
     objects: impl IntoIterator<Item = &'o Object>,
     path: &[Configuration],
 ) -> Option<Collision> {
-    let outlines: Vec<(&str, Vec<Point>)> =
-        objects.into_iter().map(|object| (object.name.as_str(), object.corners())).collect();
+    let outlines: Vec<Outline> = objects.into_iter().map(Outline::of).collect();
+    hit_of(robot, &outlines.iter(), path)
+}
+
+/// The first collision of a path with outlines that were made ready before.
+pub(super) fn hit_of<'o>(
+    robot: &dyn Robot,
+    outlines: &(impl Iterator<Item = &'o Outline> + Clone),
+    path: &[Configuration],
+) -> Option<Collision> {
     let stays = path.len() == 1;
     let last = if stays { 1 } else { path.len().saturating_sub(1) };
     for motion in 0..last {
         let (from, to) = (&path[motion], &path[if stays { motion } else { motion + 1 }]);
-        let travel = robot.travel(from, to).into_iter().fold(0.0, f64::max);
-        for (name, outline) in &outlines {
-            if let Some(share) = hit(robot, from, to, travel, outline) {
-                return Some(Collision { motion, share, object: (*name).to_owned() });
+        let travel = robot.travel(from, to);
+        let middle = links_between(robot, from, to, 0.5);
+        // Most objects are so far that one look at the middle is enough.
+        let is_near = |outline: &&Outline| {
+            middle.iter().zip(&travel).any(|(link, travel)| outline.gap(link) < travel / 2.0)
+        };
+        for outline in outlines.clone().filter(is_near) {
+            if let Some(share) = hit(robot, from, to, &travel, outline) {
+                return Some(Collision { motion, share, object: outline.name.clone() });
             }
         }
     }
     None
 }
 
-fn hit(robot: &dyn Robot, from: &[f64], to: &[f64], travel: f64, outline: &[Point]) -> Option<f64> {
+/// An object's outline in the cell, and a circle about it.
+pub(super) struct Outline {
+    name: String,
+    corners: Vec<Point>,
+    middle: Point,
+    radius: f64,
+}
+
+impl Outline {
+    pub(super) fn of(object: &Object) -> Self {
+        let corners = object.corners();
+        let middle = corners.iter().fold(Point::default(), |sum, &corner| sum + corner)
+            * (1.0 / corners.len().max(1) as f64);
+        let radius = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max);
+        Self { name: object.name.clone(), corners, middle, radius }
+    }
+
+    /// Metres between a link and the outline, or less where it is far; negative where they overlap.
+    fn gap(&self, link: &Link) -> f64 {
+        let far = link.axis.distance(self.middle) - self.radius - link.radius;
+        if far > self.radius {
+            return far;
+        }
+        let sides = polygon::sides(&self.corners);
+        if polygon::encloses(sides.clone(), link.axis.a) {
+            return -f64::INFINITY;
+        }
+        let mut squared = f64::INFINITY;
+        for side in sides {
+            if side.crosses(&link.axis) {
+                return -f64::INFINITY;
+            }
+            let of_side = side.squared_distance(link.axis.a).min(side.squared_distance(link.axis.b));
+            squared = squared.min(of_side).min(link.axis.squared_distance(side.a));
+        }
+        squared.sqrt() - link.radius
+    }
+}
+
+fn hit(robot: &dyn Robot, from: &[f64], to: &[f64], travel: &[f64], outline: &Outline) -> Option<f64> {
     let mut share = 0.0;
     loop {
-        let links = links_between(robot, from, to, share);
-        let gap = links.iter().map(|link| gap(link, outline)).fold(f64::INFINITY, f64::min);
-        if gap < -ROUNDING_M {
-            return Some(share);
+        let mut step = f64::INFINITY;
+        for (link, travel) in links_between(robot, from, to, share).iter().zip(travel) {
+            let gap = outline.gap(link);
+            if gap < -ROUNDING_M {
+                return Some(share);
+            }
+            step = step.min(gap.max(FINE_M) / travel.max(FINE_M));
         }
         if share >= 1.0 {
             return None;
         }
-        share = (share + gap.max(FINE_M) / travel.max(FINE_M)).min(1.0);
+        share = (share + step).min(1.0);
     }
-}
-
-/// Metres between a link and an outline; negative where they overlap.
-fn gap(link: &Link, outline: &[Point]) -> f64 {
-    let sides = polygon::sides(outline);
-    if polygon::encloses(sides.clone(), link.axis.a) || sides.clone().any(|side| side.crosses(&link.axis)) {
-        return -f64::INFINITY;
-    }
-    sides.map(|side| side.gap(&link.axis)).fold(f64::INFINITY, f64::min) - link.radius
 }

@@ -1,6 +1,6 @@
 //! The experience graph (Chen 1994, section 2): subgoals, and which of them Reach connects.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::robot::{Configuration, distance, length};
 use super::workcell::Revision;
@@ -60,6 +60,10 @@ pub struct Edge {
 pub struct Experience {
     vertices: BTreeMap<VertexId, Vertex>,
     edges: BTreeMap<(VertexId, VertexId), Edge>,
+    /// The other ends of the edges of each vertex.
+    beside: BTreeMap<VertexId, BTreeSet<VertexId>>,
+    /// How many vertices hang on each object.
+    hung: BTreeMap<String, u32>,
     next_vertex: u32,
     next_edge: u32,
 }
@@ -93,7 +97,7 @@ impl Experience {
         let mut graph = Self { next_vertex: next.0, next_edge: next.1, ..Self::default() };
         for vertex in vertices {
             let id = vertex.id;
-            if id.0 >= next.0 || graph.vertices.insert(id, vertex).is_some() {
+            if id.0 >= next.0 || graph.put_vertex(vertex).is_some() {
                 return Err(ExperienceError::Vertex(id));
             }
         }
@@ -101,7 +105,7 @@ impl Experience {
             let (id, ends) = (edge.id, edge.ends);
             let is_there = |end| graph.vertices.contains_key(&end);
             let is_wrong = id.0 >= next.1 || ends.0 >= ends.1 || !is_there(ends.0) || !is_there(ends.1);
-            if is_wrong || graph.edges.insert(ends, edge).is_some() {
+            if is_wrong || graph.put_edge(edge).is_some() {
                 return Err(ExperienceError::Edge(id));
             }
         }
@@ -154,7 +158,20 @@ impl Experience {
     pub(super) fn add_vertex(&mut self, at: Configuration, tag: Option<TagPoint>, made_task: u32) -> &Vertex {
         let id = VertexId(self.next_vertex);
         self.next_vertex += 1;
-        self.vertices.entry(id).or_insert(Vertex { id, at, tag, made_task })
+        self.put_vertex(Vertex { id, at, tag, made_task });
+        &self.vertices[&id]
+    }
+
+    fn put_vertex(&mut self, vertex: Vertex) -> Option<Vertex> {
+        if let Some(tag) = &vertex.tag {
+            *self.hung.entry(tag.object.clone()).or_default() += 1;
+        }
+        self.vertices.insert(vertex.id, vertex)
+    }
+
+    /// How many vertices hang on an object.
+    pub(super) fn hung_on(&self, object: &str) -> u32 {
+        self.hung.get(object).copied().unwrap_or(0)
     }
 
     /// Connects two vertices by a path of Reach from one to the other, both ends included; an edge between them is replaced.
@@ -183,8 +200,15 @@ impl Experience {
             times_verified: 1,
             is_loose: false,
         };
-        self.edges.insert(ends(from, to), edge);
+        self.put_edge(edge);
         &self.edges[&ends(from, to)]
+    }
+
+    fn put_edge(&mut self, edge: Edge) -> Option<Edge> {
+        let (a, b) = edge.ends;
+        self.beside.entry(a).or_default().insert(b);
+        self.beside.entry(b).or_default().insert(a);
+        self.edges.insert(edge.ends, edge)
     }
 
     pub(super) fn edge_mut(&mut self, a: VertexId, b: VertexId) -> Option<&mut Edge> {
@@ -192,16 +216,33 @@ impl Experience {
     }
 
     pub(super) fn remove_edge(&mut self, a: VertexId, b: VertexId) -> Option<Edge> {
+        for (one, other) in [(a, b), (b, a)] {
+            if let Some(beside) = self.beside.get_mut(&one) {
+                beside.remove(&other);
+            }
+        }
         self.edges.remove(&ends(a, b))
     }
 
     /// Takes a vertex out; its edges have to be out before.
     pub(super) fn remove_vertex(&mut self, id: VertexId) -> Option<Vertex> {
-        self.vertices.remove(&id)
+        let vertex = self.vertices.remove(&id)?;
+        self.beside.remove(&id);
+        if let Some(tag) = &vertex.tag
+            && let Some(count) = self.hung.get_mut(&tag.object)
+        {
+            *count -= 1;
+        }
+        Some(vertex)
     }
 
     pub(super) fn edges_of(&self, id: VertexId) -> Vec<EdgeEnds> {
-        self.edges.keys().filter(|ends| ends.0 == id || ends.1 == id).copied().collect()
+        self.beside.get(&id).into_iter().flatten().map(|&other| ends(id, other)).collect()
+    }
+
+    /// The edges of a vertex, by its neighbours' numbers.
+    pub(super) fn edges_at(&self, id: VertexId) -> impl Iterator<Item = &Edge> {
+        self.beside.get(&id).into_iter().flatten().filter_map(move |&other| self.edge(id, other))
     }
 
     /// Moves a vertex; nothing is known any more of its edges, which go straight from now on.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::judge::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strategy, Trust};
 use super::object::Object;
-use super::planner::{Adapt, Outcome, Plugins, Settings};
+use super::planner::{Adapt, Outcome, Plugins, Report, Settings};
 use super::probe::Probe;
 use super::robot::{Configuration, Robot, length};
 use super::workcell::{Workcell, WorkcellError};
@@ -44,9 +44,37 @@ pub struct Experiment<'e> {
     pub seed: u64,
     /// A judge for a run. Which strategy follows the change is not asked: the method says it.
     pub judge: &'e (dyn Fn() -> Box<dyn Judge> + Sync),
+    /// Who keeps what a run with this seed learns; making one is not timed, what it does is.
+    pub keeper: &'e (dyn Fn(Method, u64) -> Box<dyn Keeper> + Sync),
     /// The seconds that went by since some time, since this crate has no clock.
     pub clock: &'e (dyn Fn() -> f64 + Sync),
     pub progress: &'e (dyn Fn() + Sync),
+}
+
+/// Takes what was learned from the planner.
+pub trait Keeper {
+    /// At first, before the first task, which is not timed; and when the cell changed.
+    fn change(&mut self, adapt: &mut Adapt);
+    /// After a task.
+    fn task(&mut self, adapt: &mut Adapt, goal: &Configuration, report: &Report);
+    /// After the last one, as a part of it.
+    fn end(&mut self, adapt: &mut Adapt);
+}
+
+/// Keeps nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct KeepNothing;
+
+impl Keeper for KeepNothing {
+    fn change(&mut self, adapt: &mut Adapt) {
+        adapt.take_noted();
+    }
+
+    fn task(&mut self, adapt: &mut Adapt, _goal: &Configuration, _report: &Report) {
+        adapt.take_noted();
+    }
+
+    fn end(&mut self, _adapt: &mut Adapt) {}
 }
 
 /// Who does the tasks.
@@ -133,21 +161,28 @@ impl Experiment<'_> {
 
     fn learn(&self, strategy: Strategy, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
         let scenario = self.scenario;
-        let began = (self.clock)();
         let mut judge = Fixed { strategy, judge: (self.judge)() };
         let cell = Workcell::new(scenario.robot.clone(), scenario.objects.clone(), self.touching_m)?;
         let settings = Settings { seed, ..self.settings.clone() };
         let mut adapt = Adapt::new(cell, self.plugins.clone(), settings, scenario.home.clone());
+        let mut keeper = (self.keeper)(Method::Adapt(strategy), seed);
+        keeper.change(&mut adapt);
+        let goals = self.goals(seed);
+        let began = (self.clock)();
         let mut samples = Vec::new();
-        for (task, goal) in (0..).zip(self.goals(seed)) {
+        for (task, goal) in (0..).zip(&goals) {
             if task == scenario.change_after_task {
                 adapt.change(scenario.changed.clone(), &mut judge)?;
+                keeper.change(&mut adapt);
             }
             let report = adapt.task(goal, &mut judge);
             if report.outcome != Outcome::Found {
-                adapt.put(goal.clone());
+                adapt.put((*goal).clone());
             }
-            adapt.take_noted();
+            keeper.task(&mut adapt, goal, &report);
+            if samples.len() + 1 == goals.len() {
+                keeper.end(&mut adapt);
+            }
             samples.push(Sample {
                 evaluations: adapt.cell().evaluations(),
                 solves: adapt.progress().tally.solves,
@@ -160,11 +195,12 @@ impl Experiment<'_> {
 
     fn solve_alone(&self, seed: u64) -> Result<Vec<Sample>, WorkcellError> {
         let scenario = self.scenario;
+        let goals = self.goals(seed);
         let began = (self.clock)();
         let mut random = Random::new(seed ^ 0x5eed);
         let mut here = &scenario.home;
         let (mut evaluations, mut samples) = (0, Vec::new());
-        for (task, goal) in (0..).zip(self.goals(seed)) {
+        for (task, goal) in (0..).zip(goals) {
             let objects =
                 if task < scenario.change_after_task { &scenario.objects } else { &scenario.changed };
             let mut cell = Workcell::new(scenario.robot.clone(), objects.clone(), self.touching_m)?;

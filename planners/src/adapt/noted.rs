@@ -20,6 +20,7 @@ pub enum Noted {
     VertexRemoved {
         id: VertexId,
         why: Removal,
+        task: u32,
     },
     EdgeAdded(Edge),
     /// A connection was verified again, or found another path: it is now as told.

@@ -12,14 +12,14 @@ mod task;
 mod tighten;
 mod trace;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 pub use change::Changed;
 pub use report::{Outcome, Report, Tally};
 pub use settings::{Heuristic, Settings};
 
-use super::experience::{Experience, VertexId};
+use super::experience::{EdgeId, Experience, VertexId};
 use super::noted::Noted;
 use super::probe::Probe;
 use super::reach::{Reach, Straight};
@@ -67,6 +67,8 @@ pub struct Adapt {
     settings: Settings,
     progress: Progress,
     noted: Vec<Noted>,
+    /// The edges whose paths passed the check before execution, and the state of the cell in which they did.
+    checked: BTreeMap<EdgeId, Revision>,
 }
 
 impl Adapt {
@@ -86,7 +88,7 @@ impl Adapt {
         settings: Settings,
         progress: Progress,
     ) -> Self {
-        Self { cell, experience, plugins, settings, progress, noted: Vec::new() }
+        Self { cell, experience, plugins, settings, progress, noted: Vec::new(), checked: BTreeMap::new() }
     }
 
     pub fn cell(&self) -> &Workcell {

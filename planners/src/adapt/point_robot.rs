@@ -38,6 +38,10 @@ impl Robot for PointRobot {
         vec![super::robot::distance(from, to)]
     }
 
+    fn bend(&self, _from: &[f64], _to: &[f64]) -> Vec<f64> {
+        vec![0.0]
+    }
+
     fn tool(&self, at: &[f64]) -> Pose {
         Pose::new(at[0], at[1], 0.0)
     }

@@ -2,7 +2,8 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use super::robot::{Link, Links, Robot, links_between};
+use super::clearance::Room;
+use super::robot::{Link, Links, Robot, links_between, wider};
 use super::workcell::{Placed, Workcell};
 
 /// What plug-ins see of a cell. It does not show the objects, so nothing goes round the count.
@@ -12,20 +13,41 @@ pub struct Probe<'c>(&'c mut Workcell);
 /// A gap in what is known between two places as near as this is none, metres.
 const NO_GAP_M: f64 = 1e-6;
 
+/// Room that exceeds the robot by less hardly narrows a gap, metres.
+const AMPLE_M: f64 = 1e-4;
+
 /// Shares of a motion that are not known to be free.
 type Gap = (f64, f64);
 
-/// A motion under test against one object.
+/// A motion under test.
 struct Motion<'m> {
     robot: &'m dyn Robot,
     from: &'m [f64],
     to: &'m [f64],
     travel: Vec<f64>,
+    bend: Vec<f64>,
+    kept_m: f64,
+    end: Links,
 }
 
-impl Motion<'_> {
+/// What is known to hold a link, and by how many metres it exceeds that.
+struct Held<'r> {
+    link: usize,
+    slack: f64,
+    room: &'r Room,
+}
+
+impl<'m> Motion<'m> {
+    fn new(cell: &Workcell, robot: &'m dyn Robot, from: &'m [f64], to: &'m [f64]) -> Self {
+        let (travel, bend) = (robot.travel(from, to), robot.bend(from, to));
+        Self { robot, from, to, travel, bend, kept_m: cell.kept_m(), end: cell.links(to) }
+    }
+
     fn links(&self, share: f64) -> Links {
-        links_between(self.robot, self.from, self.to, share)
+        if share >= 1.0 {
+            return self.end.clone();
+        }
+        wider(links_between(self.robot, self.from, self.to, share), self.kept_m)
     }
 
     /// Cuts from a gap what is known at its two ends.
@@ -38,41 +60,67 @@ impl Motion<'_> {
     /// Goes from one end of a gap towards the other as far as the motion is known to be free of an object, forward
     /// (`sense` 1) or backward (-1); `None` where that closes the gap.
     fn march(&self, placed: &Placed, (low, high): Gap, sense: f64) -> Option<f64> {
+        /// What would take smaller steps is left to an evaluation.
         const FINE: f64 = 1e-3;
-        let mut rooms: SmallVec<[usize; 4]> = smallvec![usize::MAX; self.travel.len()];
-        let mut share = if sense > 0.0 { low } else { high };
+        let (mut share, last) = if sense > 0.0 { (low, high) } else { (high, low) };
+        let mut links = self.links(share);
         loop {
-            let links = self.links(share);
-            // A link mostly stays in one room for some steps; all rooms are searched when that one ends.
-            let mut step = self.step(placed, &links, |index, link| placed.known.slack_in(rooms[index], link));
-            if step < FINE {
-                step = self.step(placed, &links, |index, link| {
-                    let (slack, room) = placed.known.slack(link);
-                    rooms[index] = room;
-                    slack
-                });
+            let left = (last - share) * sense;
+            let Some(held) = self.held(placed, &links, left) else { return Some(share) };
+            // As far as each link may go anywhere from here, and as far as it may go at all.
+            let sure = held.iter().fold(left, |sure, held| sure.min(self.anywhere(held.link, held.slack)));
+            let mut step =
+                held.iter().fold(left, |most, held| most.min(self.straight(held.link, held.slack)));
+            // A room is convex: what is in it before and after is in it between, but for how far it strays from the straight way.
+            loop {
+                if step < FINE && step < left {
+                    return Some(share);
+                }
+                let sure_step = step.max(sure).min(left);
+                if sure_step <= sure {
+                    step = sure_step;
+                    break;
+                }
+                let there = self.links(share + sense * step);
+                let holds = |held: &Held| {
+                    let slack = held.room.slack(&placed.inward(&there[held.link]));
+                    self.straight(held.link, slack) >= step
+                };
+                if held.iter().all(holds) {
+                    break;
+                }
+                step /= 2.0;
             }
-            share += sense * step;
-            if (sense > 0.0 && share >= high) || (sense < 0.0 && share <= low) {
+            if step >= left {
                 return None;
             }
-            if step < FINE {
-                return Some(share);
-            }
+            share += sense * step;
+            links = self.links(share);
         }
     }
 
-    /// By which share the motion may go on, either way, until a link leaves the room that it has; 0 where it has none.
-    fn step(&self, placed: &Placed, links: &[Link], mut slack: impl FnMut(usize, &Link) -> f64) -> f64 {
-        let mut step = f64::INFINITY;
-        for (index, (link, travel)) in links.iter().zip(&self.travel).enumerate() {
-            let slack = slack(index, &placed.inward(link));
-            step = step.min(if slack < 0.0 { 0.0 } else { slack / travel.max(f64::MIN_POSITIVE) });
-            if step <= 0.0 {
-                break;
-            }
+    /// What holds each link; `None` where one is not known to be free.
+    fn held<'r>(&self, placed: &'r Placed, links: &[Link], left: f64) -> Option<SmallVec<[Held<'r>; 4]>> {
+        // The last link goes farthest, so it is the first that is not known to be free any more.
+        let held = links.iter().enumerate().rev().map(|(link, body)| {
+            let (slack, room) = placed.known.room(&placed.inward(body), left * self.travel[link])?;
+            (slack >= 0.0).then_some(Held { link, slack, room })
+        });
+        held.collect()
+    }
+
+    /// The share over which a link with some slack may go wherever it goes.
+    fn anywhere(&self, link: usize, slack: f64) -> f64 {
+        slack / self.travel[link].max(f64::MIN_POSITIVE)
+    }
+
+    /// The share over which a link may go that has so much slack before and after; negative where it has none.
+    fn straight(&self, link: usize, slack: f64) -> f64 {
+        if slack < 0.0 {
+            return slack;
         }
-        step
+        let bent = (8.0 * slack / self.bend[link].max(f64::MIN_POSITIVE)).sqrt();
+        bent.max(2.0 * self.anywhere(link, slack))
     }
 
     /// How far a point of the robot goes at most.
@@ -80,11 +128,41 @@ impl Motion<'_> {
         self.travel.iter().copied().fold(0.0, f64::max)
     }
 
-    /// A few shares, close enough that what is known to be touched on the way is hardly missed.
-    fn shares(&self) -> impl Iterator<Item = f64> + use<> {
-        const STEP_M: f64 = 0.05;
-        let steps = (self.metres() / STEP_M).ceil().max(1.0);
-        (0..=steps as u32).map(move |step| f64::from(step) / steps)
+    /// Whether the robot is known to touch an object on the way: looked at in the middle of what is left, ever finer, since
+    /// how far it is from what is known to be taken says how much is out of the question at once.
+    fn is_known_to_touch(&self, cell: &mut Workcell) -> bool {
+        /// As long a stretch is looked at in one place only: what is known to be touched on it is hardly missed.
+        const SHORT_M: f64 = 0.05;
+        let short = SHORT_M / 2.0 / self.metres().max(SHORT_M / 2.0);
+        // Most objects are so far that one look at the middle is enough.
+        let mut near: SmallVec<[usize; 16]> = SmallVec::new();
+        let middle = self.links(0.5);
+        for object in 0..cell.placed.len() {
+            match cell.known_clear(object, &middle, &self.travel, 0.5) {
+                None => return true,
+                Some(clear) if clear < 0.5 => near.push(object),
+                Some(_) => {}
+            }
+        }
+        let mut left: SmallVec<[Gap; 32]> = smallvec![(1.0, 1.0), (0.0, 1.0)];
+        let mut next = 0;
+        while let Some(&(low, high)) = left.get(next).filter(|_| !near.is_empty()) {
+            next += 1;
+            let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
+            let links = self.links(middle);
+            let mut clear = half;
+            for &object in &near {
+                match cell.known_clear(object, &links, &self.travel, clear) {
+                    None => return true,
+                    Some(its) => clear = its,
+                }
+            }
+            let clear = clear.max(short);
+            if clear < half {
+                left.extend([(low, middle - clear), (middle + clear, high)]);
+            }
+        }
+        false
     }
 }
 
@@ -107,14 +185,13 @@ impl<'c> Probe<'c> {
         if !self.robot().admits(at) {
             return false;
         }
-        let links = self.robot().links(at);
+        let links = self.0.links(at);
         let objects = self.0.placed.len();
         if (0..objects).any(|index| self.0.is_known_to_touch(index, &links)) {
             return false;
         }
-        (0..objects).all(|index| {
-            self.0.placed[index].slack(&links).all(|slack| slack >= 0.0) || self.0.evaluate(index, &links)
-        })
+        (0..objects)
+            .all(|index| self.0.placed[index].slack(&links, 0.0) >= 0.0 || self.0.evaluate(index, &links))
     }
 
     /// Whether the robot stays free of all objects on the straight motion between two configurations.
@@ -127,14 +204,11 @@ impl<'c> Probe<'c> {
             return false;
         }
         let robot = self.0.robot().clone();
-        let motion = Motion { robot: robot.as_ref(), from, to, travel: robot.travel(from, to) };
-        let mut gaps: Vec<(usize, Gap)> = Vec::new();
-        for share in motion.shares() {
-            let links = motion.links(share);
-            if (0..self.0.placed.len()).any(|index| self.0.is_known_to_touch(index, &links)) {
-                return false;
-            }
+        let motion = Motion::new(self.0, robot.as_ref(), from, to);
+        if motion.is_known_to_touch(self.0) {
+            return false;
         }
+        let mut gaps: Vec<(usize, Gap)> = Vec::new();
         for (index, placed) in self.0.placed.iter().enumerate() {
             gaps.extend(motion.shrunk(placed, (0.0, 1.0)).map(|gap| (index, gap)));
         }
@@ -145,13 +219,12 @@ impl<'c> Probe<'c> {
             if self.0.is_known_to_touch(index, &links) {
                 return false;
             }
-            let slack = self.0.placed[index].slack(&links).fold(f64::INFINITY, f64::min);
+            let slack = self.0.placed[index].slack(&links, AMPLE_M);
             if slack >= 0.0 && (high - low) * motion.metres() < NO_GAP_M {
                 continue;
             }
             // Room that hardly holds the links hardly narrows the gap, so it is evaluated, too.
-            let is_ample = slack >= self.0.touching_m() / 2.0;
-            if !is_ample && !self.0.evaluate(index, &links) && slack < 0.0 {
+            if slack < AMPLE_M && !self.0.evaluate(index, &links) && slack < 0.0 {
                 return false;
             }
             let placed = &self.0.placed[index];

@@ -43,6 +43,13 @@ pub trait Robot: fmt::Debug + Send + Sync {
     /// For each link a length, metres, that no point of it exceeds on its way along the straight motion.
     fn travel(&self, from: &[f64], to: &[f64]) -> Vec<f64>;
 
+    /// For each link a length, metres: over a share of the straight motion no point of it strays farther from its own straight
+    /// way than an eighth of that length times the square of the share. Unless something is known of a robot, it may stray
+    /// without bound.
+    fn bend(&self, from: &[f64], to: &[f64]) -> Vec<f64> {
+        vec![f64::INFINITY; self.travel(from, to).len()]
+    }
+
     /// Where the tool is at a configuration, and how it is turned.
     fn tool(&self, at: &[f64]) -> Pose;
 
@@ -83,6 +90,14 @@ pub fn between(from: &[f64], to: &[f64], share: f64) -> Configuration {
 
 fn on_the_way(from: &[f64], to: &[f64], share: f64) -> impl Iterator<Item = f64> {
     from.iter().zip(to).map(move |(a, b)| a + share * (b - a))
+}
+
+/// A body whose links are wider by so many metres.
+pub(super) fn wider(mut links: Links, by_m: f64) -> Links {
+    for link in &mut links {
+        link.radius += by_m;
+    }
+    links
 }
 
 /// The body of a robot at a share (0 to 1) of a straight motion.

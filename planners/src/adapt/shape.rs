@@ -1,5 +1,8 @@
 //! The outline of an object, in its own frame, and how far a link is from it.
 
+use smallvec::{SmallVec, smallvec};
+
+use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment, polygon};
 
 /// A simple polygon, convex or not, in the frame of its object, metres.
@@ -30,6 +33,9 @@ pub(super) struct Distance {
     pub metres: f64,
     /// The point of the object that is nearest to the axis, or the deepest known point of the axis in the object.
     pub witness: Point,
+    /// Where all of the object lies behind the line through the witness, across the way to the axis: the direction of that
+    /// way, of length 1.
+    pub ahead: Option<Point>,
 }
 
 impl Shape {
@@ -69,8 +75,8 @@ impl Shape {
 
     /// How far the axis of a link, given in the frame of the object, is from the object.
     pub(super) fn distance(&self, axis: &Segment) -> Distance {
-        let mut nearest = Distance { metres: f64::INFINITY, witness: axis.a };
-        let mut cuts = vec![0.0, 1.0];
+        let mut nearest = Distance { metres: f64::INFINITY, witness: axis.a, ahead: None };
+        let mut cuts: SmallVec<[f64; 8]> = smallvec![0.0, 1.0];
         for side in self.sides() {
             if let Some(share) = crossing(axis, &side) {
                 cuts.push(share);
@@ -81,11 +87,14 @@ impl Shape {
                 (side.nearest_to(axis.b), side.distance(axis.b)),
             ] {
                 if metres < nearest.metres {
-                    nearest = Distance { metres, witness };
+                    nearest = Distance { metres, witness, ahead: None };
                 }
             }
         }
         if cuts.len() == 2 && !self.encloses(axis.a) {
+            let way = Segment::new(nearest.witness, axis.nearest_to(nearest.witness)).direction();
+            let is_ahead = |&corner: &Point| (corner - nearest.witness).dot(way) > ROUNDING_M;
+            nearest.ahead = (!self.corners.iter().any(is_ahead)).then_some(way);
             return nearest;
         }
         self.deepest(axis, &mut cuts)
@@ -95,7 +104,7 @@ impl Shape {
     fn deepest(&self, axis: &Segment, cuts: &mut [f64]) -> Distance {
         const PROBES: u32 = 8;
         cuts.sort_unstable_by(f64::total_cmp);
-        let mut deepest = Distance { metres: 0.0, witness: axis.at(cuts[1]) };
+        let mut deepest = Distance { metres: 0.0, witness: axis.at(cuts[1]), ahead: None };
         for pair in cuts.windows(2) {
             if !self.encloses(axis.at(f64::midpoint(pair[0], pair[1]))) {
                 continue;
@@ -104,7 +113,7 @@ impl Shape {
                 let witness = axis.at(pair[0] + (pair[1] - pair[0]) * f64::from(probe) / f64::from(PROBES));
                 let depth = self.sides().map(|side| side.distance(witness)).fold(f64::INFINITY, f64::min);
                 if -depth < deepest.metres {
-                    deepest = Distance { metres: -depth, witness };
+                    deepest = Distance { metres: -depth, witness, ahead: None };
                 }
             }
         }

@@ -1,51 +1,69 @@
 //! Ways through the experience graph.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use petgraph::algo::{astar, dijkstra};
-use petgraph::graph::{NodeIndex, UnGraph};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
 use super::experience::{Experience, VertexId};
 use super::robot::distance;
+use crate::search::ByValue;
 
-/// The graph as petgraph has it: made anew for each search, so that equal graphs give equal ways, whatever their history.
-struct Ways {
-    graph: UnGraph<VertexId, f64>,
-    nodes: BTreeMap<VertexId, NodeIndex>,
-}
+/// How far a vertex is along the graph, and from which one it is reached.
+type Reached = BTreeMap<VertexId, (f64, VertexId)>;
 
-impl Ways {
-    fn new(experience: &Experience) -> Self {
-        let mut graph = UnGraph::default();
-        let nodes: BTreeMap<VertexId, NodeIndex> =
-            experience.vertices().map(|vertex| (vertex.id, graph.add_node(vertex.id))).collect();
-        for edge in experience.edges() {
-            graph.add_edge(nodes[&edge.ends.0], nodes[&edge.ends.1], edge.length);
-        }
-        Self { graph, nodes }
+/// A* (Hart, Nilsson and Raphael 1968) from a vertex to another one; without another one Dijkstra's search of all. Of equally long
+/// ways the same one is found in equal graphs, whatever their history.
+fn search(experience: &Experience, from: VertexId, to: Option<VertexId>) -> Reached {
+    let goal = to.and_then(|to| experience.vertex(to));
+    let straight = |id: VertexId| match (goal, experience.vertex(id)) {
+        (Some(goal), Some(vertex)) => distance(&vertex.at, &goal.at),
+        _ => 0.0,
+    };
+    let mut reached = Reached::new();
+    let mut done = BTreeSet::new();
+    let mut open = BinaryHeap::new();
+    if experience.vertex(from).is_some() {
+        reached.insert(from, (0.0, from));
+        open.push(Reverse((ByValue(straight(from)), from)));
     }
+    while let Some(Reverse((_, here))) = open.pop() {
+        if Some(here) == to {
+            break;
+        }
+        if !done.insert(here) {
+            continue;
+        }
+        let so_far = reached[&here].0;
+        for edge in experience.edges_at(here) {
+            let next = if edge.ends.0 == here { edge.ends.1 } else { edge.ends.0 };
+            let length = so_far + edge.length;
+            if reached.get(&next).is_none_or(|(known, _)| length < *known) {
+                reached.insert(next, (length, here));
+                open.push(Reverse((ByValue(length + straight(next)), next)));
+            }
+        }
+    }
+    reached
 }
 
 /// The shortest sequence of vertices from one to another, whether its edges still hold or not.
 pub(super) fn sequence(experience: &Experience, from: VertexId, to: VertexId) -> Option<Vec<VertexId>> {
-    let goal = &experience.vertex(to)?.at;
-    let ways = Ways::new(experience);
-    let straight = |node: NodeIndex| {
-        experience.vertex(ways.graph[node]).map_or(0.0, |vertex| distance(&vertex.at, goal))
-    };
-    let (start, end) = (*ways.nodes.get(&from)?, *ways.nodes.get(&to)?);
-    let (_, nodes) = astar(&ways.graph, start, |node| node == end, |edge| *edge.weight(), straight)?;
-    Some(nodes.into_iter().map(|node| ways.graph[node]).collect())
+    experience.vertex(to)?;
+    let reached = search(experience, from, Some(to));
+    let mut sequence = vec![to];
+    let mut here = to;
+    while here != from {
+        here = reached.get(&here)?.1;
+        sequence.push(here);
+    }
+    sequence.reverse();
+    Some(sequence)
 }
 
 /// How far vertices are along the graph from one; those that hang together with it.
 pub(super) fn lengths(experience: &Experience, from: VertexId) -> BTreeMap<VertexId, f64> {
-    let ways = Ways::new(experience);
-    let Some(&start) = ways.nodes.get(&from) else { return BTreeMap::new() };
-    let lengths = dijkstra(&ways.graph, start, None, |edge| *edge.weight());
-    ways.nodes.iter().filter_map(|(id, node)| Some((*id, *lengths.get(node)?))).collect()
+    search(experience, from, None).into_iter().map(|(id, (length, _))| (id, length)).collect()
 }
 
 pub(super) fn component(experience: &Experience, of: VertexId) -> BTreeSet<VertexId> {
-    lengths(experience, of).into_keys().collect()
+    search(experience, of, None).into_keys().collect()
 }

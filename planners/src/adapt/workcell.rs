@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::clearance::{Clearance, Known};
 use super::object::Object;
-use super::robot::{Link, Robot};
+use super::robot::{Link, Links, Robot, wider};
 use crate::geometry::Segment;
 use crate::geometry::tolerance::SNAP_M;
 use crate::pose::Frame;
@@ -26,6 +26,10 @@ pub struct Placed {
 
 /// How near an object counts as touched, metres, where nothing else is said.
 pub const TOUCHING_M: f64 = 0.005;
+
+/// The share of that distance that is kept all along a motion. The rest is what an evaluation teaches of room about the
+/// robot where it is only just free: without any, no motion along an object could be known to be free.
+const KEPT: f64 = 0.5;
 
 /// A robot and the objects about it. Plug-ins see it through a [`Probe`](super::Probe) only.
 #[derive(Clone, Debug)]
@@ -94,6 +98,16 @@ impl Workcell {
         self.touching_m
     }
 
+    /// What is kept between the robot and an object all along a motion, metres.
+    pub(super) fn kept_m(&self) -> f64 {
+        self.touching_m * KEPT
+    }
+
+    /// The body of the robot at a configuration, wider by what is kept.
+    pub(super) fn links(&self, at: &[f64]) -> Links {
+        wider(self.robot.links(at), self.kept_m())
+    }
+
     /// How many configurations were evaluated against one object so far.
     pub fn evaluations(&self) -> u64 {
         self.evaluations
@@ -134,23 +148,46 @@ impl Workcell {
         touches
     }
 
+    /// The share of a motion over which, from where the robot has these links on and either way, an object is not known to be
+    /// touched, as far as `most`; `None` where it is.
+    pub(super) fn known_clear(
+        &mut self,
+        index: usize,
+        links: &[Link],
+        travel: &[f64],
+        most: f64,
+    ) -> Option<f64> {
+        let placed = &self.placed[index];
+        let mut share = most;
+        for (link, &travel) in links.iter().zip(travel) {
+            let Some(metres) = placed.known.nearer(&placed.inward(link), share * travel) else { continue };
+            if metres < 0.0 {
+                self.last_touched = Some(index);
+                return None;
+            }
+            share = share.min(metres / travel);
+        }
+        Some(share)
+    }
+
     /// What was learned since this was last asked.
     pub(super) fn take_learned(&mut self) -> Vec<(String, Clearance)> {
         std::mem::take(&mut self.learned)
     }
 
-    /// Whether the robot, with these links, is free of an object. This is the one place where a planner reads the shape of
+    /// Whether the robot, with these links (wider by what is kept), is free of an object. This is the one place where a planner reads the shape of
     /// an object, and each call is one evaluation: one configuration against one object.
     pub(super) fn evaluate(&mut self, index: usize, links: &[Link]) -> bool {
         self.evaluations += 1;
+        let spare_m = self.touching_m - self.kept_m();
         let placed = &mut self.placed[index];
         let mut is_free = true;
         for link in links {
             let inward = placed.inward(link);
             let distance = placed.object.shape.distance(&inward.axis);
-            is_free &= distance.metres - link.radius >= self.touching_m;
+            is_free &= distance.metres - link.radius >= spare_m;
             let kept = placed.known.learn(&inward, &distance);
-            self.learned.extend(kept.into_iter().map(|clearance| (placed.object.name.clone(), clearance)));
+            self.learned.extend(kept.map(|clearance| (placed.object.name.clone(), clearance)));
         }
         if !is_free {
             self.last_touched = Some(index);
@@ -170,9 +207,17 @@ impl Placed {
         Self { object, since, times_moved, frame, known: Known::default() }
     }
 
-    /// By how much the known free room exceeds each of the links; negative where it is not known to be free.
-    pub(super) fn slack<'l>(&'l self, links: &'l [Link]) -> impl Iterator<Item = f64> + 'l {
-        links.iter().map(|link| self.known.slack(&self.inward(link)).0)
+    /// By how many metres the known free room exceeds the links, or that it does by `enough`; negative where they are not known
+    /// to be free.
+    pub(super) fn slack(&self, links: &[Link], enough: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for link in links.iter().rev() {
+            least = least.min(self.known.slack(&self.inward(link), enough));
+            if least < 0.0 {
+                break;
+            }
+        }
+        least
     }
 
     pub(super) fn inward(&self, link: &Link) -> Link {
@@ -181,7 +226,7 @@ impl Placed {
     }
 
     pub(super) fn is_known_to_touch(&self, links: &[Link]) -> bool {
-        links.iter().any(|link| self.known.takes(&self.inward(link)))
+        links.iter().any(|link| self.known.nearer(&self.inward(link), 0.0).is_some())
     }
 }
 

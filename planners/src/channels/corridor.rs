@@ -80,7 +80,7 @@ pub use drive::{Drive, Primitive, TurnMade};
 pub use drive_error::DriveError;
 pub use network::{CorridorError, Corridors, Junction, Overlap};
 pub use passage::{End, Passage};
-pub use route::Route;
+pub use route::{Route, Through};
 pub use route_error::{NoRoute, RouteError};
 pub use steer::{Extreme, Offset, Part, Steer, StepFacts, Turn};
 pub use walls::Wall;

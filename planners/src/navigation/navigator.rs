@@ -19,9 +19,6 @@ use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, LocalModel};
 use crate::pose::Pose;
 
-/// So much farther than it was counts as farther away, metres.
-const FALLING_M: f64 = 0.05;
-
 /// A touch is ahead of a course if the cosine of its bearing is larger.
 const SIDEWAYS: f64 = 0.05;
 
@@ -34,9 +31,6 @@ const ASIDE: f64 = 0.5;
 
 /// A course that ends before so much of it is done was held by what is touched, metres.
 const SHORT_M: f64 = 0.01;
-
-/// So many raw echoes in the way count, one may be false.
-const ECHOES: usize = 2;
 
 /// Drives a body through a known building, with obstacles that are not known.
 #[derive(Clone, Debug)]

@@ -32,6 +32,11 @@ impl Overlay {
     /// The keys that an overlay takes from a document.
     pub const KEYS: [&'static str; 5] = ["place", "bridge", "obstacle", "area", "door"];
 
+    /// The places, as they are written.
+    pub fn places(&self) -> impl Iterator<Item = &Place> {
+        self.places.iter().map(|place| &place.value)
+    }
+
     /// Reads the items of a TOML document such as `site.toml`. Keys other than [`Self::KEYS`] are left to the
     /// caller; inside of the items unknown keys are refused.
     ///

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use adit_planners::adapt::{Curve, Experiment, Method, Plugins, Scenario, Settings, Strategy, TOUCHING_M};
+use adit_planners::adapt::{
+    Curve, Experiment, KeepNothing, Method, Plugins, Scenario, Settings, Strategy, TOUCHING_M,
+};
 
 use super::arm_scenario::ArmScenario;
 use super::support::Table;
@@ -17,6 +19,7 @@ pub fn run(scenario: &Scenario, runs: u32, method: Method) -> Curve {
         runs,
         seed: 4000,
         judge: &|| Box::new(Table(Strategy::OnDemand)),
+        keeper: &|_, _| Box::new(KeepNothing),
         clock: &|| 0.0,
         progress: &|| (),
     };

@@ -6,7 +6,7 @@ use adit_planners::geometry::Point;
 use super::panel::DrivePicture;
 use super::{ground, marks};
 use crate::draw::frame::Frame;
-use crate::draw::palette::{BRIDGE, INK, ROUTE};
+use crate::draw::palette::{BRIDGE, GREY, INK, ROUTE};
 use crate::draw::sheet::line;
 use crate::draw::svg::{self, Svg};
 
@@ -21,26 +21,34 @@ pub(super) fn draw(svg: &mut Svg, picture: &DrivePicture, frame: &Frame) {
     for wall in &picture.walls {
         line(svg, frame.at(wall.a), frame.at(wall.b), INK, 1.8, "");
     }
-    let corners: Vec<Point> = picture.drive.turns.iter().map(|turn| turn.corner).collect();
+    let drive = picture.drive.as_ref();
+    let corners: Vec<Point> =
+        drive.iter().flat_map(|(_, drive)| &drive.turns).map(|turn| turn.corner).collect();
+    ground::closed(svg, frame, &picture.closed);
     ground::channels(svg, frame, &[], &picture.junctions, &corners);
-    for turn in &picture.drive.turns {
+    for (at, label) in &picture.labels {
+        let (x, y) = frame.at(*at);
+        svg.words((x + 4.0, y + 4.0), 12.0, GREY, label);
+    }
+    let Some((robot, drive)) = drive else { return };
+    for turn in &drive.turns {
         circle(svg, frame, turn.corner, turn.radius);
     }
-    for pose in poses(&picture.drive.primitives, 1.2 * picture.robot.length) {
-        body(svg, frame, picture.robot, &pose);
+    for pose in poses(&drive.primitives, 1.2 * robot.length) {
+        body(svg, frame, *robot, &pose);
     }
     svg.element("path")
-        .attr("d", &way(&picture.drive.primitives, frame))
+        .attr("d", &way(&drive.primitives, frame))
         .attr("fill", "none")
         .attr("stroke", ROUTE)
         .num("stroke-width", 2.2)
         .end();
-    let ends = picture.drive.primitives.first().zip(picture.drive.primitives.last());
+    let ends = drive.primitives.first().zip(drive.primitives.last());
     if let Some((first, last)) = ends {
         marks::dot(svg, frame.at(pose(first, 0.0).at), true);
         marks::dot(svg, frame.at(pose(last, 1.0).at), false);
     }
-    for (place, turn) in picture.drive.turns.iter().enumerate() {
+    for (place, turn) in drive.turns.iter().enumerate() {
         marks::number(svg, frame.at(turn.corner), place + 1);
     }
 }

@@ -57,6 +57,13 @@ pub(super) fn walls(svg: &mut Svg, frame: &Frame, channels: &[Rect], top: Option
     }
 }
 
+/// What is closed, in red.
+pub(super) fn closed(svg: &mut Svg, frame: &Frame, rects: &[Rect]) {
+    for rect in rects {
+        filled(svg, &frame.block(rect), "#f6d5d5");
+    }
+}
+
 /// Channels as thin outlines, junctions dashed, with their numbers in the corner that is farthest from all of `marks`.
 pub(super) fn channels(svg: &mut Svg, frame: &Frame, channels: &[Rect], junctions: &[Rect], marks: &[Point]) {
     for channel in channels {

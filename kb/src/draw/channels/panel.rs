@@ -2,7 +2,7 @@
 
 use adit_planners::channels::assembly::{Assembly, Cuboid, PartPath};
 use adit_planners::channels::corridor::{Corridors, Drive, Robot, Wall};
-use adit_planners::geometry::Rect;
+use adit_planners::geometry::{Point, Rect};
 
 use crate::draw::text;
 
@@ -37,8 +37,12 @@ pub(super) struct DrivePicture {
     pub channels: Vec<Rect>,
     pub junctions: Vec<Rect>,
     pub walls: Vec<Wall>,
-    pub robot: Robot,
-    pub drive: Drive,
+    /// Who drives, and how; nobody where the corridors alone are shown.
+    pub drive: Option<(Robot, Drive)>,
+    /// What is written where: numbers of channels, names of places.
+    pub labels: Vec<(Point, String)>,
+    /// The channels that are closed.
+    pub closed: Vec<Rect>,
 }
 
 impl ChannelPanel {
@@ -82,20 +86,55 @@ impl ChannelPanel {
     }
 
     pub fn drive(name: &str, corridors: &Corridors, robot: Robot, drive: &Drive) -> Self {
+        let figures = vec![length(drive.length), format!("clearance {:.3} m", drive.min_clearance)];
+        let mut panel = Self::corridors(name, corridors);
+        panel.figures = figures;
+        if let Picture::Drive(picture) = &mut panel.picture {
+            picture.drive = Some((robot, drive.clone()));
+        }
+        panel
+    }
+
+    /// Corridors that nobody drives through.
+    pub fn corridors(name: &str, corridors: &Corridors) -> Self {
         let hull = corridors.channels().iter().copied().reduce(joined);
         let hull = hull.unwrap_or(Rect::new(0.0, 0.0, 1.0, 1.0));
         Self {
             name: name.to_owned(),
-            figures: vec![length(drive.length), format!("clearance {:.3} m", drive.min_clearance)],
+            figures: Vec::new(),
             bounds: hull.grown(0.05 * hull.dx().max(hull.dy())),
             picture: Picture::Drive(DrivePicture {
                 channels: corridors.channels().to_vec(),
                 junctions: corridors.junctions().iter().map(|junction| junction.rect).collect(),
                 walls: corridors.walls().to_vec(),
-                robot,
-                drive: drive.clone(),
+                drive: None,
+                labels: Vec::new(),
+                closed: Vec::new(),
             }),
         }
+    }
+
+    /// With the numbers of channels, with those that are closed, and with places by name.
+    #[must_use]
+    pub fn labelled<'p>(
+        mut self,
+        is_closed: impl Fn(usize) -> bool,
+        places: impl Iterator<Item = (&'p str, Point)>,
+    ) -> Self {
+        if let Picture::Drive(picture) = &mut self.picture {
+            let numbered = (1..).zip(&picture.channels);
+            picture.closed =
+                numbered.clone().filter(|(number, _)| is_closed(*number)).map(|(_, rect)| *rect).collect();
+            let near_an_end = |rect: &Rect| {
+                let (x, y) = (rect.x0 + 0.3 * rect.dx(), rect.y0 + 0.3 * rect.dy());
+                let middle = rect.centre();
+                if rect.dx() > rect.dy() { Point::new(x, middle.y) } else { Point::new(middle.x, y) }
+            };
+            picture.labels =
+                numbered.map(|(number, rect)| (near_an_end(rect), format!("C{number}"))).collect();
+            picture.labels.extend(places.map(|(name, at)| (at, name.to_owned())));
+        }
+        self
     }
 
     /// The name of the panel with the letter of its place.

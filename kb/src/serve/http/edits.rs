@@ -270,6 +270,8 @@ pub struct Edited {
     pub doors: usize,
     /// Whether all was derived anew.
     pub anew: bool,
+    /// What rules that react told, in sentences.
+    pub reacted: Vec<String>,
     /// Milliseconds that it took, waiting included.
     pub took_ms: f64,
 }
@@ -286,6 +288,7 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
             rooms: outcome.rooms,
             doors: outcome.doors,
             anew: outcome.anew,
+            reacted: outcome.reacted,
             done: outcome.done,
             took_ms: 0.0,
         })

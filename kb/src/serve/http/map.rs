@@ -1,11 +1,15 @@
 //! The floor: walls, rooms and doors, and what rules say of them.
 
 use axum::Json;
-use serde::Serialize;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::extract::Site;
+use super::extract::{Asked, Site};
 use crate::graph::{Building, SiteGraph};
+use crate::serve::fault::Answered;
+use crate::serve::shared::beside;
 use adit_db::space::{Doorway, Space};
 use adit_planners::geometry::Convex;
 use adit_planners::world::{Shape, World};
@@ -156,9 +160,9 @@ pub async fn map(site: Site) -> Json<MapAnswer> {
                 to: [door.to.x, door.to.y],
             })
             .collect(),
-        places: graph
-            .places
-            .iter()
+        places: seen
+            .view
+            .places()
             .map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y })
             .collect(),
         spaces: graph.building.spaces.iter().map(space).collect(),
@@ -178,6 +182,29 @@ pub async fn map(site: Site) -> Json<MapAnswer> {
             })
             .collect(),
     })
+}
+
+#[derive(Deserialize)]
+pub struct Drawn {
+    start: Option<String>,
+    goal: Option<String>,
+    robot: Option<String>,
+}
+
+/// A map that is not cut into rooms as a picture, SVG, with the route between two ends where both are said.
+#[utoipa::path(get, path = "/api/picture", tag = "map",
+    params(("start" = Option<String>, Query, description = "A place or `x,y`"), ("goal" = Option<String>, Query, description = "A place or `x,y`"),
+           ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot")),
+    responses((status = 200, body = String, content_type = "image/svg+xml")))]
+pub async fn picture(site: Site, Asked(asked): Asked<Drawn>) -> Answered<Response> {
+    let seen = site.view.load_full();
+    let ends = asked.start.zip(asked.goal);
+    let svg = beside(move || {
+        let ends = ends.as_ref().map(|(start, goal)| (start.as_str(), goal.as_str()));
+        seen.view.picture(ends, asked.robot.as_deref())
+    });
+    let svg = svg.await?;
+    Ok(([(header::CONTENT_TYPE, "image/svg+xml")], svg).into_response())
 }
 
 fn space(space: &Space) -> SpaceOf {

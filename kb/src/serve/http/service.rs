@@ -27,8 +27,10 @@ pub struct SiteAnswer {
     generation: u64,
     /// Names the cut of the floor: while it stays, numbers of rooms and doors mean what they meant.
     layout: String,
-    /// by-state, paper or minimum.
+    /// by-state, paper, minimum, or none.
     rooms_mode: &'static str,
+    /// What the map is, where it is not cut into rooms: corridors or parts. Then `/api/picture` draws it.
+    layout_kind: Option<&'static str>,
     robots: Vec<String>,
     /// The map's edges, metres: x0, y0, x1, y1.
     bounds: [f64; 4],
@@ -61,11 +63,12 @@ pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
         generation: view.generation(),
         layout: view.layout().to_owned(),
         rooms_mode: site.rooms.name(),
+        layout_kind: view.site().course().map(|course| course.name()),
         robots: view.robots().to_vec(),
         bounds: [bounds.x0, bounds.y0, bounds.x1, bounds.y1],
         rooms: graph.rooms.len(),
         doors: graph.doors.len(),
-        places: graph.places.len(),
+        places: view.places().count(),
         roles: caller.allowed(),
         who: caller.name,
         changed_at: seen.since.clone(),

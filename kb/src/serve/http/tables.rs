@@ -1,5 +1,7 @@
 //! The tables that people tune, and named tunings.
 
+use std::collections::BTreeMap;
+
 use adit_db::relation::{Form, Relation, RelationColumn};
 use adit_db::{Cell, Tx};
 use axum::Json;
@@ -9,8 +11,8 @@ use utoipa::ToSchema;
 use super::extract::Site;
 use crate::edit;
 use crate::error::Result;
-use crate::knowledge::generation;
 use crate::knowledge::tunings;
+use crate::knowledge::{LAYOUT, generation};
 use crate::serve::fault::Answered;
 
 #[derive(Serialize, ToSchema)]
@@ -31,6 +33,16 @@ struct TableOf {
     rows: Vec<Vec<serde_json::Value>>,
     /// Cells that a tuning which is on sets otherwise.
     overridden: Vec<Overridden>,
+    /// What rules conclude of the rows.
+    concluded: Vec<ConcludedOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct ConcludedOf {
+    property: String,
+    /// A value for each row; null: unknown.
+    #[schema(value_type = Vec<serde_json::Value>)]
+    values: Vec<serde_json::Value>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -63,9 +75,12 @@ pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
 
 fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
     let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
-    let names: Vec<String> =
-        edit::TUNABLE.iter().map(ToString::to_string).chain(own.map(|table| table.name)).collect();
+    let has_places = tx.site_value(LAYOUT)?.is_some() && !tx.places()?.is_empty();
+    let of_map = has_places.then(|| "places".to_owned());
+    let names = edit::TUNABLE.iter().map(ToString::to_string).chain(of_map);
+    let names: Vec<String> = names.chain(own.map(|table| table.name)).collect();
     let in_force = tunings::in_force(tx)?;
+    let derivations = tx.read_table("derivations")?;
     let mut tables = Vec::new();
     for name in names {
         let relation = tx.read_table(&name)?;
@@ -79,7 +94,9 @@ fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
             value: cell.value.clone(),
             tuning: cell.tuning.clone(),
         });
-        tables.push(table(&relation, overridden.collect()));
+        let mut table = table(&relation, overridden.collect());
+        table.concluded = concluded(&derivations, &table);
+        tables.push(table);
     }
     Ok(TablesAnswer { generation: generation::read(tx)?, tables })
 }
@@ -105,7 +122,33 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
             .map(|row| relation.columns.iter().map(|column| value(relation, column, *row)).collect())
             .collect(),
         overridden,
+        concluded: Vec::new(),
     }
+}
+
+/// What the table of derivations says of the rows of another, by property.
+fn concluded(derivations: &Relation, table: &TableOf) -> Vec<ConcludedOf> {
+    let column = |name: &str| derivations.columns.iter().find(|column| column.name == name);
+    let (Some(classes), Some(keys)) = (column("class"), column("key")) else { return Vec::new() };
+    let (Some(properties), Some(values)) = (column("property"), column("value")) else { return Vec::new() };
+    let of = table.table.to_lowercase();
+    let places: BTreeMap<&str, usize> =
+        table.keys.iter().enumerate().map(|(place, key)| (key.as_str(), place)).collect();
+    let mut found: BTreeMap<String, Vec<serde_json::Value>> = BTreeMap::new();
+    for (row, class) in classes.values.iter().enumerate() {
+        if !matches!(class, Cell::Text(class) if *class == of) {
+            continue;
+        }
+        let Some(&place) = places.get(keys.values[row].to_string().as_str()) else { continue };
+        let blank = || vec![serde_json::Value::Null; table.keys.len()];
+        let known = found.entry(properties.values[row].to_string()).or_insert_with(blank);
+        known[place] = match &values.values[row] {
+            // of what rules conclude, truth values alone are kept as whole numbers
+            Cell::Integer(truth) => (*truth != 0).into(),
+            cell => serde_json::json!(cell),
+        };
+    }
+    found.into_iter().map(|(property, values)| ConcludedOf { property, values }).collect()
 }
 
 /// Whether a column holds truth values, which SQL has as 0 and 1.

@@ -2,12 +2,13 @@
 
 use axum::Json;
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
-use super::extract::Asked;
-use super::extract::Site;
+use super::extract::{Asked, Body, Site};
 use crate::error::{Code, Error};
 use crate::serve::fault::Answered;
 use crate::why::Why;
+use crate::why::ask::{self, Said};
 use crate::why::way::WhyWay;
 use crate::why::why_not::WhyNot;
 
@@ -52,6 +53,44 @@ pub async fn why(site: Site, Asked(asked): Asked<What>) -> Answered<Json<Reasons
         }
     });
     answer.await.map(Json)
+}
+
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AskBody {
+    /// What to find out: class, object and property, as `orders.2.total`.
+    what: String,
+    /// What was answered so far.
+    #[serde(default)]
+    answers: Vec<AnswerBody>,
+}
+
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AnswerBody {
+    /// What was asked, as `question.what` says it.
+    what: String,
+    /// The value; `null`: it is not known.
+    #[schema(value_type = serde_json::Value)]
+    value: serde_json::Value,
+}
+
+/// What a value is. Where rules lack something to conclude it, the next question: ask again with its answer. Nothing is
+/// kept of the answers; tell them where they should hold.
+#[utoipa::path(post, path = "/api/ask", tag = "reasons", request_body = AskBody,
+    responses((status = 200, body = ask::Asked)))]
+pub async fn ask(site: Site, Body(body): Body<AskBody>) -> Answered<Json<ask::Asked>> {
+    let said = body.answers.into_iter().map(|AnswerBody { what, value }| {
+        let value = match value {
+            serde_json::Value::Null => None,
+            serde_json::Value::String(text) => Some(text),
+            other => Some(other.to_string()),
+        };
+        Said { what, value }
+    });
+    let said: Vec<Said> = said.collect();
+    let fork = site.fork().await?;
+    site.at_length(move || fork.ask(&body.what, &said)).await.map(Json)
 }
 
 #[derive(Deserialize)]

@@ -22,19 +22,14 @@ impl Adapt {
         let mut best: Option<(f64, TagPoint)> = None;
         for placed in self.cell.placed() {
             let name = placed.object.name.as_str();
-            let hangs_here = |tag: &TagPoint| tag.object == name;
-            let clearance_m = placed.slack(&links).fold(f64::INFINITY, f64::min);
+            let clearance_m = placed.slack(&links, f64::INFINITY);
             let facts = LandmarkFacts {
                 object: name,
                 distance_m: placed.object.pose.at.distance(tool.at),
                 clearance_m: if clearance_m < 0.0 { f64::INFINITY } else { clearance_m },
                 is_movable: placed.object.is_movable,
                 times_moved: placed.times_moved,
-                subgoals: self
-                    .experience
-                    .vertices()
-                    .filter(|v| v.tag.as_ref().is_some_and(hangs_here))
-                    .count() as u32,
+                subgoals: self.experience.hung_on(name),
                 is_goal,
             };
             let Some(value) = judge.landmark(&facts) else { continue };
@@ -80,6 +75,7 @@ impl Adapt {
 
     pub(super) fn remove_edge(&mut self, a: VertexId, b: VertexId, why: Removal, object: Option<String>) {
         let Some(edge) = self.experience.remove_edge(a, b) else { return };
+        self.checked.remove(&edge.id);
         let (task, revision) = self.now();
         self.progress.tally.edges_removed += 1;
         self.progress.tally.edges_broken += u64::from(matches!(why, Removal::Broken | Removal::Refused));
@@ -96,7 +92,7 @@ impl Adapt {
             self.progress.refused.retain(|ends| ends.0 != id && ends.1 != id);
             self.progress.tightened.retain(|ends| ends.0 != id && ends.1 != id);
             self.progress.vertex = self.progress.vertex.filter(|(vertex, _)| *vertex != id);
-            self.noted.push(Noted::VertexRemoved { id, why });
+            self.noted.push(Noted::VertexRemoved { id, why, task: self.progress.tasks });
         }
     }
 }

@@ -106,6 +106,7 @@ impl Adapt {
             let (start, end) = (self.at(a), self.at(b));
             if let Some(edge) = self.experience.edge_mut(a, b) {
                 edge.loosen(crate::adapt::distance(&start, &end));
+                self.checked.remove(&edge.id);
                 self.noted.push(Noted::EdgeLoosened(edge.clone()));
             }
         }
@@ -116,8 +117,8 @@ impl Adapt {
         let tally = &self.progress.tally;
         let vertices = self.experience.vertices().count();
         let is_unsure = |at: &[f64]| {
-            let links = self.cell.robot().links(at);
-            self.cell.placed.iter().any(|placed| placed.slack(&links).any(|slack| slack < 0.0))
+            let links = self.cell.links(at);
+            self.cell.placed.iter().any(|placed| placed.slack(&links, 0.0) < 0.0)
         };
         let unsure = self.experience.vertices().filter(|vertex| is_unsure(&vertex.at)).count();
         facts.objects = self.cell.placed.len() as u32;

@@ -37,6 +37,9 @@ impl Adapt {
         let order = self.in_order(goal, from);
         order.into_iter().take(self.settings.tries).find_map(|id| {
             let at = self.at(id);
+            if at == goal {
+                return Some((id, vec![at]));
+            }
             self.reach(&at, goal).map(|path| (id, path))
         })
     }

@@ -20,6 +20,7 @@ impl Adapt {
     fn forget(&mut self) {
         let next = self.experience.next_numbers();
         self.experience = Experience::from_rows(Vec::new(), Vec::new(), next).unwrap_or_default();
+        self.checked.clear();
         self.cell.forget_clearances();
         self.progress.refused.clear();
         self.progress.tightened.clear();

@@ -1,16 +1,13 @@
 //! A task: from where the robot is to a goal (Chen 1994, Figure 1).
 
 use super::{Adapt, Outcome, Report};
-use crate::adapt::execution::collision;
+use crate::adapt::execution::{Outline, hit_of};
 use crate::adapt::experience::VertexId;
 use crate::adapt::judge::Judge;
 use crate::adapt::noted::Removal;
-use crate::adapt::object::Object;
 use crate::adapt::probe::Probe;
 use crate::adapt::robot::{Configuration, length};
-
-/// After so many refused paths a task is given up.
-const REFUSALS: u64 = 8;
+use crate::adapt::workcell::{Placed, Revision};
 
 /// A part of a path, and the edge that it follows, if it follows one.
 struct Part {
@@ -51,7 +48,7 @@ impl Adapt {
             return Err(Outcome::GoalInCollision(object));
         }
         let refusals = self.progress.tally.refusals;
-        while self.progress.tally.refusals < refusals + REFUSALS {
+        while self.progress.tally.refusals < refusals + u64::from(self.settings.most_refusals) {
             let (from, out) = self.stand_in(&here, judge);
             let (to, home) = self.goal_vertex(goal, from, judge).ok_or(Outcome::NotFound)?;
             let Some(mut sequence) = self.trace(from, to, judge) else { continue };
@@ -61,12 +58,15 @@ impl Adapt {
             if self.settings.tightens {
                 sequence = self.tighten(&sequence, judge);
             }
-            let mut parts = vec![Part { path: out, edge: None }];
+            // The ends of edges need no part of their own.
+            let is_part = |path: &Vec<Configuration>| path.len() > 1 || sequence.len() < 2;
+            let free = |path| Some(path).filter(is_part).map(|path| Part { path, edge: None });
+            let mut parts: Vec<Part> = free(out).into_iter().collect();
             for pair in sequence.windows(2) {
                 let path = self.experience.path(pair[0], pair[1]).unwrap_or_default();
                 parts.push(Part { path, edge: Some((pair[0], pair[1])) });
             }
-            parts.push(Part { path: home, edge: None });
+            parts.extend(free(home));
             if self.is_executable(&parts) {
                 self.stand(goal.to_vec(), Some(to));
                 return Ok(joined(parts));
@@ -118,13 +118,22 @@ impl Adapt {
         Some((id, path))
     }
 
-    /// The check before execution. What it refuses is known to be broken from then on.
+    /// The check before execution. What it refuses is known to be broken from then on; an edge that passed it is looked at
+    /// again only against objects that changed since.
     fn is_executable(&mut self, parts: &[Part]) -> bool {
+        let mut outlines: Option<Vec<(Revision, Outline)>> = None;
         for part in parts {
-            let objects = self.cell.placed().iter().map(|placed| &placed.object);
-            let Some(hit) =
-                collision(self.cell.robot().as_ref(), objects.collect::<Vec<&Object>>(), &part.path)
-            else {
+            let edge = part.edge.and_then(|(a, b)| self.experience.edge(a, b)).map(|edge| edge.id);
+            let checked = edge.and_then(|id| self.checked.get(&id).copied());
+            if checked == Some(self.cell.revision()) {
+                continue;
+            }
+            let ready = |placed: &Placed| (placed.since, Outline::of(&placed.object));
+            let outlines = outlines.get_or_insert_with(|| self.cell.placed().iter().map(ready).collect());
+            let is_new = |(since, _): &&(Revision, Outline)| checked.is_none_or(|revision| *since > revision);
+            let new = outlines.iter().filter(is_new).map(|(_, outline)| outline);
+            let Some(hit) = hit_of(self.cell.robot().as_ref(), &new, &part.path) else {
+                self.checked.extend(edge.map(|id| (id, self.cell.revision())));
                 continue;
             };
             self.progress.tally.refusals += 1;

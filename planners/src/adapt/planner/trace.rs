@@ -83,7 +83,11 @@ impl Adapt {
             if edge.ends.0 != from {
                 via.reverse();
             }
-            edge.via = via[1..via.len() - 1].to_vec();
+            let via = via[1..via.len() - 1].to_vec();
+            if edge.via != via {
+                edge.via = via;
+                self.checked.remove(&edge.id);
+            }
             (edge.verified_task, edge.verified_revision) = now;
             edge.times_verified += 1;
             edge.is_loose = false;

@@ -48,6 +48,23 @@ impl Route<'_> {
     }
 }
 
+/// What a way is to lead through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Through {
+    Channel(usize),
+    /// To turn there, by number.
+    Junction(usize),
+}
+
+impl Through {
+    fn is_met_by(self, passage: &Passage) -> bool {
+        match self {
+            Self::Channel(channel) => passage.channel == channel,
+            Self::Junction(junction) => passage.to == End::Junction(junction),
+        }
+    }
+}
+
 /// Start, goal, and each junction once for each of the two channels by which it may be left.
 type State = usize;
 const START: State = 0;
@@ -78,6 +95,17 @@ impl Corridors {
         &self,
         start: Point,
         goal: Point,
+        weigh: impl FnMut(&Passage) -> Result<Option<f64>, E>,
+    ) -> Result<Route<'_>, RouteError<E>> {
+        self.route_through(start, goal, None, weigh)
+    }
+
+    /// As [`route`](Self::route), of the ways that lead through a channel or junction; all where none is given.
+    pub fn route_through<E>(
+        &self,
+        start: Point,
+        goal: Point,
+        through: Option<Through>,
         mut weigh: impl FnMut(&Passage) -> Result<Option<f64>, E>,
     ) -> Result<Route<'_>, RouteError<E>> {
         for (what, point) in [(End::Start, start), (End::Goal, goal)] {
@@ -85,20 +113,28 @@ impl Corridors {
                 return Err(RouteError::Outside { what, point });
             }
         }
-        let mut reached: Vec<Option<Reached>> = vec![None; 2 + 2 * self.junctions().len()];
+        // each state once before what the way has to lead through, and once behind it
+        let states = 2 + 2 * self.junctions().len();
+        let mut reached: Vec<Option<Reached>> = vec![None; 2 * states];
         let mut is_settled = vec![false; reached.len()];
         let mut refused = Vec::new();
-        let mut queue = BinaryHeap::from([Reverse((0_u64, 0_usize, START))]);
+        let first = if through.is_some() { START } else { START + states };
+        let mut queue = BinaryHeap::from([Reverse((0_u64, 0_usize, first))]);
         while let Some(Reverse((bits, steps, state))) = queue.pop() {
             if std::mem::replace(&mut is_settled[state], true) {
                 continue;
             }
+            if state == GOAL + states {
+                return Ok(self.traced(start, goal, &reached, states));
+            }
+            // who is at the goal without having been where the way is to lead does not go on from there
             if state == GOAL {
-                return Ok(self.traced(start, goal, &reached));
+                continue;
             }
             let so_far = f64::from_bits(bits);
-            for passage in self.passages(start, goal, state) {
-                let to = self.state(passage.to, passage.channel);
+            for passage in self.passages(start, goal, state % states) {
+                let is_behind = state >= states || through.is_some_and(|through| through.is_met_by(&passage));
+                let to = self.state(passage.to, passage.channel) + if is_behind { states } else { 0 };
                 if is_settled[to] {
                     continue;
                 }
@@ -178,18 +214,18 @@ impl Corridors {
     }
 
     /// The way back from the goal, turned round.
-    fn traced(&self, start: Point, goal: Point, reached: &[Option<Reached>]) -> Route<'_> {
-        let (mut junctions, mut channels, mut at) = (Vec::new(), Vec::new(), GOAL);
-        while let Some(step) = reached[at].filter(|_| at != START) {
+    fn traced(&self, start: Point, goal: Point, reached: &[Option<Reached>], states: usize) -> Route<'_> {
+        let (mut junctions, mut channels, mut at) = (Vec::new(), Vec::new(), GOAL + states);
+        while let Some(step) = reached[at].filter(|_| at % states != START) {
             channels.push(step.channel);
-            if step.from != START {
-                junctions.push(step.from / 2);
+            if step.from % states != START {
+                junctions.push(step.from % states / 2);
             }
             at = step.from;
         }
         junctions.reverse();
         channels.reverse();
-        let weight = reached[GOAL].map_or(0.0, |goal| goal.weight);
+        let weight = reached[GOAL + states].map_or(0.0, |goal| goal.weight);
         Route { corridors: self, start, goal, junctions, channels, weight }
     }
 }

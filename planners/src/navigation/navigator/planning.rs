@@ -4,7 +4,7 @@ use super::{Navigator, Spot};
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
 use crate::local_model::LocalModel;
-use crate::navigation::cuts::Blocked;
+use crate::navigation::cuts::{Blocked, forbidden};
 use crate::navigation::detour::Detours;
 use crate::navigation::event::Happening;
 use crate::navigation::field::Ground;
@@ -72,11 +72,21 @@ impl Navigator<'_> {
             self.tell(Happening::WayClosed { at, doorway, region });
         }
         self.replans += 1;
+        self.ask_for_doorways(judge);
         // What is in the way of another path has to be seen again before that one counts as closed, too.
         self.readings_standing = 0;
         self.part.clear();
-        let is_stuck = self.spot.closed > 2;
+        let is_stuck = self.spot.closed > self.settings.most_closed;
         self.plan(judge, is_stuck);
+    }
+
+    /// Asks which doorways are closed whatever is seen: whoever was told of what the robot met may say otherwise by now.
+    pub(super) fn ask_for_doorways(&mut self, judge: &mut impl Judge) {
+        let forbidden = forbidden(&self.building.network, |facts| judge.weigh(facts));
+        if forbidden != self.forbidden {
+            self.forbidden = forbidden;
+            self.gather();
+        }
     }
 
     pub(super) fn retry(&mut self, judge: &mut impl Judge) {
@@ -91,6 +101,7 @@ impl Navigator<'_> {
         (self.retries, self.scans) = (self.retries + 1, 0);
         self.felt.clear();
         self.part.clear();
+        self.ask_for_doorways(judge);
         self.gather();
         self.tell(Happening::Retried);
         self.plan(judge, false);

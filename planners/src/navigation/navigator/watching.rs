@@ -1,6 +1,6 @@
 //! What the judge is told.
 
-use super::{ECHOES, FALLING_M, Navigator};
+use super::Navigator;
 use crate::geometry::{Point, path_length};
 use crate::navigation::highway::free_ahead;
 use crate::navigation::judge::StateFacts;
@@ -18,7 +18,7 @@ impl Navigator<'_> {
             state: self.state,
             has_goal: target.is_some(),
             distance_m,
-            is_falling: distance_m <= self.line.nearest_m + FALLING_M,
+            is_falling: distance_m <= self.line.nearest_m + self.settings.falling_m,
             heading_error: target.map_or(0.0, |target| pose.bearing(target).abs()),
             off_line_m: target
                 .map_or(0.0, |target| pose.at.distance(pose.at.nearest_on(self.line.from, target))),
@@ -69,6 +69,6 @@ impl Navigator<'_> {
         });
         let mut near: Vec<f64> = ahead.collect();
         near.sort_by(f64::total_cmp);
-        near.get(ECHOES - 1).copied().unwrap_or(distance)
+        near.get(self.settings.echoes - 1).copied().unwrap_or(distance)
     }
 }

@@ -1,0 +1,61 @@
+/** Asking for a value: what rules lack to conclude it is asked here, question by question. */
+
+import { post } from './api.js';
+import { button, byId, el, fill, form } from './dom.js';
+import { value as inWords } from './format.js';
+import { model } from './model.js';
+import { said } from './notice.js';
+import { refresh } from './refresh.js';
+
+let answers = [];
+
+/** The card in which a value is asked for. */
+export function askCard() {
+  const what = el('input', { id: 'ask-what', autocomplete: 'off', required: true, placeholder: 'orders.2.total' });
+  const begin = form({ class: 'line-form' }, () => { answers = []; return ask(); }, el('label', {}, 'Class, object and property ', what), el('button', { type: 'submit', class: 'strong', text: 'Find out' }));
+  return el('div', { class: 'card' }, el('h2', { text: 'Find something out' }), begin, el('div', { id: 'ask-said', role: 'status' }));
+}
+
+async function ask() {
+  try {
+    const asked = await post('/api/ask', { what: byId('ask-what').value.trim(), answers: answers.map(({ what, value }) => ({ what, value })) });
+    fill(byId('ask-said'), ...shown(asked), keepButton(asked));
+    byId('ask-answer')?.focus();
+  } catch (error) {
+    // an answer that cannot be is asked for again
+    answers.pop();
+    fill(byId('ask-said'), said(error));
+  }
+}
+
+function shown({ status, value, why, what, question, weighed }) {
+  const told = answers.map((answer) => el('p', { class: 'hint', text: `${answer.text} ${answer.value ?? 'not known'}` }));
+  if (question) {
+    const input = el('input', { id: 'ask-answer', autocomplete: 'off' });
+    const reply = (given) => { answers.push({ what: question.what, value: given || null, text: question.text }); return ask(); };
+    const asked = form({ class: 'line-form' }, () => reply(input.value.trim()), el('label', {}, `${question.text} `, input), el('button', { type: 'submit', class: 'strong', text: 'Answer' }), button('I do not know', () => reply(null)));
+    return [...told, asked];
+  }
+  const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), el('ul', { class: 'plain' }, ...why.map((text) => el('li', { text })))] : [el('p', { text: `${what} is unknown, and nothing that can be asked would settle it.` })];
+  return [...told, ...found, el('p', { class: 'hint', text: `Rules weighed ${weighed} objects for it.` })];
+}
+
+function keepButton({ question }) {
+  const told = answers.filter(({ value }) => value !== null);
+  if (question || !told.length || !model.may('tell')) return null;
+  return button('Tell the site these answers', () => keep(told));
+}
+
+async function keep(told) {
+  try {
+    let generation;
+    for (const { what, value } of told) {
+      const [, name, object, property] = /^([^.]+)\.(.*)\.([^.]+)$/u.exec(what);
+      ({ generation } = await post('/api/facts', { class: name.toUpperCase(), object, property, value, why: 'answered' }));
+    }
+    await refresh(generation);
+    fill(byId('ask-said'), el('p', { class: 'right', text: 'Told; it is among what is told now.' }));
+  } catch (error) {
+    fill(byId('ask-said'), said(error));
+  }
+}

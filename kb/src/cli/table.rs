@@ -1,0 +1,61 @@
+//! `adit table`: a table as a file.
+
+use std::path::PathBuf;
+
+use adit_db::Store;
+use clap::Args;
+
+use super::args::SiteArgs;
+use super::build::open;
+use super::output::{json, line};
+use super::tune::apply;
+use crate::edit::Edit;
+use crate::error::{Code, Error, Result};
+use crate::site::sheet::{self, Sheet};
+use crate::site::whole;
+
+#[derive(Args, Debug)]
+pub struct TableArgs {
+    #[command(flatten)]
+    pub site: SiteArgs,
+    /// The table; without --to or --from it is printed as CSV
+    pub table: String,
+    /// Write it to a file: .csv or .xlsx
+    #[arg(long, value_name = "FILE", conflicts_with = "from")]
+    pub to: Option<PathBuf>,
+    /// Make its rows those of a file (.csv or .xlsx), as one edit; columns that the file has not stay as they are
+    #[arg(long, value_name = "FILE")]
+    pub from: Option<PathBuf>,
+    /// Only show what would change
+    #[arg(long, requires = "from")]
+    pub dry_run: bool,
+    /// Why, for the history
+    #[arg(long, value_name = "TEXT", requires = "from")]
+    pub why: Option<String>,
+}
+
+pub fn run(args: &TableArgs) -> Result<()> {
+    if let Some(file) = args.to.iter().chain(&args.from).find(|file| !sheet::is_sheet(file)) {
+        let message = format!("{} is neither .csv nor .xlsx", file.display());
+        return Err(Error::said(Code::TableFile, message, None));
+    }
+    let knowledge = open(&args.site)?;
+    if let Some(file) = &args.from {
+        let edit = Edit::Table(args.table.clone(), Sheet::read(file)?);
+        return apply(&knowledge, &edit, args.why.as_deref(), (args.dry_run, args.site.json));
+    }
+    let mut store = Store::open_read_only(knowledge.database())?;
+    let table = store.snapshot(|tx| tx.read_table(&args.table))?;
+    let rows = table.columns.first().map_or(0, |column| column.values.len());
+    let Some(file) = &args.to else {
+        line(sheet::text(&table)?.trim_end());
+        return Ok(());
+    };
+    whole::write(file, &sheet::written(file, &table)?)?;
+    if args.site.json {
+        return json(&serde_json::json!({"file": file, "rows": rows}));
+    }
+    let s = if rows == 1 { "" } else { "s" };
+    line(&format!("{}: {rows} row{s} of {}", file.display(), args.table));
+    Ok(())
+}

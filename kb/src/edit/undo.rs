@@ -1,0 +1,57 @@
+//! Taking edits back, those that were made together in one go.
+
+use adit_db::Tx;
+use adit_db::carried_out::CarriedOut as Kept;
+use adit_db::edit::Edited;
+use adit_db::history::{Author, Edit as Entry};
+use adit_engine::RuleBase;
+
+use crate::error::Result;
+
+/// Takes an edit back with all that was made together with it: other cells and rows of one edit, and what rules did of it; of
+/// what a rule did, what it did for the same reason. No rule does it again for that reason.
+pub(super) fn undo(tx: &mut Tx<'_>, rules: &RuleBase, id: i64, author: &Author) -> Result<(Edited, usize)> {
+    let mut parts = tx.made_together(id)?;
+    parts.retain(|of| of.undone.is_none());
+    let by_rule =
+        |of: &Entry| rules.rules().iter().find(|rule| rule.reacts() && called(rule.name()) == of.who);
+    match parts.iter().find(|of| of.id == id).cloned() {
+        None => return Ok((tx.undo(id, author)?, 0)),
+        Some(entry) if by_rule(&entry).is_some() => {
+            parts.retain(|of| (&of.who, &of.why) == (&entry.who, &entry.why));
+        }
+        Some(_) => {}
+    }
+    let mut carried_out = tx.carried_out()?;
+    let known = carried_out.len();
+    for of in &parts {
+        if let Some(rule) = by_rule(of) {
+            let (rule, version) = (rule.name().to_owned(), rule.version().to_owned());
+            let done = Kept { rule, version, because: of.why.clone() };
+            if !carried_out[known..].contains(&done) {
+                carried_out.push(done);
+            }
+        }
+    }
+    tx.replace_carried_out(&carried_out)?;
+    let mut done = None;
+    for of in parts.iter().rev() {
+        let undone = tx.undo(of.id, author)?;
+        if of.id == id {
+            let key = match &of.column {
+                Some(column) => format!("{}.{}.{column}", of.table, undone.key),
+                None => undone.key.clone(),
+            };
+            done = Some(Edited { key, ..undone });
+        }
+    }
+    match done {
+        Some(done) => Ok((done, parts.len() - 1)),
+        None => Ok((tx.undo(id, author)?, 0)),
+    }
+}
+
+/// Who tells what a rule tells.
+pub(super) fn called(rule: &str) -> String {
+    format!("rule \"{rule}\"")
+}

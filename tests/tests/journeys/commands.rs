@@ -1,0 +1,226 @@
+//! Every command that the documents print works as it stands there, in a folder made as the text says.
+
+mod page;
+mod terminal;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use adit_tests::{Ran, adit, repository};
+
+use page::{Item, Kind, items};
+use terminal::Terminal;
+
+/// What a block that is no command is for.
+enum Use {
+    /// The text has the reader make this file of it.
+    File(&'static str),
+    /// The text has the reader add it to this file.
+    Added(&'static str),
+    /// Nothing on the page works with it: it shows a form.
+    Shown,
+}
+
+/// A page, what its blocks are for, by words in them, and the database that its SQL asks, by words in it.
+struct Page {
+    file: &'static str,
+    blocks: &'static [(&'static str, Use)],
+    databases: &'static [(&'static str, &'static str)],
+}
+
+const PAGES: [Page; 5] = [
+    Page {
+        file: "README.md",
+        blocks: &[
+            ("dock to ward 12, hardness", Use::Shown),
+            ("Walk-on-knee in corridor", Use::Shown),
+            ("width = 12.0", Use::File("drawn.toml")),
+            ("state = \"SQUAT\"", Use::Shown),
+            ("load = \"crate\"", Use::Added("my-site/robots.toml")),
+            ("rule \"a room is as hard as its state\"", Use::Shown),
+            ("by the tap", Use::Added("my-site/site.toml")),
+            ("revise \"wet floors are slippery\"", Use::File("my-site/rules/wet.rhai")),
+            ("rule \"a raised arm", Use::File("my-site/rules/arm.rhai")),
+            ("a metre weighs what the state weighs", Use::File("my-site/rules/tests/metre.toml")),
+            ("a robot found blocked", Use::File("my-site/rules/blocked.rhai")),
+            ("presents are wrapped", Use::File("my-shop/rules/presents.rhai")),
+            ("timezone = ", Use::Shown),
+            ("distance,measured", Use::File("runs.csv")),
+        ],
+        databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
+    },
+    Page { file: "kb/PLAN.md", blocks: &[], databases: &[("action_sequence", "part.db")] },
+    Page {
+        file: "kb/NAVIGATION.md",
+        blocks: &[
+            ("start 1.5,1.5 90", Use::File("orders.txt")),
+            ("squeaks = true", Use::Shown),
+            ("nobody crosses what is wet", Use::Shown),
+        ],
+        databases: &[("journal", "missions.db"), ("floor_regions", "flat.db")],
+    },
+    Page { file: "kb/ADAPT.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
+    Page {
+        file: "kb/SERVICE.md",
+        blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
+        databases: &[],
+    },
+];
+
+/// What is not run, and why.
+const NOT_RUN: [(&str, &str); 5] = [
+    ("cargo ", "builds the program or its documents anew: minutes; the tests run what it builds"),
+    ("tests/run", "runs all tests, this one too"),
+    ("tests/peers/", "needs other people's programs; tests/tests/peers.rs runs them where these are"),
+    ("tests/pictures.sh", "draws pictures to be looked at"),
+    ("DELETE FROM", "a fragment"),
+];
+
+/// Statements that find nothing where all is well.
+const MAY_BE_EMPTY: [&str; 2] = ["FROM journal", "FROM edges"];
+
+fn check(file: &str) {
+    let page = PAGES.iter().find(|page| page.file == file).expect("a page of the list");
+    let mut terminal = Terminal::new();
+    terminal.link("kb");
+    map_of_yours(terminal.folder());
+    let text = fs::read_to_string(repository().join(file)).expect("a page");
+    let all = items(&text);
+    // a file is there before the commands that need it, though the page may show it below them
+    for item in all.iter().filter(|item| matches!(item.kind, Kind::Block)) {
+        if let Use::File(name) = used(page, item)
+            && !name.contains('/')
+        {
+            terminal.write(name, &item.text);
+        }
+    }
+    for item in &all {
+        let at = format!("{file}, line {}", item.line);
+        match item.kind {
+            Kind::Command if NOT_RUN.iter().any(|(words, _)| item.text.starts_with(words)) => {
+                if let Some(script) =
+                    item.text.split_whitespace().next().filter(|word| word.starts_with("tests/"))
+                {
+                    assert!(repository().join(script).is_file(), "{at}: there is no {script}");
+                }
+            }
+            Kind::Command => terminal.run(&item.text, &at),
+            Kind::Sql => {
+                let found = page.databases.iter().find(|(words, _)| item.text.contains(words));
+                let (_, database) =
+                    found.unwrap_or_else(|| panic!("{at}: of which database is this?\n{}", item.text));
+                let rows = terminal.sqlite3(database, &item.text, &at);
+                let may_be_empty = MAY_BE_EMPTY.iter().any(|words| item.text.contains(words));
+                assert!(may_be_empty || !rows.is_empty(), "{at}: no row\n{}", item.text);
+            }
+            Kind::Block => match used(page, item) {
+                Use::File(name) => terminal.write(name, &item.text),
+                Use::Added(name) => terminal.add(name, &item.text),
+                Use::Shown => {}
+            },
+        }
+    }
+}
+
+fn used<'p>(page: &'p Page, item: &Item) -> &'p Use {
+    let found = page.blocks.iter().find(|(words, _)| item.text.contains(words));
+    &found
+        .unwrap_or_else(|| {
+            panic!("{}, line {}: what is this block for?\n{}", page.file, item.line, item.text)
+        })
+        .1
+}
+
+/// The `map.yaml` with its image that a reader has: 30 x 14 m, free but for its edge.
+fn map_of_yours(folder: &Path) {
+    let (columns, rows) = (300, 140);
+    let is_edge = |cell: usize| {
+        let (column, row) = (cell % columns, cell / columns);
+        column == 0 || row == 0 || column == columns - 1 || row == rows - 1
+    };
+    let mut image = format!("P5\n{columns} {rows}\n255\n").into_bytes();
+    image.extend((0..columns * rows).map(|cell| if is_edge(cell) { 0 } else { 254 }));
+    fs::write(folder.join("map.pgm"), image).expect("written");
+    let text = "image: map.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    fs::write(folder.join("map.yaml"), text).expect("written");
+}
+
+#[test]
+fn the_readme() {
+    check("README.md");
+}
+
+#[test]
+fn parts_and_corridors() {
+    check("kb/PLAN.md");
+}
+
+#[test]
+fn floor_plans_and_missions() {
+    check("kb/NAVIGATION.md");
+}
+
+#[test]
+fn cells_and_experience() {
+    check("kb/ADAPT.md");
+}
+
+#[test]
+fn the_service() {
+    check("kb/SERVICE.md");
+}
+
+#[test]
+fn no_other_page_prints_a_command() {
+    let mut found = Vec::new();
+    pages(&repository(), &mut found);
+    assert!(found.len() > PAGES.len(), "{found:?}");
+    for page in found {
+        let name = page.strip_prefix(repository()).expect("in the repository").to_string_lossy().into_owned();
+        // what changed is told of what was
+        if name == "CHANGELOG.md" || PAGES.iter().any(|page| page.file == name) {
+            continue;
+        }
+        let text = fs::read_to_string(&page).expect("a page");
+        let commands: Vec<Item> = items(&text).into_iter().filter(|item| item.kind != Kind::Block).collect();
+        let runs = |item: &Item| NOT_RUN.iter().all(|(words, _)| !item.text.starts_with(words));
+        assert!(!commands.iter().any(runs), "{name} prints commands, and no test runs them: {commands:?}");
+    }
+}
+
+/// The Markdown files of the repository.
+fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("a folder").flatten() {
+        let (path, name) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
+        if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+            if !name.starts_with('.') && name != "target" && name != "node_modules" {
+                pages(&path, found);
+            }
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            found.push(path);
+        }
+    }
+}
+
+/// The commands that a program said one might run next.
+fn next(said: &str) -> Vec<String> {
+    let listed = said.split_once("What to try next:\n").map_or("", |(_, listed)| listed).lines();
+    let one = said.lines().filter_map(|line| line.strip_prefix("next: "));
+    listed.chain(one).map(|line| line.trim().to_owned()).collect()
+}
+
+#[test]
+fn what_the_demo_and_a_new_site_say_to_try_next_runs_where_no_adit_is_installed() {
+    let mut terminal = Terminal::without_adit();
+    for arguments in [&["demo"][..], &["demo", "--out", "a demo's"], &["new", "a new site"]] {
+        let ran = Command::new(adit()).args(arguments).current_dir(terminal.folder()).output();
+        let said = Ran::new(&ran.expect("adit runs")).expecting(0).stdout;
+        let commands = next(&said);
+        assert!(!commands.is_empty(), "{said}");
+        for command in commands {
+            terminal.run(&command, &arguments.join(" "));
+        }
+        fs::remove_dir_all(terminal.folder().join("my-site")).ok();
+    }
+}

@@ -1,0 +1,17 @@
+//! Navigation on floor plans as its users meet it: paths, missions of a simulated robot, and rules that decide both.
+
+mod bad_input;
+mod broken_rules;
+mod flat;
+mod journeys;
+mod kept;
+mod learning;
+mod maps;
+mod position;
+mod same_as_table;
+mod told;
+mod why;
+
+// What the planners' tests judge by.
+#[path = "../../../planners/tests/navigation/table.rs"]
+mod table;

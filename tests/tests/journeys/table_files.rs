@@ -1,0 +1,215 @@
+//! Tables go out to a spreadsheet and come back as one edit.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
+
+use std::process::Command;
+
+use adit_tests::{Ran, TestSite};
+
+/// Runs a few lines of Python, with openpyxl, in the site's folder.
+fn python(site: &TestSite, script: &str) -> Ran {
+    let ran = Command::new("/usr/bin/python3").current_dir(site.path()).args(["-c", script]).output();
+    Ran::new(&ran.expect("python3 runs (tests/run installs it with openpyxl)")).expecting(0)
+}
+
+fn at(site: &TestSite, file: &str) -> String {
+    site.path().join(file).display().to_string()
+}
+
+#[test]
+fn a_table_goes_to_a_spreadsheet_and_comes_back_as_one_edit() {
+    let site = TestSite::example("clinic").built();
+    let (before, file) = (site.sqlite3("SELECT * FROM robots"), at(&site, "robots.xlsx"));
+    let written = site.adit("table", &["robots", "--to", &file]).expecting(0).stdout;
+    assert!(written.contains("rows of robots"), "{written}");
+    site.adit("table", &["robots", "--from", &file]).expecting(2).complains(&["holds what", "says already"]);
+    let script = "
+import openpyxl
+book = openpyxl.load_workbook('robots.xlsx')
+sheet = book.active
+heads = [cell.value for cell in sheet[1]]
+hardness = heads.index('hardness') + 1
+assert 'state*' in heads, heads
+for row in (2, 3):
+    sheet.cell(row, hardness).value = sheet.cell(row, hardness).value * 2
+book.save('robots.xlsx')
+print(sheet.max_row - 1, sheet.freeze_panes)
+";
+    let read = python(&site, script).stdout;
+    assert_eq!(read.trim(), format!("{} A2", before.len()));
+    let preview = site.adit("table", &["robots", "--from", &file, "--dry-run"]).expecting(0).stdout;
+    assert!(preview.contains("robots is as") && preview.contains("2 cells set\n  "), "{preview}");
+    assert!(preview.contains(".hardness: "), "{preview}");
+    assert_eq!(site.sqlite3("SELECT * FROM robots"), before, "a preview changes nothing");
+    let edited = site.adit("table", &["robots", "--from", &file, "--why", "measured"]).expecting(0).stdout;
+    assert!(edited.contains("2 cells set") && edited.contains("dock to"), "{edited}");
+    assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set), count(*) FROM history"), ["1|2"]);
+    assert_ne!(site.sqlite3("SELECT * FROM robots"), before);
+    // one undo takes back all of it, and one more brings all of it back
+    let undone = site.adit("undo", &[]).expecting(0).stdout;
+    assert!(undone.contains("and one more that was made with it"), "{undone}");
+    assert_eq!(site.sqlite3("SELECT * FROM robots"), before);
+    let last = site.sqlite3("SELECT max(id) FROM history");
+    site.adit("undo", &[&last[0]]).expect_status(0);
+    assert_ne!(site.sqlite3("SELECT * FROM robots"), before);
+}
+
+#[test]
+fn rows_come_and_go_and_what_is_wrong_names_the_row() {
+    let site = TestSite::example("shop").built();
+    let table = site.adit("table", &["orders"]).expecting(0).stdout;
+    let rows: Vec<&str> = table.lines().collect();
+    let orders = site.sqlite3("SELECT count(*) FROM orders");
+    // the last row goes, another one comes
+    let last = rows[rows.len() - 1].split_once(',').unwrap().1;
+    let mut fewer = rows[..rows.len() - 1].to_vec();
+    let new = format!("9,{last}");
+    fewer.push(&new);
+    site.write("orders.csv", fewer.join("\n"));
+    let file = at(&site, "orders.csv");
+    let edited = site.adit("table", &["orders", "--from", &file]).expecting(0).stdout;
+    assert!(edited.contains("1 row new, 1 row gone"), "{edited}");
+    assert_eq!(site.sqlite3("SELECT count(*) FROM orders"), orders);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.adit("table", &["orders"]).expecting(0).stdout, table, "as it was, to the letter");
+
+    let before = site.sqlite3("SELECT * FROM history");
+    for (text, said) in [
+        (
+            table.replacen(rows[0], &format!("{},colour", rows[0]), 1),
+            vec!["orders.csv:2", "cells, and there are"],
+        ),
+        (
+            table.replacen(rows[0].split(',').nth(1).unwrap(), "colour", 1),
+            vec!["orders.csv:1", "no column `colour`"],
+        ),
+        (format!("{table}\n{}", rows[1]), vec!["two rows are called"]),
+        (String::new(), vec!["it is empty"]),
+    ] {
+        site.write("orders.csv", text);
+        site.adit("table", &["orders", "--from", &file]).expecting(2).complains(&said);
+    }
+    site.write("orders.xlsx", "no workbook");
+    site.adit("table", &["orders", "--from", &at(&site, "orders.xlsx")])
+        .expecting(2)
+        .complains(&["is no workbook"]);
+    site.adit("table", &["orders", "--to", &at(&site, "orders.ods")])
+        .expecting(2)
+        .complains(&["neither .csv nor .xlsx"]);
+    site.adit("table", &["ordres"]).expecting(2).complains(&["ordres"]);
+    site.adit("table", &["conclusions", "--from", &at(&site, "orders.csv")])
+        .expecting(2)
+        .complains(&["empty"]);
+    assert_eq!(site.sqlite3("SELECT * FROM history"), before, "nothing of it was kept");
+}
+
+#[test]
+fn a_workbook_seeds_a_table_as_csv_does() {
+    let (site, other) = (TestSite::example("shop"), TestSite::example("shop"));
+    let name = std::fs::read_dir(site.path().join("tables")).unwrap().flatten().next().unwrap().file_name();
+    let name = name.to_string_lossy().into_owned();
+    let stem = name.strip_suffix(".csv").unwrap();
+    let script = format!(
+        "
+import csv, openpyxl
+book = openpyxl.Workbook()
+def value(text):
+    if text in ('true', 'false'): return text == 'true'
+    try: return float(text)
+    except ValueError: return text or None
+for number, row in enumerate(csv.reader(open('tables/{stem}.csv'))):
+    book.active.append([value(cell) if number else cell for cell in row])
+book.save('tables/{stem}.xlsx')
+"
+    );
+    python(&site, &script);
+    std::fs::remove_file(site.path().join("tables").join(&name)).unwrap();
+    site.adit("build", &[]).expect_status(0);
+    other.adit("build", &[]).expect_status(0);
+    let rows = format!("SELECT * FROM {stem}");
+    assert_eq!(site.sqlite3(&rows), other.sqlite3(&rows));
+}
+
+#[test]
+fn cells_of_a_workbook_that_are_none_are_named() {
+    let site = TestSite::example("shop").built();
+    let table = site.adit("table", &["orders", "--to", &at(&site, "orders.xlsx")]).expecting(0);
+    assert!(table.stdout.contains("rows of orders"));
+    for (edit, said) in [
+        ("sheet['B3'] = datetime.date(2026, 1, 2)", "cell B3 is a date"),
+        ("sheet.cell(2, 30).value = 5", "in a column without a name"),
+        ("sheet['A2'] = None", "orders.xlsx, row 2: this row has no"),
+    ] {
+        let script = format!(
+            "
+import datetime, openpyxl
+book = openpyxl.load_workbook('orders.xlsx')
+sheet = book.active
+{edit}
+book.save('wrong.xlsx')
+"
+        );
+        python(&site, &script);
+        let said = said.replace("orders.xlsx", "wrong.xlsx");
+        site.adit("table", &["orders", "--from", &at(&site, "wrong.xlsx")]).expecting(2).complains(&[&said]);
+    }
+}
+
+#[test]
+fn what_went_out_comes_back_to_the_letter() {
+    let site = TestSite::example("shop");
+    site.write("tables/odd.csv", "k,v,n\n007,010,1\n+1,\" lead\",2\n1e5,trail ,3\n-0,\"a\"\"b, c\",4\n");
+    let site = site.built();
+    let before = site.sqlite3("SELECT k, v, n, typeof(n) FROM odd");
+    assert!(before.iter().any(|row| row.starts_with("007|010|1|")), "{before:?}");
+    for file in ["odd.csv", "odd.xlsx"].map(|file| at(&site, file)) {
+        site.adit("table", &["odd", "--to", &file]).expect_status(0);
+        site.adit("table", &["odd", "--from", &file]).expecting(2).complains(&["says already"]);
+    }
+    assert_eq!(site.sqlite3("SELECT k, v, n, typeof(n) FROM odd"), before);
+    let flat = site.path().join("flat");
+    let map = adit_tests::repository().join("kb/worlds/flat.toml");
+    let adit = |args: &[&str]| Ran::new(&Command::new(adit_tests::adit()).args(args).output().unwrap());
+    let (flat, map) = (flat.display().to_string(), map.display().to_string());
+    adit(&["new", &flat, "--map", &map]).expect_status(0);
+    adit(&["build", &flat]).expect_status(0);
+    for table in ["navigation", "walls", "solids", "vehicles", "marks", "places"] {
+        for file in ["t.csv", "t.xlsx"].map(|file| at(&site, file)) {
+            adit(&["table", &flat, table, "--to", &file]).expect_status(0);
+            adit(&["table", &flat, table, "--from", &file]).expecting(2).complains(&["says already"]);
+        }
+    }
+    // a map alone is not poured over the tables of a site
+    let other = adit_tests::repository().join("kb/worlds/corridor-S.toml").display().to_string();
+    let database = format!("{flat}/site.db");
+    adit(&["route", &other, "start", "goal", "--db", &database])
+        .expecting(2)
+        .complains(&["is the database of flat"]);
+    adit(&["build", &map, "--db", &database]).expecting(2).complains(&["is the database of flat"]);
+}
+
+#[test]
+fn quotes_that_are_not_closed_formulas_without_values_and_cells_far_off_are_refused() {
+    let site = TestSite::example("shop").built();
+    let orders = site.sqlite3("SELECT * FROM orders");
+    site.write("orders.csv", "order,customer,product,pieces\n1,\"Ada,kettle,1\n2,Bruno,tea,12\n");
+    let from = |file: &str| site.adit("table", &["orders", "--from", &at(&site, file)]);
+    from("orders.csv").expecting(2).complains(&["line 2: a quote is not closed"]);
+    site.adit("table", &["orders", "--to", &at(&site, "orders.xlsx")]).expect_status(0);
+    for (edit, said) in [
+        ("sheet['D2'] = '=1+1'", "cell D2 is a formula without a value"),
+        ("sheet['XFD1048576'] = 'z'", "cell XFD1048576 stands in a column without a name"),
+    ] {
+        let script = format!(
+            "
+import openpyxl
+book = openpyxl.load_workbook('orders.xlsx')
+sheet = book.active
+{edit}
+book.save('wrong.xlsx')
+"
+        );
+        python(&site, &script);
+        from("wrong.xlsx").expecting(2).complains(&[said]);
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM orders"), orders);
+}
