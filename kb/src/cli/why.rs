@@ -58,7 +58,8 @@ pub fn why(args: &WhyArgs) -> Result<()> {
         return of_route(args, goal);
     }
     if args.at.is_some() || args.world.is_some() {
-        let message = format!("--at is for routes and missions, --world for missions, and {} is none", args.what);
+        let message =
+            format!("--at is for routes and missions, --world for missions, and {} is none", args.what);
         let help = "`adit simulate SITE --keep` keeps missions; `adit why SITE \"mission 1\"` asks about one";
         return Err(Error::said(Code::WhyNoMissions, message, Some(help.to_owned())));
     }

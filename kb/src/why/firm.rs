@@ -6,8 +6,6 @@
 
 mod beyond;
 
-use std::time::{Duration, Instant};
-
 use serde::Serialize;
 
 use crate::answer;
@@ -18,9 +16,6 @@ use crate::why::contrast::same_way::SameWay;
 use crate::why::contrast::{Course, Found, Lever, Prober, Routes, Side, Turn, least};
 use crate::words::suggest::did_you_mean;
 pub use beyond::Beyond;
-
-/// How long is spent on one question.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// How firm a route is.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -94,9 +89,8 @@ impl State {
         let Some(path) = routes.best(&prober.present) else { return Ok(firm) };
         firm.cost = routes.driven_cost(&prober.present);
         let same = SameWay::new(&prober, &routes, path);
-        let deadline = Instant::now() + PATIENCE;
         let levers = prober.levers()?;
-        let mut turn = Turn::new(&mut prober, &same, deadline);
+        let mut turn = Turn::new(&mut prober, &same);
         let courses: Result<Vec<Course>> = levers.into_iter().map(|lever| turn.course(lever)).collect();
         let courses = courses?;
         let never = turn.without_end_below(&courses, None);

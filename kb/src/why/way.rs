@@ -6,8 +6,6 @@
 mod parts;
 mod words;
 
-use std::time::{Duration, Instant};
-
 use adit_engine::Value;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::routes::DoorIndex;
@@ -23,9 +21,6 @@ use crate::live::Live;
 use crate::state::State;
 use crate::why::why_not::failures;
 use parts::{Ease, Manner, Part, is_at, parts, spaces_of};
-
-/// How long is looked for the value up to which a choice holds.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Why a route does what it does.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -222,9 +217,8 @@ impl Holds {
         };
         let beside = Beside::new(routes, others);
         let levers = prober.levers_in("ROBOTS")?;
-        let deadline = Instant::now() + PATIENCE;
         for lever in levers.iter().filter(|lever| is_own(lever, &prober.fork)).cloned().collect::<Vec<_>>() {
-            let mut turn = Turn::new(prober, &beside, deadline);
+            let mut turn = Turn::new(prober, &beside);
             let course = turn.course(lever)?;
             let lever = &course.lever;
             let sides = [turn.end(&course, Side::Below, None)?, turn.end(&course, Side::Above, None)?];

@@ -8,8 +8,6 @@ mod words;
 
 pub(super) use words::failures;
 
-use std::time::{Duration, Instant};
-
 use adit_engine::Rejected;
 use serde::Serialize;
 
@@ -22,9 +20,6 @@ use crate::live::Live;
 use crate::state::State;
 use crate::why::Reasoned;
 use crate::why::subject::Subject;
-
-/// How long is looked for a cell that would decide otherwise.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Why a route does not lead through something.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -189,10 +184,9 @@ impl WhyNot {
 /// The cell that has to change least, as a share of what it is, for a way through to cost no more than any other; and
 /// whether time was over before all were looked at.
 fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<(Option<WouldWin>, bool)> {
-    let deadline = Instant::now() + PATIENCE;
     let levers = prober.levers()?;
     let beside = Beside::new(routes, others);
-    let mut turn = Turn::new(prober, &beside, deadline);
+    let mut turn = Turn::new(prober, &beside);
     let mut guessed = Vec::new();
     for lever in levers {
         guessed.push((turn.guess(&lever)?, turn.course(lever)?));

@@ -7,8 +7,8 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
-use std::time::Duration;
+use std::collections::{BTreeMap, BTreeSet};
+use std::time::{Duration, Instant};
 
 use adit::edit::Edit;
 use adit::preview::Wanted;
@@ -56,6 +56,8 @@ struct Desk {
     changes_cost: bool,
     /// Claims that turned out wrong.
     wrong: RefCell<Vec<String>>,
+    /// How long answers took, in milliseconds, by question.
+    took: RefCell<BTreeMap<&'static str, Vec<f64>>>,
 }
 
 impl Desk {
@@ -88,6 +90,7 @@ impl Desk {
             things,
             changes_cost,
             wrong: RefCell::default(),
+            took: RefCell::default(),
             _site: site,
         }
     }
@@ -97,6 +100,13 @@ impl Desk {
         if !is_so {
             self.wrong.borrow_mut().push(said());
         }
+    }
+
+    fn timed<T>(&self, question: &'static str, answer: impl FnOnce() -> T) -> T {
+        let since = Instant::now();
+        let answer = answer();
+        self.took.borrow_mut().entry(question).or_default().push(since.elapsed().as_secs_f64() * 1e3);
+        answer
     }
 
     /// A place.
@@ -359,22 +369,36 @@ fn ask(desk: &Desk, seed: u64, questions: usize) -> usize {
         let robot = desk.robots[chance.below(desk.robots.len())].clone();
         let (fork, robot) = (desk.live.fork(), Some(robot.as_str()));
         match question % 5 {
-            0 | 1 => said += check_way(desk, &fork.why_way((&start, &goal), None, robot).unwrap()),
+            0 | 1 => {
+                let why = desk.timed("why", || fork.why_way((&start, &goal), None, robot).unwrap());
+                said += check_way(desk, &why);
+            }
             2 | 3 => {
                 let through = desk.through(&mut chance);
                 // a point in a wall is none
-                if let Ok(answer) = fork.why_not(&start, &goal, &through, robot) {
+                if let Ok(answer) = desk.timed("why-not", || fork.why_not(&start, &goal, &through, robot)) {
                     check_why_not(desk, &answer);
                     said += 1;
                 }
             }
             _ => {
-                let firm = fork.firm(&start, &goal, robot).unwrap();
+                let firm = desk.timed("firm", || fork.firm(&start, &goal, robot).unwrap());
                 check_firm(desk, &firm);
                 check_together(desk, &desk.live.why_way((&start, &goal), None, robot).unwrap(), &firm);
                 said += firm.cells.len();
             }
         }
+    }
+    for (question, took) in desk.took.borrow_mut().iter_mut() {
+        took.sort_by(f64::total_cmp);
+        let at = |share: f64| took[((took.len() - 1) as f64 * share) as usize];
+        eprintln!(
+            "{question}: {} answers, median {:.0} ms, 95 % {:.0} ms, most {:.0} ms",
+            took.len(),
+            at(0.5),
+            at(0.95),
+            at(1.0)
+        );
     }
     let wrong = desk.wrong.borrow();
     assert!(wrong.is_empty(), "{} of {said} sentences are wrong:\n{}", wrong.len(), wrong.join("\n"));

@@ -14,8 +14,17 @@ pub trait Contrast {
     /// The best of the others, and what it costs.
     fn rival(&self, weights: &Weights) -> Option<(Path, f64)>;
 
+    /// As [`look`](Self::look), without a search for what is not the best: `own` or `rival` may be missing.
+    fn glance(&self, weights: &Weights) -> Option<Look> {
+        self.look(weights)
+    }
+
     /// Whether the others have won where the ways that hold cost so much, and the others so much.
     fn is_turned(&self, own: f64, rival: f64) -> bool;
+
+    /// As a share of an end, how far to either side of it is looked at what is the best there; 0 where ways are sums of doors, and
+    /// ends follow from them.
+    fn hair(&self) -> f64;
 }
 
 /// The best of both sets of ways at some weights.

@@ -1,7 +1,5 @@
 //! All ways, beside some that speak against the best.
 
-use std::cell::RefCell;
-
 use adit_planners::routes::{Goal, RouteGraph, Start, Way};
 
 use super::{Contrast, Look, Path, Routes, Weights};
@@ -11,49 +9,46 @@ pub trait Ways {
     /// The best of them.
     fn best(&self, weights: &Weights) -> Option<Path>;
 
-    /// Whether a way is one of them.
-    fn holds(&self, path: &Path) -> bool;
+    /// Whether a way is one of them; `None` where that is not to be seen in it.
+    fn holds(&self, path: &Path) -> Option<bool>;
 }
 
-/// All ways hold, until one of the others is as good.
+/// All ways hold, until the best of them is one of the others, or one of the others is as good.
 pub struct Beside<'c> {
     all: &'c Routes,
     others: &'c dyn Ways,
-    /// Ways that were the best somewhere, and are none of the others.
-    known: RefCell<Vec<Path>>,
 }
 
 impl<'c> Beside<'c> {
     pub fn new(all: &'c Routes, others: &'c dyn Ways) -> Self {
-        Self { all, others, known: RefCell::default() }
-    }
-
-    /// The one that costs least of the ways that are known.
-    fn known(&self, weights: &Weights) -> Option<(Path, f64)> {
-        let known = self.known.borrow();
-        let costs = known.iter().map(|path| (path, path.cost(weights)));
-        let least = costs.min_by(|(_, one), (_, two)| one.total_cmp(two));
-        least.map(|(path, cost)| (path.clone(), cost))
+        Self { all, others }
     }
 }
 
 impl Contrast for Beside<'_> {
     fn look(&self, weights: &Weights) -> Option<Look> {
-        let rival = self.rival(weights);
-        let is_won = |own: f64| rival.as_ref().is_some_and(|(_, rival)| self.is_turned(own, *rival));
-        // where the others lose against a way that is known already, they lose against the best one
-        if let Some((own, cost)) = self.known(weights).filter(|(_, cost)| !is_won(*cost)) {
-            return Some(Look { own: Some((own, cost)), rival, is_turned: false });
+        let glance = self.glance(weights)?;
+        if glance.is_turned || glance.rival.is_some() {
+            return Some(glance);
         }
+        Some(Look { rival: self.rival(weights), ..glance })
+    }
+
+    fn glance(&self, weights: &Weights) -> Option<Look> {
         let own = self.all.best(weights)?;
         let cost = own.cost(weights);
-        if self.others.holds(&own) {
-            let both = Some((own, cost));
-            return Some(Look { own: both.clone(), rival: both, is_turned: true });
+        let holds = self.others.holds(&own);
+        let own = Some((own, cost));
+        if holds == Some(true) {
+            return Some(Look { own: own.clone(), rival: own, is_turned: true });
         }
-        self.known.borrow_mut().push(own.clone());
-        let is_turned = is_won(cost);
-        Some(Look { own: Some((own, cost)), rival, is_turned })
+        // which of two ways that cost the same is found says nothing where ways are lists of doors
+        if holds.is_none() || self.all.is_on_doors() {
+            let rival = self.rival(weights);
+            let is_turned = rival.as_ref().is_some_and(|(_, rival)| self.is_turned(cost, *rival));
+            return Some(Look { own, rival, is_turned });
+        }
+        Some(Look { own, rival: None, is_turned: false })
     }
 
     fn rival(&self, weights: &Weights) -> Option<(Path, f64)> {
@@ -64,6 +59,10 @@ impl Contrast for Beside<'_> {
 
     fn is_turned(&self, own: f64, rival: f64) -> bool {
         rival <= own + self.all.rounding() * own.abs().max(1e-9)
+    }
+
+    fn hair(&self) -> f64 {
+        self.all.hair()
     }
 }
 

@@ -10,6 +10,9 @@ use super::Weights;
 use crate::error::Result;
 use crate::state::State;
 
+/// So near to the end of an interval, as a share of it, it is looked at what the best way is.
+const HAIR: f64 = 1e-3;
+
 /// A way: what it costs is a sum over the metres in its rooms and over its doors.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Path {
@@ -151,6 +154,11 @@ impl Routes {
     /// two searches for one of them may bend a hair apart.
     pub fn rounding(&self) -> f64 {
         if self.is_on_doors() { 1e-9 } else { 1e-6 }
+    }
+
+    /// As a share of a value, how near to it the best way is looked at, since it bends a little otherwise at each value.
+    pub fn hair(&self) -> f64 {
+        if self.is_on_doors() { 0.0 } else { HAIR }
     }
 }
 

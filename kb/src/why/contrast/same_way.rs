@@ -86,7 +86,9 @@ impl Contrast for SameWay<'_> {
             return Some(Look { own: best.clone(), rival: best, is_turned: false });
         }
         let own = self.best(weights);
-        let is_turned = own.as_ref().is_none_or(|(_, own)| self.is_turned(*own, cost));
+        // what is found is driven, though this way may cost less: it is turned unless both cost the same
+        let is_turned =
+            own.as_ref().is_none_or(|(_, own)| (*own - cost).abs() > self.tolerance * cost.abs().max(1e-9));
         Some(Look { own, rival: Some((best, cost)), is_turned })
     }
 
@@ -98,6 +100,10 @@ impl Contrast for SameWay<'_> {
 
     fn is_turned(&self, own: f64, rival: f64) -> bool {
         own > rival + self.tolerance * rival.abs().max(1e-9)
+    }
+
+    fn hair(&self) -> f64 {
+        self.all.hair()
     }
 }
 /// What tells runs apart: the layer, its facing and the action.

@@ -76,7 +76,7 @@ impl Through {
             Via::Point(at, _) => {
                 way.legs.iter().any(|leg| at.nearest_on(leg.from, leg.to).distance(*at) <= AT_M)
             }
-            _ => self.holds(&Path::of(way)),
+            _ => self.holds(&Path::of(way)) == Some(true),
         }
     }
 }
@@ -101,12 +101,12 @@ impl Ways for Through {
         }
     }
 
-    fn holds(&self, path: &Path) -> bool {
+    fn holds(&self, path: &Path) -> Option<bool> {
         match (&self.via, &self.found) {
-            (Via::Rooms(rooms), _) if path.metres.iter().any(|(room, _)| rooms.contains(room)) => true,
-            (_, Found::InCopies(copies)) => path.doors.iter().any(|door| copies.entries[door.index()]),
+            (Via::Rooms(rooms), _) if path.metres.iter().any(|(room, _)| rooms.contains(room)) => Some(true),
+            (_, Found::InCopies(copies)) => Some(path.doors.iter().any(|door| copies.entries[door.index()])),
             // where exactly a way leads is not in it
-            (_, Found::ByPoint(_)) => false,
+            (_, Found::ByPoint(_)) => None,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! From which value of a number on the ways that hold give way to the others.
 
+use std::cell::Cell;
 use std::rc::Rc;
-use std::time::Instant;
 
 use super::end::LARGEST;
 use super::linear::Line;
@@ -12,17 +12,20 @@ use crate::error::Result;
 /// Values that are tried in a piece where weights are not linear.
 const TRIED: usize = 8;
 
-/// Most intervals of a piece that are looked into.
-const LOOKS: usize = 60;
+/// Values that are tried for one answer at most.
+const PATIENCE: usize = 2_000;
 
-/// Ways that cost the same to such a share are as good as each other.
-const TIE: f64 = 2e-9;
+/// Rounds in which an end is narrowed at most.
+const ROUNDS: usize = 40;
+
+/// So far beyond where two ways cost the same, as a share, the one is the best.
+const BEYOND: f64 = 1e-6;
+
+/// Ways that bend otherwise at another value cost more at this one by such a share at most.
+const BENT: f64 = 2e-5;
 
 /// So near to the last value of a range, as a share of it, there is no end.
 const LAST: f64 = 1e-4;
-
-/// Values so near to each other, as a share, are one end.
-const NARROW: f64 = 1e-5;
 
 /// So often the first value is guessed from ways that took over elsewhere.
 const GUESSES: usize = 4;
@@ -48,7 +51,8 @@ enum Piece {
 pub struct Turn<'t> {
     prober: &'t mut Prober,
     contrast: &'t dyn Contrast,
-    deadline: Instant,
+    /// How often values were tried.
+    spent: Cell<usize>,
     /// What is best at present.
     here: Option<Look>,
     /// Ways that took over somewhere.
@@ -58,9 +62,19 @@ pub struct Turn<'t> {
 }
 
 impl<'t> Turn<'t> {
-    pub fn new(prober: &'t mut Prober, contrast: &'t dyn Contrast, deadline: Instant) -> Self {
+    pub fn new(prober: &'t mut Prober, contrast: &'t dyn Contrast) -> Self {
         let here = contrast.look(&prober.present);
-        Self { prober, contrast, deadline, here, rivals: Vec::new(), is_exact: true, weighs: false }
+        let (spent, rivals) = (Cell::new(0), Vec::new());
+        Self { prober, contrast, spent, here, rivals, is_exact: true, weighs: false }
+    }
+
+    fn spend(&self) {
+        self.spent.set(self.spent.get() + 1);
+    }
+
+    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine.
+    fn is_over(&self) -> bool {
+        self.spent.get() >= PATIENCE
     }
 
     /// How much a cell would have to change, as a share of what it is, were both ways to be driven as now: a guess, to look at
@@ -128,13 +142,14 @@ impl<'t> Turn<'t> {
         let (cost, lines) = (*cost, |course: &Course| course.lines[Side::Below as usize].is_some());
         let mut asked: Vec<usize> =
             (0..courses.len()).filter(|&of| courses[of].weighs && lines(&courses[of])).collect();
-        while !asked.is_empty() && Instant::now() < self.deadline {
+        while !asked.is_empty() && !self.is_over() {
             let mut least = Weights::clone(&self.prober.present);
             for &of in &asked {
                 if let Some(line) = &courses[of].lines[Side::Below as usize] {
                     line.lower(Side::Below.limit(&courses[of].lever, within), &mut least);
                 }
             }
+            self.spend();
             let rival = self.contrast.rival(&least);
             let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
                 asked.into_iter().for_each(|of| never[of] = true);
@@ -174,6 +189,7 @@ impl<'t> Turn<'t> {
     }
 
     fn probe(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
+        self.spend();
         let probe = self.prober.at(lever, value)?;
         self.weighs |= !matches!(&probe, Probe::Weighs(weights) if *weights == *self.prober.present);
         Ok(probe)
@@ -190,7 +206,7 @@ impl<'t> Turn<'t> {
             from = to;
         }
         for value in values.into_iter().rev() {
-            if Instant::now() >= self.deadline {
+            if self.is_over() {
                 return Ok(None);
             }
             let Probe::Weighs(weights) = self.probe(lever, value)? else { return Ok(None) };
@@ -207,7 +223,7 @@ impl<'t> Turn<'t> {
 
     /// The first value from `from` on, up to `to` and with it: rules may switch there.
     fn piece(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
-        if Instant::now() >= self.deadline {
+        if self.is_over() {
             return Ok(Piece::Unknown);
         }
         let values = [0.125, 0.5, 0.875].map(|share| from + (to - from) * share);
@@ -254,7 +270,7 @@ impl<'t> Turn<'t> {
         if weights == *self.prober.present {
             return Ok(None);
         }
-        Ok(self.contrast.look(&weights).and_then(Look::takeover))
+        Ok(self.look(&weights).and_then(Look::takeover))
     }
 
     /// The first value of a piece in which weights are linear.
@@ -262,7 +278,7 @@ impl<'t> Turn<'t> {
         let (Some(nearly), Some(farly)) = (line.at(from), line.at(to)) else { return Piece::Unknown };
         let near = match &self.here {
             Some(here) if nearly == *self.prober.present => Some(here.clone()),
-            _ => self.contrast.look(&nearly),
+            _ => self.look(&nearly),
         };
         let Some(near) = near else { return Piece::Nothing };
         if near.is_turned {
@@ -279,33 +295,15 @@ impl<'t> Turn<'t> {
         let mut near = At { value: from, look: near };
         for guesses in (0..=GUESSES).rev() {
             let guess = if guesses > 0 { self.guessed(line, &near, to) } else { None };
-            let Some(far) = self.look_at(line, guess.as_ref().map_or(to, |(value, _)| *value)) else {
-                return Piece::Nothing;
-            };
-            let is_last = guess.is_none();
-            // a way that is known already may cost what the one does that holds, and less from there on
-            let ties = guess.filter(|_| !far.look.is_turned).and_then(|(value, path)| {
-                let cost = line.at(value).map(|weights| path.cost(&weights))?;
-                let (_, own) = far.look.own.as_ref()?;
-                let is_tie = (cost - own).abs() <= TIE * own.abs() && !self.contrast.is_turned(1.0, 1.0);
-                is_tie.then_some((path, cost))
-            });
-            let piece = self.first(line, near, far.clone());
-            match (piece, ties) {
-                (Piece::Nothing, Some((path, cost))) => {
-                    return Piece::End(End {
-                        at: far.value,
-                        is_closed: true,
-                        beyond: Takeover::Way(path, cost),
-                    });
-                }
-                (Piece::Nothing, None) if is_last => return Piece::Nothing,
-                (Piece::Nothing, None) => near = far,
+            let Some(far) = self.look_at(line, guess.unwrap_or(to)) else { return Piece::Nothing };
+            match self.first(line, near, far.clone()) {
+                Piece::Nothing if guess.is_none() => return Piece::Nothing,
+                Piece::Nothing => near = far,
                 // at the last value that a cell may have, what costs the same takes nothing over
-                (Piece::End(end), _) if (end.at - to).abs() <= LAST * (to - from).abs() => {
+                Piece::End(end) if (end.at - to).abs() <= LAST * (to - from).abs() => {
                     return Piece::Nothing;
                 }
-                (piece, _) => {
+                piece => {
                     if let Piece::End(End { beyond: Takeover::Way(path, _), .. }) = &piece {
                         self.remember(path.clone());
                     }
@@ -316,95 +314,131 @@ impl<'t> Turn<'t> {
         Piece::Unknown
     }
 
-    /// The first value up to another one at which a way that took over elsewhere comes to cost what the one does that holds.
-    fn guessed(&self, line: &Line, near: &At, to: f64) -> Option<(f64, Path)> {
+    /// The first value up to another one a little beyond which a way that took over elsewhere costs less than the one does that
+    /// holds.
+    fn guessed(&self, line: &Line, near: &At, to: f64) -> Option<f64> {
         let (own, _) = near.look.own.as_ref()?;
         let far = At { value: to, look: near.look.clone() };
         let own = Straight::of(line, own, near, &far)?;
+        let beyond = |value: f64| value + self.hair(value).max(BEYOND * value.abs()) * (to - value).signum();
         let crossings = self.rivals.iter().filter_map(|path| {
             let rival = Straight::of(line, path, near, &far)?;
             let share = own.meets(&rival).filter(|share| (1e-9..1.0).contains(share))?;
-            let value = near.value + (to - near.value) * share;
-            (rival.to < own.to && is_inside(value, near, &far)).then_some((value, path))
+            let value = beyond(near.value + (to - near.value) * share);
+            let is_before = (value - near.value).abs() < (to - near.value).abs();
+            (rival.to < own.to && is_before && is_inside(value, near, &far)).then_some(value)
         });
-        let away = |value: f64| (value - near.value).abs();
-        let first = crossings.min_by(|(one, _), (two, _)| away(*one).total_cmp(&away(*two)));
-        first.map(|(value, path)| (value, path.clone()))
+        let away = |value: &f64| (value - near.value).abs();
+        crossings.min_by(|one, two| away(one).total_cmp(&away(two)))
+    }
+
+    fn hair(&self, value: f64) -> f64 {
+        self.contrast.hair() * value.abs().max(0.1)
+    }
+
+    fn look(&self, weights: &Weights) -> Option<Look> {
+        self.spend();
+        self.contrast.look(weights)
     }
 
     fn look_at(&self, line: &Line, value: f64) -> Option<At> {
-        Some(At { value, look: self.contrast.look(&line.at(value)?)? })
+        Some(At { value, look: self.look(&line.at(value)?)? })
+    }
+
+    fn glance_at(&self, line: &Line, value: f64) -> Option<At> {
+        self.spend();
+        Some(At { value, look: self.contrast.glance(&line.at(value)?)? })
     }
 
     /// The first value between two at which the others win; at `near` they have not.
     fn first(&self, line: &Line, near: At, far: At) -> Piece {
-        // the nearest interval is the last
-        let mut waiting = vec![(near, far)];
-        for _ in 0..LOOKS {
-            let Some((near, far)) = waiting.pop() else { return Piece::Nothing };
-            if Instant::now() >= self.deadline {
+        // the nearest interval is the last; what lies beyond an end is not looked at
+        let (mut waiting, mut end) = (vec![(near, far)], None);
+        while let Some((near, far)) = waiting.pop() {
+            if self.is_over() {
                 return Piece::Unknown;
             }
-            let middle = if far.look.is_turned {
-                let Some(end) = self.between(line, &near, &far) else {
-                    let beyond = far.look.takeover().unwrap_or(Takeover::NoWay);
-                    return Piece::End(End { at: near.value, is_closed: true, beyond });
-                };
-                match end {
-                    Ok(end) => return Piece::End(end),
-                    Err(middle) => Some(middle),
+            if far.look.is_turned {
+                let Some((before, found)) = self.narrowed(line, &near, far) else { return Piece::Unknown };
+                end = Some(found);
+                waiting.clear();
+                waiting.push((near, before));
+            } else if let Some(middle) = self.may_turn(line, &near, &far) {
+                let Some(middle) = self.look_at(line, middle) else { return Piece::Unknown };
+                if !middle.look.is_turned {
+                    waiting.push((middle.clone(), far));
                 }
-            } else {
-                self.may_turn(line, &near, &far)
-            };
-            let Some(middle) = middle else { continue };
-            let Some(middle) = self.look_at(line, middle) else { return Piece::Unknown };
-            if !middle.look.is_turned {
-                waiting.push((middle.clone(), far));
+                waiting.push((near, middle));
             }
-            waiting.push((near, middle));
         }
-        // ways bend a little otherwise at each value, and may go on doing so: what is left is as near as makes no difference
-        let turned = waiting.into_iter().rev().find(|(_, far)| far.look.is_turned);
-        turned.map_or(Piece::Nothing, |(near, far)| match self.between(line, &near, &far) {
-            Some(Ok(end)) => Piece::End(end),
-            found => {
-                let beyond = far.look.takeover().unwrap_or(Takeover::NoWay);
-                let at = found.and_then(std::result::Result::err).unwrap_or(near.value);
-                Piece::End(End { at, is_closed: true, beyond })
-            }
-        })
+        end.map_or(Piece::Nothing, Piece::End)
     }
 
-    /// The end between a value at which the others have not won and one at which they have, if it lies at the one or the other;
-    /// else a value between them to look at. `None` where ways cannot be compared.
-    fn between(&self, line: &Line, near: &At, far: &At) -> Option<std::result::Result<End, f64>> {
+    /// The end between a value at which the others have not won and one at which they have, and the last value before it that was
+    /// looked at.
+    fn narrowed(&self, line: &Line, near: &At, far: At) -> Option<(At, End)> {
+        let (mut before, mut beyond) = (near.clone(), far);
+        for round in 0..ROUNDS {
+            if self.is_over() {
+                return None;
+            }
+            let middle = f64::midpoint(before.value, beyond.value);
+            let hair = self.hair(middle);
+            let value = if round % 4 == 3 { None } else { self.crossing(line, &before, &beyond) };
+            let gap = (beyond.value - before.value).abs();
+            let is_exact = self.contrast.hair() <= 0.0;
+            // where what each way costs is known, both are known to cost the same there
+            let is_found = value.is_some_and(|value| is_exact && !is_inside(value, &before, &beyond));
+            if is_found || gap <= 2.0 * hair || gap <= 1e-9 * beyond.value.abs().max(1e-6) {
+                return Some(self.ended(line, near, (before, beyond), value.unwrap_or(middle)));
+            }
+            let value = value.unwrap_or(middle);
+            let side = (beyond.value - before.value).signum();
+            let tries = if is_exact { [value, value] } else { [value - hair * side, value + hair * side] };
+            for tried in tries {
+                if !is_inside(tried, &before, &beyond) || (tried - before.value) * side <= 0.0 {
+                    continue;
+                }
+                let at = self.glance_at(line, tried)?;
+                if at.look.is_turned {
+                    beyond = at;
+                    break;
+                }
+                before = at;
+            }
+        }
+        let middle = f64::midpoint(before.value, beyond.value);
+        Some(self.ended(line, near, (before, beyond), middle))
+    }
+
+    fn ended(&self, line: &Line, near: &At, (mut before, beyond): (At, At), at: f64) -> (At, End) {
+        let cost = |path: &Path| line.at(at).map(|weights| path.cost(&weights));
+        let takeover = match &beyond.look.rival {
+            Some((path, _)) => Takeover::Way(path.clone(), cost(path).unwrap_or(f64::INFINITY)),
+            None => Takeover::NoWay,
+        };
+        // what the others cost is concave: between two values no less than the straight line
+        if let (Some((_, from)), Some((path, to)), None) =
+            (&near.look.rival, &beyond.look.rival, &before.look.rival)
+        {
+            let share = (before.value - near.value) / (beyond.value - near.value);
+            before.look.rival = Some((path.clone(), from + (to - from) * share));
+        }
+        (before, End { at, is_closed: true, beyond: takeover })
+    }
+
+    /// Where the way that holds at one value comes to cost what the one does that won at another.
+    fn crossing(&self, line: &Line, near: &At, far: &At) -> Option<f64> {
         let ((own, _), (rival, _)) = (near.look.own.as_ref()?, far.look.rival.as_ref()?);
         let (one, two) = (Straight::of(line, own, near, far)?, Straight::of(line, rival, near, far)?);
-        let meet = one.meets(&two)?.clamp(0.0, 1.0);
-        let value = near.value + (far.value - near.value) * meet;
-        if is_inside(value, near, far) {
-            return Some(Err(value));
-        }
-        let end = |at: f64| {
-            Some(Ok(End { at, is_closed: true, beyond: Takeover::Way(rival.clone(), two.at(meet)) }))
-        };
-        // where a tie is no end yet, the end is where both cost the same
-        if !self.contrast.is_turned(1.0, 1.0) {
-            return end(value);
-        }
-        let is_at_far = (far.value - value).abs() < (value - near.value).abs();
-        let middle = f64::midpoint(near.value, far.value);
-        let is_narrow = (far.value - near.value).abs() <= NARROW * far.value.abs().max(1e-3);
-        // a search nearby may miss the way that won
-        if !is_at_far && !is_narrow && is_inside(middle, near, far) {
-            return Some(Err(middle));
-        }
-        end(far.value)
+        let meet = one.meets(&two)?;
+        let is_exact = self.contrast.hair() <= 0.0;
+        let is_between = (0.0..=1.0).contains(&meet) && two.to <= one.to;
+        (is_exact || is_between).then(|| near.value + (far.value - near.value) * meet.clamp(0.0, 1.0))
     }
 
-    /// A value between two at which the others have not won, if they may have won there: what the others cost at most lies under
-    /// the straight line between both, and what the ways that hold cost at least under the lines of those at both ends.
+    /// A value between two at which the others have not won, if they may have won there: what the others cost at least lies above
+    /// the straight line between both, and what the ways that hold cost at most under the lines of those at both ends.
     fn may_turn(&self, line: &Line, near: &At, far: &At) -> Option<f64> {
         let ((Some((one, _)), Some((two, _))), (Some((_, from)), Some((_, to)))) =
             ((&near.look.own, &far.look.own), (&near.look.rival, &far.look.rival))
@@ -414,8 +448,12 @@ impl<'t> Turn<'t> {
         let (one, two) = (Straight::of(line, one, near, far)?, Straight::of(line, two, near, far)?);
         let share = one.meets(&two).filter(|share| (0.0..=1.0).contains(share))?;
         let value = near.value + (far.value - near.value) * share;
-        let is_won = self.contrast.is_turned(one.at(share), from + (to - from) * share);
-        (is_won && is_inside(value, near, far)).then_some(value)
+        let rival = from + (to - from) * share;
+        // ways bend a little otherwise at each value, so that lines of two of them lie a little apart
+        let is_won = self.contrast.is_turned(one.at(share), rival)
+            && (self.contrast.hair() <= 0.0 || (one.at(share) - rival).abs() > BENT * rival);
+        let is_wide = (far.value - near.value).abs() > 2.0 * self.hair(value);
+        (is_won && is_wide && is_inside(value, near, far)).then_some(value)
     }
 
     /// Where weights are not linear: some values are tried, then halved.
@@ -428,8 +466,8 @@ impl<'t> Turn<'t> {
                 good = bad;
                 continue;
             };
-            while (bad - good).abs() > 1e-7 * good.abs().max(1e-3) {
-                if Instant::now() >= self.deadline {
+            while (bad - good).abs() > (0.1 * self.hair(good)).max(1e-7 * good.abs().max(1e-3)) {
+                if self.is_over() {
                     return Ok(Piece::Unknown);
                 }
                 let middle = f64::midpoint(good, bad);

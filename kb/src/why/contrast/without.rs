@@ -42,8 +42,9 @@ impl Ways for Without {
         self.routes.best(&weights)
     }
 
-    fn holds(&self, path: &Path) -> bool {
-        !path.metres.iter().any(|(room, _)| self.rooms.contains(room))
-            && !path.doors.iter().any(|door| self.doors.contains(door))
+    fn holds(&self, path: &Path) -> Option<bool> {
+        let is_kept_out = !path.metres.iter().any(|(room, _)| self.rooms.contains(room))
+            && !path.doors.iter().any(|door| self.doors.contains(door));
+        Some(is_kept_out)
     }
 }
