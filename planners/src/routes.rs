@@ -67,23 +67,28 @@ impl RouteGraph {
     /// Where rooms ask for a [`Berth`], a way to a point keeps off walls, and costs more than
     /// [the tightest](Self::tightest_way) by no more than they allow.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
-        let Best { goal, tight, wide } = self.way_at(start, goals, true)?;
+        let Best { goal, tight, wide } = self.way_at(start, goals, true, f64::INFINITY)?;
         Some((goal, wide.unwrap_or(tight)))
     }
 
     /// As [`way`](Self::way), whatever berth rooms ask for. It is by what these cost that ways are chosen.
     pub fn tightest_way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
-        self.way_at(start, goals, false).map(|best| (best.goal, best.tight))
+        self.tightest_way_within(start, goals, f64::INFINITY)
+    }
+
+    /// As [`tightest_way`](Self::tightest_way), where it costs no more than a limit; one that costs more may be found or not.
+    pub fn tightest_way_within(&self, start: &Start, goals: &[Goal], limit: f64) -> Option<(usize, Way)> {
+        self.way_at(start, goals, false, limit).map(|best| (best.goal, best.tight))
     }
 
     /// [The tightest way](Self::tightest_way) to a goal and [the way](Self::way), by one search.
     pub fn tightest_way_and_way(&self, start: &Start, goal: &Goal) -> Option<[Way; 2]> {
-        let Best { tight, wide, .. } = self.way_at(start, std::slice::from_ref(goal), true)?;
+        let Best { tight, wide, .. } = self.way_at(start, std::slice::from_ref(goal), true, f64::INFINITY)?;
         let wide = wide.unwrap_or_else(|| tight.clone());
         Some([tight, wide])
     }
 
-    fn way_at(&self, start: &Start, goals: &[Goal], is_wide: bool) -> Option<Best> {
+    fn way_at(&self, start: &Start, goals: &[Goal], is_wide: bool, limit: f64) -> Option<Best> {
         let as_it_is = |(goal, tight)| Best { goal, tight, wide: None };
         if let Some(hierarchy) = self.hierarchy.as_ref().filter(|_| self.is_on_doors()) {
             return self.way_by(hierarchy, start, goals).map(as_it_is);
@@ -94,9 +99,9 @@ impl RouteGraph {
             return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost)).map(as_it_is);
         }
         if let Some(cut) = self.cut() {
-            return cut.way(start, goals, is_wide);
+            return cut.way(start, goals, is_wide, limit);
         }
-        let outcome = Search::find(self, start, goals, Wanted::One);
+        let outcome = Search::find(self, start, goals, Wanted::One, limit);
         let ways = (0..goals.len())
             .filter_map(|goal| Some((goal, self.best(&outcome, start, (goal, goals[goal].at))?)));
         let (goal, tight) = ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))?;
@@ -136,7 +141,7 @@ impl RouteGraph {
             return cut.ways(start, goals, rooms);
         }
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
-        let outcome = Search::find(self, start, goals, wanted);
+        let outcome = Search::find(self, start, goals, wanted, f64::INFINITY);
         let way = |found: &Option<taut::Found>| {
             found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found, None))
         };

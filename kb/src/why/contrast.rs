@@ -8,6 +8,8 @@
 //!
 //! What the best of a set costs is concave in any number in which weights are linear: it is the least of many straight lines. So
 //! where the one set gives way to the other is found between two values by the lines of the ways that are best there ([`turn`]).
+//! Where rooms weigh their metres a way bends a little otherwise at each value, and the search for it is not exact to the last
+//! digit: there an end is said to a thousandth, and what is driven a thousandth before and beyond it was looked at.
 //! Each rule may use a number as it likes; whether weights are linear in it is looked at, piece by piece, between the values
 //! that other rows of its column have. Where they are not, values are tried and halved, and [`Found::is_exact`] is false.
 

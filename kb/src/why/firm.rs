@@ -13,7 +13,7 @@ use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
 use crate::why::contrast::same_way::SameWay;
-use crate::why::contrast::{Course, Found, Lever, Prober, Routes, Side, Turn, least};
+use crate::why::contrast::{Choice, Course, Found, Lever, Prober, Routes, Side, Turn, least};
 use crate::words::suggest::did_you_mean;
 pub use beyond::Beyond;
 
@@ -55,7 +55,8 @@ pub struct FirmCell {
     pub low_closed: bool,
     /// Whether it is still the best at `high` itself.
     pub high_closed: bool,
-    /// Whether the ends are exact but for rounding; otherwise they were found by trying values.
+    /// Whether the ends are exact: but for rounding where all hardness lies on the doors, to a thousandth elsewhere; otherwise they
+    /// were found by trying values.
     pub exact: bool,
     /// What takes over below.
     pub below: Option<Beyond>,
@@ -86,8 +87,9 @@ impl State {
             cells: Vec::new(),
             truncated: false,
         };
-        let Some(path) = routes.best(&prober.present) else { return Ok(firm) };
-        firm.cost = routes.driven_cost(&prober.present);
+        let Some(best) = Choice::among(&routes, prober.fork.graph().graph()) else { return Ok(firm) };
+        let Some(path) = routes.best(&prober.present, f64::INFINITY) else { return Ok(firm) };
+        firm.cost = Some(best.driven.cost);
         let same = SameWay::new(&prober, &routes, path);
         let levers = prober.levers()?;
         let mut turn = Turn::new(&mut prober, &same);

@@ -96,7 +96,8 @@ pub struct Holds {
     pub low: Option<f64>,
     /// Up to where; `null`: without an end.
     pub high: Option<f64>,
-    /// Whether the ends are exact but for rounding; otherwise they were found by trying values.
+    /// Whether the ends are exact: but for rounding where all hardness lies on the doors, to a thousandth elsewhere; otherwise they
+    /// were found by trying values.
     pub exact: bool,
 }
 
@@ -122,7 +123,7 @@ impl State {
         let robot = answer::pick(&self.robots(), robot)?;
         let meant = at.map(|at| self.meant(at, &robot)).transpose()?;
         let routes = Routes::new(&self, start, goal, &robot)?;
-        let best = Choice::of(self.graph().graph(), &routes.start, &routes.goal);
+        let best = Choice::among(&routes, self.graph().graph());
         let mut answer = WhyWay {
             generation: self.generation,
             robot: robot.clone(),

@@ -97,7 +97,7 @@ impl State {
         let routes = Routes::new(&self, start, goal, &robot)?;
         let ends = (&routes.start, &routes.goal);
         let graph = self.graph().graph();
-        let best = Choice::of(graph, ends.0, ends.1);
+        let best = Choice::among(&routes, graph);
         let (passing, way) = Through::new(graph, ends, meant.via.clone());
         let way = best.clone().filter(|way| passing.holds_way(&way.driven)).or(way);
         let costs = Choice::costs(best.as_ref(), way.as_ref());

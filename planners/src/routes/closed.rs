@@ -201,9 +201,9 @@ impl Cut {
         }
     }
 
-    pub fn way(&self, start: &Start, goals: &[Goal], is_wide: bool) -> Option<Best> {
+    pub fn way(&self, start: &Start, goals: &[Goal], is_wide: bool, limit: f64) -> Option<Best> {
         let goals: Vec<Goal> = goals.iter().map(|goal| self.goal(goal)).collect();
-        let Best { goal, tight, wide } = self.graph.way_at(&self.start(start), &goals, is_wide)?;
+        let Best { goal, tight, wide } = self.graph.way_at(&self.start(start), &goals, is_wide, limit)?;
         Some(Best { goal, tight: self.whole(&tight), wide: wide.map(|wide| self.whole(&wide)) })
     }
 

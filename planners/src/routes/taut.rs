@@ -71,6 +71,8 @@ pub(super) struct Outcome {
     pub rooms: Vec<Option<Found>>,
     /// Nodes that were not gone on from, since others come to their rooms at a little less cost before ways are pulled tight.
     pub passed_over: Vec<u32>,
+    /// Whether ways that cost more were not looked for.
+    pub is_cut: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -109,6 +111,8 @@ pub(super) struct Search<'g> {
     targets: Vec<(RoomIndex, Target)>,
     /// The least hardness of a metre anywhere.
     least_per_m: f64,
+    /// What arcs about corners save a way at most.
+    saved_by_arcs: f64,
     nodes: Vec<Node>,
     /// Goals that were seen, with where from.
     found: Vec<(usize, Found)>,
@@ -127,11 +131,19 @@ pub(super) struct Search<'g> {
 }
 
 impl<'g> Search<'g> {
-    /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least.
-    pub fn find(graph: &'g RouteGraph, start: &Start, goals: &'g [Goal], wanted: Wanted) -> Outcome {
-        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start);
+    /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least. Ways that cost more than the
+    /// limit are not looked for.
+    pub fn find(
+        graph: &'g RouteGraph,
+        start: &Start,
+        goals: &'g [Goal],
+        wanted: Wanted,
+        limit: f64,
+    ) -> Outcome {
+        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start, limit);
         let is_found = |goal: usize| !outcome.goals[goal].is_empty();
-        if wanted == Wanted::One && (0..goals.len()).any(is_found) || (0..goals.len()).all(is_found) {
+        let is_done = wanted == Wanted::One && (0..goals.len()).any(is_found);
+        if is_done || (0..goals.len()).all(is_found) || outcome.is_cut {
             return outcome;
         }
         let joined = graph.joined_with(&start.rooms);
@@ -140,7 +152,7 @@ impl<'g> Search<'g> {
         if !(0..goals.len()).any(is_missed) {
             return outcome;
         }
-        Self::new(graph, goals, wanted, Care::Full).run(start)
+        Self::new(graph, goals, wanted, Care::Full).run(start, limit)
     }
 
     fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, care: Care) -> Self {
@@ -172,6 +184,7 @@ impl<'g> Search<'g> {
             goals: vec![Vec::new(); goals.len()],
             rooms: vec![None; kept],
             passed_over: Vec::new(),
+            is_cut: false,
         };
         Self {
             graph,
@@ -180,6 +193,7 @@ impl<'g> Search<'g> {
             wanted,
             targets,
             least_per_m: graph.least_per_m(),
+            saved_by_arcs: graph.saved_by_arcs(),
             nodes: Vec::new(),
             found: Vec::new(),
             queue: BinaryHeap::new(),
@@ -192,7 +206,7 @@ impl<'g> Search<'g> {
         }
     }
 
-    fn run(mut self, start: &Start) -> Outcome {
+    fn run(mut self, start: &Start, most: f64) -> Outcome {
         for &Entry { room, joint } in &start.rooms {
             if !self.graph.is_entered(room) {
                 continue;
@@ -209,9 +223,13 @@ impl<'g> Search<'g> {
             });
         }
         let mut missing = self.goals.len();
-        let mut limit = f64::INFINITY;
+        // ways are not as short as they can be before they are pulled tight
+        let saved = self.saved_by_arcs + EPSILON;
+        let slack = |cost: f64| cost * (1.0 + SLACK) + saved;
+        let (mut limit, mut is_last) = (slack(most), false);
         while let Some(candidate) = self.queue.pop() {
             if candidate.least > limit {
+                self.outcome.is_cut = true;
                 break;
             }
             match candidate.what {
@@ -222,9 +240,9 @@ impl<'g> Search<'g> {
                     if known.len() < MOST_WAYS {
                         known.push(found);
                     }
-                    let is_last = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
-                    if is_last && limit.is_infinite() {
-                        limit = found.cost * (1.0 + SLACK) + self.graph.saved_by_arcs() + EPSILON;
+                    let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
+                    if is_done && !is_last {
+                        (limit, is_last) = (limit.min(slack(found.cost)), true);
                     }
                 }
                 What::Node(index) => self.expand(index),
@@ -415,7 +433,7 @@ impl<'g> Search<'g> {
             let bent = Node { root, cost, before: index, bent: true, view, ..*node };
             if cost <= self.bent[end as usize] + EPSILON {
                 self.push(bent);
-            } else if cost <= self.bent[end as usize] + self.graph.saved_by_arcs() {
+            } else if cost <= self.bent[end as usize] + self.saved_by_arcs {
                 self.outcome.passed_over.push(self.nodes.len() as u32);
                 self.nodes.push(bent);
             }

@@ -11,8 +11,8 @@ pub trait Contrast {
     /// The best of both at some weights; `None` where there is nothing to compare.
     fn look(&self, weights: &Weights) -> Option<Look>;
 
-    /// The best of the others, and what it costs.
-    fn rival(&self, weights: &Weights) -> Option<(Path, f64)>;
+    /// The best of the others, and what it costs, if that is no more than a limit; one that costs more may be found or not.
+    fn rival(&self, weights: &Weights, limit: f64) -> Option<(Path, f64)>;
 
     /// As [`look`](Self::look), without a search for what is not the best: `own` or `rival` may be missing.
     fn glance(&self, weights: &Weights) -> Option<Look> {
@@ -32,8 +32,10 @@ pub trait Contrast {
 pub struct Look {
     /// The best way of those that hold, and what it costs.
     pub own: Option<(Path, f64)>,
-    /// The best of the others.
+    /// The best of the others, if it was found.
     pub rival: Option<(Path, f64)>,
+    /// What the others cost at least.
+    pub least: f64,
     /// Whether the others have won.
     pub is_turned: bool,
 }

@@ -4,10 +4,13 @@ use adit_planners::routes::{Goal, RouteGraph, Start, Way};
 
 use super::{Contrast, Look, Path, Routes, Weights};
 
+/// Others are looked for that cost so much more than the best way at most, as a share of what it costs.
+const REACH: f64 = 1.01;
+
 /// Some of all ways.
 pub trait Ways {
-    /// The best of them.
-    fn best(&self, weights: &Weights) -> Option<Path>;
+    /// The best of them, if it costs no more than a limit; one that costs more may be found or not.
+    fn best(&self, weights: &Weights, limit: f64) -> Option<Path>;
 
     /// Whether a way is one of them; `None` where that is not to be seen in it.
     fn holds(&self, path: &Path) -> Option<bool>;
@@ -31,28 +34,32 @@ impl Contrast for Beside<'_> {
         if glance.is_turned || glance.rival.is_some() {
             return Some(glance);
         }
-        Some(Look { rival: self.rival(weights), ..glance })
+        let limit = glance.own.as_ref().map_or(f64::INFINITY, |(_, cost)| REACH * cost);
+        let rival = self.rival(weights, limit);
+        let least = rival.as_ref().map_or(limit, |(_, cost)| *cost);
+        Some(Look { rival, least, ..glance })
     }
 
     fn glance(&self, weights: &Weights) -> Option<Look> {
-        let own = self.all.best(weights)?;
+        let own = self.all.best(weights, f64::INFINITY)?;
         let cost = own.cost(weights);
         let holds = self.others.holds(&own);
         let own = Some((own, cost));
         if holds == Some(true) {
-            return Some(Look { own: own.clone(), rival: own, is_turned: true });
+            return Some(Look { own: own.clone(), rival: own, least: cost, is_turned: true });
         }
         // which of two ways that cost the same is found says nothing where ways are lists of doors
         if holds.is_none() || self.all.is_on_doors() {
-            let rival = self.rival(weights);
-            let is_turned = rival.as_ref().is_some_and(|(_, rival)| self.is_turned(cost, *rival));
-            return Some(Look { own, rival, is_turned });
+            let limit = REACH * cost;
+            let rival = self.rival(weights, limit);
+            let least = rival.as_ref().map_or(limit, |(_, cost)| *cost);
+            return Some(Look { own, rival, least, is_turned: self.is_turned(cost, least) });
         }
-        Some(Look { own, rival: None, is_turned: false })
+        Some(Look { own, rival: None, least: 0.0, is_turned: false })
     }
 
-    fn rival(&self, weights: &Weights) -> Option<(Path, f64)> {
-        let path = self.others.best(weights)?;
+    fn rival(&self, weights: &Weights, limit: f64) -> Option<(Path, f64)> {
+        let path = self.others.best(weights, limit)?;
         let cost = path.cost(weights);
         Some((path, cost))
     }
@@ -77,6 +84,13 @@ impl Choice {
     pub fn of(graph: &RouteGraph, start: &Start, goal: &Goal) -> Option<Self> {
         let [tight, driven] = graph.tightest_way_and_way(start, goal)?;
         Some(Self { tight, driven })
+    }
+
+    /// The best of some ways in their graph, which they are not searched for again.
+    pub fn among(routes: &Routes, graph: &RouteGraph) -> Option<Self> {
+        let best = Self::of(graph, &routes.start, &routes.goal);
+        routes.know(graph, best.as_ref().map(|best| &best.tight));
+        best
     }
 
     #[must_use]

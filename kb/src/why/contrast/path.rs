@@ -85,7 +85,7 @@ enum Searched {
 struct Measured {
     graph: RouteGraph,
     now: Weights,
-    /// The first question with its answer: how it is at present, which is asked again.
+    /// How it is at present, with the best way there.
     first: Option<(Weights, Option<Path>)>,
 }
 
@@ -118,7 +118,7 @@ impl Routes {
     /// What the best way costs as it is driven, off walls.
     pub fn driven_cost(&self, weights: &Weights) -> Option<f64> {
         match &self.searched {
-            Searched::OnDoors(_) => Some(self.best(weights)?.cost(weights)),
+            Searched::OnDoors(_) => Some(self.best(weights, f64::INFINITY)?.cost(weights)),
             Searched::Measured(measured) => {
                 let mut measured = measured.borrow_mut();
                 let graph = measured.weighed(weights);
@@ -127,26 +127,43 @@ impl Routes {
         }
     }
 
-    /// The best way where everything weighs so; `None` where there is none. How far off walls it keeps turns no choice, and
-    /// is not looked at.
-    pub fn best(&self, weights: &Weights) -> Option<Path> {
+    /// The best way where everything weighs so; `None` where there is none, or it costs more than a limit. How far off walls it
+    /// keeps turns no choice, and is not looked at.
+    pub fn best(&self, weights: &Weights, limit: f64) -> Option<Path> {
+        if let Searched::Measured(measured) = &self.searched
+            && let Some((_, path)) = measured.borrow().first.as_ref().filter(|(of, _)| of == weights)
+        {
+            return path.clone();
+        }
+        self.best_between(weights, (&self.start, &self.goal), limit)
+    }
+
+    /// As [`best`](Self::best), between other ends.
+    pub fn best_between(
+        &self,
+        weights: &Weights,
+        (start, goal): (&Start, &Goal),
+        limit: f64,
+    ) -> Option<Path> {
         match &self.searched {
             Searched::OnDoors(graph) => {
                 let mut graph = graph.borrow_mut();
                 weigh(&mut graph, weights);
-                best_of(&graph.tree(&self.start), &self.goal)
+                best_of(&graph.tree(start), goal)
             }
             Searched::Measured(measured) => {
                 let mut measured = measured.borrow_mut();
-                if let Some((_, path)) = measured.first.as_ref().filter(|(of, _)| of == weights) {
-                    return path.clone();
-                }
                 let graph = measured.weighed(weights);
-                let way = graph.tightest_way(&self.start, std::slice::from_ref(&self.goal));
-                let path = way.map(|(_, way)| Path::of(&way));
-                measured.first.get_or_insert_with(|| (weights.clone(), path.clone()));
-                path
+                let way = graph.tightest_way_within(start, std::slice::from_ref(goal), limit);
+                way.map(|(_, way)| Path::of(&way))
             }
+        }
+    }
+
+    /// Keeps the best way as everything weighs in a graph, which is asked for again.
+    pub fn know(&self, graph: &RouteGraph, best: Option<&Way>) {
+        if let Searched::Measured(measured) = &self.searched {
+            measured.borrow_mut().first = Some((Weights::of(graph), best.map(Path::of)));
         }
     }
 

@@ -32,7 +32,15 @@ pub struct Through {
 
 enum Found {
     InCopies(Copies),
-    ByPoint(Vec<[Routes; 2]>),
+    ByPoint(Halves),
+}
+
+/// Ways to a point and on from there.
+struct Halves {
+    routes: Routes,
+    at: Point,
+    /// The rooms in which a robot may be there.
+    entries: Vec<Entry>,
 }
 
 struct Copies {
@@ -55,20 +63,14 @@ impl Through {
             let (copies, choice) = Copies::new(graph, (start, goal), &via);
             return (Self { via, found: Found::InCopies(copies) }, choice);
         };
-        let halves = |entry: &Entry| {
-            let here = vec![*entry];
-            let to = Goal { rooms: here.clone(), at: Some(*at) };
-            [(start.clone(), to), (Start { rooms: here, at: *at }, goal.clone())]
-        };
-        let halves: Vec<_> = entries.iter().map(halves).collect();
-        let both = |[(start, at), (on, goal)]: &[(Start, Goal); 2]| {
-            Some(Choice::of(graph, start, at)?.then(&Choice::of(graph, on, goal)?))
-        };
-        let choices = halves.iter().filter_map(both);
-        let choice = choices.min_by(|one, two| one.tight.cost.total_cmp(&two.tight.cost));
-        let routes =
-            halves.into_iter().map(|half| half.map(|(start, goal)| Routes::between(graph, start, goal)));
-        (Self { via, found: Found::ByPoint(routes.collect()) }, choice)
+        let routes = Routes::between(graph, start.clone(), goal.clone());
+        let halves = Halves { routes, at: *at, entries: entries.clone() };
+        let there = halves.best(&Weights::of(graph), f64::INFINITY).map(|(entry, _)| entry);
+        let choice = there.and_then(|there| {
+            let (to, on) = halves.ends(&[there]);
+            Some(Choice::of(graph, start, &to)?.then(&Choice::of(graph, &on, goal)?))
+        });
+        (Self { via, found: Found::ByPoint(halves) }, choice)
     }
 
     pub fn holds_way(&self, way: &Way) -> bool {
@@ -82,22 +84,10 @@ impl Through {
 }
 
 impl Ways for Through {
-    fn best(&self, weights: &Weights) -> Option<Path> {
+    fn best(&self, weights: &Weights, limit: f64) -> Option<Path> {
         match &self.found {
-            Found::InCopies(copies) => copies.best(weights),
-            Found::ByPoint(halves) => {
-                let mut best: Option<(Path, f64)> = None;
-                for [to, on] in halves {
-                    let least = best.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
-                    let Some(to) = to.best(weights).filter(|to| to.cost(weights) < least) else { continue };
-                    let Some(both) = on.best(weights).map(|on| to.then(on)) else { continue };
-                    let cost = both.cost(weights);
-                    if cost < least {
-                        best = Some((both, cost));
-                    }
-                }
-                best.map(|(path, _)| path)
-            }
+            Found::InCopies(copies) => copies.best(weights, limit),
+            Found::ByPoint(halves) => halves.best(weights, limit).map(|(_, path)| path),
         }
     }
 
@@ -108,6 +98,55 @@ impl Ways for Through {
             // where exactly a way leads is not in it
             (_, Found::ByPoint(_)) => None,
         }
+    }
+}
+
+impl Halves {
+    /// The point as where a way leads and as where one begins, in some rooms.
+    fn ends(&self, entries: &[Entry]) -> (Goal, Start) {
+        (Goal { rooms: entries.to_vec(), at: Some(self.at) }, Start { rooms: entries.to_vec(), at: self.at })
+    }
+
+    fn to(&self, weights: &Weights, entries: &[Entry], limit: f64) -> Option<(Path, f64)> {
+        let path = self.routes.best_between(weights, (&self.routes.start, &self.ends(entries).0), limit)?;
+        let cost = path.cost(weights);
+        Some((path, cost))
+    }
+
+    fn on(&self, weights: &Weights, entries: &[Entry], limit: f64) -> Option<(Path, f64)> {
+        let path = self.routes.best_between(weights, (&self.ends(entries).1, &self.routes.goal), limit)?;
+        let cost = path.cost(weights);
+        Some((path, cost))
+    }
+
+    /// The best way by the point, with the room in which a robot is there.
+    fn best(&self, weights: &Weights, limit: f64) -> Option<(Entry, Path)> {
+        // in whatever room each half ends costs no more than in one of both
+        let (to, least_to) = self.to(weights, &self.entries, limit)?;
+        let (on, least_on) = self.on(weights, &self.entries, limit - least_to)?;
+        let likely = [to.metres.last(), on.metres.first()].map(|end| end.map(|(room, _)| *room));
+        let mut entries = self.entries.clone();
+        entries.sort_by_key(|entry| likely.iter().position(|room| *room == Some(entry.room)).unwrap_or(2));
+        let (mut best, mut least) = (None, limit);
+        for entry in entries {
+            if least <= (least_to + least_on) * (1.0 + 1e-9) {
+                break;
+            }
+            let is_likely = |of: usize| likely[of] == Some(entry.room);
+            let here = [entry];
+            let known = is_likely(0).then(|| (to.clone(), least_to));
+            let Some((to, cost_to)) = known.or_else(|| self.to(weights, &here, least - least_on)) else {
+                continue;
+            };
+            let known = is_likely(1).then(|| (on.clone(), least_on));
+            let Some((on, cost_on)) = known.or_else(|| self.on(weights, &here, least - cost_to)) else {
+                continue;
+            };
+            if best.is_none() || cost_to + cost_on < least {
+                (best, least) = (Some((entry, to.then(on))), cost_to + cost_on);
+            }
+        }
+        best
     }
 }
 
@@ -157,8 +196,9 @@ impl Copies {
         let goal = Goal { rooms: goal.rooms.iter().map(in_second).collect(), ..*goal };
         let entries = graph.doors().iter().zip(graph.door_indices());
         let entries = entries.map(|(door, index)| is_entry(door, index)).collect();
-        let choice = Choice::of(&both, &start, &goal);
-        let all = Self { routes: Routes::between(&both, start, goal), rooms: count, doors, entries };
+        let routes = Routes::between(&both, start, goal);
+        let choice = Choice::among(&routes, &both);
+        let all = Self { routes, rooms: count, doors, entries };
         let choice = choice.map(|choice| choice.map(|way| all.of_site(&way)));
         (all, choice)
     }
@@ -175,12 +215,12 @@ impl Copies {
         RoomIndex::new(copy.index() % self.rooms)
     }
 
-    fn best(&self, weights: &Weights) -> Option<Path> {
+    fn best(&self, weights: &Weights, limit: f64) -> Option<Path> {
         let twice = Weights {
             rooms: weights.rooms.iter().chain(&weights.rooms).copied().collect(),
             doors: self.doors.iter().map(|&door| weights[door]).collect(),
         };
-        let path = self.routes.best(&twice)?;
+        let path = self.routes.best(&twice, limit)?;
         Some(path.renamed(|room| self.room(room), |door| self.doors[door.index()]))
     }
 }

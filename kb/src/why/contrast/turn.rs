@@ -63,7 +63,11 @@ pub struct Turn<'t> {
 
 impl<'t> Turn<'t> {
     pub fn new(prober: &'t mut Prober, contrast: &'t dyn Contrast) -> Self {
-        let here = contrast.look(&prober.present);
+        let mut here = contrast.look(&prober.present);
+        if let Some(here) = here.as_mut().filter(|here| here.rival.is_none()) {
+            here.rival = contrast.rival(&prober.present, f64::INFINITY);
+            here.least = here.rival.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
+        }
         let (spent, rivals) = (Cell::new(0), Vec::new());
         Self { prober, contrast, spent, here, rivals, is_exact: true, weighs: false }
     }
@@ -150,7 +154,7 @@ impl<'t> Turn<'t> {
                 }
             }
             self.spend();
-            let rival = self.contrast.rival(&least);
+            let rival = self.contrast.rival(&least, cost);
             let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
                 asked.into_iter().for_each(|of| never[of] = true);
                 break;
@@ -286,17 +290,21 @@ impl<'t> Turn<'t> {
             return Piece::End(End { at: from, is_closed: true, beyond });
         }
         // what gets dearer for all does not get cheaper for the others, and the way that holds costs no more than they cost already
-        if let (Some((own, _)), Some((_, rival))) = (&near.own, &near.rival)
-            && farly.are_no_less_than(&nearly)
-            && !self.contrast.is_turned(own.cost(&farly), *rival)
+        let is_rising = farly.are_no_less_than(&nearly);
+        if let Some((own, _)) = &near.own
+            && is_rising
+            && !self.contrast.is_turned(own.cost(&farly), near.least)
         {
             return Piece::Nothing;
         }
         let mut near = At { value: from, look: near };
         for guesses in (0..=GUESSES).rev() {
             let guess = if guesses > 0 { self.guessed(line, &near, to) } else { None };
-            let Some(far) = self.look_at(line, guess.unwrap_or(to)) else { return Piece::Nothing };
-            match self.first(line, near, far.clone()) {
+            let Some(mut far) = self.look_at(line, guess.unwrap_or(to)) else { return Piece::Nothing };
+            if is_rising {
+                far.look.least = far.look.least.max(near.look.least);
+            }
+            match self.first(line, near, far.clone(), is_rising) {
                 Piece::Nothing if guess.is_none() => return Piece::Nothing,
                 Piece::Nothing => near = far,
                 // at the last value that a cell may have, what costs the same takes nothing over
@@ -351,7 +359,10 @@ impl<'t> Turn<'t> {
     }
 
     /// The first value between two at which the others win; at `near` they have not.
-    fn first(&self, line: &Line, near: At, far: At) -> Piece {
+    ///
+    /// # Arguments
+    /// `is_rising` says that nothing gets easier from `near` to `far`.
+    fn first(&self, line: &Line, near: At, far: At, is_rising: bool) -> Piece {
         // the nearest interval is the last; what lies beyond an end is not looked at
         let (mut waiting, mut end) = (vec![(near, far)], None);
         while let Some((near, far)) = waiting.pop() {
@@ -364,7 +375,10 @@ impl<'t> Turn<'t> {
                 waiting.clear();
                 waiting.push((near, before));
             } else if let Some(middle) = self.may_turn(line, &near, &far) {
-                let Some(middle) = self.look_at(line, middle) else { return Piece::Unknown };
+                let Some(mut middle) = self.look_at(line, middle) else { return Piece::Unknown };
+                if is_rising {
+                    middle.look.least = middle.look.least.max(near.look.least);
+                }
                 if !middle.look.is_turned {
                     waiting.push((middle.clone(), far));
                 }
@@ -418,11 +432,10 @@ impl<'t> Turn<'t> {
             None => Takeover::NoWay,
         };
         // what the others cost is concave: between two values no less than the straight line
-        if let (Some((_, from)), Some((path, to)), None) =
-            (&near.look.rival, &beyond.look.rival, &before.look.rival)
-        {
+        if beyond.look.least.is_finite() {
             let share = (before.value - near.value) / (beyond.value - near.value);
-            before.look.rival = Some((path.clone(), from + (to - from) * share));
+            let (from, to) = (near.look.least, beyond.look.least);
+            before.look.least = before.look.least.max(from + (to - from) * share);
         }
         (before, End { at, is_closed: true, beyond: takeover })
     }
@@ -440,11 +453,8 @@ impl<'t> Turn<'t> {
     /// A value between two at which the others have not won, if they may have won there: what the others cost at least lies above
     /// the straight line between both, and what the ways that hold cost at most under the lines of those at both ends.
     fn may_turn(&self, line: &Line, near: &At, far: &At) -> Option<f64> {
-        let ((Some((one, _)), Some((two, _))), (Some((_, from)), Some((_, to)))) =
-            ((&near.look.own, &far.look.own), (&near.look.rival, &far.look.rival))
-        else {
-            return None;
-        };
+        let (Some((one, _)), Some((two, _))) = (&near.look.own, &far.look.own) else { return None };
+        let (from, to) = (near.look.least, far.look.least);
         let (one, two) = (Straight::of(line, one, near, far)?, Straight::of(line, two, near, far)?);
         let share = one.meets(&two).filter(|share| (0.0..=1.0).contains(share))?;
         let value = near.value + (far.value - near.value) * share;

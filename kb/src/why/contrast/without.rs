@@ -24,14 +24,14 @@ impl Without {
             rooms.iter().map(|&room| (room, Walking::Unknown)),
             doors.iter().map(|&door| (door, None, false)),
         );
-        let choice = Choice::of(&graph, start, goal);
         let routes = Routes::between(&graph, start.clone(), goal.clone());
+        let choice = Choice::among(&routes, &graph);
         (Self { routes, rooms, doors }, choice)
     }
 }
 
 impl Ways for Without {
-    fn best(&self, weights: &Weights) -> Option<Path> {
+    fn best(&self, weights: &Weights, limit: f64) -> Option<Path> {
         let mut weights = weights.clone();
         for room in &self.rooms {
             weights.rooms[room.index()] = Walking::Unknown;
@@ -39,7 +39,7 @@ impl Ways for Without {
         for door in &self.doors {
             weights.doors[door.index()] = f64::INFINITY;
         }
-        self.routes.best(&weights)
+        self.routes.best(&weights, limit)
     }
 
     fn holds(&self, path: &Path) -> Option<bool> {

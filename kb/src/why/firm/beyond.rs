@@ -26,7 +26,8 @@ impl Beyond {
         (end, side): (&End, Side),
     ) -> Result<Self> {
         let cost = match prober.at(lever, end.at)? {
-            Probe::Weighs(weights) => same.driven_cost(&weights),
+            Probe::Weighs(weights) if end.is_closed => same.driven_cost(&weights),
+            Probe::Weighs(weights) => Some(same.path.cost(&weights)).filter(|cost| cost.is_finite()),
             Probe::CutAnew | Probe::Refused => None,
         };
         let (way, at) = match &end.beyond {
