@@ -224,7 +224,7 @@ impl Holds {
             let lever = &course.lever;
             let sides = [turn.end(&course, Side::Below, None)?, turn.end(&course, Side::Above, None)?];
             let exact = sides.iter().all(|side| side.is_exact);
-            let [low, high] = sides.map(|side| side.end.and_then(|end| end.way()).map(|(at, _)| at));
+            let [low, high] = sides.map(|side| side.end.filter(|end| end.cost().is_some()).map(|end| end.at));
             if low.is_some() || high.is_some() {
                 let (table, key, column) =
                     (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());

@@ -71,7 +71,7 @@ pub struct WouldWin {
     pub column: String,
     /// What it is.
     pub value: f64,
-    /// From where on the way would be the best; there it costs as much as any other.
+    /// Where the way would be the best, or as good as any other; to a thousandth it is the first such value.
     pub wins_at: f64,
     /// What it would cost there.
     pub cost: f64,
@@ -207,7 +207,8 @@ fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<
                 let side = turn.end(course, side, least)?;
                 // between values that were tried there may be one that would do
                 is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
-                let Some((wins_at, cost)) = side.end.and_then(|end| end.way()) else { continue };
+                let Some(end) = side.end else { continue };
+                let (wins_at, Some(cost)) = (end.won_at, end.cost()) else { continue };
                 let share = (wins_at - lever.value).abs() / lever.scale();
                 if least.is_none_or(|least| share < least) {
                     least = Some(share);

@@ -268,8 +268,9 @@ fn check_why_not(desk: &Desk, answer: &WhyNot) {
     let out = (cell.wins_at - cell.value).signum();
     let named = (cell.table.as_str(), cell.key.as_str(), cell.column.as_str());
     let hair = cell.wins_at.abs().max(0.1) * NEAR;
-    let within = desk.route_with(named, cell.wins_at - out * hair, ask);
-    let beyond = desk.route_with(named, (cell.wins_at + out * hair).max(0.0), ask);
+    // it is named where it has won, a hair beyond where both ways cost the same
+    let within = desk.route_with(named, cell.wins_at - 2.5 * out * hair, ask);
+    let beyond = desk.route_with(named, cell.wins_at, ask);
     desk.claim(!leads_through(&within, &answer.through), || {
         format!("{ends}: before {}: {}", cell.wins_at, answer.sentence)
     });

@@ -43,7 +43,7 @@ pub struct Look {
 /// What takes over.
 #[derive(Clone, Debug)]
 pub enum Takeover {
-    /// Another way, with what it costs at the end.
+    /// Another way, with what it costs where it has won.
     Way(Path, f64),
     /// Rooms and doors are cut anew.
     CutAnew,
@@ -56,16 +56,23 @@ pub enum Takeover {
 #[derive(Clone, Debug)]
 pub struct End {
     pub at: f64,
+    /// Where the others were seen to have won: there, or a little beyond.
+    pub won_at: f64,
     /// Whether they still hold there.
     pub is_closed: bool,
     pub beyond: Takeover,
 }
 
 impl End {
-    /// Where another way takes over, and what it costs there.
-    pub fn way(&self) -> Option<(f64, f64)> {
+    /// Up to which value ways hold, and the others do not yet.
+    pub fn at(value: f64, beyond: Takeover) -> Self {
+        Self { at: value, won_at: value, is_closed: true, beyond }
+    }
+
+    /// What the other way costs that takes over, where it has.
+    pub fn cost(&self) -> Option<f64> {
         match &self.beyond {
-            Takeover::Way(_, cost) => Some((self.at, *cost)),
+            Takeover::Way(_, cost) => Some(*cost),
             _ => None,
         }
     }

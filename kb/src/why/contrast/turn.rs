@@ -1,5 +1,7 @@
 //! From which value of a number on the ways that hold give way to the others.
 
+mod first;
+
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -15,14 +17,8 @@ const TRIED: usize = 8;
 /// Values that are tried for one answer at most.
 const PATIENCE: usize = 2_000;
 
-/// Rounds in which an end is narrowed at most.
-const ROUNDS: usize = 40;
-
 /// So far beyond where two ways cost the same, as a share, the one is the best.
 const BEYOND: f64 = 1e-6;
-
-/// Ways that bend otherwise at another value cost more at this one by such a share at most.
-const BENT: f64 = 2e-5;
 
 /// So near to the last value of a range, as a share of it, there is no end.
 const LAST: f64 = 1e-4;
@@ -239,7 +235,7 @@ impl<'t> Turn<'t> {
             }
         }
         if let (true, Some(beyond)) = (weights.is_empty(), other) {
-            return Ok(Piece::End(End { at: from, is_closed: true, beyond }));
+            return Ok(Piece::End(End::at(from, beyond)));
         }
         let line = match weights.as_slice() {
             [one, two, three] if one == two && two == three && *one == *self.prober.present => None,
@@ -262,7 +258,8 @@ impl<'t> Turn<'t> {
         if is_last && matches!(beyond, Some(Takeover::Way(..))) && self.contrast.is_turned(1.0, 1.0) {
             return Ok(Piece::Nothing);
         }
-        Ok(beyond.map_or(Piece::Nothing, |beyond| Piece::End(End { at: to, is_closed: false, beyond })))
+        Ok(beyond
+            .map_or(Piece::Nothing, |beyond| Piece::End(End { is_closed: false, ..End::at(to, beyond) })))
     }
 
     /// What has taken over at a value.
@@ -287,7 +284,7 @@ impl<'t> Turn<'t> {
         let Some(near) = near else { return Piece::Nothing };
         if near.is_turned {
             let beyond = near.takeover().unwrap_or(Takeover::NoWay);
-            return Piece::End(End { at: from, is_closed: true, beyond });
+            return Piece::End(End::at(from, beyond));
         }
         // what gets dearer for all does not get cheaper for the others, and the way that holds costs no more than they cost already
         let is_rising = farly.are_no_less_than(&nearly);
@@ -358,114 +355,6 @@ impl<'t> Turn<'t> {
         Some(At { value, look: self.contrast.glance(&line.at(value)?)? })
     }
 
-    /// The first value between two at which the others win; at `near` they have not.
-    ///
-    /// # Arguments
-    /// `is_rising` says that nothing gets easier from `near` to `far`.
-    fn first(&self, line: &Line, near: At, far: At, is_rising: bool) -> Piece {
-        // the nearest interval is the last; what lies beyond an end is not looked at
-        let (mut waiting, mut end) = (vec![(near, far)], None);
-        while let Some((near, far)) = waiting.pop() {
-            if self.is_over() {
-                return Piece::Unknown;
-            }
-            if far.look.is_turned {
-                let Some((before, found)) = self.narrowed(line, &near, far) else { return Piece::Unknown };
-                end = Some(found);
-                waiting.clear();
-                waiting.push((near, before));
-            } else if let Some(middle) = self.may_turn(line, &near, &far) {
-                let Some(mut middle) = self.look_at(line, middle) else { return Piece::Unknown };
-                if is_rising {
-                    middle.look.least = middle.look.least.max(near.look.least);
-                }
-                if !middle.look.is_turned {
-                    waiting.push((middle.clone(), far));
-                }
-                waiting.push((near, middle));
-            }
-        }
-        end.map_or(Piece::Nothing, Piece::End)
-    }
-
-    /// The end between a value at which the others have not won and one at which they have, and the last value before it that was
-    /// looked at.
-    fn narrowed(&self, line: &Line, near: &At, far: At) -> Option<(At, End)> {
-        let (mut before, mut beyond) = (near.clone(), far);
-        for round in 0..ROUNDS {
-            if self.is_over() {
-                return None;
-            }
-            let middle = f64::midpoint(before.value, beyond.value);
-            let hair = self.hair(middle);
-            let value = if round % 4 == 3 { None } else { self.crossing(line, &before, &beyond) };
-            let gap = (beyond.value - before.value).abs();
-            let is_exact = self.contrast.hair() <= 0.0;
-            // where what each way costs is known, both are known to cost the same there
-            let is_found = value.is_some_and(|value| is_exact && !is_inside(value, &before, &beyond));
-            if is_found || gap <= 2.0 * hair || gap <= 1e-9 * beyond.value.abs().max(1e-6) {
-                return Some(self.ended(line, near, (before, beyond), value.unwrap_or(middle)));
-            }
-            let value = value.unwrap_or(middle);
-            let side = (beyond.value - before.value).signum();
-            let tries = if is_exact { [value, value] } else { [value - hair * side, value + hair * side] };
-            for tried in tries {
-                if !is_inside(tried, &before, &beyond) || (tried - before.value) * side <= 0.0 {
-                    continue;
-                }
-                let at = self.glance_at(line, tried)?;
-                if at.look.is_turned {
-                    beyond = at;
-                    break;
-                }
-                before = at;
-            }
-        }
-        let middle = f64::midpoint(before.value, beyond.value);
-        Some(self.ended(line, near, (before, beyond), middle))
-    }
-
-    fn ended(&self, line: &Line, near: &At, (mut before, beyond): (At, At), at: f64) -> (At, End) {
-        let cost = |path: &Path| line.at(at).map(|weights| path.cost(&weights));
-        let takeover = match &beyond.look.rival {
-            Some((path, _)) => Takeover::Way(path.clone(), cost(path).unwrap_or(f64::INFINITY)),
-            None => Takeover::NoWay,
-        };
-        // what the others cost is concave: between two values no less than the straight line
-        if beyond.look.least.is_finite() {
-            let share = (before.value - near.value) / (beyond.value - near.value);
-            let (from, to) = (near.look.least, beyond.look.least);
-            before.look.least = before.look.least.max(from + (to - from) * share);
-        }
-        (before, End { at, is_closed: true, beyond: takeover })
-    }
-
-    /// Where the way that holds at one value comes to cost what the one does that won at another.
-    fn crossing(&self, line: &Line, near: &At, far: &At) -> Option<f64> {
-        let ((own, _), (rival, _)) = (near.look.own.as_ref()?, far.look.rival.as_ref()?);
-        let (one, two) = (Straight::of(line, own, near, far)?, Straight::of(line, rival, near, far)?);
-        let meet = one.meets(&two)?;
-        let is_exact = self.contrast.hair() <= 0.0;
-        let is_between = (0.0..=1.0).contains(&meet) && two.to <= one.to;
-        (is_exact || is_between).then(|| near.value + (far.value - near.value) * meet.clamp(0.0, 1.0))
-    }
-
-    /// A value between two at which the others have not won, if they may have won there: what the others cost at least lies above
-    /// the straight line between both, and what the ways that hold cost at most under the lines of those at both ends.
-    fn may_turn(&self, line: &Line, near: &At, far: &At) -> Option<f64> {
-        let (Some((one, _)), Some((two, _))) = (&near.look.own, &far.look.own) else { return None };
-        let (from, to) = (near.look.least, far.look.least);
-        let (one, two) = (Straight::of(line, one, near, far)?, Straight::of(line, two, near, far)?);
-        let share = one.meets(&two).filter(|share| (0.0..=1.0).contains(share))?;
-        let value = near.value + (far.value - near.value) * share;
-        let rival = from + (to - from) * share;
-        // ways bend a little otherwise at each value, so that lines of two of them lie a little apart
-        let is_won = self.contrast.is_turned(one.at(share), rival)
-            && (self.contrast.hair() <= 0.0 || (one.at(share) - rival).abs() > BENT * rival);
-        let is_wide = (far.value - near.value).abs() > 2.0 * self.hair(value);
-        (is_won && is_wide && is_inside(value, near, far)).then_some(value)
-    }
-
     /// Where weights are not linear: some values are tried, then halved.
     fn tried(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
         self.is_exact = false;
@@ -486,7 +375,7 @@ impl<'t> Turn<'t> {
                     None => good = middle,
                 }
             }
-            return Ok(Piece::End(End { at: good, is_closed: true, beyond }));
+            return Ok(Piece::End(End { won_at: bad, ..End::at(good, beyond) }));
         }
         Ok(Piece::Nothing)
     }
