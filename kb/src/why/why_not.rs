@@ -99,9 +99,14 @@ impl State {
         let graph = self.graph().graph();
         let best = Choice::among(&routes, graph);
         let (passing, way) = Through::new(graph, ends, meant.via.clone());
-        let way = best.clone().filter(|way| passing.holds_way(&way.driven)).or(way);
+        let is_driven = |way: &Choice| passing.holds_way(&way.driven);
+        // farther off walls it may lead past
+        let tightly = |way: Choice| Choice { driven: way.tight.clone(), ..way };
+        let led = best.clone().filter(is_driven);
+        let is_led = led.is_some();
+        let way = led.or_else(|| way.map(|way| if is_driven(&way) { way } else { tightly(way) }));
         let costs = Choice::costs(best.as_ref(), way.as_ref());
-        let reason = words::reason(&self, &meant, &routes, ((start, goal), costs));
+        let reason = words::reason(&self, &meant, &routes, ((start, goal), costs, is_led));
         let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
             self.basis().along(&way.driven, routes.goal.at.is_some(), &mut answer)?;

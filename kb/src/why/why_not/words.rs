@@ -21,10 +21,13 @@ pub(super) fn reason(
     fork: &State,
     meant: &Meant,
     routes: &Routes,
-    ((start, goal), costs): ((&str, &str), (Option<f64>, Option<f64>)),
+    ((start, goal), costs, is_led): ((&str, &str), (Option<f64>, Option<f64>), bool),
 ) -> String {
     let through = meant.words();
     match costs {
+        (Some(best), Some(cost)) if is_best(best, cost) && !is_led => {
+            format!("{through} it costs as much as the best route from {start} to {goal}, {}", number(best))
+        }
         (Some(best), Some(cost)) if is_best(best, cost) => {
             format!("the best route from {start} to {goal} leads {through}, hardness {}", number(best))
         }
