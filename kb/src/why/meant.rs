@@ -102,17 +102,12 @@ impl State {
             Object::Point(_, Some(segment)) => building.doorway_at(segment),
             _ => None,
         };
-        match doorway {
-            Some(doorway) => Ok(self.through_doorway(Some(doorway))),
-            None => {
-                let message = format!("no doorway lies ahead of {what}");
-                Err(Error::said(
-                    Code::WhyThrough,
-                    message,
-                    Some("say the point without its heading".to_owned()),
-                ))
-            }
+        if doorway.is_none() {
+            let message = format!("no doorway lies ahead of {what}");
+            let help = "say the point without its heading".to_owned();
+            return Err(Error::said(Code::WhyThrough, message, Some(help)));
         }
+        Ok(self.through_doorway(doorway))
     }
 
     fn through_doorway(&self, doorway: Option<&Doorway>) -> Meant {

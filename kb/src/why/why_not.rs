@@ -106,7 +106,7 @@ impl State {
         let is_led = led.is_some();
         let way = led.or_else(|| way.map(|way| if is_driven(&way) { way } else { tightly(way) }));
         let costs = Choice::costs(best.as_ref(), way.as_ref());
-        let reason = words::reason(&self, &meant, &routes, ((start, goal), costs, is_led));
+        let reason = words::reason(&self, &meant, &routes, (start, goal), (costs.0, costs.1, is_led));
         let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
             self.basis().along(&way.driven, routes.goal.at.is_some(), &mut answer)?;

@@ -15,7 +15,8 @@ use crate::why::why_not::WhyNot;
 /// Of a thing, or of a route.
 #[derive(Deserialize)]
 pub struct What {
-    what: Option<String>,
+    #[serde(rename = "what")]
+    thing: Option<String>,
     start: Option<String>,
     goal: Option<String>,
     at: Option<String>,
@@ -42,7 +43,7 @@ pub enum Reasons {
     responses((status = 200, body = Reasons)))]
 pub async fn why(site: Site, Asked(asked): Asked<What>) -> Answered<Json<Reasons>> {
     let fork = site.fork().await?;
-    let answer = site.at_length(move || match (&asked.what, &asked.start, &asked.goal) {
+    let answer = site.at_length(move || match (&asked.thing, &asked.start, &asked.goal) {
         (Some(what), None, None) => fork.why(what).map(Reasons::Thing),
         (None, Some(start), Some(goal)) => {
             fork.why_way((start, goal), asked.at.as_deref(), asked.robot.as_deref()).map(Reasons::Way)

@@ -117,10 +117,10 @@ impl Found {
 impl Look {
     /// What has taken over, if anything has.
     pub fn takeover(self) -> Option<Takeover> {
-        self.is_turned.then(|| match self.rival {
-            Some((path, cost)) => Takeover::Way(path, cost),
-            None => Takeover::NoWay,
-        })
+        if !self.is_turned {
+            return None;
+        }
+        Some(self.rival.map_or(Takeover::NoWay, |(path, cost)| Takeover::Way(path, cost)))
     }
 }
 

@@ -100,12 +100,11 @@ impl Routes {
     }
 
     pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
-        let searched = match CompactGraph::new(graph) {
-            Some(compact) => Searched::OnDoors(RefCell::new(compact)),
-            None => {
-                let measured = Measured { graph: graph.clone(), now: Weights::of(graph), first: None };
-                Searched::Measured(Box::new(RefCell::new(measured)))
-            }
+        let searched = if let Some(compact) = CompactGraph::new(graph) {
+            Searched::OnDoors(RefCell::new(compact))
+        } else {
+            let measured = Measured { graph: graph.clone(), now: Weights::of(graph), first: None };
+            Searched::Measured(Box::new(RefCell::new(measured)))
         };
         Self { start, goal, searched }
     }

@@ -152,7 +152,9 @@ impl<'t> Turn<'t> {
             self.spend();
             let rival = self.contrast.rival(&least, cost);
             let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
-                asked.into_iter().for_each(|of| never[of] = true);
+                for of in asked {
+                    never[of] = true;
+                }
                 break;
             };
             let before = asked.len();
@@ -212,7 +214,8 @@ impl<'t> Turn<'t> {
             let Probe::Weighs(weights) = self.probe(lever, value)? else { return Ok(None) };
             match &line {
                 None => {
-                    line = Some(Line::new((lever.value, Rc::clone(&self.prober.present)), (value, &weights)))
+                    let present = (lever.value, Rc::clone(&self.prober.present));
+                    line = Some(Line::new(present, (value, &weights)));
                 }
                 Some(line) if line.holds(value, &weights) => {}
                 Some(_) => return Ok(None),

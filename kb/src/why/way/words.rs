@@ -1,5 +1,7 @@
 //! Why a route does what it does, in the building's words.
 
+use std::fmt::Write;
+
 use super::{Holds, Stretch, WhyWay};
 use crate::why::hindered::sentence;
 use crate::why::meant::Meant;
@@ -40,15 +42,17 @@ fn paragraph(stretch: &Stretch, robot: &str) -> String {
         Some(other) if other.more > 0.0 => {
             let by = if other.by.is_empty() { String::new() } else { format!(", by {}", listed(&other.by)) };
             let (cost, more) = (number(other.cost), number(other.more));
-            said.push_str(&format!(" Without {name} the best way costs {cost}, {more} more{by}."));
+            write!(said, " Without {name} the best way costs {cost}, {more} more{by}.").ok();
         }
         Some(other) => {
-            said.push_str(&format!(" Without {name} the best way costs as much, {}.", number(other.cost)))
+            write!(said, " Without {name} the best way costs as much, {}.", number(other.cost)).ok();
         }
-        None => said.push_str(&format!(" Without {name} no way leads there.")),
+        None => {
+            write!(said, " Without {name} no way leads there.").ok();
+        }
     }
     if let Some(holds) = &stretch.holds {
-        said.push_str(&format!(" {name} stays on the best way while {}.", within(holds, robot)));
+        write!(said, " {name} stays on the best way while {}.", within(holds, robot)).ok();
     }
     said
 }

@@ -21,24 +21,25 @@ pub(super) fn reason(
     fork: &State,
     meant: &Meant,
     routes: &Routes,
-    ((start, goal), costs, is_led): ((&str, &str), (Option<f64>, Option<f64>), bool),
+    (start, goal): (&str, &str),
+    costs: (Option<f64>, Option<f64>, bool),
 ) -> String {
     let through = meant.words();
     match costs {
-        (Some(best), Some(cost)) if is_best(best, cost) && !is_led => {
+        (Some(best), Some(cost), false) if is_best(best, cost) => {
             format!("{through} it costs as much as the best route from {start} to {goal}, {}", number(best))
         }
-        (Some(best), Some(cost)) if is_best(best, cost) => {
+        (Some(best), Some(cost), _) if is_best(best, cost) => {
             format!("the best route from {start} to {goal} leads {through}, hardness {}", number(best))
         }
-        (Some(best), Some(cost)) => format!(
+        (Some(best), Some(cost), _) => format!(
             "{through} it costs {}, {} more than the best route from {start} to {goal} ({})",
             number(cost),
             number(cost - best),
             number(best)
         ),
-        (None, Some(cost)) => format!("{through} it costs {}", number(cost)),
-        (_, None) => shut(fork, meant, routes)
+        (None, Some(cost), _) => format!("{through} it costs {}", number(cost)),
+        (_, None, _) => shut(fork, meant, routes)
             .unwrap_or_else(|| format!("no way leads from {start} {through} to {goal}")),
     }
 }
@@ -108,7 +109,7 @@ pub(super) fn deciding(prober: &Prober, best: &Path, way: &Path) -> Vec<String> 
         let Walking::PerMetre(hardness) = weights[*room] else { continue };
         let space = graph[*room].space.and_then(|space| graph.building.space(space));
         let space = space.unwrap_or_else(|| format!("room {}", graph[*room].name));
-        match walked.iter_mut().find(|(of, how, ..)| (&*of, *how) == (&space, action)) {
+        match walked.iter_mut().find(|(of, how, ..)| *of == space && *how == action) {
             Some((.., sum, cost)) => (*sum, *cost) = (*sum + metres, *cost + hardness * metres),
             None => walked.push((space, action, *metres, hardness * metres)),
         }
