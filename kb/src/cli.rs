@@ -80,9 +80,9 @@ pub enum Verb {
     Watch(SiteArgs),
     /// What a value is; what rules lack to conclude it is asked, question by question
     Ask(ask::AskArgs),
-    /// Why something is as it is: the rule and the facts behind it
+    /// Why something is as it is: the rule and the facts behind it; or why a route does what it does
     Why(why::WhyArgs),
-    /// Why the route does not lead through a room or door: what that would cost, and what rules rejected there
+    /// Why the route does not lead through something: what that would cost, what decides, and which number would turn it
     WhyNot(why::WhyNotArgs),
     /// How firm a route is: how far each hardness may change before another way is the best
     Firm(WayArgs),

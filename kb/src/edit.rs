@@ -16,7 +16,7 @@ mod cells;
 mod close;
 mod errand;
 mod lay;
-mod place;
+pub(crate) mod place;
 pub(crate) mod react;
 pub mod rehearse;
 mod table;

@@ -5,6 +5,7 @@ mod building;
 mod ends;
 pub(crate) mod gauge;
 mod layers;
+mod named;
 pub(crate) mod pairs;
 mod texts;
 
@@ -18,6 +19,7 @@ use adit_db::door::{Door, DoorKind, Side};
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row;
+use adit_db::space::Doorway;
 use adit_db::weight::Weight;
 use adit_planners::geometry::{Convex, Point, Segment};
 use adit_planners::rooms::outline;
@@ -34,6 +36,7 @@ use crate::knowledge::told::Whom;
 
 pub use building::Building;
 pub use layers::rect_of;
+pub use named::Named;
 
 pub use texts::{Texts, word};
 
@@ -176,11 +179,15 @@ impl SiteGraph {
 
     /// What people call the doorway through which a door leads into another space.
     pub fn doorway(&self, door: &Door) -> Option<String> {
+        self.doorway_of(door).map(Building::name)
+    }
+
+    /// The doorway through which a door leads into another space.
+    pub fn doorway_of(&self, door: &Door) -> Option<&Doorway> {
         let space = |side: &Side| self[self.room(side.room)?].space;
         let [one, other] = [space(&door.side1)?, space(&door.side2)?];
         let at = Point::new(door.at[0], door.at[1]);
-        let doorway = self.building.doorway(one, other, at).filter(|_| door.kind == DoorKind::Door);
-        doorway.map(Building::name)
+        self.building.doorway(one, other, at).filter(|_| door.kind == DoorKind::Door)
     }
 
     /// What closes a boundary of the graph.

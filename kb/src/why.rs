@@ -1,24 +1,33 @@
 //! Why something is as it is: the rule behind each conclusion, what it chose, and the values that it read there.
 
 pub mod ask;
+mod contrast;
 mod course;
 mod facts;
 pub mod firm;
+pub mod hindered;
+mod meant;
+mod said;
 pub(crate) mod subject;
 mod told;
+pub mod way;
 pub mod why_not;
 
 use adit_db::Cell;
 use adit_engine::{Origin, Support, Value};
+use adit_planners::geometry::Segment;
+use adit_planners::routes::Walking;
 use serde::Serialize;
 
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
+use crate::why::hindered::{Driven, Hindered, Kind, by_ease};
 use crate::why::subject::Subject;
 use crate::why::told::Telling;
 use crate::words::suggest::did_you_mean;
 pub use facts::Facts;
+pub(crate) use said::roughly;
 
 /// What is concluded about an object, and why.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -33,6 +42,10 @@ pub struct Why {
     pub conclusions: Vec<Reasoned>,
     /// The objects that the conclusions rest on, each with the properties that their rules read.
     pub facts: Vec<Facts>,
+    /// Of a room in another state than the easiest, the easier ones, and what keeps each of them out in its middle.
+    pub hindered: Vec<Hindered>,
+    /// That in one sentence; `null`: nothing is easier there.
+    pub easier: Option<String>,
 }
 
 /// A value that was concluded, or told in place of what rules conclude.
@@ -101,7 +114,27 @@ impl State {
             ..none.clone()
         }));
         let object = format!("{}.{}", subject.class, subject.key);
-        Ok(Why { generation: self.generation, object, name: subject.name, conclusions, facts })
+        let (hindered, easier) = self.easier_there(&subject);
+        let (generation, name) = (self.generation, subject.name);
+        Ok(Why { generation, object, name, conclusions, facts, hindered, easier })
+    }
+
+    /// What keeps easier states out in the middle of a room.
+    fn easier_there(&self, subject: &Subject) -> (Vec<Hindered>, Option<String>) {
+        let graph = self.graph();
+        let key = (subject.class == "rooms").then(|| subject.key.parse().ok()).flatten();
+        let Some(room) = key.and_then(|key| graph.room(key)) else { return (Vec::new(), None) };
+        let (Some(of), Walking::PerMetre(per_m)) = (&graph[room].layer, graph.graph()[room].walking) else {
+            return (Vec::new(), None);
+        };
+        let centre = graph.outline(room).centre();
+        let driven = Driven { legs: &[Segment::new(centre, centre)], per_m };
+        let states = by_ease(graph, &of.0);
+        let easier = states.iter().filter(|(other, least)| other != of && *least < per_m);
+        let hindered = easier.filter_map(|(other, _)| self.hindered(other, &driven));
+        let hindered: Vec<Hindered> = hindered.filter(|one| one.kind != Kind::Change).collect();
+        let said = hindered::sentence(&hindered);
+        (hindered, (!said.is_empty()).then_some(said))
     }
 
     /// What is concluded about the subject, with the facts behind it; a property that is named must be among it.

@@ -1,6 +1,7 @@
 //! How near to anything solid a straight way comes, and where a body fits.
 
 mod footprint;
+mod hindrance;
 mod nearest;
 
 use geo::{Distance, Euclidean, Line, Polygon};
@@ -10,6 +11,7 @@ use crate::geometry::{Point, Rect, Segment};
 use crate::world::{Shape, World};
 
 pub use footprint::Footprint;
+pub use hindrance::Hindrance;
 
 /// Walls, obstacles and bridges of a world, found by where they are.
 pub struct Solids {

@@ -46,13 +46,11 @@ pub use parts::{Berth, Crossing, DoorIndex, Entry, Goal, RoomIndex, RouteDoor, R
 pub use visit::{OpenDoor, OpenDoors};
 pub use way::{Leg, Way, Ways};
 
-/// How far off walls a way keeps.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Drawn {
-    /// As far as it must.
-    Tight,
-    /// As far as rooms ask for.
-    Wide,
+/// A best way: as tight as it can be, by which it is chosen, and as far off walls as rooms ask for, where that was asked.
+struct Best {
+    goal: usize,
+    tight: Way,
+    wide: Option<Way>,
 }
 
 impl RouteGraph {
@@ -69,31 +67,46 @@ impl RouteGraph {
     /// Where rooms ask for a [`Berth`], a way to a point keeps off walls, and costs more than
     /// [the tightest](Self::tightest_way) by no more than they allow.
     pub fn way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
-        self.way_at(start, goals, Drawn::Wide)
+        let Best { goal, tight, wide } = self.way_at(start, goals, true, f64::INFINITY)?;
+        Some((goal, wide.unwrap_or(tight)))
     }
 
     /// As [`way`](Self::way), whatever berth rooms ask for. It is by what these cost that ways are chosen.
     pub fn tightest_way(&self, start: &Start, goals: &[Goal]) -> Option<(usize, Way)> {
-        self.way_at(start, goals, Drawn::Tight)
+        self.tightest_way_within(start, goals, f64::INFINITY)
     }
 
-    fn way_at(&self, start: &Start, goals: &[Goal], drawn: Drawn) -> Option<(usize, Way)> {
+    /// As [`tightest_way`](Self::tightest_way), where it costs no more than a limit; one that costs more may be found or not.
+    pub fn tightest_way_within(&self, start: &Start, goals: &[Goal], limit: f64) -> Option<(usize, Way)> {
+        self.way_at(start, goals, false, limit).map(|best| (best.goal, best.tight))
+    }
+
+    /// [The tightest way](Self::tightest_way) to a goal and [the way](Self::way), by one search.
+    pub fn tightest_way_and_way(&self, start: &Start, goal: &Goal) -> Option<[Way; 2]> {
+        let Best { tight, wide, .. } = self.way_at(start, std::slice::from_ref(goal), true, f64::INFINITY)?;
+        let wide = wide.unwrap_or_else(|| tight.clone());
+        Some([tight, wide])
+    }
+
+    fn way_at(&self, start: &Start, goals: &[Goal], is_wide: bool, limit: f64) -> Option<Best> {
+        let as_it_is = |(goal, tight)| Best { goal, tight, wide: None };
         if let Some(hierarchy) = self.hierarchy.as_ref().filter(|_| self.is_on_doors()) {
-            return self.way_by(hierarchy, start, goals);
+            return self.way_by(hierarchy, start, goals).map(as_it_is);
         }
         if self.is_on_doors() {
             let all = self.ways(start, goals, false).goals.into_iter().enumerate();
             let ways = all.filter_map(|(goal, way)| Some((goal, way?)));
-            return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost));
+            return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost)).map(as_it_is);
         }
         if let Some(cut) = self.cut() {
-            return cut.way(start, goals, drawn);
+            return cut.way(start, goals, is_wide, limit);
         }
-        let outcome = Search::find(self, start, goals, Wanted::One);
+        let outcome = Search::find(self, start, goals, Wanted::One, limit);
         let ways = (0..goals.len())
             .filter_map(|goal| Some((goal, self.best(&outcome, start, (goal, goals[goal].at))?)));
-        let (goal, way) = ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))?;
-        Some((goal, if drawn == Drawn::Tight { way } else { self.off_walls(way, &goals[goal]) }))
+        let (goal, tight) = ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost))?;
+        let wide = is_wide.then(|| self.off_walls(tight.clone(), &goals[goal]));
+        Some(Best { goal, tight, wide })
     }
 
     /// A way as it is driven to a goal. Nobody drives to a room as such: a way into one stays tight.
@@ -103,8 +116,14 @@ impl RouteGraph {
 
     /// The best of the ways to a goal that were found, pulled tight.
     fn best(&self, outcome: &Outcome, start: &Start, (goal, at): (usize, Option<Point>)) -> Option<Way> {
-        let ways = outcome.goals[goal].iter().map(|found| trace(self, &outcome.nodes, (start, at), found));
-        ways.reduce(|best, way| {
+        let found = &outcome.goals[goal];
+        let pulled = |found, instead| trace(self, &outcome.nodes, (start, at), found, instead);
+        let mut ways: Vec<Way> = found.iter().map(|found| pulled(found, None)).collect();
+        let cost = |way: &usize| ways[*way].cost;
+        let first = (0..ways.len()).min_by(|one, two| cost(one).total_cmp(&cost(two)))?;
+        let others = outcome.otherwise(self, &found[first]).into_iter();
+        ways.extend(others.map(|instead| pulled(&found[first], Some(instead))));
+        ways.into_iter().reduce(|best, way| {
             // of ways that cost the same to a rounding, the one that passes fewer doors
             let rounding = ROUNDING * best.cost;
             let is_better = way.cost < best.cost - rounding
@@ -122,9 +141,9 @@ impl RouteGraph {
             return cut.ways(start, goals, rooms);
         }
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
-        let outcome = Search::find(self, start, goals, wanted);
+        let outcome = Search::find(self, start, goals, wanted, f64::INFINITY);
         let way = |found: &Option<taut::Found>| {
-            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found))
+            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found, None))
         };
         let to = |goal: usize| {
             let best = self.best(&outcome, start, (goal, goals[goal].at));

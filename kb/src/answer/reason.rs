@@ -3,7 +3,7 @@
 use adit_db::door::Door;
 use adit_planners::geometry::Point;
 use adit_planners::layers::{Headroom, headroom, narrowest};
-use adit_planners::routes::{Blockage, RoomIndex, Shut, blockage};
+use adit_planners::routes::{Blockage, Goal, RoomIndex, Shut, Start, blockage};
 use adit_planners::world::World;
 
 use super::Answer;
@@ -29,24 +29,33 @@ impl Basis<'_> {
             }
         }
         match blockage(graph.graph(), &ends.start, &ends.goals[0]) {
-            Blockage::Shut(doors) => {
-                let mut shut: Vec<String> =
-                    doors.iter().take(DESCRIBED).filter_map(|of| self.shut(*of)).collect();
-                shut.dedup();
-                let more = doors.len().saturating_sub(DESCRIBED);
-                let more = if more > 0 {
-                    format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
-                } else {
-                    String::new()
-                };
-                Ok(format!("{}{more}", shut.join("; ")))
-            }
+            Blockage::Shut(doors) => Ok(self.all_shut(&doors)),
             Blockage::Apart => {
                 let world = self.ground.get()?.0;
                 let to = ends.goals[0].at.unwrap_or_else(|| graph.point(&ends.named[1]));
                 apart(world, (ends.start.at, to), robot, self.knowledge)
             }
         }
+    }
+
+    /// What would have to open for a way to lead from a start to a goal; `None` where nothing can, or nothing has to.
+    pub fn why_shut(&self, start: &Start, goal: &Goal) -> Option<String> {
+        match blockage(self.graph.graph(), start, goal) {
+            Blockage::Shut(doors) if !doors.is_empty() => Some(self.all_shut(&doors)),
+            _ => None,
+        }
+    }
+
+    fn all_shut(&self, doors: &[Shut]) -> String {
+        let mut shut: Vec<String> = doors.iter().take(DESCRIBED).filter_map(|of| self.shut(*of)).collect();
+        shut.dedup();
+        let more = doors.len().saturating_sub(DESCRIBED);
+        let more = if more > 0 {
+            format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
+        } else {
+            String::new()
+        };
+        format!("{}{more}", shut.join("; "))
     }
 
     /// What lets nobody through, and why.

@@ -6,6 +6,7 @@ use super::output::{json, line, table};
 use crate::error::Result;
 use crate::live::Live;
 use crate::why::firm::{Beyond, FirmCell};
+use crate::why::roughly;
 use crate::words::number::number;
 
 /// Prints how far each cell may change before another way is the best.
@@ -39,7 +40,7 @@ pub fn run(args: &WayArgs) -> Result<()> {
 }
 
 fn interval(cell: &FirmCell) -> String {
-    let low = cell.low.map_or_else(|| "any".to_owned(), |low| format!("{low:.4}"));
-    let high = cell.high.map_or_else(|| "any".to_owned(), |high| format!("{high:.4}"));
+    let low = cell.low.map_or_else(|| "any".to_owned(), |low| roughly(low, f64::ceil));
+    let high = cell.high.map_or_else(|| "any".to_owned(), |high| roughly(high, f64::floor));
     format!("{low} .. {high}{}", if cell.exact { "" } else { " (tried)" })
 }

@@ -16,11 +16,19 @@ pub struct WhyArgs {
     #[command(flatten)]
     pub site: SiteArgs,
     /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; `mission 3`: why the robot stopped (of a database of `adit
-    /// simulate --db` instead of a site its number alone)
+    /// simulate --db` instead of a site its number alone); with GOAL, where a route starts: a place, a room or `x,y`
+    #[arg(allow_hyphen_values = true)]
     pub what: String,
-    /// Of a mission: ask about what the robot did at this time instead of about its last stop
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
-    pub at: Option<f64>,
+    /// Where the route leads: why it does what it does, stretch by stretch
+    #[arg(allow_hyphen_values = true)]
+    pub goal: Option<String>,
+    /// Of a route: only its stretches at this space, doorway, area, named door or point; of a mission: ask about what the robot
+    /// did at this time, in seconds, instead of about its last stop
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
+    pub at: Option<String>,
+    /// Of a route: which robot, where the site has several
+    #[arg(long, requires = "goal")]
+    pub robot: Option<String>,
     /// Of a mission: the name of its world, where the database has several
     #[arg(long, value_name = "NAME")]
     pub world: Option<String>,
@@ -30,8 +38,8 @@ pub struct WhyArgs {
 pub struct WhyNotArgs {
     #[command(flatten)]
     pub way: WayArgs,
-    /// The room or door: `room d`, `door 7`
-    #[arg(long, value_name = "WHAT")]
+    /// A space, a doorway, an area, a named door, `room d`, `door 7`, a place, or a point `x,y` by which to go
+    #[arg(long, value_name = "WHAT", allow_hyphen_values = true)]
     pub through: String,
 }
 
@@ -46,8 +54,12 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     if let Some(mission) = args.what.strip_prefix("mission ") {
         return of_mission(args, open(&args.site)?.database(), mission);
     }
+    if let (Some(goal), None) = (&args.goal, &args.world) {
+        return of_route(args, goal);
+    }
     if args.at.is_some() || args.world.is_some() {
-        let message = format!("--at and --world are for missions, and {} is none", args.what);
+        let message =
+            format!("--at is for routes and missions, --world for missions, and {} is none", args.what);
         let help = "`adit simulate SITE --keep` keeps missions; `adit why SITE \"mission 1\"` asks about one";
         return Err(Error::said(Code::WhyNoMissions, message, Some(help.to_owned())));
     }
@@ -58,15 +70,37 @@ pub fn why(args: &WhyArgs) -> Result<()> {
     for conclusion in &answer.conclusions {
         line(&conclusion.why);
     }
+    if let Some(easier) = &answer.easier {
+        line(&format!("nothing easier goes there: {easier}"));
+    }
     if answer.conclusions.is_empty() {
         line(&format!("no rule concluded anything about {}", answer.name));
     }
     Ok(())
 }
 
+fn of_route(args: &WhyArgs, goal: &str) -> Result<()> {
+    let live = Live::open(open(&args.site)?)?;
+    let answer = live.why_way((&args.what, goal), args.at.as_deref(), args.robot.as_deref())?;
+    if args.site.json {
+        return json(&answer);
+    }
+    for sentence in &answer.sentences {
+        line(sentence);
+    }
+    Ok(())
+}
+
 fn of_mission(args: &WhyArgs, database: &Path, mission: &str) -> Result<()> {
+    let seconds = |at: &String| {
+        at.trim().parse::<f64>().map_err(|_| {
+            let message = format!("--at {at:?} is no time of a mission; expected seconds");
+            Error::said(Code::WhyNoMissions, message, None)
+        })
+    };
+    let at = args.at.as_ref().map(seconds).transpose()?;
     let rules = &args.site.rules;
-    let answer = of_journal::why(database, mission, args.world.as_deref(), args.at, rules.as_deref())?;
+    let answer = of_journal::why(database, mission, args.world.as_deref(), at, rules.as_deref())?;
     if args.site.json {
         return json(&answer);
     }

@@ -13,7 +13,7 @@ use adit_planners::geometry::Rect;
 use super::place;
 use super::tell::Tell;
 use crate::error::{Code, Error, Result};
-use crate::graph::Building;
+use crate::graph::{Building, Named};
 use crate::knowledge::tables;
 use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
 use crate::knowledge::{KnowledgeBase, LAYOUT};
@@ -135,22 +135,16 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     if place::split(what).is_some() {
         return Ok("DOORWAYS");
     }
-    let (areas, doors) = (names(tx, "areas", "area")?, names(tx, "named_doors", "door")?);
     let building = Building::read(tx)?;
-    if doors.iter().any(|door| door == what) {
-        return Ok("NAMED_DOORS");
+    let named = Named {
+        areas: names(tx, "areas", "area")?,
+        doors: names(tx, "named_doors", "door")?,
+        building: &building,
+    };
+    if let Some(class) = named.class_of(what) {
+        return Ok(class);
     }
-    if areas.iter().any(|area| area == what) {
-        return Ok("AREAS");
-    }
-    if building.doorway_named(what).is_some() {
-        return Ok("DOORWAYS");
-    }
-    if building.space_named(what).is_some() {
-        return Ok("SPACES");
-    }
-    let known = areas.into_iter().chain(doors).chain(building.names());
-    let known: Vec<String> = known.collect();
+    let known: Vec<String> = named.names().collect();
     let help = did_you_mean(what, known.iter().map(String::as_str));
     let help =
         help.or_else(|| Some("say a doorway, a space, an area, a named door, or a point as x,y".to_owned()));

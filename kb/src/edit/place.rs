@@ -21,7 +21,7 @@ const STEP_M: f64 = 0.02;
 const FURTHEST_M: f64 = 50.0;
 
 /// A point, with a heading in degrees where one is said: `x,y` or `x,y@degrees`.
-pub(super) fn split(text: &str) -> Option<(Point, Option<f64>)> {
+pub(crate) fn split(text: &str) -> Option<(Point, Option<f64>)> {
     let (point, heading) = match text.split_once('@') {
         Some((point, heading)) => {
             (point, Some(heading.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite())?))
@@ -35,7 +35,7 @@ pub(super) fn split(text: &str) -> Option<(Point, Option<f64>)> {
 
 /// The doorway, or else the cross-section, at which a robot was blocked that stood at a point and was heading somewhere; the
 /// doorway that is nearest to a point where no heading is said.
-pub(super) fn at(world: &World, building: &Building, (at, heading): (Point, Option<f64>)) -> Result<Object> {
+pub(crate) fn at(world: &World, building: &Building, (at, heading): (Point, Option<f64>)) -> Result<Object> {
     let doorways = building.doorways.iter().map(Building::segment);
     let Some(heading) = heading else {
         let nearest = doorways.min_by(|one, other| one.distance(at).total_cmp(&other.distance(at)));

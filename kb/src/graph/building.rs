@@ -68,9 +68,7 @@ impl Building {
 
     fn place_of_line(&self, Line { segment, .. }: &Line) -> String {
         let [x0, y0, x1, y1] = *segment;
-        let ends = segment.map(f64::to_bits);
-        let is_meant = |doorway: &&Doorway| ends_of(doorway).map(f64::to_bits) == ends;
-        let place = self.doorways.iter().find(is_meant).map(|doorway| self.place_of(doorway));
+        let place = self.doorway_at(*segment).map(|doorway| self.place_of(doorway));
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
         place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"))
     }
@@ -116,6 +114,12 @@ impl Building {
         let is_meant =
             |doorway: &&Doorway| Self::name(doorway) == name || is_numbered(name, "doorway", doorway.doorway);
         self.doorways.iter().find(is_meant)
+    }
+
+    /// The doorway with these ends.
+    pub fn doorway_at(&self, ends: [f64; 4]) -> Option<&Doorway> {
+        let ends = ends.map(f64::to_bits);
+        self.doorways.iter().find(|doorway| ends_of(doorway).map(f64::to_bits) == ends)
     }
 
     /// The space of this name: what rules call it, or `space 3`.

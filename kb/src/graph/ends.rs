@@ -100,6 +100,20 @@ impl SiteGraph {
         states
     }
 
+    /// The facings in which a state has rooms.
+    pub fn facings(&self, of: &(String, String)) -> Vec<Option<f64>> {
+        self.layers_of(of).map(|layer| layer.shape().1).collect()
+    }
+
+    /// The rooms of a state that hold a point.
+    pub fn rooms_at(&self, of: &(String, String), at: Point) -> impl Iterator<Item = RoomIndex> {
+        self.layers_of(of).flat_map(move |layer| layer.at(&self.graph, at))
+    }
+
+    fn layers_of(&self, of: &(String, String)) -> impl Iterator<Item = &Layer> {
+        self.index.layers.iter().filter(move |layer| layer.shape().0 == Some(of))
+    }
+
     /// The layers of a robot.
     fn layers(&self, robot: Option<&str>) -> impl Iterator<Item = &Layer> {
         self.index.layers.iter().filter(move |layer| robot.is_none_or(|robot| layer.is_of(robot)))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use adit_db::robot::State;
 use adit_engine::KnowledgeBase as Inference;
-use adit_planners::clearance::{Footprint, Solids};
+use adit_planners::clearance::{Footprint, Hindrance, Solids};
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::{RoomIndex, Way};
@@ -38,10 +38,10 @@ pub type Sizes = BTreeMap<(String, String), Size>;
 /// Metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    width: f64,
-    height: f64,
+    pub width: f64,
+    pub height: f64,
     /// `None` for a disc of its width.
-    length: Option<f64>,
+    pub length: Option<f64>,
 }
 
 /// The sizes that are told or concluded.
@@ -103,6 +103,28 @@ impl Gauge {
         is_accepted: impl Fn(Point) -> bool,
     ) -> Option<Point> {
         self.floor.solids.nearest_fit(&self.footprint(of)?, at, within, is_accepted)
+    }
+
+    /// The size of a state.
+    pub fn size(&self, of: &(String, String)) -> Option<Size> {
+        self.sizes.get(of).copied()
+    }
+
+    /// How wide an opening must be for a state, whichever way it turns, metres.
+    pub fn needs(&self, of: &(String, String)) -> Option<f64> {
+        let Size { width, length, .. } = self.size(of)?;
+        Some(width.min(length.unwrap_or(width)) + 2.0 * self.floor.clearance)
+    }
+
+    /// What keeps a state from going a way, as [`Solids::hindrance`] finds it.
+    pub fn hindrance(
+        &self,
+        of: &(String, String),
+        facings: &[Option<f64>],
+        way: &[Segment],
+    ) -> Option<Hindrance> {
+        let footprints = facings.iter().filter_map(|facing| self.footprint((Some(of), *facing)));
+        self.floor.solids.hindrance(&footprints.collect::<Vec<_>>(), self.needs(of)?, way)
     }
 
     fn footprint(&self, (of, facing): Shape<'_>) -> Option<Footprint> {

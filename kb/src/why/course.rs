@@ -44,7 +44,7 @@ pub fn why(courses: &Courses, what: &str, generation: u64) -> Result<Option<Why>
         }
     }
     let (object, name) = (place.replacen(' ', "s.", 1), place.to_owned());
-    Ok(Some(Why { generation, object, name, conclusions, facts }))
+    Ok(Some(Why { generation, object, name, conclusions, facts, hindered: Vec::new(), easier: None }))
 }
 
 /// Where, on which way.

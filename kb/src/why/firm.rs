@@ -1,31 +1,10 @@
 //! How firm a route is: for each hardness in the tables, how far it may go up or down before another way is the best.
 //!
-//! The best way stays the same while no other one costs less. What *the same way* is:
-//! - where all hardness lies on the doors (the paper's modes), the same doors in the same order; another way that costs
-//!   the same, to 1e-9 of the cost, does not end the interval;
-//! - where rooms weigh their metres, the same actions in the same order, each in the rooms in which the route does it
-//!   now, or in rooms beside these, driven as is best at each value: where hardness changes, a way bends a little
-//!   elsewhere with every value, and that is no other way. Another one that costs the same to 1e-6 does not end it.
-//!
-//! Each rule may use a number as it likes. Between the values that other rows of the same column have, the shipped rules
-//! give weights that are linear in the cell; that is looked at, piece by piece. Where it holds, ends are found by
-//! cutting: at the far end the best way is looked for, the cell is moved to where that way costs as much as this
-//! one, and so on until no way costs less. Where it does not hold, ends are found by trying values and halving, and
-//! [`FirmCell::exact`] is false.
-//!
-//! The search and the words for what it finds take their types from here and are called from here: a circle that stays,
-//! since a lever, a path and a probe mean nothing without them.
+//! The best way stays the same while no other one costs less; what *the same way* is, [`same_way`](super::contrast::same_way)
+//! says. Another one that costs the same, to 1e-9 of the cost where all hardness lies on the doors and to 1e-6 elsewhere, does not
+//! end it.
 
-mod cells;
-mod corridor;
-mod linear;
-mod path;
-mod probe;
-mod search;
-mod turn;
-mod words;
-
-use std::time::{Duration, Instant};
+mod beyond;
 
 use serde::Serialize;
 
@@ -33,14 +12,10 @@ use crate::answer;
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
+use crate::why::contrast::same_way::SameWay;
+use crate::why::contrast::{Choice, Course, Found, Lever, Prober, Routes, Side, Turn, least};
 use crate::words::suggest::did_you_mean;
-pub(crate) use path::{Path, Routes};
-pub(crate) use probe::{Lever, Prober, Weights};
-pub(crate) use turn::{Through, Turn, scale};
-pub(crate) use words::{actions, instead};
-
-/// How long is spent on one question.
-const PATIENCE: Duration = Duration::from_secs(10);
+pub use beyond::Beyond;
 
 /// How firm a route is.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
@@ -80,23 +55,13 @@ pub struct FirmCell {
     pub low_closed: bool,
     /// Whether it is still the best at `high` itself.
     pub high_closed: bool,
-    /// Whether the ends are exact but for rounding; otherwise they were found by trying values.
+    /// Whether the ends are exact: but for rounding where all hardness lies on the doors, to a thousandth elsewhere; otherwise they
+    /// were found by trying values.
     pub exact: bool,
     /// What takes over below.
     pub below: Option<Beyond>,
     /// What takes over above.
     pub above: Option<Beyond>,
-}
-
-/// What takes over beyond an end.
-#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
-pub struct Beyond {
-    /// What the route costs at the end; `null` where it has no way there.
-    pub cost_at_end: Option<f64>,
-    /// The other way, in words.
-    pub way: String,
-    /// The first room or door where it leaves the present way.
-    pub route_differs_at: Option<String>,
 }
 
 impl Live {
@@ -122,17 +87,24 @@ impl State {
             cells: Vec::new(),
             truncated: false,
         };
-        let Some(path) = routes.best(&prober.present) else { return Ok(firm) };
-        firm.cost = routes.driven_cost(&prober.present);
-        let same = corridor::SameWay::new(&prober, &routes, path);
-        let deadline = Instant::now() + PATIENCE;
+        let Some(best) = Choice::among(&routes, prober.fork.graph().graph()) else { return Ok(firm) };
+        let Some(path) = routes.best(&prober.present, f64::INFINITY) else { return Ok(firm) };
+        firm.cost = Some(best.driven.cost);
+        let same = SameWay::new(&prober, &routes, path);
         let levers = prober.levers()?;
-        for lever in levers {
-            if Instant::now() >= deadline {
-                firm.truncated = true;
-                break;
-            }
-            firm.cells.extend(search::firm_cell(&mut prober, &routes, &same, &lever, deadline)?);
+        let mut turn = Turn::new(&mut prober, &same);
+        let courses: Result<Vec<Course>> = levers.into_iter().map(|lever| turn.course(lever)).collect();
+        let courses = courses?;
+        let never = turn.without_end_below(&courses, None);
+        let mut found = Vec::new();
+        for (course, never) in courses.iter().zip(never).filter(|(course, _)| course.weighs) {
+            let above = turn.end(course, Side::Above, None)?;
+            let below = if never { Found::nothing() } else { turn.end(course, Side::Below, None)? };
+            firm.truncated |= !below.is_whole || !above.is_whole;
+            found.push((&course.lever, [below, above]));
+        }
+        for (lever, sides) in found {
+            firm.cells.push(FirmCell::new(&mut prober, &same, lever, sides)?);
         }
         firm.cells.sort_by_key(|cell| cell.below.is_none() && cell.above.is_none());
         Ok(firm)
@@ -143,6 +115,35 @@ impl State {
         self.graph().end(name).ok_or_else(|| {
             let message = format!("`{name}` is no place, no room and no point `x,y`");
             Error::said(Code::RouteUnknown, message, did_you_mean(name, self.graph().names()))
+        })
+    }
+}
+
+impl FirmCell {
+    /// What was found on both sides of a cell.
+    pub(super) fn new(
+        prober: &mut Prober,
+        same: &SameWay,
+        lever: &Lever,
+        [low, high]: [Found; 2],
+    ) -> Result<Self> {
+        let mut said = |found: &Found, side: Side| {
+            found.end.as_ref().map(|end| Beyond::new(prober, same, lever, (end, side))).transpose()
+        };
+        let (below, above) = (said(&low, Side::Below)?, said(&high, Side::Above)?);
+        prober.restore(lever)?;
+        Ok(Self {
+            table: lever.class.to_lowercase(),
+            key: lever.key.clone(),
+            column: lever.column.clone(),
+            value: lever.value,
+            exact: low.is_exact && high.is_exact,
+            low_closed: low.end.as_ref().is_none_or(|end| end.is_closed),
+            high_closed: high.end.as_ref().is_some_and(|end| end.is_closed),
+            low: Some(low.end.map_or(least(lever), |end| end.at)),
+            high: high.end.map(|end| end.at),
+            below,
+            above,
         })
     }
 }

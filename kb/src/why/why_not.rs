@@ -1,30 +1,27 @@
-//! Why not another way: what the best route through a room or door would cost, contrasted with the best one, what
-//! decides, and what would have to be otherwise.
+//! Why not another way: what the best route through something would cost, contrasted with the best one, what decides, and
+//! what would have to be otherwise.
 //!
 //! The contrast puts the answer into words, and the answer is made of them: a circle that stays.
 
-mod contrast;
 mod course;
-mod through;
+mod words;
 
-use std::time::{Duration, Instant};
+pub(super) use words::failures;
 
 use adit_engine::Rejected;
 use serde::Serialize;
 
+use super::contrast::through::Through;
+use super::contrast::{Beside, Choice, Course, Path, Prober, Routes, Side, Turn, Ways, is_best};
+use super::meant::Meant;
 use crate::answer::{self, Answer};
-use crate::error::{Code, Error, Result};
+use crate::error::Result;
 use crate::live::Live;
 use crate::state::State;
 use crate::why::Reasoned;
-use crate::why::firm::{Path, Prober, Routes, Through, Turn, scale};
 use crate::why::subject::Subject;
-use through::{Choice, Passing, Question, Via};
 
-/// How long is looked for a cell that would decide otherwise.
-const PATIENCE: Duration = Duration::from_secs(10);
-
-/// Why a route does not lead through a room or door.
+/// Why a route does not lead through something.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct WhyNot {
     /// The state of the knowledge base that the answer rests on.
@@ -35,11 +32,11 @@ pub struct WhyNot {
     pub start: String,
     /// Where to.
     pub goal: String,
-    /// The room or door, as people call it.
+    /// What it is asked to lead through, as people call it.
     pub through: String,
     /// Cost of the best route; `None`: there is no route at all.
     pub best: Option<f64>,
-    /// Cost of the best route found through the room or door; `None`: none leads there and on.
+    /// Cost of the best route found through that; `None`: none leads there and on.
     pub cost: Option<f64>,
     /// In a few words.
     pub reason: String,
@@ -51,14 +48,14 @@ pub struct WhyNot {
     pub would_win: Option<WouldWin>,
     /// Whether not all cells were looked at, to the end of what they may be: another one may do it, or do it sooner.
     pub not_looked_further: bool,
-    /// What is concluded about the room or door.
+    /// What is concluded about it, where it is a room or a door.
     pub conclusions: Vec<Reasoned>,
     /// What rules did not take on the way to that, and why not.
     #[schema(value_type = Vec<Object>)]
     pub rejected: Vec<Rejected>,
     /// Whether there were more objects than are looked at.
     pub truncated: bool,
-    /// The route through the room or door; `None` where there is none.
+    /// The route through it; `None` where there is none.
     #[schema(value_type = Option<Object>)]
     pub route: Option<Answer>,
 }
@@ -74,14 +71,15 @@ pub struct WouldWin {
     pub column: String,
     /// What it is.
     pub value: f64,
-    /// From where on the way would be the best; there it costs as much as any other.
+    /// Where the way would be the best, or as good as any other; to a thousandth it is the first such value.
     pub wins_at: f64,
     /// What it would cost there.
     pub cost: f64,
 }
 
 impl Live {
-    /// Why the best route from `start` to `goal` does not lead through a room or door (`room d`, `door 7`).
+    /// Why the best route from `start` to `goal` does not lead through something: a space, a doorway, an area, a named door,
+    /// `room d`, `door 7`, a place, or a point `x,y`.
     pub fn why_not(&self, start: &str, goal: &str, through: &str, robot: Option<&str>) -> Result<WhyNot> {
         self.fork().why_not(start, goal, through, robot)
     }
@@ -94,42 +92,38 @@ impl State {
             let robot = answer::pick(&self.robots(), robot)?;
             return course::why_not(courses, [&robot, start, goal], through, self.generation);
         }
-        let subject = Subject::find(&self, through)?;
         let robot = answer::pick(&self.robots(), robot)?;
-        let question = Question::new(&self, start, goal, &robot)?;
-        let key = subject.key.parse().unwrap_or_default();
-        let via = match subject.class.as_str() {
-            "rooms" => self.graph().room(key).map(Via::Room),
-            "doors" => self.graph().door(key).map(Via::Door),
-            _ => {
-                let message = format!("a route leads through rooms and doors, not {}", subject.name);
-                return Err(Error::said(Code::WhyThrough, message, None));
-            }
-        };
-        let best = question.best();
-        let (way, passing) = via.map(|via| question.passing(via)).unzip();
-        let is_through =
-            |way: &Choice| passing.as_ref().is_some_and(|passing| passing.holds_way(&way.driven));
-        let way = best.clone().filter(is_through).or(way.flatten());
-        let is_to_point = question.is_to_point();
-        let (rejected, truncated) = self.rejected(&subject);
-        let named = Subject { property: None, ..subject.clone() };
-        let (conclusions, _) = self.conclusions(&named)?;
-        let door = self.graph().door(key).map(|door| &self.graph()[door]);
+        let meant = self.meant(through, &robot)?;
+        let routes = Routes::new(&self, start, goal, &robot)?;
+        let ends = (&routes.start, &routes.goal);
+        let graph = self.graph().graph();
+        let best = Choice::among(&routes, graph);
+        let (passing, way) = Through::new(graph, ends, meant.via.clone());
+        let is_driven = |way: &Choice| passing.holds_way(&way.driven);
+        // farther off walls it may lead past
+        let tightly = |way: Choice| Choice { driven: way.tight.clone(), ..way };
+        let led = best.clone().filter(is_driven);
+        let is_led = led.is_some();
+        let way = led.or_else(|| way.map(|way| if is_driven(&way) { way } else { tightly(way) }));
         let costs = Choice::costs(best.as_ref(), way.as_ref());
-        let reason = contrast::reason(&subject, door, (start, goal), costs);
+        let reason = words::reason(&self, &meant, &routes, (start, goal), (costs.0, costs.1, is_led));
         let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
-            self.basis().along(&way.driven, is_to_point, &mut answer)?;
+            self.basis().along(&way.driven, routes.goal.at.is_some(), &mut answer)?;
             Ok(answer)
         };
         let route = way.as_ref().map(answer).transpose()?;
+        let (mut conclusions, mut rejected, mut truncated) = (Vec::new(), Vec::new(), false);
+        if let Some(subject) = &meant.subject {
+            (rejected, truncated) = self.rejected(subject);
+            conclusions = self.conclusions(&Subject { property: None, ..subject.clone() })?.0;
+        }
         let mut answer = WhyNot {
             generation: self.generation,
             robot,
             start: start.to_owned(),
             goal: goal.to_owned(),
-            through: subject.name,
+            through: meant.name.clone(),
             best: costs.0,
             cost: costs.1,
             sentence: reason.clone(),
@@ -143,13 +137,14 @@ impl State {
             route,
         };
         match (best, way) {
-            (Some(best), Some(way)) if !contrast::is_best(best.tight.cost, way.tight.cost) => {
-                let paths = (Path::of(&best.tight), Path::of(&way.tight));
-                if let Some(passing) = passing {
-                    answer.contrast(self, paths, &passing)?;
-                }
+            (Some(best), Some(way)) if !is_best(best.tight.cost, way.tight.cost) => {
+                answer.contrast(
+                    self,
+                    (&meant, &routes, &passing),
+                    [&best.tight, &way.tight].map(Path::of),
+                )?;
             }
-            (_, None) => answer.deciding = contrast::failures(&answer.rejected),
+            (_, None) => answer.deciding = words::failures(&answer.rejected),
             _ => {}
         }
         Ok(answer)
@@ -175,44 +170,59 @@ impl State {
 
 impl WhyNot {
     /// Fills in what decides between the best way and this one, and what would have to be otherwise.
-    fn contrast(&mut self, fork: State, (best, way): (Path, Path), passing: &Passing) -> Result<()> {
-        let routes = Routes::new(&fork, &self.start, &self.goal, &self.robot)?;
-        let (best, way) = if routes.is_on_doors() {
-            let doors = |path: Path| Path { metres: Vec::new(), doors: path.doors };
-            (doors(best), doors(way))
-        } else {
-            (best, way)
-        };
+    fn contrast(
+        &mut self,
+        fork: State,
+        (meant, routes, passing): (&Meant, &Routes, &Through),
+        ways: [Path; 2],
+    ) -> Result<()> {
+        let on_doors = |path: Path| Path { metres: Vec::new(), doors: path.doors };
+        let [best, way] = if routes.is_on_doors() { ways.map(on_doors) } else { ways };
         let mut prober = Prober::new(fork);
-        (self.would_win, self.not_looked_further) = would_win(&mut prober, &routes, passing)?;
-        self.deciding = contrast::deciding(&prober, &best, &way);
-        self.sentence = contrast::sentence(self);
+        (self.would_win, self.not_looked_further) = would_win(&mut prober, routes, passing)?;
+        self.deciding = words::deciding(&prober, &best, &way);
+        self.sentence = words::sentence(self, meant);
         Ok(())
     }
 }
 
 /// The cell that has to change least, as a share of what it is, for a way through to cost no more than any other; and
 /// whether time was over before all were looked at.
-fn would_win(
-    prober: &mut Prober,
-    routes: &Routes,
-    through: &dyn Through,
-) -> Result<(Option<WouldWin>, bool)> {
-    let deadline = Instant::now() + PATIENCE;
+fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<(Option<WouldWin>, bool)> {
     let levers = prober.levers()?;
-    let mut turn = Turn::new(prober, routes, through, deadline);
-    let guesses: Result<Vec<f64>> = levers.iter().map(|lever| turn.guess(lever)).collect();
-    let mut guessed: Vec<_> = guesses?.into_iter().zip(levers).collect();
+    let beside = Beside::new(routes, others);
+    let mut turn = Turn::new(prober, &beside);
+    let mut guessed = Vec::new();
+    for lever in levers {
+        guessed.push((turn.guess(&lever)?, turn.course(lever)?));
+    }
     guessed.sort_by(|(one, _), (two, _)| one.total_cmp(two));
-    let (mut found, mut least) = (None, f64::INFINITY);
-    for (_, lever) in guessed {
-        let Some((wins_at, cost)) = turn.nearest(&lever, least)? else { continue };
-        let share = (wins_at - lever.value).abs() / scale(&lever);
-        if share < least {
-            least = share;
-            let (table, key, column) = (lever.class.to_lowercase(), lever.key, lever.column);
-            found = Some(WouldWin { table, key, column, value: lever.value, wins_at, cost });
+    let mut courses: Vec<Course> = guessed.into_iter().map(|(_, course)| course).collect();
+    let (mut found, mut least, mut is_cut) = (None, None, false);
+    // the likeliest first; whatever it shows, the others are not looked at beyond it
+    let others = courses.split_off(1.min(courses.len()));
+    for courses in [courses, others] {
+        let never = turn.without_end_below(&courses, least);
+        for (course, never) in courses.iter().zip(never) {
+            let lever = &course.lever;
+            for side in [Side::Below, Side::Above] {
+                if never && side == Side::Below {
+                    continue;
+                }
+                let side = turn.end(course, side, least)?;
+                // between values that were tried there may be one that would do
+                is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
+                let Some(end) = side.end else { continue };
+                let (wins_at, Some(cost)) = (end.won_at, end.cost()) else { continue };
+                let share = (wins_at - lever.value).abs() / lever.scale();
+                if least.is_none_or(|least| share < least) {
+                    least = Some(share);
+                    let (table, key, column) =
+                        (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());
+                    found = Some(WouldWin { table, key, column, value: lever.value, wins_at, cost });
+                }
+            }
         }
     }
-    Ok((found, turn.is_cut()))
+    Ok((found, is_cut))
 }

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::Drawn;
+use super::Best;
 use super::cone::{Segment, cross};
 use super::gates::without;
 use super::graph::{Closed, Cut, RouteGraph};
@@ -201,10 +201,10 @@ impl Cut {
         }
     }
 
-    pub fn way(&self, start: &Start, goals: &[Goal], drawn: Drawn) -> Option<(usize, Way)> {
+    pub fn way(&self, start: &Start, goals: &[Goal], is_wide: bool, limit: f64) -> Option<Best> {
         let goals: Vec<Goal> = goals.iter().map(|goal| self.goal(goal)).collect();
-        let (goal, way) = self.graph.way_at(&self.start(start), &goals, drawn)?;
-        Some((goal, self.whole(&way)))
+        let Best { goal, tight, wide } = self.graph.way_at(&self.start(start), &goals, is_wide, limit)?;
+        Some(Best { goal, tight: self.whole(&tight), wide: wide.map(|wide| self.whole(&wide)) })
     }
 
     pub fn ways(&self, start: &Start, goals: &[Goal], rooms: bool) -> Ways {

@@ -7,7 +7,7 @@
 //! either state: there the search goes on from points of the segment, and [`super::pull`] slides them afterwards.
 
 use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashSet};
 
 use super::cone::{Gap, Segment, View};
 use super::graph::RouteGraph;
@@ -69,6 +69,10 @@ pub(super) struct Outcome {
     pub goals: Vec<Vec<Found>>,
     /// For each room the least-cost way to its nearest point, where that was asked for.
     pub rooms: Vec<Option<Found>>,
+    /// Nodes that were not gone on from, since others come to their rooms at a little less cost before ways are pulled tight.
+    pub passed_over: Vec<u32>,
+    /// Whether ways that cost more were not looked for.
+    pub is_cut: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -107,6 +111,8 @@ pub(super) struct Search<'g> {
     targets: Vec<(RoomIndex, Target)>,
     /// The least hardness of a metre anywhere.
     least_per_m: f64,
+    /// What arcs about corners save a way at most.
+    saved_by_arcs: f64,
     nodes: Vec<Node>,
     /// Goals that were seen, with where from.
     found: Vec<(usize, Found)>,
@@ -125,11 +131,19 @@ pub(super) struct Search<'g> {
 }
 
 impl<'g> Search<'g> {
-    /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least.
-    pub fn find(graph: &'g RouteGraph, start: &Start, goals: &'g [Goal], wanted: Wanted) -> Outcome {
-        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start);
+    /// The best way from `start` to each goal; with [`Wanted::One`] to the one that costs least. Ways that cost more than the
+    /// limit are not looked for.
+    pub fn find(
+        graph: &'g RouteGraph,
+        start: &Start,
+        goals: &'g [Goal],
+        wanted: Wanted,
+        limit: f64,
+    ) -> Outcome {
+        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start, limit);
         let is_found = |goal: usize| !outcome.goals[goal].is_empty();
-        if wanted == Wanted::One && (0..goals.len()).any(is_found) || (0..goals.len()).all(is_found) {
+        let is_done = wanted == Wanted::One && (0..goals.len()).any(is_found);
+        if is_done || (0..goals.len()).all(is_found) || outcome.is_cut {
             return outcome;
         }
         let joined = graph.joined_with(&start.rooms);
@@ -138,7 +152,7 @@ impl<'g> Search<'g> {
         if !(0..goals.len()).any(is_missed) {
             return outcome;
         }
-        Self::new(graph, goals, wanted, Care::Full).run(start)
+        Self::new(graph, goals, wanted, Care::Full).run(start, limit)
     }
 
     fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, care: Care) -> Self {
@@ -165,8 +179,13 @@ impl<'g> Search<'g> {
         let rooms = graph.rooms().len();
         let kept = if wanted == Wanted::Rooms { rooms } else { 0 };
         let turning = graph.turning();
-        let outcome =
-            Outcome { nodes: Vec::new(), goals: vec![Vec::new(); goals.len()], rooms: vec![None; kept] };
+        let outcome = Outcome {
+            nodes: Vec::new(),
+            goals: vec![Vec::new(); goals.len()],
+            rooms: vec![None; kept],
+            passed_over: Vec::new(),
+            is_cut: false,
+        };
         Self {
             graph,
             turning,
@@ -174,6 +193,7 @@ impl<'g> Search<'g> {
             wanted,
             targets,
             least_per_m: graph.least_per_m(),
+            saved_by_arcs: graph.saved_by_arcs(),
             nodes: Vec::new(),
             found: Vec::new(),
             queue: BinaryHeap::new(),
@@ -186,7 +206,7 @@ impl<'g> Search<'g> {
         }
     }
 
-    fn run(mut self, start: &Start) -> Outcome {
+    fn run(mut self, start: &Start, most: f64) -> Outcome {
         for &Entry { room, joint } in &start.rooms {
             if !self.graph.is_entered(room) {
                 continue;
@@ -203,9 +223,13 @@ impl<'g> Search<'g> {
             });
         }
         let mut missing = self.goals.len();
-        let mut limit = f64::INFINITY;
+        // ways are not as short as they can be before they are pulled tight
+        let saved = self.saved_by_arcs + EPSILON;
+        let slack = |cost: f64| cost * (1.0 + SLACK) + saved;
+        let (mut limit, mut is_last) = (slack(most), false);
         while let Some(candidate) = self.queue.pop() {
             if candidate.least > limit {
+                self.outcome.is_cut = true;
                 break;
             }
             match candidate.what {
@@ -216,9 +240,9 @@ impl<'g> Search<'g> {
                     if known.len() < MOST_WAYS {
                         known.push(found);
                     }
-                    let is_last = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
-                    if is_last && limit.is_infinite() {
-                        limit = found.cost * (1.0 + SLACK) + self.graph.saved_by_arcs() + EPSILON;
+                    let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
+                    if is_done && !is_last {
+                        (limit, is_last) = (limit.min(slack(found.cost)), true);
                     }
                 }
                 What::Node(index) => self.expand(index),
@@ -256,6 +280,7 @@ impl<'g> Search<'g> {
     fn expand(&mut self, index: u32) {
         let node = self.nodes[index as usize];
         if self.is_superfluous(&node) {
+            self.outcome.passed_over.push(index);
             return;
         }
         let side = match node.view {
@@ -265,11 +290,13 @@ impl<'g> Search<'g> {
         };
         let (x, y) = (node.root.x.to_bits(), node.root.y.to_bits());
         if side.is_some_and(|side| !self.looked.insert((node.room, x, y, side))) {
+            self.outcome.passed_over.push(index);
             return;
         }
         let end = if node.bent { self.end_at(&node) } else { NONE };
         if end != NONE {
             if self.bent[end as usize] < node.cost - EPSILON {
+                self.outcome.passed_over.push(index);
                 return;
             }
             self.bent[end as usize] = node.cost;
@@ -402,9 +429,13 @@ impl<'g> Search<'g> {
                 continue;
             }
             let cost = node.cost + per_m * node.root.distance(root);
+            let view = View::Side { from: node.root, left };
+            let bent = Node { root, cost, before: index, bent: true, view, ..*node };
             if cost <= self.bent[end as usize] + EPSILON {
-                let view = View::Side { from: node.root, left };
-                self.push(Node { root, cost, before: index, bent: true, view, ..*node });
+                self.push(bent);
+            } else if cost <= self.bent[end as usize] + self.saved_by_arcs {
+                self.outcome.passed_over.push(self.nodes.len() as u32);
+                self.nodes.push(bent);
             }
         }
     }
@@ -585,6 +616,57 @@ impl<'g> Search<'g> {
                 }
             }
         }
+    }
+}
+
+impl Outcome {
+    /// Where a way that was found may come to one of its rooms otherwise: a node of its own, and the one that was passed over.
+    /// What arcs about corners save is not known before ways are pulled tight, so one that lagged behind by no more may be better.
+    pub fn otherwise(&self, graph: &RouteGraph, found: &Found) -> Vec<(u32, u32)> {
+        let saved = graph.saved_by_arcs();
+        // the rooms of the way, with their nodes and where each is left
+        let mut own: BTreeMap<RoomIndex, (u32, Point)> = BTreeMap::new();
+        let (mut index, mut to) = (found.node, found.at);
+        while index != NO_NODE {
+            let node = &self.nodes[index as usize];
+            own.entry(node.room).or_insert((index, to));
+            let door = crossing_of(graph, node);
+            to = door.map_or(node.root, |door| door.passed_at(node.root, to));
+            index = node.before;
+        }
+        // of those that come from one bend, the one that lags least
+        let mut others: BTreeMap<(u64, u64), (f64, u32, u32)> = BTreeMap::new();
+        for &other in &self.passed_over {
+            let node = &self.nodes[other as usize];
+            let Some(&(index, to)) = own.get(&node.room) else { continue };
+            let mine = &self.nodes[index as usize];
+            if mine.bend() == node.bend() {
+                continue;
+            }
+            let cost = |node: &Node| node.cost + node.root.distance(to) * graph.per_m(node.room);
+            let lag = cost(node) - cost(mine);
+            let known = others.entry(node.bend()).or_insert((f64::INFINITY, index, other));
+            if lag < known.0 {
+                *known = (lag, index, other);
+            }
+        }
+        others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
+    }
+}
+
+/// The segment of the door by which a node came into its room.
+fn crossing_of(graph: &RouteGraph, node: &Node) -> Option<Segment> {
+    if node.door == DoorIndex::end() { None } else { graph[node.door].crossing.segment() }
+}
+
+impl Node {
+    /// Where it was bent last before it came to its root, or came to it.
+    fn bend(&self) -> (u64, u64) {
+        let at = match self.view {
+            View::Side { from, .. } if self.bent => from,
+            _ => self.root,
+        };
+        (at.x.to_bits(), at.y.to_bits())
     }
 }
 

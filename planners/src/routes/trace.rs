@@ -9,25 +9,37 @@ use super::way::Way;
 use crate::geometry::Point;
 
 /// The way between a start and the goal's point, which may lie outside of the rooms.
+///
+/// # Arguments
+/// `instead` is a node on the way, and one in its room by which the way comes there instead.
 pub(super) fn trace(
     graph: &RouteGraph,
     nodes: &[Node],
     (start, goal): (&Start, Option<Point>),
     found: &Found,
+    instead: Option<(u32, u32)>,
 ) -> Way {
-    let (start_in, links) = links(graph, nodes, found);
+    let (start_in, links) = links(graph, nodes, found, instead);
     let way = Chain { graph, start: start_in, links, goal: found.at }.pulled_tight();
     way.joined(graph, start.at, goal.unwrap_or(found.at))
 }
 
 /// The room and the point in it from which a way starts, and the doors that it passes.
-fn links(graph: &RouteGraph, nodes: &[Node], found: &Found) -> ((RoomIndex, Point), Vec<Link>) {
+fn links(
+    graph: &RouteGraph,
+    nodes: &[Node],
+    found: &Found,
+    mut instead: Option<(u32, u32)>,
+) -> ((RoomIndex, Point), Vec<Link>) {
     let mut links = Vec::new();
     if let Some(exit) = found.change {
         links.push(Link::new(graph, exit.door, found.at, exit.to));
     }
     let (mut index, mut to) = (found.node, found.at);
     loop {
+        if let Some((_, other)) = instead.take_if(|(own, _)| *own == index) {
+            index = other;
+        }
         let node = &nodes[index as usize];
         let before = (node.before != NO_NODE).then(|| &nodes[node.before as usize]);
         let is_new = before.is_some_and(|before| before.root.distance(node.root) > EPSILON);

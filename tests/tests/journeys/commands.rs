@@ -99,7 +99,7 @@ const PAGES: [Page; 20] = [
     },
     Page {
         file: "manual/src/asking-why.md",
-        blocks: &[("distance,measured", Use::File("runs.csv"))],
+        blocks: &[("Walk-on-knee in corridor", Use::Shown), ("distance,measured", Use::File("runs.csv"))],
         databases: &[],
     },
     Page {

@@ -36,6 +36,7 @@ mod plugins;
 mod preview;
 mod readme;
 mod real_maps;
+mod reasons;
 mod robots_to_begin_with;
 mod rule_tests;
 mod rules_decide;

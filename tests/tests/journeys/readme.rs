@@ -53,6 +53,13 @@ fn the_way_across_the_clinic_is_the_one_that_is_shown() {
 }
 
 #[test]
+fn why_the_way_across_the_clinic_is_as_it_is_is_shown() {
+    let said =
+        TestSite::example("clinic").built().adit("why", &["dock", "ward 12"]).expecting(0).stdout.clone();
+    assert_eq!(said, block("manual/src/asking-why.md", "text", "Walk-on-knee in corridor"));
+}
+
+#[test]
 fn the_sql_answers() {
     let rows = starter().sqlite3(&block("README.md", "sql", "action_sequence"));
     assert!(rows.len() > 3, "{rows:?}");

@@ -30,7 +30,7 @@ fn turns(live: &mut Live, answer: &WhyNot) -> bool {
     live.edit(&at(cell.wins_at), &author).unwrap();
     let there = live.why_not(&answer.start, &answer.goal, &answer.through, None).unwrap();
     live.edit(&at(cell.value), &author).unwrap();
-    there.cost.unwrap() <= there.best.unwrap() * (1.0 + 2e-6) && there.reason.starts_with("the best route")
+    there.cost.unwrap() <= there.best.unwrap() * (1.0 + 2e-6) && there.reason.contains("the best route")
 }
 
 /// The rooms and doors of a route.

@@ -1,27 +1,59 @@
 //! Why something is as it is, and why not otherwise.
 
 use axum::Json;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::extract::{Asked, Body, Site};
+use crate::error::{Code, Error};
 use crate::serve::fault::Answered;
 use crate::why::Why;
 use crate::why::ask::{self, Said};
+use crate::why::way::WhyWay;
 use crate::why::why_not::WhyNot;
 
+/// Of a thing, or of a route.
 #[derive(Deserialize)]
 pub struct What {
-    what: String,
+    #[serde(rename = "what")]
+    thing: Option<String>,
+    start: Option<String>,
+    goal: Option<String>,
+    at: Option<String>,
+    robot: Option<String>,
 }
 
-/// Why a room, a door or one of its properties is as it is: the rule, the facts, the values.
+/// Why a thing is as it is, or why a route does what it does.
+#[derive(Serialize, utoipa::ToSchema)]
+#[serde(untagged)]
+pub enum Reasons {
+    /// Of a thing.
+    Thing(Why),
+    /// Of a route.
+    Way(WhyWay),
+}
+
+/// Why a room, a door or one of its properties is as it is: the rule, the facts, the values. With `start` and `goal`, why the
+/// best route does what it does: what keeps easier states out, what the best way without costs, and up to where the choice holds.
 #[utoipa::path(get, path = "/api/why", tag = "reasons",
-    params(("what" = String, Query, description = "`door 7`, `room d`, `doors.7.hardness`")),
-    responses((status = 200, body = Why)))]
-pub async fn why(site: Site, Asked(What { what }): Asked<What>) -> Answered<Json<Why>> {
+    params(("what" = Option<String>, Query, description = "`door 7`, `room d`, `doors.7.hardness`"),
+           ("start" = Option<String>, Query, description = "Of a route: a place, a room or `x,y`"), ("goal" = Option<String>, Query, description = "Of a route: a place, a room or `x,y`"),
+           ("at" = Option<String>, Query, description = "Only its stretches at this space, doorway, area, named door or point"),
+           ("robot" = Option<String>, Query, description = "Whose route")),
+    responses((status = 200, body = Reasons)))]
+pub async fn why(site: Site, Asked(asked): Asked<What>) -> Answered<Json<Reasons>> {
     let fork = site.fork().await?;
-    site.at_length(move || fork.why(&what)).await.map(Json)
+    let answer = site.at_length(move || match (&asked.thing, &asked.start, &asked.goal) {
+        (Some(what), None, None) => fork.why(what).map(Reasons::Thing),
+        (None, Some(start), Some(goal)) => {
+            fork.why_way((start, goal), asked.at.as_deref(), asked.robot.as_deref()).map(Reasons::Way)
+        }
+        _ => {
+            let message = "say `what`, or `start` and `goal` of a route";
+            Err(Error::said(Code::WhyUnknown, message, None))
+        }
+    });
+    answer.await.map(Json)
 }
 
 #[derive(Debug, Deserialize, ToSchema)]
@@ -70,10 +102,10 @@ pub struct OtherWay {
     robot: Option<String>,
 }
 
-/// Why the best route does not lead through a room or door: what that would cost, and what decides.
+/// Why the best route does not lead through something: what that would cost, and what decides.
 #[utoipa::path(get, path = "/api/why-not", tag = "reasons",
     params(("start" = String, Query, description = "A place, a room or `x,y`"), ("goal" = String, Query, description = "A place, a room or `x,y`"),
-           ("through" = String, Query, description = "`room d`, `door 7`"), ("robot" = Option<String>, Query, description = "Whose route")),
+           ("through" = String, Query, description = "A space, a doorway, an area, a named door, `room d`, `door 7`, a place, or a point `x,y`"), ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = WhyNot)))]
 pub async fn why_not(site: Site, Asked(asked): Asked<OtherWay>) -> Answered<Json<WhyNot>> {
     let fork = site.fork().await?;

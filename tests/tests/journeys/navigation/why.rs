@@ -108,7 +108,5 @@ fn what_was_never_kept_cannot_be_asked_about() {
     on(&folder, "why", "site.db", &["1"])
         .expect_status(2)
         .complains(&["site.db keeps no missions", "simulate"]);
-    on(&folder, "why", ".", &["1", "--at", "3"])
-        .expect_status(2)
-        .complains(&["--at and --world are for missions"]);
+    on(&folder, "why", ".", &["1", "--at", "3"]).expect_status(2).complains(&["--world for missions"]);
 }

@@ -14,8 +14,18 @@ impl Prober {
     /// The cells of the columns that weigh: where a cell of a column changes by a hair, something weighs a little
     /// more or less, and no room is cut anew. Sizes do not: they let pass or not.
     pub fn levers(&mut self) -> Result<Vec<Lever>> {
+        self.levers_of(self.columns())
+    }
+
+    /// Those of one class.
+    pub fn levers_in(&mut self, class: &str) -> Result<Vec<Lever>> {
+        let columns = self.columns().into_iter().filter(|(of, _)| of == class);
+        self.levers_of(columns.collect())
+    }
+
+    fn levers_of(&mut self, columns: Vec<(String, String)>) -> Result<Vec<Lever>> {
         let mut levers = Vec::new();
-        for (class, column) in self.columns() {
+        for (class, column) in columns {
             let all = self.cells_of(&class, &column);
             let mut weighs = false;
             for lever in &all {

@@ -7,13 +7,14 @@
 //! hundred times for one answer, so the probe leaves that out; what it shares with the step stands once.
 
 use std::ops;
+use std::rc::Rc;
 
 use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
-use adit_planners::routes::{DoorIndex, RoomIndex, Walking};
+use adit_planners::routes::{DoorIndex, RoomIndex, RouteGraph, Walking};
 
 use crate::error::{Code, Error, Result};
-use crate::graph::{SiteGraph, walking};
+use crate::graph::walking;
 use crate::knowledge::classes;
 use crate::state::{Look, State, Which, needs_changed};
 
@@ -28,6 +29,25 @@ pub struct Lever {
     pub value: f64,
     /// The other values of the column, ascending.
     pub others: Vec<f64>,
+}
+
+impl Lever {
+    /// What a change of it is measured by.
+    pub fn scale(&self) -> f64 {
+        self.value.abs().max(0.1)
+    }
+
+    /// The values between the present one and a limit, exclusively, where rules may switch, outwards; the limit is the last.
+    pub fn breaks(&self, limit: f64) -> Vec<f64> {
+        let (low, high) = (self.value.min(limit), self.value.max(limit));
+        let mut breaks: Vec<f64> =
+            self.others.iter().copied().filter(|other| *other > low && *other < high).collect();
+        if limit < self.value {
+            breaks.reverse();
+        }
+        breaks.push(limit);
+        breaks
+    }
 }
 
 /// What rooms and doors weigh, by index.
@@ -55,9 +75,9 @@ impl ops::Index<DoorIndex> for Weights {
 }
 
 impl Weights {
-    fn of(graph: &SiteGraph) -> Self {
-        let rooms = graph.graph().rooms().iter().map(|room| room.walking);
-        let doors = graph.graph().doors().iter().map(|door| door.weight().unwrap_or(f64::INFINITY));
+    pub fn of(graph: &RouteGraph) -> Self {
+        let rooms = graph.rooms().iter().map(|room| room.walking);
+        let doors = graph.doors().iter().map(|door| door.weight().unwrap_or(f64::INFINITY));
         Self { rooms: rooms.collect(), doors: doors.collect() }
     }
 
@@ -101,7 +121,7 @@ pub struct Prober {
     /// The fork; its graph stays as it was.
     pub fork: State,
     /// What everything weighs as it is.
-    pub present: Weights,
+    pub present: Rc<Weights>,
     now: Weights,
     /// What planners worked from.
     needs: Facts,
@@ -111,9 +131,9 @@ pub struct Prober {
 impl Prober {
     /// On a fork, which it changes and gives back no more.
     pub fn new(fork: State) -> Self {
-        let present = Weights::of(fork.graph());
+        let present = Weights::of(fork.graph().graph());
         let needs = needs(&fork);
-        Self { now: present.clone(), present, fork, needs, is_cut_anew: false }
+        Self { now: present.clone(), present: Rc::new(present), fork, needs, is_cut_anew: false }
     }
 
     /// What the value leads to. The cell keeps it until [`restore`](Self::restore).

@@ -2,51 +2,13 @@
 
 use adit_planners::routes::DoorIndex;
 
-use super::corridor::SameWay;
-use super::probe::Probe;
-use super::{Beyond, Lever, Path, Prober};
-use crate::error::Result;
+use super::{Path, Prober};
 use crate::graph::SiteGraph;
+use crate::why::said::listed;
 use crate::words::number::number;
 
 /// So many doors are named.
 const NAMED: usize = 3;
-
-pub enum Takeover {
-    /// Another way, and the value of the cell at which it comes to be the better one.
-    Way(Path, f64),
-    CutAnew,
-    /// Rules give no hardness that counts.
-    Refused,
-    NoWay,
-}
-
-/// What is beyond an end; `way` is 1 above the present value, and -1 below.
-pub(super) fn beyond(
-    prober: &mut Prober,
-    same: &SameWay,
-    lever: &Lever,
-    (end, way): (f64, f64),
-    takeover: &Takeover,
-) -> Result<Beyond> {
-    let cost = match prober.at(lever, end)? {
-        Probe::Weighs(weights) => same.driven_cost(&weights),
-        Probe::CutAnew | Probe::Refused => f64::INFINITY,
-    };
-    let (way, at) = match takeover {
-        Takeover::Way(path, value) => {
-            let present = actions(prober, &same.path);
-            // a little beyond, so that what it does there is what it does
-            prober.at(lever, value + value.abs().max(1e-6) * 1e-9 * way)?;
-            let other = actions(prober, path);
-            instead(prober.fork.graph(), (&same.path, &present), (path, &other))
-        }
-        Takeover::CutAnew => ("rooms and doors are cut anew".to_owned(), None),
-        Takeover::Refused => ("rules give a hardness that does not count".to_owned(), None),
-        Takeover::NoWay => ("no way is left".to_owned(), None),
-    };
-    Ok(Beyond::new(cost, way, at))
-}
 
 /// The action of each door of a way, or of each of its rooms where these weigh metres; as the knowledge says now.
 pub fn actions(prober: &Prober, path: &Path) -> Vec<String> {
@@ -131,13 +93,4 @@ fn by_doors(graph: &SiteGraph, doors: &[DoorIndex], actions: &[String]) -> Strin
         parts.push("so on".to_owned());
     }
     parts.join(", then ")
-}
-
-/// `a`, `a and b`, `a, b and c`.
-fn listed(parts: &[String]) -> String {
-    match parts {
-        [] => "nothing".to_owned(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
 }

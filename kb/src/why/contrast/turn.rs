@@ -1,0 +1,385 @@
+//! From which value of a number on the ways that hold give way to the others.
+
+mod first;
+
+use std::cell::Cell;
+use std::rc::Rc;
+
+use super::end::LARGEST;
+use super::linear::Line;
+use super::straight::{At, Straight, is_inside};
+use super::{Contrast, End, Found, Lever, Look, Path, Probe, Prober, Side, Takeover, Weights, least};
+use crate::error::Result;
+
+/// Values that are tried in a piece where weights are not linear.
+const TRIED: usize = 8;
+
+/// Values that are tried for one answer at most.
+const PATIENCE: usize = 2_000;
+
+/// So far beyond where two ways cost the same, as a share, the one is the best.
+const BEYOND: f64 = 1e-6;
+
+/// So near to the last value of a range, as a share of it, there is no end.
+const LAST: f64 = 1e-4;
+
+/// So often the first value is guessed from ways that took over elsewhere.
+const GUESSES: usize = 4;
+
+/// What the values of a cell make of all weights.
+pub struct Course {
+    pub lever: Lever,
+    /// Below and above the present value; `None` where weights are not linear all the way.
+    lines: [Option<Line>; 2],
+    /// Whether any value weighs something otherwise.
+    pub weighs: bool,
+}
+
+/// What a piece of the range showed.
+enum Piece {
+    End(End),
+    Nothing,
+    /// Time was over.
+    Unknown,
+}
+
+/// The search for ends of cells.
+pub struct Turn<'t> {
+    prober: &'t mut Prober,
+    contrast: &'t dyn Contrast,
+    /// How often values were tried.
+    spent: Cell<usize>,
+    /// What is best at present.
+    here: Option<Look>,
+    /// Ways that took over somewhere.
+    rivals: Vec<Path>,
+    is_exact: bool,
+    weighs: bool,
+}
+
+impl<'t> Turn<'t> {
+    pub fn new(prober: &'t mut Prober, contrast: &'t dyn Contrast) -> Self {
+        let mut here = contrast.look(&prober.present);
+        if let Some(here) = here.as_mut().filter(|here| here.rival.is_none()) {
+            here.rival = contrast.rival(&prober.present, f64::INFINITY);
+            here.least = here.rival.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
+        }
+        let (spent, rivals) = (Cell::new(0), Vec::new());
+        Self { prober, contrast, spent, here, rivals, is_exact: true, weighs: false }
+    }
+
+    fn spend(&self) {
+        self.spent.set(self.spent.get() + 1);
+    }
+
+    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine.
+    fn is_over(&self) -> bool {
+        self.spent.get() >= PATIENCE
+    }
+
+    /// How much a cell would have to change, as a share of what it is, were both ways to be driven as now: a guess, to look at
+    /// likely ones first.
+    pub fn guess(&mut self, lever: &Lever) -> Result<f64> {
+        let nudge = lever.value.abs().max(1.0) / f64::from(1 << 20);
+        let there = self.prober.at(lever, lever.value + nudge)?;
+        self.prober.restore(lever)?;
+        let Some(Look { own: Some((own, cost)), rival: Some((rival, dearer)), .. }) = &self.here else {
+            return Ok(f64::INFINITY);
+        };
+        let Probe::Weighs(weights) = there else { return Ok(f64::INFINITY) };
+        let lead = dearer - cost;
+        let slope = (rival.cost(&weights) - own.cost(&weights) - lead) / nudge;
+        let change = -lead / slope;
+        let is_possible = change.is_finite() && (lever.value < 0.0 || lever.value + change >= 0.0);
+        Ok(if is_possible { change.abs() / lever.scale() } else { f64::INFINITY })
+    }
+
+    /// What the values of a cell make of all weights, as far as there are values.
+    pub fn course(&mut self, lever: Lever) -> Result<Course> {
+        self.weighs = false;
+        let mut lines = [None, None];
+        for (line, side) in lines.iter_mut().zip([Side::Below, Side::Above]) {
+            let limit = side.limit(&lever, None);
+            if limit.total_cmp(&lever.value).is_ne() {
+                *line = self.whole(&lever, &lever.breaks(limit))?;
+            }
+        }
+        self.prober.restore(&lever)?;
+        Ok(Course { lever, lines, weighs: self.weighs })
+    }
+
+    /// The first value on one side of the present one at which the ways that hold give way.
+    ///
+    /// # Arguments
+    /// `within` is how far it is looked for, as a share of the present value; `None`: as far as there are values.
+    pub fn end(&mut self, course: &Course, side: Side, within: Option<f64>) -> Result<Found> {
+        self.is_exact = true;
+        let lever = &course.lever;
+        let limit = side.limit(lever, within);
+        let piece = match &course.lines[side as usize] {
+            _ if limit.total_cmp(&lever.value).is_eq() || !course.weighs => Piece::Nothing,
+            Some(line) if line.is_level() => Piece::Nothing,
+            Some(line) => self.on_line(line, lever.value, limit),
+            None => {
+                let piece = self.by_pieces(lever, limit);
+                self.prober.restore(lever)?;
+                piece?
+            }
+        };
+        let (end, is_whole) = match piece {
+            Piece::End(end) => (Some(end), true),
+            Piece::Nothing => (None, true),
+            Piece::Unknown => (None, false),
+        };
+        Ok(Found { end, is_exact: self.is_exact, is_whole })
+    }
+
+    /// Of some cells those that have no end below, found by looking at many of them at once: where all of them fall together and
+    /// the others still cost more than the way that holds does now, none of them does it alone.
+    pub fn without_end_below(&mut self, courses: &[Course], within: Option<f64>) -> Vec<bool> {
+        let mut never = vec![false; courses.len()];
+        let Some(Look { own: Some((_, cost)), is_turned: false, .. }) = &self.here else { return never };
+        let (cost, lines) = (*cost, |course: &Course| course.lines[Side::Below as usize].is_some());
+        let mut asked: Vec<usize> =
+            (0..courses.len()).filter(|&of| courses[of].weighs && lines(&courses[of])).collect();
+        while !asked.is_empty() && !self.is_over() {
+            let mut least = Weights::clone(&self.prober.present);
+            for &of in &asked {
+                if let Some(line) = &courses[of].lines[Side::Below as usize] {
+                    line.lower(Side::Below.limit(&courses[of].lever, within), &mut least);
+                }
+            }
+            self.spend();
+            let rival = self.contrast.rival(&least, cost);
+            let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
+                for of in asked {
+                    never[of] = true;
+                }
+                break;
+            };
+            let before = asked.len();
+            asked.retain(|&of| {
+                let limit = Side::Below.limit(&courses[of].lever, within);
+                let line = &courses[of].lines[Side::Below as usize];
+                !line.as_ref().is_some_and(|line| line.lowers(limit, &path))
+            });
+            self.remember(path);
+            if asked.len() == before {
+                break;
+            }
+        }
+        never
+    }
+
+    fn by_pieces(&mut self, lever: &Lever, limit: f64) -> Result<Piece> {
+        let mut from = lever.value;
+        for to in lever.breaks(limit) {
+            let piece = self.piece(lever, from, to)?;
+            if !matches!(piece, Piece::Nothing) {
+                return Ok(piece);
+            }
+            from = to;
+        }
+        Ok(Piece::Nothing)
+    }
+
+    /// Keeps a way that may take over elsewhere, too.
+    fn remember(&mut self, path: Path) {
+        if !self.rivals.contains(&path) {
+            self.rivals.push(path);
+        }
+    }
+
+    fn probe(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
+        self.spend();
+        let probe = self.prober.at(lever, value)?;
+        self.weighs |= !matches!(&probe, Probe::Weighs(weights) if *weights == *self.prober.present);
+        Ok(probe)
+    }
+
+    /// The weights from the present value to the last of some, where they are linear all the way.
+    fn whole(&mut self, lever: &Lever, breaks: &[f64]) -> Result<Option<Line>> {
+        let mut line: Option<Line> = None;
+        let mut from = lever.value;
+        // outwards in: the last value makes the line, and each other one must lie on it
+        let mut values = Vec::new();
+        for &to in breaks {
+            values.extend([f64::midpoint(from, to), to]);
+            from = to;
+        }
+        for value in values.into_iter().rev() {
+            if self.is_over() {
+                return Ok(None);
+            }
+            let Probe::Weighs(weights) = self.probe(lever, value)? else { return Ok(None) };
+            match &line {
+                None => {
+                    let present = (lever.value, Rc::clone(&self.prober.present));
+                    line = Some(Line::new(present, (value, &weights)));
+                }
+                Some(line) if line.holds(value, &weights) => {}
+                Some(_) => return Ok(None),
+            }
+        }
+        Ok(line)
+    }
+
+    /// The first value from `from` on, up to `to` and with it: rules may switch there.
+    fn piece(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
+        if self.is_over() {
+            return Ok(Piece::Unknown);
+        }
+        let values = [0.125, 0.5, 0.875].map(|share| from + (to - from) * share);
+        let (mut weights, mut other) = (Vec::new(), None);
+        for value in values {
+            match self.probe(lever, value)? {
+                Probe::Weighs(found) => weights.push(found),
+                probe => other = other.or(Takeover::of(&probe)),
+            }
+        }
+        if let (true, Some(beyond)) = (weights.is_empty(), other) {
+            return Ok(Piece::End(End::at(from, beyond)));
+        }
+        let line = match weights.as_slice() {
+            [one, two, three] if one == two && two == three && *one == *self.prober.present => None,
+            [one, two, three] => {
+                Some(Line::through((values[0], one.clone()), (values[1], two), (values[2], three)))
+            }
+            _ => Some(None),
+        };
+        let found = match line {
+            None => Piece::Nothing,
+            Some(Some(line)) => self.on_line(&line, from, to),
+            Some(None) => self.tried(lever, from, to)?,
+        };
+        if !matches!(found, Piece::Nothing) {
+            return Ok(found);
+        }
+        let is_last = to.total_cmp(&least(lever)).is_eq() || to.abs() >= LARGEST;
+        let beyond = self.beyond(lever, to)?;
+        // at the last value that a cell may have, what costs the same takes nothing over
+        if is_last && matches!(beyond, Some(Takeover::Way(..))) && self.contrast.is_turned(1.0, 1.0) {
+            return Ok(Piece::Nothing);
+        }
+        Ok(beyond
+            .map_or(Piece::Nothing, |beyond| Piece::End(End { is_closed: false, ..End::at(to, beyond) })))
+    }
+
+    /// What has taken over at a value.
+    fn beyond(&mut self, lever: &Lever, value: f64) -> Result<Option<Takeover>> {
+        let weights = match self.probe(lever, value)? {
+            Probe::Weighs(weights) => weights,
+            probe => return Ok(Takeover::of(&probe)),
+        };
+        if weights == *self.prober.present {
+            return Ok(None);
+        }
+        Ok(self.look(&weights).and_then(Look::takeover))
+    }
+
+    /// The first value of a piece in which weights are linear.
+    fn on_line(&mut self, line: &Line, from: f64, to: f64) -> Piece {
+        let (Some(nearly), Some(farly)) = (line.at(from), line.at(to)) else { return Piece::Unknown };
+        let near = match &self.here {
+            Some(here) if nearly == *self.prober.present => Some(here.clone()),
+            _ => self.look(&nearly),
+        };
+        let Some(near) = near else { return Piece::Nothing };
+        if near.is_turned {
+            let beyond = near.takeover().unwrap_or(Takeover::NoWay);
+            return Piece::End(End::at(from, beyond));
+        }
+        // what gets dearer for all does not get cheaper for the others, and the way that holds costs no more than they cost already
+        let is_rising = farly.are_no_less_than(&nearly);
+        if let Some((own, _)) = &near.own
+            && is_rising
+            && !self.contrast.is_turned(own.cost(&farly), near.least)
+        {
+            return Piece::Nothing;
+        }
+        let mut near = At { value: from, look: near };
+        for guesses in (0..=GUESSES).rev() {
+            let guess = if guesses > 0 { self.guessed(line, &near, to) } else { None };
+            let Some(mut far) = self.look_at(line, guess.unwrap_or(to)) else { return Piece::Nothing };
+            if is_rising {
+                far.look.least = far.look.least.max(near.look.least);
+            }
+            match self.first(line, near, far.clone(), is_rising) {
+                Piece::Nothing if guess.is_none() => return Piece::Nothing,
+                Piece::Nothing => near = far,
+                // at the last value that a cell may have, what costs the same takes nothing over
+                Piece::End(end) if (end.at - to).abs() <= LAST * (to - from).abs() => {
+                    return Piece::Nothing;
+                }
+                piece => {
+                    if let Piece::End(End { beyond: Takeover::Way(path, _), .. }) = &piece {
+                        self.remember(path.clone());
+                    }
+                    return piece;
+                }
+            }
+        }
+        Piece::Unknown
+    }
+
+    /// The first value up to another one a little beyond which a way that took over elsewhere costs less than the one does that
+    /// holds.
+    fn guessed(&self, line: &Line, near: &At, to: f64) -> Option<f64> {
+        let (own, _) = near.look.own.as_ref()?;
+        let far = At { value: to, look: near.look.clone() };
+        let own = Straight::of(line, own, near, &far)?;
+        let beyond = |value: f64| value + self.hair(value).max(BEYOND * value.abs()) * (to - value).signum();
+        let crossings = self.rivals.iter().filter_map(|path| {
+            let rival = Straight::of(line, path, near, &far)?;
+            let share = own.meets(&rival).filter(|share| (1e-9..1.0).contains(share))?;
+            let value = beyond(near.value + (to - near.value) * share);
+            let is_before = (value - near.value).abs() < (to - near.value).abs();
+            (rival.to < own.to && is_before && is_inside(value, near, &far)).then_some(value)
+        });
+        let away = |value: &f64| (value - near.value).abs();
+        crossings.min_by(|one, two| away(one).total_cmp(&away(two)))
+    }
+
+    fn hair(&self, value: f64) -> f64 {
+        self.contrast.hair() * value.abs().max(0.1)
+    }
+
+    fn look(&self, weights: &Weights) -> Option<Look> {
+        self.spend();
+        self.contrast.look(weights)
+    }
+
+    fn look_at(&self, line: &Line, value: f64) -> Option<At> {
+        Some(At { value, look: self.look(&line.at(value)?)? })
+    }
+
+    fn glance_at(&self, line: &Line, value: f64) -> Option<At> {
+        self.spend();
+        Some(At { value, look: self.contrast.glance(&line.at(value)?)? })
+    }
+
+    /// Where weights are not linear: some values are tried, then halved.
+    fn tried(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
+        self.is_exact = false;
+        let mut good = from;
+        for part in 1..=TRIED {
+            let mut bad = from + (to - from) * part as f64 / (TRIED + 1) as f64;
+            let Some(mut beyond) = self.beyond(lever, bad)? else {
+                good = bad;
+                continue;
+            };
+            while (bad - good).abs() > (0.1 * self.hair(good)).max(1e-7 * good.abs().max(1e-3)) {
+                if self.is_over() {
+                    return Ok(Piece::Unknown);
+                }
+                let middle = f64::midpoint(good, bad);
+                match self.beyond(lever, middle)? {
+                    Some(found) => (bad, beyond) = (middle, found),
+                    None => good = middle,
+                }
+            }
+            return Ok(Piece::End(End { won_at: bad, ..End::at(good, beyond) }));
+        }
+        Ok(Piece::Nothing)
+    }
+}

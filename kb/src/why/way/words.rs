@@ -1,0 +1,74 @@
+//! Why a route does what it does, in the building's words.
+
+use std::fmt::Write;
+
+use super::{Holds, Stretch, WhyWay};
+use crate::why::hindered::sentence;
+use crate::why::meant::Meant;
+use crate::why::said::{capital, cell, listed, roughly};
+use crate::words::number::number;
+
+/// A paragraph a stretch; one sentence where nothing is done but what is easiest.
+pub fn sentences(answer: &WhyWay, at: Option<&Meant>) -> Vec<String> {
+    if !answer.stretches.is_empty() {
+        return answer.stretches.iter().map(|stretch| paragraph(stretch, &answer.robot)).collect();
+    }
+    let place = at.map_or_else(|| "all along".to_owned(), Meant::words);
+    let easiest = answer.easiest.as_ref().map_or_else(
+        || "nothing is easier there".to_owned(),
+        |easiest| format!("{} is done {place}, and nothing is easier", easiest.to_lowercase()),
+    );
+    vec![format!("From {} to {} {easiest}.", answer.start, answer.goal)]
+}
+
+fn paragraph(stretch: &Stretch, robot: &str) -> String {
+    let action = stretch.action.to_lowercase();
+    let name = stretch.state.clone().unwrap_or_else(|| stretch.action.clone());
+    let place =
+        if stretch.spaces.is_empty() { String::new() } else { format!(" in {}", listed(&stretch.spaces)) };
+    let [[x0, y0], [x1, y1]] = [stretch.from, stretch.to];
+    let stretch_words = format!("{action}{place}, from ({x0:.1}, {y0:.1}) to ({x1:.1}, {y1:.1})");
+    let mut said = capital(&stretch_words);
+    let why = sentence(&stretch.hindered);
+    if !why.is_empty() {
+        said.push_str(": ");
+        said.push_str(&why);
+    } else if !stretch.failed.is_empty() {
+        said.push_str(": ");
+        said.push_str(&stretch.failed.join("; "));
+    }
+    said.push('.');
+    match &stretch.without {
+        Some(other) if other.more > 0.0 => {
+            let by = if other.by.is_empty() { String::new() } else { format!(", by {}", listed(&other.by)) };
+            let (cost, more) = (number(other.cost), number(other.more));
+            write!(said, " Without {name} the best way costs {cost}, {more} more{by}.").ok();
+        }
+        Some(other) => {
+            write!(said, " Without {name} the best way costs as much, {}.", number(other.cost)).ok();
+        }
+        None => {
+            write!(said, " Without {name} no way leads there.").ok();
+        }
+    }
+    if let Some(holds) = &stretch.holds {
+        write!(said, " {name} stays on the best way while {}.", within(holds, robot)).ok();
+    }
+    said
+}
+
+/// `the hardness of SQUAT (robots) is at most 5.6 (it is 4)`.
+fn within(holds: &Holds, robot: &str) -> String {
+    let cell = cell(&holds.table, &holds.key, &holds.column, robot);
+    let about = if holds.exact { "" } else { "about " };
+    let (floor, ceil) = (|value: f64| roughly(value, f64::floor), |value: f64| roughly(value, f64::ceil));
+    let is = number(holds.value);
+    match (holds.low, holds.high) {
+        (Some(low), Some(high)) => {
+            format!("{cell} is between {about}{} and {} (it is {is})", ceil(low), floor(high))
+        }
+        (Some(low), None) => format!("{cell} is above {about}{} (it is {is})", ceil(low)),
+        (None, Some(high)) => format!("{cell} is below {about}{} (it is {is})", floor(high)),
+        (None, None) => format!("{cell} is whatever it may be (it is {is})"),
+    }
+}
