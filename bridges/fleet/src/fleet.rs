@@ -194,18 +194,17 @@ impl Fleet {
         self.drivers.retain(|name, _| names.contains(name));
         self.follows.retain(|name, _| names.contains(name));
         for row in rows {
-            match self.drivers.get_mut(&row.name) {
-                Some(driver) => driver.read(row),
-                None => {
-                    self.strangers.remove(&format!("{}/{}", row.manufacturer, row.serial));
-                    say(&format!("vehicle {}: {}/{}", row.name, row.manufacturer, row.serial));
-                    self.drivers.insert(row.name.clone(), Driver::new(row));
-                    // what it said before is kept by the broker
-                    let again = ["connection", "factsheet"];
-                    for topic in again {
-                        let all = format!("{}/+/+/+/{topic}", self.settings.interface);
-                        let _ = self.client.try_subscribe(all, QoS::AtLeastOnce);
-                    }
+            if let Some(driver) = self.drivers.get_mut(&row.name) {
+                driver.read(row);
+            } else {
+                self.strangers.remove(&format!("{}/{}", row.manufacturer, row.serial));
+                say(&format!("vehicle {}: {}/{}", row.name, row.manufacturer, row.serial));
+                self.drivers.insert(row.name.clone(), Driver::new(row));
+                // what it said before is kept by the broker
+                let again = ["connection", "factsheet"];
+                for topic in again {
+                    let all = format!("{}/+/+/+/{topic}", self.settings.interface);
+                    let _ = self.client.try_subscribe(all, QoS::AtLeastOnce);
                 }
             }
         }
@@ -282,13 +281,13 @@ impl Fleet {
                 });
             }
             Effect::Write { column, value } => {
-                self.write(name, json!({"column": column, "value": value}), None);
+                self.write(name, &json!({"column": column, "value": value}), None);
             }
             Effect::Arrived { goal } => {
                 say(&format!("{name} is at {goal}"));
                 self.write(
                     name,
-                    json!({"column": "goal", "value": Value::Null, "old": goal}),
+                    &json!({"column": "goal", "value": Value::Null, "old": goal}),
                     Some(Heard::Cleared { vehicle }),
                 );
             }
@@ -296,7 +295,7 @@ impl Fleet {
     }
 
     /// One edit of the vehicle's row after the other.
-    fn write(&mut self, name: &str, cell: Value, then: Option<Heard>) {
+    fn write(&mut self, name: &str, cell: &Value, then: Option<Heard>) {
         let (site, heard, vehicle) = (self.site.clone(), self.heard.clone(), name.to_owned());
         let mut edit = json!({"kind": "set", "table": VEHICLES, "key": name});
         if let (Some(edit), Some(cell)) = (edit.as_object_mut(), cell.as_object()) {

@@ -76,7 +76,7 @@ impl Given {
     pub fn reached(&self, sequence: u32, node: &str) -> Option<usize> {
         let index = sequence as usize / 2;
         let stop = self.stops[..self.released].get(index)?;
-        (sequence % 2 == 0 && stop.id == node).then_some(index)
+        (sequence.is_multiple_of(2) && stop.id == node).then_some(index)
     }
 
     /// Metres from a point to the end of the base, by the stops after the one that was reached.

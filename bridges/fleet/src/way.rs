@@ -64,7 +64,7 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
         let state = route.waypoints[leg].state.as_deref().unwrap_or_default();
         let keep = half(state);
         let wait = s - keep - margins.before;
-        let space = line.space(&passages, route, wait);
+        let space = Line::space(&passages, route, wait);
         if wait > floor {
             line.add_wait(&mut marks, wait, floor, format!("before {doorway}, {space}"), route);
             if wait - margins.ahead > floor {
@@ -81,7 +81,7 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
     let mut stops: Vec<Stop> = Vec::new();
     for mark in marks {
         let mut stop = mark.stop;
-        stop.space = line.space(&passages, route, mark.s);
+        stop.space = Line::space(&passages, route, mark.s);
         let (place, is_place) = match mark.s {
             s if s <= 0.0 => (&route.start, is_name(&route.start)),
             s if s >= total => (&route.goal, is_name(&route.goal)),
@@ -209,7 +209,7 @@ impl Line {
     }
 
     /// The space in which the way is after so many metres: it is another one after each doorway.
-    fn space(&self, passages: &[(f64, String)], route: &Route, s: f64) -> String {
+    fn space(passages: &[(f64, String)], route: &Route, s: f64) -> String {
         let passed = passages.iter().filter(|(at, _)| *at < s).count();
         let mut doorways = 0;
         let mut found = None;

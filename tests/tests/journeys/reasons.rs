@@ -488,7 +488,7 @@ fn why_not_knows_spaces_doorways_areas_places_and_points() {
         .into();
     assert!(costs.iter().all(|cost| (cost - costs[0]).abs() < 1.0), "{costs:?}");
     for through in ["pharmacy", "corridor 18", "doorway 1", "room a", "door 7"] {
-        assert!(ask(through)["sentence"].as_str().unwrap().contains(" "), "{through}");
+        assert!(ask(through)["sentence"].as_str().unwrap().contains(' '), "{through}");
     }
     let said = site.adit("why-not", &["dock", "ward 12", "--through", "58.5,14"]).expecting(0).stdout;
     assert!(said.contains("By 58.5,14 it would cost "), "{said}");

@@ -212,13 +212,14 @@ async fn read(site: Site, changed: Arc<tokio::sync::Notify>, heard: UnboundedSen
         };
         let _ = heard.send(Heard::Tables(tables));
         let now = site.get("/api/site").await.ok().map(|site| site["layout"].clone());
-        if now.is_some() && now != layout {
-            if let Ok(map) = site.get("/api/map").await {
-                let bridges: Vec<Bridge> =
-                    map["bridges"].as_array().into_iter().flatten().filter_map(bridge).collect();
-                let _ = heard.send(Heard::Bridges(bridges));
-                layout = now;
-            }
+        if now.is_some()
+            && now != layout
+            && let Ok(map) = site.get("/api/map").await
+        {
+            let bridges: Vec<Bridge> =
+                map["bridges"].as_array().into_iter().flatten().filter_map(bridge).collect();
+            let _ = heard.send(Heard::Bridges(bridges));
+            layout = now;
         }
     }
 }

@@ -184,7 +184,7 @@ impl Addressee {
         let is_3 = self.version >= Version::V3_0;
         let [speed, height] =
             if is_3 { ["maximumSpeed", "maximumMobileRobotHeight"] } else { ["maxSpeed", "maxHeight"] };
-        let ends = (!is_3).then(|| [&edge.start, &edge.end]);
+        let ends = (!is_3).then_some([&edge.start, &edge.end]);
         let corridor = edge.corridor.filter(|_| self.version >= Version::V2_1).map(|metres| {
             let reference = if is_3 { "corridorReferencePoint" } else { "corridorRefPoint" };
             json!({"leftWidth": metres, "rightWidth": metres, reference: "CONTOUR"})
@@ -244,7 +244,5 @@ fn object<const N: usize>(entries: [(&str, Value); N]) -> Map<String, Value> {
 
 /// Degrees as an angle of at most half a turn to either side.
 fn radians(degrees: f64) -> f64 {
-    let turned = (degrees + 180.0).rem_euclid(360.0) - 180.0;
-    // the schemas cut pi after eleven digits
-    turned.to_radians().clamp(-3.141_592_653, 3.141_592_653)
+    ((degrees + 180.0).rem_euclid(360.0) - 180.0).to_radians()
 }

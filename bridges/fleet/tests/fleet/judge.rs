@@ -143,7 +143,7 @@ impl<'a> Judge<'a> {
                 (at["x"].as_f64().unwrap() - self.point[0]).hypot(at["y"].as_f64().unwrap() - self.point[1]);
             assert!(off < 1e-6, "its first node is where the vehicle stands");
             (self.nodes, self.at, self.cancelled) = (Vec::new(), 0, None);
-            self.order = message["orderId"].as_str().unwrap().to_owned();
+            message["orderId"].as_str().unwrap().clone_into(&mut self.order);
             self.actions = Vec::new();
         }
         self.update = update;

@@ -1,6 +1,8 @@
 //! Every message that is sent is what the published schemas of its version say, and what the text of VDA 5050 says of orders,
 //! whatever the routes and whatever the vehicle reports.
 
+use std::fmt::Write;
+
 use adit_fleet::driver::{Clock, Driver, Effect, World};
 use adit_fleet::site::{Fleet, Route, Step, Vehicle, Waypoint};
 use adit_fleet::way::{Bridge, Margins};
@@ -147,11 +149,10 @@ fn small_site(chance: &mut Chance) -> TestSite {
     for x in [4.0, 9.0] {
         let gap = 1.0 + chance.below(50) as f64 / 10.0;
         let wide = gap + 0.9 + chance.below(8) as f64 / 10.0;
-        map += &format!(
-            "[[obstacle]]\nrect = [{x}, 0.0, {}, {gap}]\n[[obstacle]]\nrect = [{x}, {wide}, {}, 8.0]\n",
-            x + 0.2,
-            x + 0.2
-        );
+        let end = x + 0.2;
+        for [from, to] in [[0.0, gap], [wide, 8.0]] {
+            writeln!(map, "[[obstacle]]\nrect = [{x}, {from}, {end}, {to}]").unwrap();
+        }
     }
     map += "[[bridge]]\nrect = [6.0, 0.0, 7.0, 8.0]\nheight = 1.5\n[[place]]\nname = \"home\"\nat = [1.5, 4.0]\n[[place]]\nname = \"gate\"\nat = [12.5, 4.0]\n";
     let robots = "[[robots]]\nstate = \"HIGH\"\naction = \"GO\"\nheight = 1.8\nwidth = 0.7\nhardness = 1.0\n\

@@ -51,9 +51,9 @@ fn a_storm_leaves_memory_level_and_no_order_contradicts_what_is_known() {
     let asked = std::env::var("ADIT_STORM").ok().and_then(|seconds| seconds.parse().ok());
     let lasts = Duration::from_secs(asked.unwrap_or(60));
     let count = 100;
-    let rows: String = (0..count).map(|n| format!("v{n},acme,{},\n", ["dog", "crawler"][n % 2])).collect();
+    let rows: Vec<String> = (0..count).map(|n| format!("v{n},acme,{},", ["dog", "crawler"][n % 2])).collect();
     let broker = Broker::start();
-    let (_site, service) = depot(&format!("vehicle,manufacturer,robot,goal\n{rows}"), "");
+    let (_site, service) = depot(&format!("vehicle,manufacturer,robot,goal\n{}\n", rows.join("\n")), "");
     let program = FleetProgram::start(&service, &broker);
     within("it hears", || program.hears(&format!("v{}", count - 1)).then_some(()));
     let (client, heard) = broker.client(&["uagv/v2/acme/+/order", "uagv/v2/acme/+/instantActions"]);
