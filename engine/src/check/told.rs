@@ -4,9 +4,11 @@ use super::kinds::Declared;
 use crate::diagnostic::Diagnostic;
 use crate::rule::{PropertyName, Rule};
 use crate::rule_base::RuleBase;
+use crate::suggest::nearest;
 use crate::told::NamesTold;
 
-/// A told class or property that nobody else has, beside one of nearly the same name that somebody has.
+/// A told class or property that nobody else has, beside one of nearly the same name that somebody has; what is near to no other
+/// name is new.
 pub(super) fn slips<'r>(
     base: &'r RuleBase,
     told: &NamesTold<'r>,
@@ -18,8 +20,10 @@ pub(super) fn slips<'r>(
         if known.schema.has(class) || ranged().any(|other| other == *class) {
             continue;
         }
-        let others = known.schema.classes().chain(ranged());
-        problems.push((*rule, rule.file.unknown_class(*position, class, others)));
+        let others: Vec<&str> = known.schema.classes().chain(ranged()).collect();
+        if nearest(class, others.iter().copied()).is_some() {
+            problems.push((*rule, rule.file.unknown_class(*position, class, others.into_iter())));
+        }
     }
     let read = |name: &PropertyName| base.rules.iter().any(|rule| rule.reads.contains_key(name));
     for (name, (rule, position)) in &told.properties {
@@ -34,9 +38,10 @@ pub(super) fn slips<'r>(
             .schema
             .properties(&name.class)
             .chain(concluded.chain(read).map(|other| other.property.as_str()));
-        problems.push((*rule, rule.file.unknown_property(*position, name, others)));
+        let others: Vec<&str> = others.collect();
+        if nearest(&name.property, others.iter().copied()).is_some() {
+            problems.push((*rule, rule.file.unknown_property(*position, name, others.into_iter())));
+        }
     }
-    // What is near to no other name is new.
-    problems.retain(|(_, problem)| problem.help.is_some());
     problems
 }

@@ -249,8 +249,11 @@ fn no_other_page_prints_a_command() {
     assert!(found.len() > PAGES.len(), "{found:?}");
     for page in found {
         let name = page.strip_prefix(repository()).expect("in the repository").to_string_lossy().into_owned();
-        // what changed is told of what was
-        if name == "CHANGELOG.md" || PAGES.iter().any(|page| page.file == name) {
+        // what changed is told of what was, and a bridge's own tests run what its page prints
+        if name == "CHANGELOG.md"
+            || name.starts_with("bridges/")
+            || PAGES.iter().any(|page| page.file == name)
+        {
             continue;
         }
         let text = fs::read_to_string(&page).expect("a page");
