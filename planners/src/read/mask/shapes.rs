@@ -21,20 +21,27 @@ pub(super) fn of(
     let added = marked.iter().flat_map(|&cell| around(cell, size).map(|(cell, _)| cell));
     let added: BTreeSet<usize> = added.filter(|&cell| !marked.contains(&cell) && may_be_added(cell)).collect();
     let mut shapes = Vec::new();
-    let mut left = vec![(&marked | &added, false)];
-    while let Some((cells, is_cut)) = left.pop() {
+    let mut left = vec![&marked | &added];
+    while let Some(cells) = left.pop() {
         for part in parts(cells, size) {
             let rings = rings(&part, size);
-            match (rings.iter().find(|ring| to_geo_area(ring) < 0.0), &*rings) {
+            match (rings.iter().find(|ring| signed_area(ring) < 0.0), &*rings) {
                 // an area has no holes: what is around one is cut in two through it
                 (Some(hole), _) => {
                     let columns = || hole.iter().map(|corner| corner.x as usize);
                     let (first, last) = (columns().min().unwrap_or(0), columns().max().unwrap_or(0));
                     let cut = usize::midpoint(first, last);
                     let (one, other) = part.into_iter().partition(|cell| cell % size.0 < cut);
-                    left.extend([(one, true), (other, true)]);
+                    left.extend([one, other]);
                 }
-                (None, [ring]) => shapes.push(polygon(ring, is_cut)),
+                (None, [ring]) => {
+                    // at the edge of the map, and where it was cut, a part ends where marked cells end
+                    let is_within = |cell: &usize| {
+                        around(*cell, size).filter(|(next, _)| part.contains(next)).count() == 8
+                    };
+                    let is_padded = part.intersection(&marked).all(is_within);
+                    shapes.push(polygon(ring, is_padded));
+                }
                 // one part over sides has one outer ring
                 (None, _) => {}
             }
@@ -74,14 +81,14 @@ fn rings(part: &BTreeSet<usize>, (columns, _): (usize, usize)) -> Vec<Vec<Point>
     rings.into_iter().map(|ring| ring.into_iter().map(|corner| corner + by).collect()).collect()
 }
 
-fn to_geo_area(ring: &[Point]) -> f64 {
+fn signed_area(ring: &[Point]) -> f64 {
     geo::Area::signed_area(&to_geo(ring))
 }
 
-/// A ring with fewer corners. Where it was cut it stays as it is, since at the cut no cells were added.
-fn polygon(ring: &[Point], is_cut: bool) -> Vec<Point> {
+/// A ring with fewer corners; where there is not a cell more about all that it must cover, only those on straight lines go.
+fn polygon(ring: &[Point], is_padded: bool) -> Vec<Point> {
     let exact = || simplified(ring, 1e-6);
-    if is_cut {
+    if !is_padded {
         return exact();
     }
     let fewer = simplified(ring, OFF);
@@ -127,7 +134,8 @@ mod tests {
 
     #[test]
     fn a_slope_has_few_corners() {
-        let rows: Vec<String> = (0..20).map(|row| "#".repeat(20 - row) + &".".repeat(row + 2)).collect();
+        let rows: Vec<String> =
+            (0..24).map(|row| format!("..{:.<24}", "#".repeat(if row < 22 { row.max(2) - 2 } else { 0 }))).collect();
         let (marked, size) = cells(&rows.iter().map(String::as_str).collect::<Vec<_>>());
         let shapes = of(marked.into_iter(), size, |_| true);
         assert_eq!(shapes.len(), 1);
