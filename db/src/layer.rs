@@ -102,6 +102,14 @@ async fn layers(connection: &mut SqliteConnection) -> Result<Vec<Layer>> {
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
 }
 
+async fn area_outlines(connection: &mut SqliteConnection) -> Result<Vec<AreaOutline>> {
+    let query = sqlx::query("SELECT area, kind, outline FROM area_outlines ORDER BY area");
+    let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<AreaOutline> {
+        Ok(AreaOutline { area: row.try_get(0)?, kind: row.try_get(1)?, outline: row.try_get(2)? })
+    };
+    Ok(query.fetch_all(connection).await?.iter().map(read).collect::<sqlx::Result<_>>()?)
+}
+
 async fn replace(connection: &mut SqliteConnection, outlines: &[AreaOutline]) -> Result<()> {
     sqlx::query("DELETE FROM area_outlines").execute(&mut *connection).await?;
     bulk::insert(connection, outlines).await?;
@@ -112,6 +120,11 @@ impl Tx<'_> {
     /// The layers that the database has as a GeoPackage, by table.
     pub fn layers(&mut self) -> Result<Vec<Layer>> {
         self.run(layers)
+    }
+
+    /// The outlines of all areas, by name.
+    pub fn area_outlines(&mut self) -> Result<Vec<AreaOutline>> {
+        self.run(area_outlines)
     }
 
     /// Replaces the outlines of all areas by these.
