@@ -2,7 +2,7 @@
 -- `drawn` is a table into which they write. The application id stays ours, about which GDAL warns.
 --
 -- A geometry is eight bytes of a head, and then the shape in well-known binary, its numbers as the machine keeps them. Since
--- no function of SQLite before 3.41 makes bytes of numbers, bytes are found in a table.
+-- no function of SQLite before 3.41 makes bytes of numbers, bytes are found in a table. What is nearer to 0 than 1e-38 is 0.
 
 -- data: the octet as a blob. power: 2^(octet - 128).
 CREATE TABLE octets (
@@ -30,17 +30,18 @@ CREATE TABLE area_outlines (
 
 CREATE VIEW map_rooms AS
 SELECT r.room AS fid, r.name, r.robot, r.state, r.facing, r.height, r.width, r.space, r.hardness, r.action, r.passable,
-  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(r.rings)) || x'000000' || (
+  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(r.rings) & 255)
+      || (SELECT data FROM octets WHERE octet = json_array_length(r.rings) >> 8 & 255) || x'0000' || (
     SELECT group_concat(
       (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) & 255)
       || (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) >> 8 & 255) || x'0000'
       || (
         SELECT group_concat(o.data, '')
-        FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-            (v.atom < 0) << 63
-            | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+        FROM (SELECT coalesce(
+            ((v.atom < 0) << 63)
+            | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
             | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-                * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+                * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
               FROM json_tree(json_insert(ring.value, '$[#]', json_extract(ring.value, '$[0]'))) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
         CROSS JOIN octets AS i
         CROSS JOIN octets AS o
@@ -51,17 +52,18 @@ FROM (SELECT *, coalesce('[' || outline || ']', printf('[[[%!.17g,%!.17g],[%!.17
 
 CREATE VIEW map_spaces AS
 SELECT s.space AS fid, coalesce(s.name, 'space ' || s.space) AS name, s.kind, s.area, s.breadth, s.closed,
-  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(s.outline)) || x'000000' || (
+  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(s.outline) & 255)
+      || (SELECT data FROM octets WHERE octet = json_array_length(s.outline) >> 8 & 255) || x'0000' || (
     SELECT group_concat(
       (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) & 255)
       || (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) >> 8 & 255) || x'0000'
       || (
         SELECT group_concat(o.data, '')
-        FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-            (v.atom < 0) << 63
-            | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+        FROM (SELECT coalesce(
+            ((v.atom < 0) << 63)
+            | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
             | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-                * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+                * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
               FROM json_tree(json_insert(ring.value, '$[#]', json_extract(ring.value, '$[0]'))) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
         CROSS JOIN octets AS i
         CROSS JOIN octets AS o
@@ -75,11 +77,11 @@ SELECT d.doorway AS fid, coalesce(d.name, 'doorway ' || d.doorway) AS name, d.sp
       || x'02000000'
       || (
       SELECT group_concat(o.data, '')
-      FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-          (v.atom < 0) << 63
-          | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+      FROM (SELECT coalesce(
+          ((v.atom < 0) << 63)
+          | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
           | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-              * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+              * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
             FROM json_tree(printf('[%!.17g,%!.17g,%!.17g,%!.17g]', d.x0, d.y0, d.x1, d.y1)) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
       CROSS JOIN octets AS i
       CROSS JOIN octets AS o
@@ -88,17 +90,18 @@ FROM doorways AS d;
 
 CREATE VIEW map_areas AS
 SELECT a.area AS name, a.kind,
-  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(a.rings)) || x'000000' || (
+  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(a.rings) & 255)
+      || (SELECT data FROM octets WHERE octet = json_array_length(a.rings) >> 8 & 255) || x'0000' || (
     SELECT group_concat(
       (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) & 255)
       || (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) >> 8 & 255) || x'0000'
       || (
         SELECT group_concat(o.data, '')
-        FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-            (v.atom < 0) << 63
-            | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+        FROM (SELECT coalesce(
+            ((v.atom < 0) << 63)
+            | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
             | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-                * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+                * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
               FROM json_tree(json_insert(ring.value, '$[#]', json_extract(ring.value, '$[0]'))) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
         CROSS JOIN octets AS i
         CROSS JOIN octets AS o
@@ -113,11 +116,11 @@ SELECT r.robot, r.start, r.goal, r.status, r.cost, r.distance,
       || (SELECT data FROM octets WHERE octet = (json_array_length(r.points) / 2) >> 8 & 255) || x'0000'
       || (
       SELECT group_concat(o.data, '')
-      FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-          (v.atom < 0) << 63
-          | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+      FROM (SELECT coalesce(
+          ((v.atom < 0) << 63)
+          | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
           | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-              * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+              * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
             FROM json_tree(r.points) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
       CROSS JOIN octets AS i
       CROSS JOIN octets AS o
@@ -144,17 +147,18 @@ CREATE TABLE drawn (
 
 CREATE VIEW laid_shapes AS
 SELECT l.name,
-  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(l.rings)) || x'000000' || (
+  CAST(x'47500001FFFFFFFF0103000000' || (SELECT data FROM octets WHERE octet = json_array_length(l.rings) & 255)
+      || (SELECT data FROM octets WHERE octet = json_array_length(l.rings) >> 8 & 255) || x'0000' || (
     SELECT group_concat(
       (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) & 255)
       || (SELECT data FROM octets WHERE octet = (json_array_length(ring.value) + 1) >> 8 & 255) || x'0000'
       || (
         SELECT group_concat(o.data, '')
-        FROM (SELECT CASE WHEN v.atom = 0 THEN 0 ELSE
-            (v.atom < 0) << 63
-            | ((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52
+        FROM (SELECT coalesce(
+            ((v.atom < 0) << 63)
+            | (((SELECT octet FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1) + 895) << 52)
             | CAST(abs(v.atom) / (SELECT power FROM octets WHERE power <= abs(v.atom) ORDER BY power DESC LIMIT 1)
-                * 4503599627370496.0 AS INTEGER) - 4503599627370496 END AS bits
+                * 4503599627370496.0 AS INTEGER) - 4503599627370496, 0) AS bits
               FROM json_tree(json_insert(ring.value, '$[#]', json_extract(ring.value, '$[0]'))) AS v WHERE v.atom IS NOT NULL LIMIT -1) AS n
         CROSS JOIN octets AS i
         CROSS JOIN octets AS o

@@ -134,6 +134,14 @@ fn what_is_laid_by_a_command_is_drawn_and_taken_back_by_undo_with_its_shape() {
 }
 
 #[test]
+fn corners_keep_each_bit_and_their_sign_on_the_way_to_a_shape_and_back() {
+    let site = starter();
+    let corners = "[[-1.5,0.1],[1.0e-17,123456.78901234567],[3.0,-0.30000000000000004],[0.0,-1000000.0]]";
+    site.outside_edit(&format!("INSERT INTO laid (name, what, outline) VALUES ('far', 'area', '{corners}')"));
+    assert_eq!(site.sqlite3("SELECT outline FROM drawn_outlines"), [corners]);
+}
+
+#[test]
 fn what_cannot_be_laid_is_refused_in_words_when_it_is_drawn_or_built() {
     let site = starter();
     let shape = |wkt: &str, name: &str| json!({"wkt": wkt, "fields": {"name": name}});
