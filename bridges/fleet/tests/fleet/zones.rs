@@ -47,8 +47,8 @@ fn areas(chance: &mut Chance) -> Value {
     let one = |number: u64, chance: &mut Chance| {
         let mut properties = json!({
             "zone_factor": chance.metres() / 10.0, "speed_limit": chance.metres() / 10.0, "zone_direction": chance.metres() * 30.0,
-            "zone_limitation": ["SOFT", "STRICT", "HARD"][chance.below(3) as usize], "zone_action": "beep",
-            "zone_blocking": ["NONE", "SOFT", "SINGLE", "LOUD"][chance.below(4) as usize], "closed": chance.below(5) == 0,
+            "zone_limitation": (["SOFT", "STRICT", "HARD"][chance.below(3) as usize]), "zone_action": "beep",
+            "zone_blocking": (["NONE", "SOFT", "SINGLE", "LOUD"][chance.below(4) as usize]), "closed": chance.below(5) == 0,
         });
         for property in ["zone_factor", "speed_limit", "zone_limitation", "zone_action", "zone_blocking"] {
             if chance.below(4) == 0 {
