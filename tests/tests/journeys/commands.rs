@@ -238,6 +238,7 @@ each_page! {
     telling: "manual/src/telling.md";
     asking_why: "manual/src/asking-why.md";
     sql: "manual/src/sql.md";
+    geodata: "manual/src/geodata.md";
     ways: "manual/src/ways.md";
     other_maps: "manual/src/other-maps.md";
     parts_and_corridors: "manual/src/corridors-and-parts.md";
