@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 20] = [
+const PAGES: [Page; 21] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -107,6 +107,7 @@ const PAGES: [Page; 20] = [
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
+    Page { file: "manual/src/geodata.md", blocks: &[("file = \"keepout.yaml\"", Use::Shown)], databases: &[] },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
     Page {
