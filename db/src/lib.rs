@@ -27,6 +27,7 @@ pub mod kept;
 pub mod laid;
 pub mod learned;
 pub mod load;
+pub mod measure;
 mod migrate;
 pub mod mission;
 pub mod place;

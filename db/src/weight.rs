@@ -11,6 +11,8 @@ pub struct Weight {
     pub action: Derived<String>,
     /// Whether the room is entered, the door passed.
     pub passable: Derived<bool>,
+    /// Of which [measure](crate::measure::Measures) a metre, or passing, takes how much, as JSON.
+    pub measures: Option<String>,
 }
 
 impl Weight {
@@ -19,6 +21,7 @@ impl Weight {
         self.hardness.value == other.hardness.value
             && self.action.value == other.action.value
             && self.passable.value == other.passable.value
+            && self.measures == other.measures
     }
 
     /// The witnesses on which it rests.
