@@ -114,6 +114,7 @@ pub fn root(start: usize) -> TreeRow {
         hops: 0,
         reach: 0.0,
         leg: 0.0,
+        walked: None,
         at: None,
         heading: None,
         distance: None,

@@ -150,6 +150,7 @@ pub const START: TreeRow = TreeRow {
     hops: 0,
     reach: 0.0,
     leg: 0.0,
+    walked: None,
     at: Some([9.55, 8.25]),
     heading: None,
     distance: None,

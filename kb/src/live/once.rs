@@ -102,7 +102,7 @@ impl KnowledgeBase {
     pub fn check(&self) -> Result<Vec<Finding>> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
         let mut problems =
-            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked());
+            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked()?);
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
@@ -237,7 +237,8 @@ impl KnowledgeBase {
                 && let Some(route) = kept(tx, &robot, start, goals)?
             {
                 let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
-                (answer.cost, answer.distance) = (route.cost, route.distance);
+                (answer.cost, answer.distance, answer.measures) =
+                    (route.cost, route.distance, route.measures);
                 answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
                 answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
                 answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
@@ -260,7 +261,7 @@ impl KnowledgeBase {
         let kept = if ends_in == [None; 2] { kept(tx, &robot, start, goals)? } else { None };
         if let Some(route) = kept {
             answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
-            (answer.cost, answer.distance) = (route.cost, route.distance);
+            (answer.cost, answer.distance, answer.measures) = (route.cost, route.distance, route.measures);
             answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
             answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
             answer.goal = route.goal;

@@ -424,7 +424,7 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> V
     let mut notes = Vec::new();
     // what a planner asks about comes when it asks
     let asked: Vec<&str> =
-        site.course().iter().flat_map(|course| course.asks()).map(|class| class.name).collect();
+        site.asks().iter().map(|class| class.name).collect();
     let is_asked = |need: &String| asked.contains(&need.split('.').next().unwrap_or_default());
     for waiting in conclusions.waiting.iter().filter(|waiting| !waiting.needs.iter().any(is_asked)) {
         notes.push(format!(
