@@ -30,9 +30,7 @@ impl Measures {
 
     /// As the database has it; `None`: nothing is known.
     pub fn text(&self) -> Option<String> {
-        let pair = |(name, amount): (&String, &f64)| (name.clone(), serde_json::json!(amount));
-        let pairs: serde_json::Map<_, _> = self.0.iter().map(pair).collect();
-        (!pairs.is_empty()).then(|| serde_json::Value::Object(pairs).to_string())
+        if self.is_empty() { None } else { serde_json::to_string(self).ok() }
     }
 
     pub fn is_empty(&self) -> bool {

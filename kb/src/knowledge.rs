@@ -251,8 +251,12 @@ impl KnowledgeBase {
     /// What adds up along routes besides hardness; of a site that was never built, what every site begins with.
     pub fn measures(&self) -> Result<Vec<Measure>> {
         let read = |tx: &mut Tx<'_>| tx.measures();
-        if self.database.exists() {
-            return Ok(Store::open_read_only(&self.database)?.snapshot(read)?);
+        // a database of an older version has none of its own
+        let kept = Store::open_read_only(&self.database).and_then(|mut store| store.snapshot(read));
+        if self.database.exists()
+            && let Ok(measures) = kept
+        {
+            return Ok(measures);
         }
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         Ok(Store::open_or_create(&folder.path().join("new.db"))?.snapshot(read)?)
@@ -431,7 +435,7 @@ impl KnowledgeBase {
         progress.stage("map");
         self.needs_course()?;
         let know = |world: &World| self.overlays.know(world);
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked(), know)?))
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked()?, know)?))
     }
 
     /// For what holds on to it while others go on.

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 use adit_db::course::Course as Row;
 use adit_db::measure::Measures;
 use adit_db::route::Step;
-use adit_engine::{Consultation, Datum};
+use adit_engine::Consultation;
 
 use super::consult::{Class, Of, Property, consult, object, typed};
 use super::course::Asked;
