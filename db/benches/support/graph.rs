@@ -137,6 +137,8 @@ fn walker() -> State {
         length: None,
         hardness: 1.0,
         position: 0,
+        speed: None,
+        power: None,
     }
 }
 
@@ -162,6 +164,7 @@ fn room(index: usize) -> Room {
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },
+        measures: None,
     }
 }
 
@@ -179,6 +182,7 @@ fn door((index, edge): (usize, &Edge)) -> Door {
         hardness: Derived::by(1, None, edge.hardness),
         action: Derived::by(1, None, "WALK".to_owned()),
         passable: Derived::by(1, None, true),
+        measures: None,
         one_way: edge.one_way,
     }
 }

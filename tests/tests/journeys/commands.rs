@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 20] = [
+const PAGES: [Page; 21] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -88,6 +88,15 @@ const PAGES: [Page; 20] = [
         databases: &[],
     },
     page("manual/src/tuning.md"),
+    Page {
+        file: "manual/src/measures.md",
+        blocks: &[
+            ("changing shape costs", Use::File("quick/rules/quick.rhai")),
+            ("every metre is a risk", Use::File("my-site/rules/risk.rhai")),
+            ("each leg in LEGS", Use::File("halls/rules/own.rhai")),
+        ],
+        databases: &[("action_sequence", "my-site/site.db"), ("FROM waypoints", "my-site/site.db")],
+    },
     Page {
         file: "manual/src/telling.md",
         blocks: &[
