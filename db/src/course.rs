@@ -57,7 +57,16 @@ impl Course {
 impl Record for &Course {
     const TABLE: &'static str = "courses";
     const COLUMNS: &'static [&'static str] = &[
-        "robot", "start", "goal", "status", "reason", "remarks", "cost", "distance", "clearance", "steps",
+        "robot",
+        "start",
+        "goal",
+        "status",
+        "reason",
+        "remarks",
+        "cost",
+        "distance",
+        "clearance",
+        "steps",
         "measures",
     ];
 

@@ -64,7 +64,8 @@ impl Measures {
 
 /// The measures that there are, by name.
 pub async fn measures(connection: &mut SqliteConnection) -> Result<Vec<Measure>> {
-    let rows = sqlx::query("SELECT measure, unit FROM measures ORDER BY measure").fetch_all(connection).await?;
+    let rows =
+        sqlx::query("SELECT measure, unit FROM measures ORDER BY measure").fetch_all(connection).await?;
     let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<Measure> {
         Ok(Measure { measure: row.try_get(0)?, unit: row.try_get(1)? })
     };

@@ -70,7 +70,8 @@ impl Record for &State {
 
 impl Record for &Change {
     const TABLE: &'static str = "changes";
-    const COLUMNS: &'static [&'static str] = &["robot", "from_state", "to_state", "hardness", "seconds", "joules"];
+    const COLUMNS: &'static [&'static str] =
+        &["robot", "from_state", "to_state", "hardness", "seconds", "joules"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);

@@ -42,8 +42,6 @@ pub struct Route {
     pub steps: Option<i64>,
     /// Metres; `None` where ways are not measured.
     pub distance: Option<f64>,
-    /// What the whole route takes of each measure that rules say.
-    pub measures: Measures,
 }
 
 /// A row of the view `action_sequence`.
@@ -208,7 +206,7 @@ pub async fn route(
     goal: &str,
 ) -> Result<Option<Route>> {
     let query = sqlx::query(
-        "SELECT robot, start, goal, status, cost, steps, distance, measures FROM route
+        "SELECT robot, start, goal, status, cost, steps, distance FROM route
          WHERE robot = ? AND start = ? AND goal = ?",
     );
     let row = query.bind(robot).bind(start).bind(goal).fetch_optional(connection).await?;
@@ -221,7 +219,6 @@ pub async fn route(
             cost: row.try_get(4)?,
             steps: row.try_get(5)?,
             distance: row.try_get(6)?,
-            measures: said(&row, 7)?,
         })
     };
     Ok(row.map(read).transpose()?)

@@ -112,6 +112,11 @@ impl State {
 }
 
 impl Answer {
+    /// What the way to its last waypoint takes.
+    pub(crate) fn at_the_end(&self) -> Measures {
+        self.waypoints.last().map(|point| point.measures.clone()).unwrap_or_default()
+    }
+
     /// An answer of which no more is known than the question.
     pub(crate) fn blank(robot: &str, start: &str, goals: &[String], generation: u64) -> Self {
         Self {

@@ -47,8 +47,8 @@ SELECT b.robot AS robot, a.name AS start, e.name AS goal,
   2 * t.hops + 1 AS steps,
   t.distance AS distance,
   NULL AS reason,
-  (SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  (SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
+  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
+  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
   (SELECT nullif(json_group_object(m.measure, m.value), '{}') FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
 FROM (SELECT DISTINCT robot FROM robots) AS b
 CROSS JOIN ends AS a
@@ -137,8 +137,8 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   t.distance AS distance,
   t.reach + coalesce(d.hardness, 0.0) AS cost,
   NULL AS z, NULL AS centre_x, NULL AS centre_y, NULL AS turn,
-  (SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  (SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
+  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
+  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
   (SELECT nullif(json_group_object(m.measure, m.value), '{}') FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
 FROM starts AS s
 CROSS JOIN ends AS e

@@ -4,7 +4,7 @@ use adit_planners::routes::Way;
 
 use super::basis::Basis;
 use super::ends::Ends;
-use super::{Answer, Status, json, steps, taken};
+use super::{Answer, Status, json, steps};
 use crate::error::{Code, Error, Result};
 
 /// A way that was found.
@@ -68,7 +68,7 @@ impl Basis<'_> {
         answer.waypoints = steps::waypoints(graph, way, gauge);
         answer.cost = Some(way.cost);
         answer.distance = gauge.map(|_| way.length());
-        answer.measures = taken::whole(graph, way);
+        answer.measures = answer.at_the_end();
         answer.status = Status::of(way);
         Ok(())
     }

@@ -46,7 +46,8 @@ impl<'a> Taken<'a> {
         let is_nothing = leg.door.is_none() && leg.from == leg.to;
         let metres = (self.is_measured || is_nothing).then_some(self.metres);
         let room = of_room(self.graph, leg.room).along(metres);
-        let mut so_far = if is_nothing && self.metres == 0.0 { self.before.clone() } else { self.before.and(&room) };
+        let mut so_far =
+            if is_nothing && self.metres == 0.0 { self.before.clone() } else { self.before.and(&room) };
         let door = leg.door.map(|door| of_door(self.graph, door));
         if let Some(door) = &door {
             so_far = so_far.and(door);
@@ -55,12 +56,6 @@ impl<'a> Taken<'a> {
         let door = door.map(|door| door.rounded());
         Taking { room: room.rounded(), door, so_far: so_far.rounded() }
     }
-}
-
-/// What all of a way takes.
-pub(super) fn whole(graph: &SiteGraph, way: &Way) -> Measures {
-    let mut taken = Taken::new(graph, way);
-    way.legs.iter().map(|leg| taken.follow(leg).so_far).last().unwrap_or_default()
 }
 
 fn of_room(graph: &SiteGraph, room: RoomIndex) -> Measures {

@@ -85,7 +85,8 @@ fn head(answer: &Answer, measures: &[Measure]) -> bool {
     match answer.status {
         Status::Ok => {
             let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));
-            let taken = taken(&answer.measures, measures).map_or(String::new(), |taken| format!(", takes about {taken}"));
+            let taken = taken(&answer.measures, measures)
+                .map_or(String::new(), |taken| format!(", takes about {taken}"));
             line(&format!("{start} to {goal}, hardness {}{metres}{taken}:", maybe(answer.cost)));
         }
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
@@ -129,8 +130,9 @@ pub fn steps(answer: &Answer, measures: &[Measure]) {
         ];
         row.into_iter().chain(taken).collect()
     });
-    let mut columns =
-        vec!["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where"];
+    let mut columns = vec![
+        "step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where",
+    ];
     columns.extend(&known);
     table(&columns, rows);
 }

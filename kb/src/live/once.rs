@@ -237,10 +237,10 @@ impl KnowledgeBase {
                 && let Some(route) = kept(tx, &robot, start, goals)?
             {
                 let mut answer = Answer::blank(&robot, start, goals, generation::read(tx)?);
-                (answer.cost, answer.distance, answer.measures) =
-                    (route.cost, route.distance, route.measures);
+                (answer.cost, answer.distance) = (route.cost, route.distance);
                 answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
                 answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+                answer.measures = answer.at_the_end();
                 answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
                 answer.goal = route.goal;
                 return Ok(answer);
@@ -261,9 +261,10 @@ impl KnowledgeBase {
         let kept = if ends_in == [None; 2] { kept(tx, &robot, start, goals)? } else { None };
         if let Some(route) = kept {
             answer.status = if route.status == "ok" { Status::Ok } else { Status::SameRoom };
-            (answer.cost, answer.distance, answer.measures) = (route.cost, route.distance, route.measures);
+            (answer.cost, answer.distance) = (route.cost, route.distance);
             answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
             answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+            answer.measures = answer.at_the_end();
             answer.goal = route.goal;
             return Ok(answer);
         }

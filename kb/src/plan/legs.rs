@@ -91,7 +91,10 @@ impl Legs {
                 return Some((name.clone(), amount));
             }
             trouble.get_or_insert_with(|| {
-                format!("rules give {} the {name} {amount}; it must be finite and not negative", leg.step.place)
+                format!(
+                    "rules give {} the {name} {amount}; it must be finite and not negative",
+                    leg.step.place
+                )
             });
             None
         };

@@ -108,8 +108,7 @@ const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE
 fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> (Vec<State>, Named) {
     let (mut rows, mut named): (Vec<State>, Named) = Default::default();
     for entry in fields.tables("robots", "[[robots]]", problems) {
-        let known =
-            ["robot", "state", "action", "height", "width", "length", "hardness", "speed", "power"];
+        let known = ["robot", "state", "action", "height", "width", "length", "hardness", "speed", "power"];
         entry.refuse_unknown(&known, problems);
         let robot = robot(&entry, problems);
         let (state, action) = (name(&entry, "state", problems), name(&entry, "action", problems));

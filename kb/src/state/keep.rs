@@ -365,7 +365,9 @@ fn untabled<'r>(knowledge: &Inference, rules: &'r RuleBase) -> impl Iterator<Ite
 pub fn touched(knowledge: &Inference, rules: &RuleBase, changes: &Changes) -> Vec<Derivation> {
     let mut reasons = Reasons::new(knowledge, rules);
     let mut look = Look { knowledge, rules, which: Which::Touched(changes), reasons: Some(&mut reasons) };
-    untabled(knowledge, rules).flat_map(|(class, property)| derivations_of(&mut look, class, property)).collect()
+    untabled(knowledge, rules)
+        .flat_map(|(class, property)| derivations_of(&mut look, class, property))
+        .collect()
 }
 
 /// Values that rules concluded of one property that has no column of ours.

@@ -62,7 +62,8 @@ impl ByHand {
     fn of(site: &TestSite) -> Self {
         let metres = rows(site, "SELECT robot, state, speed, power FROM robots").into_iter().map(|row| {
             let [speed, power] = [number(&row[2]), number(&row[3])];
-            let taken = [speed.map(|speed| 1.0 / speed), speed.zip(power).map(|(speed, power)| power / speed)];
+            let taken =
+                [speed.map(|speed| 1.0 / speed), speed.zip(power).map(|(speed, power)| power / speed)];
             ([row[0].clone(), row[1].clone()], taken)
         });
         let changes = rows(site, "SELECT robot, from_state, to_state, seconds, joules FROM changes");
@@ -130,7 +131,8 @@ fn check(site: &TestSite) -> usize {
             expect_close(&format!("{what}: answer"), answer["measures"][measure].as_f64(), total[at]);
             let json: Value = serde_json::from_str(&route[5]).unwrap_or_default();
             expect_close(&format!("{what}: measures"), json[measure].as_f64(), total[at]);
-            let said = answer["steps"].as_array().unwrap().iter().map(|step| step["measures"][measure].as_f64());
+            let said =
+                answer["steps"].as_array().unwrap().iter().map(|step| step["measures"][measure].as_f64());
             expect_close(&format!("{what}: steps of the answer"), sum(said), total[at]);
             known += usize::from(total[at].is_some());
         }
@@ -155,7 +157,9 @@ fn a_route_that_is_not_kept_says_the_same() {
     let found = site.adit("route", &["dock", &point, "--json"]).expecting(0).json();
     for measure in MEASURES {
         expect_close(measure, found["measures"][measure].as_f64(), kept["measures"][measure].as_f64());
-        let last = |route: &Value| route["waypoints"].as_array().unwrap().last().unwrap()["measures"][measure].as_f64();
+        let last = |route: &Value| {
+            route["waypoints"].as_array().unwrap().last().unwrap()["measures"][measure].as_f64()
+        };
         expect_close(measure, last(&found), last(&kept));
     }
 }
@@ -170,7 +174,9 @@ fn what_is_not_known_is_not_said_and_is_never_0() {
     let said = site.adit("route", &["dock", "ward 12"]).expecting(0).stdout;
     assert!(!said.contains("takes about"), "{said}");
     assert_eq!(
-        site.sqlite3("SELECT seconds IS NULL, joules IS NULL FROM route WHERE start = 'dock' AND goal = 'ward 12'"),
+        site.sqlite3(
+            "SELECT seconds IS NULL, joules IS NULL FROM route WHERE start = 'dock' AND goal = 'ward 12'"
+        ),
         ["1|1"]
     );
     assert!(check(&site) > 0, "other routes are still known");
@@ -188,7 +194,9 @@ fn tuning_a_speed_changes_what_routes_take_and_nothing_else() {
     let after = rows(&site, query);
     assert_eq!(before[0][0], after[0][0]);
     assert!(number(&after[0][1]) > number(&before[0][1]), "{before:?}, {after:?}");
-    site.adit("tune", &["robots", "STAND", "speed", "0"]).expecting(1).complains(&["speed must be finite and more than 0"]);
+    site.adit("tune", &["robots", "STAND", "speed", "0"])
+        .expecting(1)
+        .complains(&["speed must be finite and more than 0"]);
 }
 
 #[test]
@@ -229,7 +237,11 @@ rule "a door is none"
     site.outside_edit("INSERT INTO measures VALUES ('risk', '')");
     site.adit("build", &[]).expecting(0);
     let route = site.adit("route", &["home", "window", "--json"]).expecting(0).json();
-    expect_close("risk", route["measures"]["risk"].as_f64(), route["distance"].as_f64().map(|metres| metres / 4.0));
+    expect_close(
+        "risk",
+        route["measures"]["risk"].as_f64(),
+        route["distance"].as_f64().map(|metres| metres / 4.0),
+    );
     let said = site.adit("route", &["home", "window"]).expecting(0).stdout;
     assert!(said.contains(", risk "), "{said}");
     let by_sql = rows(
@@ -277,7 +289,11 @@ fn maps_that_are_not_cut_into_rooms_say_what_rules_say_of_each_leg() {
     );
     site.adit("build", &[]).expecting(0);
     let route = site.adit("route", &["start", "goal", "--json"]).expecting(0).json();
-    expect_close("seconds", route["measures"]["seconds"].as_f64(), route["distance"].as_f64().map(|metres| metres * 2.0));
+    expect_close(
+        "seconds",
+        route["measures"]["seconds"].as_f64(),
+        route["distance"].as_f64().map(|metres| metres * 2.0),
+    );
     let found = site.sqlite3(
         "SELECT abs(r.seconds - sum(a.seconds)) < 1e-4, r.joules IS NULL,
            abs(r.seconds - (SELECT max(seconds) FROM waypoints WHERE start = 'start' AND goal = 'goal')) < 1e-4

@@ -9,7 +9,7 @@ use adit_db::space::{Doorway, Space};
 use adit_db::weight::Weight;
 
 use super::*;
-use crate::answer::{steps, taken};
+use crate::answer::steps;
 use crate::graph::Building;
 
 /// A floor of rooms in a square, joined by doors to the right and upwards.
@@ -111,7 +111,7 @@ fn both(graph: &SiteGraph, [start, goal]: [&str; 2]) -> Option<[Vec<u8>; 2]> {
     answer.steps = steps::steps(graph, &rules, &way, goals[0].at.is_some());
     answer.waypoints = steps::waypoints(graph, &way, None);
     (answer.cost, answer.status) = (Some(way.cost), Status::of(&way));
-    answer.measures = taken::whole(graph, &way);
+    answer.measures = answer.at_the_end();
     Some([serde_json::to_vec(&answer).unwrap(), text])
 }
 
