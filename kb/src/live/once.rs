@@ -102,7 +102,7 @@ impl KnowledgeBase {
     pub fn check(&self) -> Result<Vec<Finding>> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
         let mut problems =
-            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked());
+            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked()?);
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
@@ -240,6 +240,7 @@ impl KnowledgeBase {
                 (answer.cost, answer.distance) = (route.cost, route.distance);
                 answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
                 answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+                answer.measures = answer.at_the_end();
                 answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
                 answer.goal = route.goal;
                 return Ok(answer);
@@ -263,6 +264,7 @@ impl KnowledgeBase {
             (answer.cost, answer.distance) = (route.cost, route.distance);
             answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
             answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+            answer.measures = answer.at_the_end();
             answer.goal = route.goal;
             return Ok(answer);
         }

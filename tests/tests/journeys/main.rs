@@ -25,6 +25,7 @@ mod large_site;
 mod lazy_route;
 mod live;
 mod manual;
+mod measures;
 mod navigation;
 mod no_map;
 mod nothing_half;
