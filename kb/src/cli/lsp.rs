@@ -30,7 +30,8 @@ pub struct LspArgs {
 /// Serves one editor, until it says goodbye.
 pub fn run(_: &LspArgs) -> Result<()> {
     let (connection, threads) = Connection::stdio();
-    let failed = |why: String| Error::said(Code::EditorLost, format!("the editor cannot be understood: {why}"), None);
+    let failed =
+        |why: String| Error::said(Code::EditorLost, format!("the editor cannot be understood: {why}"), None);
     let abilities = serde_json::json!(capabilities());
     connection.initialize(abilities).map_err(|error| failed(error.to_string()))?;
     Server::new(&connection)?.run();

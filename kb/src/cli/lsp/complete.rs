@@ -48,7 +48,10 @@ pub fn complete(library: &Library, vocabulary: &Vocabulary, file: &File, byte: u
             properties(library, vocabulary, &root).into_iter().for_each(&mut add);
         }
     }
-    for word in manual().words().chain(QUANTIFIERS).chain(["where", "then", "by", "have", "given", "set", "rows", "level"])
+    for word in manual()
+        .words()
+        .chain(QUANTIFIERS)
+        .chain(["where", "then", "by", "have", "given", "set", "rows", "level"])
     {
         let (what, example) = manual().of_word(word).unwrap_or_default();
         let what = (!what.is_empty()).then(|| format!("{what}\n```rhai\n{example}\n```"));
@@ -80,14 +83,19 @@ fn field(
         at -= 2;
     }
     let Some((first, links)) = chain.split_first() else { return Vec::new() };
-    let class = library.item(&file.path, byte).and_then(|item| item.variables.get(*first)).map_or(*first, String::as_str);
+    let class = library
+        .item(&file.path, byte)
+        .and_then(|item| item.variables.get(*first))
+        .map_or(*first, String::as_str);
     library.classes.along(class, links).map_or_else(Vec::new, |class| properties(library, vocabulary, class))
 }
 
 fn classes(library: &Library, vocabulary: &Vocabulary) -> Vec<CompletionItem> {
-    let given = vocabulary.classes().into_iter().map(|class| (class, manual().of_class(class).map(str::to_owned)));
+    let given =
+        vocabulary.classes().into_iter().map(|class| (class, manual().of_class(class).map(str::to_owned)));
     let declared = library.classes.parents.iter();
-    let declared = declared.map(|(class, parent)| (class.as_str(), Some(format!("{parent} that pass a condition"))));
+    let declared =
+        declared.map(|(class, parent)| (class.as_str(), Some(format!("{parent} that pass a condition"))));
     given
         .chain(declared)
         .map(|(class, what)| proposal(class, CompletionItemKind::CLASS, None, what))
@@ -119,5 +127,11 @@ fn proposal(
 ) -> CompletionItem {
     let documentation =
         what.map(|value| Documentation::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value }));
-    CompletionItem { label: label.to_owned(), kind: Some(kind), detail, documentation, ..CompletionItem::default() }
+    CompletionItem {
+        label: label.to_owned(),
+        kind: Some(kind),
+        detail,
+        documentation,
+        ..CompletionItem::default()
+    }
 }

@@ -41,7 +41,9 @@ impl Library {
         }
         for folder in &folders {
             let saved = base::files(folder).into_iter();
-            texts.extend(saved.filter_map(|path| Some((path.clone(), (fs::read_to_string(&path).ok()?, true)))));
+            texts.extend(
+                saved.filter_map(|path| Some((path.clone(), (fs::read_to_string(&path).ok()?, true)))),
+            );
             let of_it = drafts.iter().filter(|(path, _)| is_in(path, folder));
             texts.extend(of_it.map(|(path, text)| (path.clone(), (text.clone(), true))));
         }
@@ -65,16 +67,25 @@ impl Library {
     /// What stands at a byte of a file: the narrowest name that does.
     pub fn at(&self, path: &Path, byte: usize) -> Option<(&File, &Occurrence)> {
         let file = self.file(path)?;
-        let touching = file.names.occurrences.iter().filter(|found| found.span.start <= byte && byte <= found.span.end);
+        let touching =
+            file.names.occurrences.iter().filter(|found| found.span.start <= byte && byte <= found.span.end);
         touching.min_by_key(|found| found.span.len()).map(|found| (file, found))
     }
 
     /// All places of a name that stands in a file.
-    pub fn all<'l>(&'l self, named: &'l Named, of: &'l Path) -> impl Iterator<Item = (&'l File, &'l Occurrence)> {
+    pub fn all<'l>(
+        &'l self,
+        named: &'l Named,
+        of: &'l Path,
+    ) -> impl Iterator<Item = (&'l File, &'l Occurrence)> {
         let is_local = matches!(named, Named::Variable(..) | Named::Own(_));
         let files = self.files.iter().filter(move |file| !is_local || file.path == of);
         files.flat_map(move |file| {
-            file.names.occurrences.iter().filter(move |found| found.named == *named).map(move |found| (file, found))
+            file.names
+                .occurrences
+                .iter()
+                .filter(move |found| found.named == *named)
+                .map(move |found| (file, found))
         })
     }
 
@@ -102,7 +113,11 @@ impl Library {
         use super::occurrences::Role;
         let mut found: Vec<(&File, &Item)> = Vec::new();
         for file in &self.files {
-            let sets = file.names.occurrences.iter().filter(|found| found.named == *property && found.role == Role::Set);
+            let sets = file
+                .names
+                .occurrences
+                .iter()
+                .filter(|found| found.named == *property && found.role == Role::Set);
             for set in sets {
                 if let Some(item) = file.names.items.iter().rfind(|item| item.span.contains(&set.span.start))
                     && !found.iter().any(|(_, known)| std::ptr::eq(*known, item))

@@ -23,9 +23,12 @@ impl Mirror {
         let of = folder.ancestors().take(ABOVE + 1).last().unwrap_or(folder).to_owned();
         let top = tempfile::Builder::new().prefix("adit-lsp-").tempdir()?;
         let mut wanted: Vec<(Vec<&Path>, Option<&str>)> = vec![(below(folder, &of), None)];
-        wanted.extend(drafts.iter().filter(|(path, _)| path.starts_with(&of)).map(|(path, text)| {
-            (below(path, &of), Some(text.as_str()))
-        }));
+        wanted.extend(
+            drafts
+                .iter()
+                .filter(|(path, _)| path.starts_with(&of))
+                .map(|(path, text)| (below(path, &of), Some(text.as_str()))),
+        );
         fill(&of, top.path(), &wanted)?;
         Ok(Self { top, of })
     }

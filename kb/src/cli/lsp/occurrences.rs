@@ -132,16 +132,19 @@ fn items(tokens: &[Token], end: usize) -> Vec<Item> {
     let mut found: Vec<Item> = Vec::new();
     for (at, token) in tokens.iter().enumerate() {
         let after = tokens.get(at + 1);
-        let begins = token.kind == Kind::Name && !at.checked_sub(1).is_some_and(|before| tokens[before].is("."));
+        let begins =
+            token.kind == Kind::Name && !at.checked_sub(1).is_some_and(|before| tokens[before].is("."));
         let name = match token.text {
-            word if NAMED.contains(&word) => after.filter(|after| after.kind == Kind::Text).map(Token::inside),
+            word if NAMED.contains(&word) => {
+                after.filter(|after| after.kind == Kind::Text).map(Token::inside)
+            }
             "class" => after.filter(|after| after.kind == Kind::Name).map(Token::span),
             "property" => {
                 let last = tokens.get(at + 3).filter(|last| last.kind == Kind::Name);
                 let dotted = tokens.get(at + 2).is_some_and(|mark| mark.is("."));
-                after
-                    .filter(|after| after.kind == Kind::Name)
-                    .map(|after| after.start..last.filter(|_| dotted).map_or(after.span().end, |last| last.span().end))
+                after.filter(|after| after.kind == Kind::Name).map(|after| {
+                    after.start..last.filter(|_| dotted).map_or(after.span().end, |last| last.span().end)
+                })
             }
             "fn" | "const" => after.filter(|after| after.kind == Kind::Name).map(Token::span),
             _ => None,
@@ -245,7 +248,9 @@ impl Reader<'_, '_> {
             }
             let counted = self.is(at + 2, "of");
             let variable = at + if counted { 3 } else { 1 };
-            let (Some(name), true) = (self.name(variable).map(owned), self.is(variable + 1, "in")) else { continue };
+            let (Some(name), true) = (self.name(variable).map(owned), self.is(variable + 1, "in")) else {
+                continue;
+            };
             let class = self.name(variable + 2).map(owned);
             let begin = self.item.span.start;
             if counted && let Some((number, span)) = self.name(at + 1).map(owned) {
@@ -273,12 +278,15 @@ impl Reader<'_, '_> {
                 continue;
             }
             self.push(Named::Variable(begin, variable.clone()), Role::Used, span);
-            let Some(mut class) = self.item.variables.get(&variable).map(|class| self.classes.root(class).to_owned())
+            let Some(mut class) =
+                self.item.variables.get(&variable).map(|class| self.classes.root(class).to_owned())
             else {
                 continue;
             };
             let mut last = at;
-            while let Some((property, span)) = self.name(last + 2).filter(|_| self.is(last + 1, ".")).map(owned) {
+            while let Some((property, span)) =
+                self.name(last + 2).filter(|_| self.is(last + 1, ".")).map(owned)
+            {
                 last += 2;
                 let role = if self.is_set(last) { Role::Set } else { Role::Used };
                 let next = self.classes.along(&class, &[&property]).map(str::to_owned);
@@ -311,8 +319,11 @@ fn own(tokens: &[Token], found: &mut Vec<Occurrence>) {
     let before = |at: usize, word: &str| at > 0 && tokens[at - 1].is(word);
     let is_name = |token: &Token| token.kind == Kind::Name;
     let declared = |at: &usize| before(*at, "fn") || before(*at, "const");
-    let names: Vec<&str> =
-        (0..tokens.len()).filter(declared).filter(|&at| is_name(&tokens[at])).map(|at| tokens[at].text).collect();
+    let names: Vec<&str> = (0..tokens.len())
+        .filter(declared)
+        .filter(|&at| is_name(&tokens[at]))
+        .map(|at| tokens[at].text)
+        .collect();
     for (at, token) in tokens.iter().enumerate() {
         if is_name(token) && names.contains(&token.text) && !before(at, ".") {
             let role = if declared(&at) { Role::Declared } else { Role::Used };

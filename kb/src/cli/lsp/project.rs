@@ -54,10 +54,12 @@ impl Project {
     /// The rule bases that count, the lowest first, as they are saved.
     pub fn bases(&self) -> Vec<Base> {
         match self {
-            Self::Site(folder) => KnowledgeBase::open(folder).map(|site| site.rule_bases()).unwrap_or_else(|_| {
-                // site.toml may be what is being written
-                vec![Base::Folder(folder.join("rules"))]
-            }),
+            Self::Site(folder) => {
+                KnowledgeBase::open(folder).map(|site| site.rule_bases()).unwrap_or_else(|_| {
+                    // site.toml may be what is being written
+                    vec![Base::Folder(folder.join("rules"))]
+                })
+            }
             Self::Rules(folder) => vec![Base::Folder(folder.clone())],
         }
     }

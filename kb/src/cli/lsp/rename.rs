@@ -16,7 +16,9 @@ pub fn places<'l>(
     check_name(named, new)?;
     if let Named::Property(class, property) = named {
         if vocabulary.is_given(class, property) {
-            return Err(format!("{class}.{property} comes from a table or the map: rules cannot name it otherwise"));
+            return Err(format!(
+                "{class}.{property} comes from a table or the map: rules cannot name it otherwise"
+            ));
         }
         let known = vocabulary.is_given(class, new) || library.properties(class).contains_key(new);
         if known {
@@ -48,7 +50,11 @@ pub fn places<'l>(
 fn check_name(named: &Named, new: &str) -> Result<(), String> {
     if let Named::Rule(_) = named {
         let fits = !new.trim().is_empty() && !new.contains(['"', '\\', '\n']);
-        return if fits { Ok(()) } else { Err("the name of a rule is a text in one line without quotes".to_owned()) };
+        return if fits {
+            Ok(())
+        } else {
+            Err("the name of a rule is a text in one line without quotes".to_owned())
+        };
     }
     let fits = new.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_')
         && new.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');

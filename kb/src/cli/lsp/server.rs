@@ -12,16 +12,16 @@ use lsp_types::notification::{
     PublishDiagnostics,
 };
 use lsp_types::request::{
-    Completion, DocumentSymbolRequest, GotoDefinition, HoverRequest, PrepareRenameRequest, References, Rename,
-    Request as _,
+    Completion, DocumentSymbolRequest, GotoDefinition, HoverRequest, PrepareRenameRequest, References,
+    Rename, Request as _,
 };
 use lsp_types::{
     CompletionOptions, CompletionParams, Diagnostic, DiagnosticSeverity, DidChangeTextDocumentParams,
     DidCloseTextDocumentParams, DidOpenTextDocumentParams, DocumentSymbol, DocumentSymbolParams,
-    DocumentSymbolResponse, GotoDefinitionParams, Hover, HoverContents, HoverParams, HoverProviderCapability, Location,
-    MarkupContent, MarkupKind, NumberOrString, OneOf, Position, PublishDiagnosticsParams, ReferenceParams,
-    RenameOptions, RenameParams, ServerCapabilities, SymbolKind, TextDocumentPositionParams, TextDocumentSyncCapability,
-    TextDocumentSyncKind, TextEdit, Uri, WorkspaceEdit,
+    DocumentSymbolResponse, GotoDefinitionParams, Hover, HoverContents, HoverParams, HoverProviderCapability,
+    Location, MarkupContent, MarkupKind, NumberOrString, OneOf, Position, PublishDiagnosticsParams,
+    ReferenceParams, RenameOptions, RenameParams, ServerCapabilities, SymbolKind, TextDocumentPositionParams,
+    TextDocumentSyncCapability, TextDocumentSyncKind, TextEdit, Uri, WorkspaceEdit,
 };
 use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
 use serde::de::DeserializeOwned;
@@ -127,13 +127,16 @@ impl<'c> Server<'c> {
     fn hear(&mut self, heard: Notification) {
         match heard.method.as_str() {
             DidOpenTextDocument::METHOD => {
-                if let Some((path, params)) = read(heard.params, |p: &DidOpenTextDocumentParams| &p.text_document.uri) {
+                if let Some((path, params)) =
+                    read(heard.params, |p: &DidOpenTextDocumentParams| &p.text_document.uri)
+                {
                     self.drafts.insert(path.clone(), params.text_document.text);
                     self.look_at(&path);
                 }
             }
             DidChangeTextDocument::METHOD => {
-                if let Some((path, params)) = read(heard.params, |p: &DidChangeTextDocumentParams| &p.text_document.uri)
+                if let Some((path, params)) =
+                    read(heard.params, |p: &DidChangeTextDocumentParams| &p.text_document.uri)
                     && let Some(last) = params.content_changes.into_iter().last()
                 {
                     self.drafts.insert(path.clone(), last.text);
@@ -141,14 +144,18 @@ impl<'c> Server<'c> {
                 }
             }
             DidCloseTextDocument::METHOD => {
-                if let Some((path, _)) = read(heard.params, |p: &DidCloseTextDocumentParams| &p.text_document.uri) {
+                if let Some((path, _)) =
+                    read(heard.params, |p: &DidCloseTextDocumentParams| &p.text_document.uri)
+                {
                     self.drafts.remove(&path);
                     self.look_at(&path);
                 }
             }
             DidSaveTextDocument::METHOD => {
                 let of = |params: &lsp_types::DidSaveTextDocumentParams| params.text_document.uri.clone();
-                if let Some(path) = serde_json::from_value(heard.params).ok().and_then(|params| path_of(&of(&params))) {
+                if let Some(path) =
+                    serde_json::from_value(heard.params).ok().and_then(|params| path_of(&of(&params)))
+                {
                     self.look_at(&path);
                 }
             }
@@ -175,7 +182,10 @@ impl<'c> Server<'c> {
             let diagnostics = problems.map(|problem| said(problem, &text)).collect();
             let Some(uri) = uri_of(path) else { continue };
             let params = PublishDiagnosticsParams { uri, diagnostics, version: None };
-            self.send(Message::Notification(Notification::new(PublishDiagnostics::METHOD.to_owned(), params)));
+            self.send(Message::Notification(Notification::new(
+                PublishDiagnostics::METHOD.to_owned(),
+                params,
+            )));
         }
         self.said.insert(project.clone(), now);
     }
@@ -259,7 +269,9 @@ impl<'c> Server<'c> {
     fn definition(&self, params: &GotoDefinitionParams) -> Value {
         let places = self.at(&params.text_document_position_params, |library, _, file, found| {
             let all: Vec<_> = library.all(&found.named, &file.path).collect();
-            let of = |role| all.iter().filter(|(_, found)| found.role == role).filter_map(self.location()).collect();
+            let of = |role| {
+                all.iter().filter(|(_, found)| found.role == role).filter_map(self.location()).collect()
+            };
             let declared: Vec<Location> = of(Role::Declared);
             let set: Vec<Location> = of(Role::Set);
             let is_property = matches!(found.named, Named::Property(..));
@@ -270,12 +282,14 @@ impl<'c> Server<'c> {
     }
 
     fn references(&self, params: &ReferenceParams) -> Value {
-        let places: Option<Vec<Location>> = self.at(&params.text_document_position, |library, _, file, found| {
-            let all = library.all(&found.named, &file.path);
-            let wanted = all.filter(|(_, found)| params.context.include_declaration || found.role != Role::Declared);
-            let all: Vec<_> = wanted.collect();
-            all.iter().filter_map(self.location()).collect()
-        });
+        let places: Option<Vec<Location>> =
+            self.at(&params.text_document_position, |library, _, file, found| {
+                let all = library.all(&found.named, &file.path);
+                let wanted = all
+                    .filter(|(_, found)| params.context.include_declaration || found.role != Role::Declared);
+                let all: Vec<_> = wanted.collect();
+                all.iter().filter_map(self.location()).collect()
+            });
         serde_json::json!(places.unwrap_or_default())
     }
 
@@ -384,7 +398,10 @@ fn table(named: &Named, from: &Path) -> Vec<Location> {
 
 fn said(problem: &Problem, text: &str) -> Diagnostic {
     let start = lines::said(text, problem.line.unwrap_or(1), problem.column.unwrap_or(1));
-    let end = problem.end_line.zip(problem.end_column).map_or(start, |(line, column)| lines::said(text, line, column));
+    let end = problem
+        .end_line
+        .zip(problem.end_column)
+        .map_or(start, |(line, column)| lines::said(text, line, column));
     let help = problem.help.as_ref().map(|help| format!("\n{help}")).unwrap_or_default();
     let severity = match problem.severity {
         "error" => DiagnosticSeverity::ERROR,
@@ -418,8 +435,22 @@ fn path_of(uri: &Uri) -> Option<PathBuf> {
 }
 
 /// What stands for itself in the path of an address, and is no letter or digit.
-const APART: &AsciiSet =
-    &CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'<').add(b'>').add(b'?').add(b'[').add(b']').add(b'^').add(b'`').add(b'{').add(b'|').add(b'}').add(b'\\');
+const APART: &AsciiSet = &CONTROLS
+    .add(b' ')
+    .add(b'"')
+    .add(b'#')
+    .add(b'%')
+    .add(b'<')
+    .add(b'>')
+    .add(b'?')
+    .add(b'[')
+    .add(b']')
+    .add(b'^')
+    .add(b'`')
+    .add(b'{')
+    .add(b'|')
+    .add(b'}')
+    .add(b'\\');
 
 fn uri_of(path: &Path) -> Option<Uri> {
     let path = utf8_percent_encode(path.to_str()?, APART).to_string();

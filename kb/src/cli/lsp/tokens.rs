@@ -110,7 +110,22 @@ mod tests {
     fn names_texts_numbers_and_marks_are_told_apart() {
         assert_eq!(
             texts(r#"rule "a \"b\"" each x in X where x.y>=1.5 // why"#),
-            ["rule", r#""a \"b\"""#, "each", "x", "in", "X", "where", "x", ".", "y", ">", "=", "1.5", "// why"]
+            [
+                "rule",
+                r#""a \"b\"""#,
+                "each",
+                "x",
+                "in",
+                "X",
+                "where",
+                "x",
+                ".",
+                "y",
+                ">",
+                "=",
+                "1.5",
+                "// why"
+            ]
         );
         assert_eq!(texts("between(1..5)"), ["between", "(", "1", ".", ".", "5", ")"]);
     }

@@ -126,7 +126,8 @@ impl Manual {
                 }
                 continue;
             }
-            for (class, property) in head.iter().flat_map(|class| named.iter().map(move |name| (class, name))) {
+            for (class, property) in head.iter().flat_map(|class| named.iter().map(move |name| (class, name)))
+            {
                 self.classes.entry(class.clone()).or_default().insert(property.clone(), what.clone());
             }
         }
@@ -142,7 +143,9 @@ impl Manual {
             let forms = coded(form);
             let is_clause = forms.iter().any(|form| form.contains(" in CLASS"));
             for form in &forms {
-                let Some(word) = form.split([' ', '.']).next().filter(|word| !word.is_empty()) else { continue };
+                let Some(word) = form.split([' ', '.']).next().filter(|word| !word.is_empty()) else {
+                    continue;
+                };
                 let (what, example) = if is_clause {
                     (format!("met {second}; gives {third}"), forms.first().cloned().unwrap_or_default())
                 } else {
@@ -181,9 +184,17 @@ mod tests {
         assert!(manual.of("ROOMS", "berth").is_some_and(|what| what.contains("outline")), "ROOMS.berth");
         assert!(manual.of("DOORWAYS", "width").is_some(), "DOORWAYS.width");
         assert!(manual.of_class("SPACES").is_some(), "SPACES");
-        for word in ["rule", "revise", "on", "table", "each", "least", "none", "count", "hypothesis", "priority"] {
-            assert!(manual.of_word(word).is_some_and(|(what, example)| !what.is_empty() && !example.is_empty()), "{word}");
+        for word in
+            ["rule", "revise", "on", "table", "each", "least", "none", "count", "hypothesis", "priority"]
+        {
+            assert!(
+                manual.of_word(word).is_some_and(|(what, example)| !what.is_empty() && !example.is_empty()),
+                "{word}"
+            );
         }
-        assert_eq!(manual.of_function("known"), Some("whether a property has a value; the value that is none"));
+        assert_eq!(
+            manual.of_function("known"),
+            Some("whether a property has a value; the value that is none")
+        );
     }
 }
