@@ -28,6 +28,7 @@ pub mod laid;
 pub mod layer;
 pub mod learned;
 pub mod load;
+pub mod measure;
 mod migrate;
 pub mod mission;
 pub mod place;

@@ -55,7 +55,12 @@ fn step(chance: &mut Chance) -> Step {
         Step::Edit(Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value))
     };
     match chance.below(14) {
-        0 | 1 => set("hardness", number(chance, 0.0, 9.0)),
+        0 => set("hardness", number(chance, 0.0, 9.0)),
+        1 => match chance.below(3) {
+            0 => set("hardness", number(chance, 0.0, 9.0)),
+            1 => set("speed", number(chance, 0.2, 2.0)),
+            _ => set("power", number(chance, 0.0, 500.0)),
+        },
         2 => set("width", number(chance, 0.3, 1.1)),
         3 => set("height", number(chance, 0.9, 1.9)),
         4 | 5 => {
