@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 21] = [
+const PAGES: [Page; 22] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -116,7 +116,11 @@ const PAGES: [Page; 21] = [
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
-    Page { file: "manual/src/geodata.md", blocks: &[("file = \"keepout.yaml\"", Use::Shown)], databases: &[] },
+    Page {
+        file: "manual/src/geodata.md",
+        blocks: &[("file = \"keepout.yaml\"", Use::Shown)],
+        databases: &[],
+    },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
     Page {
@@ -243,6 +247,7 @@ each_page! {
     telling: "manual/src/telling.md";
     asking_why: "manual/src/asking-why.md";
     sql: "manual/src/sql.md";
+    geodata: "manual/src/geodata.md";
     ways: "manual/src/ways.md";
     other_maps: "manual/src/other-maps.md";
     parts_and_corridors: "manual/src/corridors-and-parts.md";
