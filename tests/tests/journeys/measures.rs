@@ -190,7 +190,7 @@ fn tuning_a_speed_changes_what_routes_take_and_nothing_else() {
     let site = TestSite::example("clinic").built();
     let query = "SELECT round(cost, 6), round(seconds, 3) FROM route WHERE start = 'dock' AND goal = 'lobby'";
     let before = rows(&site, query);
-    site.adit("tune", &["robots", "STAND", "speed", "0.4"]).expecting(0);
+    site.adit("tune", &["robots", "STAND", "speed", "0.4"]).expect_status(0);
     let after = rows(&site, query);
     assert_eq!(before[0][0], after[0][0]);
     assert!(number(&after[0][1]) > number(&before[0][1]), "{before:?}, {after:?}");
@@ -235,7 +235,7 @@ rule "a door is none"
     let site = starter().built();
     site.write("rules/risk.rhai", rules);
     site.outside_edit("INSERT INTO measures VALUES ('risk', '')");
-    site.adit("build", &[]).expecting(0);
+    site.adit("build", &[]).expect_status(0);
     let route = site.adit("route", &["home", "window", "--json"]).expecting(0).json();
     expect_close(
         "risk",
@@ -287,7 +287,7 @@ fn maps_that_are_not_cut_into_rooms_say_what_rules_say_of_each_leg() {
         "rules/own.rhai",
         "rule \"it drives at half a metre a second\"\n    each leg in LEGS\n    then { leg.seconds = leg.metres / 0.5; }\n",
     );
-    site.adit("build", &[]).expecting(0);
+    site.adit("build", &[]).expect_status(0);
     let route = site.adit("route", &["start", "goal", "--json"]).expecting(0).json();
     expect_close(
         "seconds",
