@@ -25,6 +25,7 @@ pub mod history;
 pub mod hours;
 pub mod kept;
 pub mod laid;
+pub mod layer;
 pub mod learned;
 pub mod load;
 pub mod measure;

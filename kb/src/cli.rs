@@ -12,6 +12,7 @@ mod experiment;
 mod firm;
 mod fit;
 mod lay;
+mod layer;
 mod learn;
 mod new;
 mod output;
@@ -90,6 +91,8 @@ pub enum Verb {
     Fit(fit::FitArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(sql::SqlArgs),
+    /// A layer of the site (rooms, spaces, doorways, areas, routes) as GeoJSON
+    Export(layer::ExportArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
     /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
@@ -140,6 +143,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Firm(args) => (args.site.json, firm::run(args).map(|()| 0)),
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
+        Verb::Export(args) => (args.site.json, layer::run(args).map(|()| 0)),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
         Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),

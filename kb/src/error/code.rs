@@ -138,6 +138,13 @@ codes! {
     /// What is laid over a map is an area, or an obstacle, which is of no kind; its corners are pairs of numbers.
     LaidUsage = "laid/usage", BAD_REQUEST;
 
+    /// A layer is written as .geojson or .json.
+    LayerFile = "layer/file", BAD_REQUEST;
+    /// The site has no layer of this name.
+    LayerUnknown = "layer/unknown", NOT_FOUND;
+    /// A row of a layer has a shape that cannot be read.
+    LayerUnreadable = "layer/unreadable", BAD_REQUEST;
+
     /// The tables were edited meanwhile; try again.
     LiveStale = "live/stale", INTERNAL_SERVER_ERROR;
 

@@ -170,6 +170,7 @@ impl Kept {
             yaw: world.frame.heading,
         };
         tx.replace_frames(&[frame])?;
+        tx.replace_area_outlines(&rows::area_outlines(&step.world))?;
         tx.replace_rules(
             &rule_rows(&state.inputs.rules),
             &witnesses(facts, |at| kept.uses.contains_key(&at)),

@@ -116,6 +116,7 @@ const PAGES: [Page; 21] = [
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
+    Page { file: "manual/src/geodata.md", blocks: &[("file = \"keepout.yaml\"", Use::Shown)], databases: &[] },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
     Page {

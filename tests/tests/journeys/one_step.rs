@@ -27,6 +27,7 @@ const FORGET: &str = "
     DELETE FROM prime_area_strips; DELETE FROM strips; DELETE FROM starts; DELETE FROM ends; DELETE FROM tree_rows;
     DELETE FROM places; DELETE FROM frames; DELETE FROM attachments; DELETE FROM told_states; DELETE FROM site_hours;
     DELETE FROM spaces; DELETE FROM doorways; DELETE FROM blocks; DELETE FROM areas; DELETE FROM named_doors; DELETE FROM area_rooms; DELETE FROM door_rooms;
+    DELETE FROM area_outlines;
     DELETE FROM site WHERE key NOT LIKE 'class.%';";
 
 #[derive(Clone, Debug)]

@@ -33,8 +33,8 @@ CROSS JOIN json_each((
         -- of each door one room and the door, of the start its room, and the last room where no door ends the way
         HAVING count(amount) = 1 + 2 * g.hops + (g.door IS NULL AND g.prev IS NOT NULL)))) AS m;
 
--- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`
--- takes it from a column where the other half computes.
+-- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`, or of a
+-- text `coalesce(…, NULL)`, takes it from a column where the other half computes.
 DROP VIEW route;
 CREATE VIEW route AS
 SELECT b.robot AS robot, a.name AS start, e.name AS goal,
@@ -58,7 +58,7 @@ LEFT JOIN tree_rows AS t ON t.tree = s.tree AND t.node = e.node
 LEFT JOIN doors AS d ON d.door = t.door
 UNION ALL
 SELECT robot, start, goal, CASE WHEN (SELECT stale FROM staleness) THEN 'stale' ELSE status END, +cost, +steps,
-  distance, +reason, json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), +measures
+  distance, coalesce(reason, NULL), json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
 FROM courses;
 
 DROP VIEW action_sequence;
@@ -85,7 +85,8 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
           FROM (SELECT coalesce(w.name, 'doorway ' || w.doorway) AS name, w.doorway AS doorway,
                   (w.x - d.x) * (w.x - d.x) + (w.y - d.y) * (w.y - d.y) AS off
                 FROM rooms AS a JOIN rooms AS b ON b.room = d.room2
-                JOIN doorways AS w ON w.space1 = min(a.space, b.space) AND w.space2 = max(a.space, b.space)
+                JOIN doorways AS w ON w.space1 = CASE WHEN a.space < b.space THEN a.space ELSE b.space END
+                  AND w.space2 = CASE WHEN a.space < b.space THEN b.space ELSE a.space END
                 WHERE a.room = d.room1 AND a.space <> b.space)
           ORDER BY off, doorway LIMIT 1) END AS doorway,
   NULL AS z,
@@ -105,28 +106,30 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
    WHERE amount IS NOT NULL) AS measures
 FROM starts AS s
 CROSS JOIN ends AS e
-CROSS JOIN tree_rows AS g ON g.tree = s.tree AND g.node = e.node
+CROSS JOIN tree_rows AS g
 CROSS JOIN json_each((
   WITH RECURSIVE walk (node, prev) AS (
     SELECT g.node, g.prev
     UNION ALL
     SELECT b.node, b.prev FROM walk JOIN tree_rows AS b ON b.tree = g.tree AND b.node = walk.prev)
   SELECT json_group_array(node) FROM walk)) AS j
-CROSS JOIN tree_rows AS t ON t.tree = s.tree AND t.node = j.value
+CROSS JOIN tree_rows AS t
 LEFT JOIN doors AS d ON d.door = t.door
-CROSS JOIN step_parts AS p ON p.part BETWEEN 2 * (t.door IS NULL) AND 1 + (t.node = e.node)
+CROSS JOIN step_parts AS p
 LEFT JOIN rooms AS r ON r.room =
   CASE WHEN p.part = 2 AND e.node > 0 THEN e.node ELSE coalesce(t.from_room, t.prev) END
 LEFT JOIN rules AS u ON u.rule = CASE WHEN p.part = 1 THEN d.hardness_rule ELSE r.action_rule END
+WHERE g.tree = s.tree AND g.node = e.node AND t.tree = s.tree AND t.node = j.value
+  AND p.part BETWEEN CASE WHEN t.door IS NULL THEN 2 ELSE 0 END AND CASE WHEN t.node = e.node THEN 2 ELSE 1 END
 UNION ALL
-SELECT robot, start, goal, +step, +kind, +place, +state, +action, +hardness, +cost, +x, +y, +heading, rule, NULL, NULL, +z,
-  json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), +measures
+SELECT robot, start, goal, +step, coalesce(kind, NULL), coalesce(place, NULL), coalesce(state, NULL), coalesce(action, NULL), +hardness, +cost, +x, +y, +heading, rule, NULL, NULL, +z,
+  json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
 FROM course_steps;
 
 DROP VIEW waypoints;
 CREATE VIEW waypoints AS
 SELECT s.robot AS robot, s.name AS start, e.name AS goal,
-  j.key + 1 AS waypoint,
+  CAST(j.key AS INTEGER) + 1 AS waypoint,
   coalesce(t.x, d.x) AS x,
   coalesce(t.y, d.y) AS y,
   t.heading / 100.0 AS heading,
@@ -142,18 +145,19 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   (SELECT nullif(json_group_object(m.measure, m.value), '{}') FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
 FROM starts AS s
 CROSS JOIN ends AS e
-CROSS JOIN tree_rows AS g ON g.tree = s.tree AND g.node = e.node
+CROSS JOIN tree_rows AS g
 CROSS JOIN json_each((
   WITH RECURSIVE walk (node, prev, bend, stops, depth) AS (
     SELECT g.node, g.prev, g.bend, 1, 0
     UNION ALL
-    SELECT b.node, b.prev, b.bend, walk.bend OR b.prev IS NULL, walk.depth + 1
+    SELECT b.node, b.prev, b.bend, CASE WHEN walk.bend = 1 OR b.prev IS NULL THEN 1 ELSE 0 END, walk.depth + 1
     FROM walk JOIN tree_rows AS b ON b.tree = g.tree AND b.node = walk.prev)
-  SELECT json_group_array(node) FROM (SELECT node FROM walk WHERE stops ORDER BY depth DESC))) AS j
-CROSS JOIN tree_rows AS t ON t.tree = s.tree AND t.node = j.value
+  SELECT json_group_array(node) FROM (SELECT node FROM walk WHERE stops = 1 ORDER BY depth DESC))) AS j
+CROSS JOIN tree_rows AS t
 LEFT JOIN doors AS d ON d.door = t.door
 LEFT JOIN rooms AS r ON r.room = coalesce(t.from_room, t.prev, t.node)
+WHERE g.tree = s.tree AND g.node = e.node AND t.tree = s.tree AND t.node = j.value
 UNION ALL
 SELECT robot, start, goal, +waypoint, +x, +y, +heading, state, action, CAST(NULL AS REAL), clearance, distance, +cost, +z,
-  +centre_x, +centre_y, +turn, json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), +measures
+  +centre_x, +centre_y, coalesce(turn, NULL), json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
 FROM course_waypoints;
