@@ -17,12 +17,13 @@ CROSS JOIN json_each((
   WITH RECURSIVE walk (node, prev, door, room, walked, counts) AS (
     SELECT g.node, g.prev, g.door, coalesce(g.from_room, g.prev, g.node), g.walked, 1
     UNION ALL
-    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), b.walked, b.door IS NOT NULL OR b.prev IS NULL
+    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), b.walked,
+      CASE WHEN b.door IS NOT NULL OR b.prev IS NULL THEN 1 ELSE 0 END
     FROM walk JOIN tree_rows AS b ON b.tree = g.tree AND b.node = walk.prev),
   parts (measures, metres) AS (
     SELECT r.measures, CASE WHEN walk.prev IS NULL THEN 0.0 ELSE walk.walked END
     FROM walk JOIN rooms AS r ON r.room = walk.room
-    WHERE walk.counts AND r.measures IS NOT NULL
+    WHERE walk.counts = 1 AND r.measures IS NOT NULL
     UNION ALL
     SELECT d.measures, 1.0 FROM walk JOIN doors AS d ON d.door = walk.door WHERE d.measures IS NOT NULL)
   SELECT json_group_object(key, total)
@@ -31,7 +32,7 @@ CROSS JOIN json_each((
               FROM parts CROSS JOIN json_each(parts.measures) AS e)
         GROUP BY key
         -- of each door one room and the door, of the start its room, and the last room where no door ends the way
-        HAVING count(amount) = 1 + 2 * g.hops + (g.door IS NULL AND g.prev IS NOT NULL)))) AS m;
+        HAVING count(amount) = 1 + 2 * g.hops + CASE WHEN g.door IS NULL AND g.prev IS NOT NULL THEN 1 ELSE 0 END))) AS m;
 
 -- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`, or of a
 -- text `coalesce(…, NULL)`, takes it from a column where the other half computes.
