@@ -94,6 +94,9 @@ codes! {
     /// The edit is not said as edits are: a column is missing, given twice, or is not `column=value`.
     EditUsage = "edit/usage", BAD_REQUEST;
 
+    /// What an editor says is no message of the Language Server Protocol.
+    EditorLost = "editor/lost", BAD_REQUEST;
+
     /// The table of an experiment cannot be written.
     ExperimentCsv = "experiment/csv", BAD_REQUEST;
     /// An experiment needs a scenario (.json).

@@ -10,6 +10,7 @@ mod channel_sites;
 mod channels;
 mod closed_doors;
 mod commands;
+mod editor;
 mod firm;
 mod fit;
 mod fleet;
