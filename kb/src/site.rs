@@ -20,7 +20,8 @@ use std::path::{Path, PathBuf};
 
 use adit_planners::geometry::Rect;
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, Mask, MapSettings, Overlay, Problem, Unknown, nearest, read_map, read_world,
+    Code, Document, Fields, MapReport, MapSettings, Mask, Overlay, Problem, Unknown, nearest, read_map,
+    read_world,
 };
 use adit_planners::world::{Place, World};
 use jiff::tz::TimeZone;
@@ -363,8 +364,7 @@ impl Site {
 
     /// Lays over its map what `site.toml` says, and gives notes.
     pub fn lay_over(&self, map: &mut World) -> Result<Vec<Problem>> {
-        let mut notes =
-            self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))?;
+        let mut notes = self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))?;
         for mask in &self.masks {
             notes.extend(mask.lay_over(map).map_err(|errors| Error::all(errors.problems))?);
         }

@@ -7,5 +7,5 @@ mod zones;
 
 pub use http::{Site, Trouble, query};
 pub use route::{Followed, Route, Step, Waypoint};
-pub use zones::{Area, Meaning as ZoneMeaning};
 pub use tables::{Fleet, Meaning, State, VEHICLES, Vehicle};
+pub use zones::{Area, Meaning as ZoneMeaning};

@@ -42,7 +42,8 @@ pub fn run(args: &ExportArgs) -> Result<()> {
     })?;
     let features = features(&layer, &rows)?;
     let count = features.len();
-    let collection = serde_json::json!({"type": "FeatureCollection", "name": layer.name, "features": features});
+    let collection =
+        serde_json::json!({"type": "FeatureCollection", "name": layer.name, "features": features});
     whole::write(&args.to, collection.to_string().as_bytes())?;
     if args.site.json {
         return json(&serde_json::json!({"file": args.to, "features": count}));

@@ -110,7 +110,8 @@ impl Mask {
         values.dedup();
         let mut areas = Vec::new();
         for value in values.into_iter().filter(|&value| value > 0) {
-            let marked = (0..percents.len()).filter(|&cell| percents[cell] == value && lies[cell] == Some(true));
+            let marked =
+                (0..percents.len()).filter(|&cell| percents[cell] == value && lies[cell] == Some(true));
             for corners in shapes::of(marked, size, |cell| is_in(cell).is_some()) {
                 let corners = corners.iter().map(|corner| place(corner.x, corner.y)).collect();
                 areas.push(self.area(areas.len() + 1, Shape::Polygon(corners), value));

@@ -116,7 +116,11 @@ const PAGES: [Page; 22] = [
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
-    Page { file: "manual/src/geodata.md", blocks: &[("file = \"keepout.yaml\"", Use::Shown)], databases: &[] },
+    Page {
+        file: "manual/src/geodata.md",
+        blocks: &[("file = \"keepout.yaml\"", Use::Shown)],
+        databases: &[],
+    },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
     Page {

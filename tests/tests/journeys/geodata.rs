@@ -21,9 +21,10 @@ fn python() -> &'static PathBuf {
         if !folder.join("whole").exists() {
             let venv = Command::new("python3").args(["-m", "venv"]).arg(&folder).status();
             assert!(venv.expect("python3 is installed").success());
-            let packages =
-                ["pyogrio==0.13.0", "duckdb==1.5.5", "duckdb-extension-sqlite-scanner==1.5.5"];
-            assert!(Command::new(pip).args(["install", "--quiet"]).args(packages).status().unwrap().success());
+            let packages = ["pyogrio==0.13.0", "duckdb==1.5.5", "duckdb-extension-sqlite-scanner==1.5.5"];
+            assert!(
+                Command::new(pip).args(["install", "--quiet"]).args(packages).status().unwrap().success()
+            );
             std::fs::write(folder.join("whole"), "").unwrap();
         }
         folder.join("bin/python")
@@ -173,7 +174,11 @@ fn what_cannot_be_laid_is_refused_in_words_when_it_is_drawn_or_built() {
     ]) {
         assert!(said.contains(expected) && said.is_empty() == expected.is_empty(), "{said}, not {expected}");
     }
-    assert_eq!(site.sqlite3("SELECT name FROM laid ORDER BY name"), ["bow", "wet"], "what was refused is not there");
+    assert_eq!(
+        site.sqlite3("SELECT name FROM laid ORDER BY name"),
+        ["bow", "wet"],
+        "what was refused is not there"
+    );
     let built = site.adit("build", &[]).expecting(0);
     let said = format!("{}{}", built.stdout, built.stderr);
     assert!(said.contains("the area `bow`, laid over the map, counts for nothing"), "{said}");
@@ -222,6 +227,10 @@ fn a_layer_is_written_as_geojson() {
         assert_eq!(json!(features.len()), count(&site, rows), "{layer}");
         assert!(features.iter().all(|feature| feature["geometry"]["type"] == kind), "{layer}");
     }
-    site.adit("export", &["spaced", "--to", "x.geojson"]).expecting(2).complains(&["no layer `spaced`", "did you mean `spaces`?"]);
-    site.adit("export", &["rooms", "--to", "x.shp"]).expecting(2).complains(&["x.shp is neither .geojson nor .json"]);
+    site.adit("export", &["spaced", "--to", "x.geojson"])
+        .expecting(2)
+        .complains(&["no layer `spaced`", "did you mean `spaces`?"]);
+    site.adit("export", &["rooms", "--to", "x.shp"])
+        .expecting(2)
+        .complains(&["x.shp is neither .geojson nor .json"]);
 }

@@ -119,9 +119,7 @@ fn mask(origin: &str) -> TestSite {
 #[test]
 fn a_mask_lies_where_its_own_origin_resolution_and_yaw_put_it() {
     let middle = |origin: &str| {
-        mask(origin)
-            .built()
-            .sqlite3("SELECT area, round(x, 2), round(y, 2) FROM areas ORDER BY area")
+        mask(origin).built().sqlite3("SELECT area, round(x, 2), round(y, 2) FROM areas ORDER BY area")
     };
     // with a pixel more around it
     assert_eq!(middle("[7.0, 1.0, 0.0]"), ["mask 1|7.75|1.5"]);
@@ -140,8 +138,14 @@ fn a_mask_that_cannot_be_laid_is_refused_in_words() {
     };
     refused(&with("mask.yaml", "none.yaml"), &["none.yaml` cannot be read"]);
     refused(&with("keepout", "keepot"), &["`keepot` is no kind of a mask", "did you mean \"keepout\"?"]);
-    refused(&with("kind = \"keepout\"", "kind = \"keepout\"\nbase = 3"), &["`base` is said of a mask of kind \"speed\" only"]);
-    refused(&with("kind = \"keepout\"", "kind = \"speed\"\nunit = \"mph\""), &["`mph` is no unit of a mask", "percent, m/s"]);
+    refused(
+        &with("kind = \"keepout\"", "kind = \"keepout\"\nbase = 3"),
+        &["`base` is said of a mask of kind \"speed\" only"],
+    );
+    refused(
+        &with("kind = \"keepout\"", "kind = \"speed\"\nunit = \"mph\""),
+        &["`mph` is no unit of a mask", "percent, m/s"],
+    );
     refused(&with("kind = \"keepout\"", ""), &["[[mask]] needs a `kind`"]);
     refused(&with("kind =", "colour = 1\nkind ="), &["`colour` is not a key of [[mask]]"]);
 }

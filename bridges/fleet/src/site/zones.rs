@@ -81,7 +81,8 @@ impl Area {
             }
             "ACTION" => {
                 let action = text(row, "zone_action");
-                let action = action.ok_or_else(|| needs("zone_action", "what vehicles do when they enter it"))?;
+                let action =
+                    action.ok_or_else(|| needs("zone_action", "what vehicles do when they enter it"))?;
                 Meaning::Action(action, text(row, "zone_blocking"))
             }
             _ => {

@@ -26,10 +26,7 @@ impl Addressee {
     pub fn zone_set(&self, set: &ZoneSet, number: u32, at: &str) -> Value {
         let mut message = self.head(number, at);
         let zones: Vec<Value> = set.zones.iter().map(|zone| Value::Object(zone.message(self))).collect();
-        message.insert(
-            "zoneSet".to_owned(),
-            json!({"mapId": set.map, "zoneSetId": set.id, "zones": zones}),
-        );
+        message.insert("zoneSet".to_owned(), json!({"mapId": set.map, "zoneSetId": set.id, "zones": zones}));
         Value::Object(message)
     }
 }

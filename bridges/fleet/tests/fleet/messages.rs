@@ -90,7 +90,14 @@ fn drive(seed: u64, version: Version, schemas: Option<&Schemas>) -> usize {
     let (mut sent, mut follows) = (0, None);
     for moment in 0..200 {
         let clock = Clock { seconds: f64::from(moment), words: format!("2026-11-24T08:00:00.{moment:03}Z") };
-        let world = World { fleet: &fleet, margins: &margins, bridges: &bridges, areas: &[], map: "m", clock: &clock };
+        let world = World {
+            fleet: &fleet,
+            margins: &margins,
+            bridges: &bridges,
+            areas: &[],
+            map: "m",
+            clock: &clock,
+        };
         for effect in driver.think(&world) {
             match effect {
                 Effect::Send { topic, message, .. } => {

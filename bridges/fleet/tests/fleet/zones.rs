@@ -97,7 +97,11 @@ fn each_kind_of_zone_says_what_is_said_of_the_area() {
         area("ramp", Some("speed-limit"), json!({"speed_limit": 0.5})),
         area("wet", Some("wet"), json!({"zone": "PENALTY", "zone_factor": 0.8})),
         area("lane", None, json!({"zone": "PRIORITY", "zone_factor": 0.25})),
-        area("one way", None, json!({"zone": "DIRECTED", "zone_direction": 90.0, "zone_limitation": "STRICT"})),
+        area(
+            "one way",
+            None,
+            json!({"zone": "DIRECTED", "zone_direction": 90.0, "zone_limitation": "STRICT"})
+        ),
         area("crossing", None, json!({"zone": "ACTION", "zone_action": "beep", "zone_blocking": "NONE"})),
         area("hall", None, json!({})),
         area("slow", Some("speed-limit"), json!({"speed_percent": 50.0})),
@@ -118,8 +122,14 @@ fn each_kind_of_zone_says_what_is_said_of_the_area() {
     ] {
         assert_eq!(of(name)[key], value, "{name}");
     }
-    assert_eq!(of("stairs")["vertices"], json!([{"x": 0.0, "y": 0.0}, {"x": 2.0, "y": 0.0}, {"x": 2.0, "y": 1.5}]));
+    assert_eq!(
+        of("stairs")["vertices"],
+        json!([{"x": 0.0, "y": 0.0}, {"x": 2.0, "y": 0.0}, {"x": 2.0, "y": 1.5}])
+    );
     assert_eq!(zones.len(), 7);
-    assert!(said.iter().any(|words| words.contains("`slow` is no zone SPEED_LIMIT: it needs a `speed_limit`")), "{said:?}");
+    assert!(
+        said.iter().any(|words| words.contains("`slow` is no zone SPEED_LIMIT: it needs a `speed_limit`")),
+        "{said:?}"
+    );
     assert_eq!(told[2].1["zoneSet"]["zones"], json!([]));
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use crate::geometry::Point;
 use crate::geometry::outline::{outlines, simplified};
 use crate::geometry::polygon::{self_crossing, to_geo};
-use crate::geometry::Point;
 use crate::search::grid::{around, beside};
 
 /// How far a simplified outline may be from that of the cells, in cells: as far as cells were added about them.
@@ -19,7 +19,8 @@ pub(super) fn of(
 ) -> Vec<Vec<Point>> {
     let marked: BTreeSet<usize> = marked.collect();
     let added = marked.iter().flat_map(|&cell| around(cell, size).map(|(cell, _)| cell));
-    let added: BTreeSet<usize> = added.filter(|&cell| !marked.contains(&cell) && may_be_added(cell)).collect();
+    let added: BTreeSet<usize> =
+        added.filter(|&cell| !marked.contains(&cell) && may_be_added(cell)).collect();
     let mut shapes = Vec::new();
     let mut left = vec![&marked | &added];
     while let Some(cells) = left.pop() {
@@ -134,8 +135,9 @@ mod tests {
 
     #[test]
     fn a_slope_has_few_corners() {
-        let rows: Vec<String> =
-            (0..24).map(|row| format!("..{:.<24}", "#".repeat(if row < 22 { row.max(2) - 2 } else { 0 }))).collect();
+        let rows: Vec<String> = (0..24)
+            .map(|row| format!("..{:.<24}", "#".repeat(if row < 22 { row.max(2) - 2 } else { 0 })))
+            .collect();
         let (marked, size) = cells(&rows.iter().map(String::as_str).collect::<Vec<_>>());
         let shapes = of(marked.into_iter(), size, |_| true);
         assert_eq!(shapes.len(), 1);
