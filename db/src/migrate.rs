@@ -86,10 +86,7 @@ pub(crate) const STEPS: &[Step] = &[
         include_str!("../sql/v13/10-views-for-all.sql"),
         include_str!("../sql/v13/20-geopackage.sql"),
     ]),
-    Step::of_all(&[
-        include_str!("../sql/v14/10-measures.sql"),
-        include_str!("../sql/v14/20-routes.sql"),
-    ]),
+    Step::of_all(&[include_str!("../sql/v14/10-measures.sql"), include_str!("../sql/v14/20-routes.sql")]),
 ];
 
 /// The newest schema version.

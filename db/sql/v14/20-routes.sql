@@ -17,21 +17,22 @@ CROSS JOIN json_each((
   WITH RECURSIVE walk (node, prev, door, room, walked, counts) AS (
     SELECT g.node, g.prev, g.door, coalesce(g.from_room, g.prev, g.node), g.walked, 1
     UNION ALL
-    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), b.walked, b.door IS NOT NULL OR b.prev IS NULL
+    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), b.walked,
+      CASE WHEN b.door IS NOT NULL OR b.prev IS NULL THEN 1 ELSE 0 END
     FROM walk JOIN tree_rows AS b ON b.tree = g.tree AND b.node = walk.prev),
   parts (measures, metres) AS (
     SELECT r.measures, CASE WHEN walk.prev IS NULL THEN 0.0 ELSE walk.walked END
     FROM walk JOIN rooms AS r ON r.room = walk.room
-    WHERE walk.counts AND r.measures IS NOT NULL
+    WHERE walk.counts = 1 AND r.measures IS NOT NULL
     UNION ALL
     SELECT d.measures, 1.0 FROM walk JOIN doors AS d ON d.door = walk.door WHERE d.measures IS NOT NULL)
   SELECT json_group_object(key, total)
   FROM (SELECT key, sum(amount) AS total
-        FROM (SELECT e.key AS key, CASE WHEN e.value = 0.0 THEN 0.0 ELSE e.value * parts.metres END AS amount
+        FROM (SELECT e.key AS key, CASE WHEN CAST(e.value AS DOUBLE) = 0.0 THEN 0.0 ELSE CAST(e.value AS DOUBLE) * parts.metres END AS amount
               FROM parts CROSS JOIN json_each(parts.measures) AS e)
         GROUP BY key
         -- of each door one room and the door, of the start its room, and the last room where no door ends the way
-        HAVING count(amount) = 1 + 2 * g.hops + (g.door IS NULL AND g.prev IS NOT NULL)))) AS m;
+        HAVING count(amount) = 1 + 2 * g.hops + CASE WHEN g.door IS NULL AND g.prev IS NOT NULL THEN 1 ELSE 0 END))) AS m;
 
 -- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`, or of a
 -- text `coalesce(…, NULL)`, takes it from a column where the other half computes.
@@ -47,9 +48,9 @@ SELECT b.robot AS robot, a.name AS start, e.name AS goal,
   2 * t.hops + 1 AS steps,
   t.distance AS distance,
   NULL AS reason,
-  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
-  (SELECT nullif(json_group_object(m.measure, m.value), '{}') FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
+  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
+  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
+  (SELECT CASE WHEN count(m.measure) > 0 THEN json_group_object(m.measure, m.value) END FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
 FROM (SELECT DISTINCT robot FROM robots) AS b
 CROSS JOIN ends AS a
 CROSS JOIN ends AS e
@@ -58,7 +59,7 @@ LEFT JOIN tree_rows AS t ON t.tree = s.tree AND t.node = e.node
 LEFT JOIN doors AS d ON d.door = t.door
 UNION ALL
 SELECT robot, start, goal, CASE WHEN (SELECT stale FROM staleness) THEN 'stale' ELSE status END, +cost, +steps,
-  distance, coalesce(reason, NULL), json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
+  distance, coalesce(reason, NULL), CAST(json_extract(measures, '$.seconds') AS DOUBLE), CAST(json_extract(measures, '$.joules') AS DOUBLE), coalesce(measures, NULL)
 FROM courses;
 
 DROP VIEW action_sequence;
@@ -90,18 +91,18 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
                 WHERE a.room = d.room1 AND a.space <> b.space)
           ORDER BY off, doorway LIMIT 1) END AS doorway,
   NULL AS z,
-  CASE WHEN p.part = 1 THEN json_extract(d.measures, '$.seconds')
-    WHEN json_extract(r.measures, '$.seconds') = 0.0 OR p.part = 2 AND t.door IS NOT NULL
-    THEN 0.0 * json_extract(r.measures, '$.seconds')
-    ELSE t.walked * json_extract(r.measures, '$.seconds') END AS seconds,
-  CASE WHEN p.part = 1 THEN json_extract(d.measures, '$.joules')
-    WHEN json_extract(r.measures, '$.joules') = 0.0 OR p.part = 2 AND t.door IS NOT NULL
-    THEN 0.0 * json_extract(r.measures, '$.joules')
-    ELSE t.walked * json_extract(r.measures, '$.joules') END AS joules,
-  (SELECT nullif(json_group_object(key, amount), '{}')
+  CASE WHEN p.part = 1 THEN CAST(json_extract(d.measures, '$.seconds') AS DOUBLE)
+    WHEN CAST(json_extract(r.measures, '$.seconds') AS DOUBLE) = 0.0 OR p.part = 2 AND t.door IS NOT NULL
+    THEN 0.0 * CAST(json_extract(r.measures, '$.seconds') AS DOUBLE)
+    ELSE t.walked * CAST(json_extract(r.measures, '$.seconds') AS DOUBLE) END AS seconds,
+  CASE WHEN p.part = 1 THEN CAST(json_extract(d.measures, '$.joules') AS DOUBLE)
+    WHEN CAST(json_extract(r.measures, '$.joules') AS DOUBLE) = 0.0 OR p.part = 2 AND t.door IS NOT NULL
+    THEN 0.0 * CAST(json_extract(r.measures, '$.joules') AS DOUBLE)
+    ELSE t.walked * CAST(json_extract(r.measures, '$.joules') AS DOUBLE) END AS joules,
+  (SELECT CASE WHEN count(key) > 0 THEN json_group_object(key, amount) END
    FROM (SELECT e.key AS key,
-           CASE WHEN p.part = 1 THEN e.value WHEN e.value = 0.0 OR p.part = 2 AND t.door IS NOT NULL THEN 0.0
-             ELSE t.walked * e.value END AS amount
+           CASE WHEN p.part = 1 THEN CAST(e.value AS DOUBLE) WHEN CAST(e.value AS DOUBLE) = 0.0 OR p.part = 2 AND t.door IS NOT NULL THEN 0.0
+             ELSE t.walked * CAST(e.value AS DOUBLE) END AS amount
          FROM json_each(CASE p.part WHEN 1 THEN d.measures ELSE r.measures END) AS e)
    WHERE amount IS NOT NULL) AS measures
 FROM starts AS s
@@ -123,7 +124,7 @@ WHERE g.tree = s.tree AND g.node = e.node AND t.tree = s.tree AND t.node = j.val
   AND p.part BETWEEN CASE WHEN t.door IS NULL THEN 2 ELSE 0 END AND CASE WHEN t.node = e.node THEN 2 ELSE 1 END
 UNION ALL
 SELECT robot, start, goal, +step, coalesce(kind, NULL), coalesce(place, NULL), coalesce(state, NULL), coalesce(action, NULL), +hardness, +cost, +x, +y, +heading, rule, NULL, NULL, +z,
-  json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
+  +CAST(json_extract(measures, '$.seconds') AS DOUBLE), +CAST(json_extract(measures, '$.joules') AS DOUBLE), coalesce(measures, NULL)
 FROM course_steps;
 
 DROP VIEW waypoints;
@@ -140,9 +141,9 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   t.distance AS distance,
   t.reach + coalesce(d.hardness, 0.0) AS cost,
   NULL AS z, NULL AS centre_x, NULL AS centre_y, NULL AS turn,
-  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  +(SELECT m.value FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
-  (SELECT nullif(json_group_object(m.measure, m.value), '{}') FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
+  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
+  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
+  (SELECT CASE WHEN count(m.measure) > 0 THEN json_group_object(m.measure, m.value) END FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
 FROM starts AS s
 CROSS JOIN ends AS e
 CROSS JOIN tree_rows AS g
@@ -159,7 +160,7 @@ LEFT JOIN rooms AS r ON r.room = coalesce(t.from_room, t.prev, t.node)
 WHERE g.tree = s.tree AND g.node = e.node AND t.tree = s.tree AND t.node = j.value
 UNION ALL
 SELECT robot, start, goal, +waypoint, +x, +y, +heading, state, action, CAST(NULL AS REAL), clearance, distance, +cost, +z,
-  +centre_x, +centre_y, coalesce(turn, NULL), json_extract(measures, '$.seconds'), json_extract(measures, '$.joules'), coalesce(measures, NULL)
+  +centre_x, +centre_y, coalesce(turn, NULL), CAST(json_extract(measures, '$.seconds') AS DOUBLE), CAST(json_extract(measures, '$.joules') AS DOUBLE), coalesce(measures, NULL)
 FROM course_waypoints;
 
 -- DuckDB hands the text of a view that it cannot compute to SQLite in words of its own, of which SQLite takes no compound; it does

@@ -244,6 +244,7 @@ each_page! {
     rules: "manual/src/rules.md";
     without_a_map: "manual/src/without-a-map.md";
     tuning: "manual/src/tuning.md";
+    seconds_and_joules: "manual/src/measures.md";
     telling: "manual/src/telling.md";
     asking_why: "manual/src/asking-why.md";
     sql: "manual/src/sql.md";
