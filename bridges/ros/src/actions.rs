@@ -69,13 +69,22 @@ where
         let (goals, cancels, results) =
             (format!("{name}/send_goal"), format!("{name}/cancel_goal"), format!("{name}/get_result"));
         ears.then(Box::new(move || {
-            drain(&goals, || all.server.receive_goal().map_err(words), &mut |(id, request): (_, SendGoalRequest<G>)| {
+            drain(&goals, || all.server.receive_goal().map_err(words), &mut |(id, request): (
+                _,
+                SendGoalRequest<G>,
+            )| {
                 all.begin(id, request.goal_id, request.goal, &runtime, &run);
             });
-            drain(&cancels, || all.server.receive_cancel_request().map_err(words), &mut |(id, request): (_, CancelGoalRequest)| {
+            drain(&cancels, || all.server.receive_cancel_request().map_err(words), &mut |(id, request): (
+                _,
+                CancelGoalRequest,
+            )| {
                 all.cancel(id, &request);
             });
-            drain(&results, || all.server.receive_result_request().map_err(words), &mut |(id, request): (_, GetResultRequest)| {
+            drain(&results, || all.server.receive_result_request().map_err(words), &mut |(id, request): (
+                _,
+                GetResultRequest,
+            )| {
                 all.result(id, request.goal_id);
             });
         }));
@@ -111,7 +120,9 @@ where
             }
             is_new
         };
-        self.sent(self.server.send_goal_response(request, SendGoalResponse { accepted: is_new, stamp: accepted }));
+        self.sent(
+            self.server.send_goal_response(request, SendGoalResponse { accepted: is_new, stamp: accepted }),
+        );
         if !is_new {
             say(&format!("{}: a goal is rejected: its id is known, or {AT_ONCE} run already", self.name));
             return;

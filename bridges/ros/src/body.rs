@@ -33,7 +33,9 @@ pub type Sizes = BTreeMap<(String, String), Size>;
 /// Reads what `/api/tables` answers.
 pub fn sizes(answer: &Value) -> Sizes {
     let tables = answer["tables"].as_array().into_iter().flatten();
-    let Some(robots) = tables.into_iter().find(|table| table["table"] == "robots") else { return Sizes::new() };
+    let Some(robots) = tables.into_iter().find(|table| table["table"] == "robots") else {
+        return Sizes::new();
+    };
     let columns = robots["columns"].as_array().into_iter().flatten();
     let names: Vec<&str> = columns.filter_map(|column| column["name"].as_str()).collect();
     let rows = robots["rows"].as_array().into_iter().flatten();
@@ -58,7 +60,10 @@ impl Size {
             None => {
                 let step = std::f64::consts::TAU / f64::from(CORNERS);
                 let radius = half / (step / 2.0).cos();
-                (0..CORNERS).map(|corner| f64::from(corner) * step).map(|turn| [radius * turn.cos(), radius * turn.sin()]).collect()
+                (0..CORNERS)
+                    .map(|corner| f64::from(corner) * step)
+                    .map(|turn| [radius * turn.cos(), radius * turn.sin()])
+                    .collect()
             }
         };
         let (sin, cos) = at.yaw.unwrap_or_default().sin_cos();
@@ -99,11 +104,15 @@ pub async fn follow(
         let size = {
             let sizes = sizes.borrow();
             let robot = planner.settings.robot.as_deref();
-            sizes.iter().find(|((of, name), _)| *of == state && robot.is_none_or(|robot| robot == name)).map(|of| *of.1)
+            sizes
+                .iter()
+                .find(|((of, name), _)| *of == state && robot.is_none_or(|robot| robot == name))
+                .map(|of| *of.1)
         };
         let Some(size) = size else { continue };
         was = Some((pose, state));
-        let footprint = PolygonStamped { header: Header::now(planner.frames.map()), points: size.outline(pose) };
+        let footprint =
+            PolygonStamped { header: Header::now(planner.frames.map()), points: size.outline(pose) };
         if let Err(error) = footprints.publish(footprint) {
             say(&format!("a footprint cannot be said: {error:?}"));
         }

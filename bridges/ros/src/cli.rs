@@ -12,10 +12,8 @@ use tokio::sync::watch;
 use crate::frames::Frames;
 use crate::node::{self, Ros, Says};
 use crate::planner::{self, Planner};
-use crate::{body, grid, keepout, say};
-
-/// How long to wait before a service that is away is asked again.
-const PAUSE: Duration = Duration::from_millis(500);
+use crate::shown::Shown;
+use crate::{body, keepout, say};
 
 /// A ROS 2 node that plans routes of a site that is served, with the services, actions and topics of Nav2.
 ///
@@ -93,22 +91,29 @@ fn serve(cli: Cli) -> anyhow::Result<()> {
             anyhow::ensure!(value.is_finite() && value > 0.0, "`{name}` is {value}; expected {unit} above 0");
         }
         let tolerance = cli.tolerance;
-        anyhow::ensure!(tolerance.is_finite() && tolerance >= 0.0, "`--tolerance` is {tolerance}; expected metres");
+        anyhow::ensure!(
+            tolerance.is_finite() && tolerance >= 0.0,
+            "`--tolerance` is {tolerance}; expected metres"
+        );
         let domain = match (cli.domain, std::env::var("ROS_DOMAIN_ID")) {
             (Some(domain), _) => domain,
-            (None, Ok(text)) if !text.is_empty() => text
-                .parse()
-                .ok()
-                .filter(|domain| *domain <= 232)
-                .ok_or_else(|| anyhow::anyhow!("ROS_DOMAIN_ID is `{text}`; expected a number from 0 to 232"))?,
+            (None, Ok(text)) if !text.is_empty() => {
+                text.parse().ok().filter(|domain| *domain <= 232).ok_or_else(|| {
+                    anyhow::anyhow!("ROS_DOMAIN_ID is `{text}`; expected a number from 0 to 232")
+                })?
+            }
             _ => 0,
         };
         let site = Site::at(&cli.site, std::env::var("ADIT_TOKEN").ok())?;
         let answer = site.get("/api/site").await.map_err(|trouble| anyhow::anyhow!("{trouble}"))?;
-        let robots: Vec<&str> = answer["robots"].as_array().into_iter().flatten().filter_map(|of| of.as_str()).collect();
+        let robots: Vec<&str> =
+            answer["robots"].as_array().into_iter().flatten().filter_map(|of| of.as_str()).collect();
         if let Some(robot) = &cli.robot {
             let known = robots.join(", ");
-            anyhow::ensure!(robots.contains(&robot.as_str()), "the site has no robot `{robot}`; it has {known}");
+            anyhow::ensure!(
+                robots.contains(&robot.as_str()),
+                "the site has no robot `{robot}`; it has {known}"
+            );
         }
         let frames = Arc::new(Frames::new(&cli.frame));
         let settings = planner::Settings {
@@ -142,76 +147,4 @@ fn serve(cli: Cli) -> anyhow::Result<()> {
         }
         Ok(())
     })
-}
-
-/// Polygons as x, y, x, y, …
-type Polygons = Vec<Vec<f64>>;
-
-/// What of the site is shown to whoever comes.
-struct Shown {
-    planner: Arc<Planner>,
-    map: ros2_client::Publisher<crate::msgs::OccupancyGrid>,
-    keepout: ros2_client::Publisher<crate::msgs::OccupancyGrid>,
-    kind: String,
-    metres: f64,
-    tell: watch::Sender<body::Sizes>,
-}
-
-impl Shown {
-    /// Shows the site anew after each change.
-    async fn follow(&self) {
-        let changed = Arc::new(tokio::sync::Notify::new());
-        let showing = async {
-            let mut last = (None, None);
-            loop {
-                changed.notified().await;
-                if let Err(words) = self.show(&mut last).await {
-                    say(&words);
-                    tokio::time::sleep(PAUSE).await;
-                    changed.notify_one();
-                }
-            }
-        };
-        let hearing = async {
-            let mut told = None;
-            loop {
-                let heard = self.planner.site.hear("/api/events", |event, _| {
-                    if matches!(event, "hello" | "changed") {
-                        changed.notify_one();
-                    }
-                });
-                let words = heard.await.err().map(|trouble| trouble.to_string());
-                if words.is_some() && words != told {
-                    say(words.as_deref().unwrap_or_default());
-                }
-                told = words;
-                tokio::time::sleep(PAUSE).await;
-            }
-        };
-        tokio::join!(showing, hearing);
-    }
-
-    async fn show(&self, last: &mut (Option<Polygons>, Option<Polygons>)) -> Result<(), String> {
-        let words = |trouble: adit_site::Trouble| trouble.to_string();
-        self.tell.send_replace(body::sizes(&self.planner.site.get("/api/tables").await.map_err(words)?));
-        let map = self.planner.site.get("/api/map").await.map_err(words)?;
-        let bounds: [f64; 4] = serde_json::from_value(map["bounds"].clone())
-            .map_err(|error| format!("the site's map cannot be read: {error}"))?;
-        let walls: Polygons = grid::polygons(&map["walls"]);
-        let kept = map["areas"].as_array().into_iter().flatten();
-        let kept: Polygons = kept
-            .filter(|area| area["kind"].as_str() == Some(&self.kind))
-            .filter_map(|area| serde_json::from_value(area["polygon"].clone()).ok())
-            .collect();
-        let frame = self.planner.frames.map();
-        for (publisher, now, last) in [(&self.map, walls, &mut last.0), (&self.keepout, kept, &mut last.1)] {
-            if last.as_ref() == Some(&now) {
-                continue;
-            }
-            let drawn = grid::drawn(bounds, self.metres, frame, now.iter().map(Vec::as_slice));
-            publisher.publish(drawn).map_err(|error| format!("the map cannot be published: {error:?}"))?;
-            *last = Some(now);
-        }
-        Ok(())
-    }
 }

@@ -25,7 +25,10 @@ pub struct Ears {
 
 impl Ears {
     pub fn new() -> anyhow::Result<Self> {
-        Ok(Self { poll: Poll::new().context("the system has no way to wait for messages")?, hears: Vec::new() })
+        Ok(Self {
+            poll: Poll::new().context("the system has no way to wait for messages")?,
+            hears: Vec::new(),
+        })
     }
 
     /// Wakes up for this source from now on.
@@ -67,7 +70,9 @@ impl Ears {
         self.wake_for(&mut service)?;
         let service = std::sync::Arc::new(service);
         self.then(Box::new(move || {
-            drain(&name, || service.receive_request().map_err(words), &mut |(id, request)| on(&service, id, request));
+            drain(&name, || service.receive_request().map_err(words), &mut |(id, request)| {
+                on(&service, id, request)
+            });
         }));
         Ok(())
     }

@@ -56,8 +56,10 @@ impl Frames {
         for stamped in &message.transforms {
             let (parent, child) = (bare(&stamped.header.frame_id), bare(&stamped.child_frame_id));
             let at = &stamped.transform.translation;
-            let turned = unit(&stamped.transform.rotation).filter(|_| at.x.is_finite() && at.y.is_finite() && at.z.is_finite());
-            let Some(turned) = turned.filter(|_| !parent.is_empty() && !child.is_empty() && parent != child) else {
+            let turned = unit(&stamped.transform.rotation)
+                .filter(|_| at.x.is_finite() && at.y.is_finite() && at.z.is_finite());
+            let Some(turned) = turned.filter(|_| !parent.is_empty() && !child.is_empty() && parent != child)
+            else {
                 return Err(format!("the transform from `{child}` to `{parent}` is none, and is not heard"));
             };
             if links.len() >= KEPT && !links.contains_key(child) {
@@ -81,11 +83,18 @@ impl Frames {
             }
             let Some(link) = links.get(here) else {
                 let from = bare(frame);
-                let words = format!("frame `{from}` is not known: TF says no way from it to the map's frame `{}`", self.map);
+                let words = format!(
+                    "frame `{from}` is not known: TF says no way from it to the map's frame `{}`",
+                    self.map
+                );
                 return Err(Failure::new(Kind::Tf, words));
             };
             if let Some(age) = link.heard.map(|heard| heard.elapsed()).filter(|age| *age > FRESH) {
-                let words = format!("TF said last {:.0} s ago where `{here}` is in `{}`", age.as_secs_f64(), link.parent);
+                let words = format!(
+                    "TF said last {:.0} s ago where `{here}` is in `{}`",
+                    age.as_secs_f64(),
+                    link.parent
+                );
                 return Err(Failure::new(Kind::Tf, words));
             }
             to_map = link.to_parent * to_map;
@@ -102,7 +111,8 @@ impl Frames {
             return Err(Failure::new(Kind::Unknown, words));
         }
         if bare(&pose.header.frame_id).is_empty() {
-            let words = format!("the {what} has no frame; expected `{}`, or one that TF leads to it from", self.map);
+            let words =
+                format!("the {what} has no frame; expected `{}`, or one that TF leads to it from", self.map);
             return Err(Failure::new(Kind::Tf, words));
         }
         let frame = self.of(&pose.header.frame_id)?;

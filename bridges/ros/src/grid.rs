@@ -11,7 +11,12 @@ pub const FULL: i8 = 100;
 const CELLS: f64 = 64.0e6;
 
 /// A grid of the site's size, in cells of so many metres (longer ones where there would be too many), where these polygons are full.
-pub fn drawn<'a>(bounds: [f64; 4], metres: f64, frame: &str, full: impl Iterator<Item = &'a [f64]>) -> OccupancyGrid {
+pub fn drawn<'a>(
+    bounds: [f64; 4],
+    metres: f64,
+    frame: &str,
+    full: impl Iterator<Item = &'a [f64]>,
+) -> OccupancyGrid {
     let [x0, y0, x1, y1] = bounds;
     let least = ((x1 - x0) * (y1 - y0) / CELLS).sqrt();
     let metres = metres.max(least);
@@ -39,7 +44,8 @@ fn fill(data: &mut [i8], width: usize, [x0, y0]: [f64; 2], metres: f64, polygon:
         let y = y0 + (line as f64 + 0.5) * metres;
         let sides = points.iter().zip(points.iter().cycle().skip(1));
         let crossed = sides.filter(|(a, b)| (a[1] > y) != (b[1] > y));
-        let mut xs: Vec<f64> = crossed.map(|(a, b)| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])).collect();
+        let mut xs: Vec<f64> =
+            crossed.map(|(a, b)| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])).collect();
         xs.sort_by(f64::total_cmp);
         for pair in xs.chunks_exact(2) {
             let cell = |x: f64| (((x - x0) / metres - 0.5).ceil().max(0.0) as usize).min(width);
@@ -115,7 +121,8 @@ fn runs(full: &[bool], width: usize) -> Vec<Cells> {
             if !line[from] {
                 continue;
             }
-            let same = open.iter().copied().find(|index| found[*index].from[0] == from && found[*index].to[0] == x);
+            let same =
+                open.iter().copied().find(|index| found[*index].from[0] == from && found[*index].to[0] == x);
             let index = same.unwrap_or_else(|| {
                 found.push(Cells { from: [from, y], to: [x, y] });
                 found.len() - 1
@@ -143,7 +150,8 @@ mod tests {
 
     #[test]
     fn too_many_are_joined_and_nothing_is_left_out() {
-        let chess: Vec<i8> = (0..64 * 64).map(|cell| if (cell + cell / 64) % 2 == 0 { FULL } else { 0 }).collect();
+        let chess: Vec<i8> =
+            (0..64 * 64).map(|cell| if (cell + cell / 64) % 2 == 0 { FULL } else { 0 }).collect();
         let (found, joined) = rectangles(&chess, 64, FULL, 100);
         assert_eq!((found, joined), (vec![Cells { from: [0, 0], to: [32, 32] }], 2));
     }

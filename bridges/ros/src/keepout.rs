@@ -43,7 +43,8 @@ fn areas(grid: &OccupancyGrid, frames: &Frames, least: i8) -> Result<(Areas, usi
     let resolution = f64::from(grid.info.resolution);
     let areas = found.into_iter().map(|cells| {
         let corner = |x: usize, y: usize| {
-            let (x, y) = ((x as f64 * metres).min(across * resolution), (y as f64 * metres).min(along * resolution));
+            let (x, y) =
+                ((x as f64 * metres).min(across * resolution), (y as f64 * metres).min(along * resolution));
             let at = to_map * Point3::new(x, y, 0.0);
             // cells are no finer than a millimetre, and names should be short
             [at.x, at.y].map(|v| (v * 1000.0).round() / 1000.0 + 0.0)
@@ -69,7 +70,9 @@ pub async fn follow(
             Err(words) => say(&format!("the keepout mask is not taken: {words}")),
             Ok((wanted, joined)) => {
                 if joined > 1 {
-                    say(&format!("the keepout mask has more than {MOST} rectangles; {joined} by {joined} cells are one"));
+                    say(&format!(
+                        "the keepout mask has more than {MOST} rectangles; {joined} by {joined} cells are one"
+                    ));
                 }
                 if let Err(words) = lay(&site, &wanted, &settings.kind).await {
                     say(&format!("the keepout mask is not told to the site: {words}"));
@@ -82,8 +85,10 @@ pub async fn follow(
 async fn lay(site: &adit_site::Site, wanted: &Areas, kind: &str) -> Result<(), String> {
     let words = |trouble: adit_site::Trouble| trouble.to_string();
     let answer = site.get("/api/areas").await.map_err(words)?;
-    let laid: Vec<&str> = answer["laid"].as_array().into_iter().flatten().filter_map(|of| of["name"].as_str()).collect();
-    let ours: Vec<&str> = laid.iter().copied().filter(|name| name.starts_with(&format!("{NAMED} "))).collect();
+    let laid: Vec<&str> =
+        answer["laid"].as_array().into_iter().flatten().filter_map(|of| of["name"].as_str()).collect();
+    let ours: Vec<&str> =
+        laid.iter().copied().filter(|name| name.starts_with(&format!("{NAMED} "))).collect();
     let (mut new, mut gone) = (0, 0);
     for (name, corners) in wanted.iter().filter(|(name, _)| !ours.contains(&name.as_str())) {
         let body: Value = json!({"name": name, "corners": corners, "properties": {"kind": kind}, "why": "the keepout mask"});

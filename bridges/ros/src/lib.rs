@@ -15,6 +15,8 @@ mod msgs;
 mod node;
 mod path;
 mod planner;
+mod plans;
+mod shown;
 mod told;
 mod track;
 

@@ -1,28 +1,26 @@
 //! The node: which topics, services and actions there are, and what each of them does.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
 use ros2_client::action::ActionServerQosPolicies;
 use ros2_client::qos::{Durability, History, Reliability, WhenFull};
 use ros2_client::{
-    ActionServer, ActionTypeName, Context, Message, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher,
-    QosProfile, ServiceMapping, ServiceTypeName, Subscription,
+    ActionServer, ActionTypeName, Context, Message, MessageTypeName, Name, Node, NodeName, NodeOptions,
+    Publisher, QosProfile, ServiceMapping, ServiceTypeName, Subscription,
 };
 use tokio::runtime::Handle;
 use tokio::sync::watch;
 
 use crate::actions::{Actions, Ended};
 use crate::ears::{Ears, words};
-use crate::failure::{Failure, Kind};
 use crate::frames::Frames;
 use crate::msgs::{
-    Empty, GetPlanRequest, GetPlanResponse, OccupancyGrid, Path, PolygonStamped, PoseStamped, RouteGoal, RouteResult,
-    Text, TfMessage, ToPoseGoal, ToPoseResult, TrackFeedback, TrackResult,
+    Empty, GetPlanRequest, GetPlanResponse, OccupancyGrid, PolygonStamped, PoseStamped, RouteGoal,
+    RouteResult, Text, TfMessage, ToPoseGoal, ToPoseResult, TrackFeedback, TrackResult,
 };
 use crate::planner::Planner;
-use crate::{body, keepout, path, say, told, track};
+use crate::{body, keepout, plans, say, told, track};
 
 /// The settings of the node.
 pub struct Settings {
@@ -73,11 +71,13 @@ impl Ros {
         let options = ros2_client::ContextOptions::new().domain_id(domain);
         let context = Context::with_options(options)
             .map_err(|error| anyhow!("DDS does not start in domain {domain}: {}", words(error)))?;
-        let name = NodeName::new(&settings.namespace, "adit")
-            .map_err(|error| anyhow!("`--namespace {}` is no name in ROS: {}", settings.namespace, words(error)))?;
+        let name = NodeName::new(&settings.namespace, "adit").map_err(|error| {
+            anyhow!("`--namespace {}` is no name in ROS: {}", settings.namespace, words(error))
+        })?;
         let options = NodeOptions::new().enable_rosout(false).start_parameter_services(false);
-        let mut node =
-            context.new_node(name, options).map_err(|error| anyhow!("the node does not start: {}", words(error)))?;
+        let mut node = context
+            .new_node(name, options)
+            .map_err(|error| anyhow!("the node does not start: {}", words(error)))?;
         let spinner = node.spinner().map_err(|error| anyhow!("the node does not start: {}", words(error)))?;
         tokio::spawn(async move {
             if let Err(error) = spinner.spin().await {
@@ -107,7 +107,12 @@ impl Ros {
         self.node.create_subscription(&topic, None).map_err(|error| anyhow!("topic {name}: {}", words(error)))
     }
 
-    fn publisher<M: Message>(&mut self, name: &str, kind: [&str; 2], qos: &QosProfile) -> anyhow::Result<Publisher<M>> {
+    fn publisher<M: Message>(
+        &mut self,
+        name: &str,
+        kind: [&str; 2],
+        qos: &QosProfile,
+    ) -> anyhow::Result<Publisher<M>> {
         let full = self.name(name)?;
         let topic = self.node.create_topic(&full, MessageTypeName::new(kind[0], kind[1]), qos);
         let topic = topic.map_err(|error| anyhow!("topic {name}: {}", words(error)))?;
@@ -135,7 +140,8 @@ impl Ros {
             self.ears.topic(topic, name.to_owned(), on)?;
         }
         let poses = qos(1).reliability(Reliability::BestEffort);
-        let topic = self.subscription::<PoseStamped>("robot_pose", ["geometry_msgs", "PoseStamped"], &poses)?;
+        let topic =
+            self.subscription::<PoseStamped>("robot_pose", ["geometry_msgs", "PoseStamped"], &poses)?;
         let all = Arc::clone(planner);
         self.ears.topic(topic, "robot_pose".to_owned(), move |pose| {
             match all.frames.on_floor("robot", &pose) {
@@ -150,13 +156,18 @@ impl Ros {
             let on = move |what| drop(runtime.spawn(told::closing(Arc::clone(&all), kind, what)));
             self.ears.topic(topic, name.to_owned(), on)?;
         }
-        let topic = self.subscription::<PoseStamped>("adit/blocked", ["geometry_msgs", "PoseStamped"], &qos(10))?;
+        let topic =
+            self.subscription::<PoseStamped>("adit/blocked", ["geometry_msgs", "PoseStamped"], &qos(10))?;
         let (all, seconds) = (Arc::clone(planner), self.settings.blocked);
         self.ears.topic(topic, "adit/blocked".to_owned(), move |pose| {
             drop(runtime.spawn(told::blocked(Arc::clone(&all), pose, seconds)));
         })?;
         let (say, masks) = watch::channel(None);
-        let topic = self.subscription::<OccupancyGrid>("keepout_filter_mask", ["nav_msgs", "OccupancyGrid"], &latched())?;
+        let topic = self.subscription::<OccupancyGrid>(
+            "keepout_filter_mask",
+            ["nav_msgs", "OccupancyGrid"],
+            &latched(),
+        )?;
         let on = move |mask| drop(say.send(Some(Arc::new(mask))));
         self.ears.topic(topic, "keepout_filter_mask".to_owned(), on)?;
         Ok(Said { masks })
@@ -168,26 +179,36 @@ impl Ros {
         let kind = ServiceTypeName::new("nav_msgs", "GetPlan");
         let service = self
             .node
-            .create_server::<GetPlanRequest, GetPlanResponse>(self.settings.mapping, &name, &kind, qos(100), qos(100))
+            .create_server::<GetPlanRequest, GetPlanResponse>(
+                self.settings.mapping,
+                &name,
+                &kind,
+                qos(100),
+                qos(100),
+            )
             .map_err(|error| anyhow!("service get_plan: {}", words(error)))?;
         let (all, runtime) = (Arc::clone(planner), Handle::current());
         self.ears.service(service, "get_plan".to_owned(), move |service, id, request| {
             let (service, all) = (Arc::clone(service), Arc::clone(&all));
             runtime.spawn(async move {
-                let plan = get_plan(&all, &request).await;
+                let plan = plans::get_plan(&all, &request).await;
                 if let Err(error) = service.async_send_response(id, GetPlanResponse { plan }).await {
                     say(&format!("get_plan: the answer cannot be sent: {}", words(error)));
                 }
             });
         })?;
         let all = Arc::clone(planner);
-        self.action::<ToPoseGoal, ToPoseResult, Empty, _, _>("compute_path_to_pose", "ComputePathToPose", move |goal, _| {
-            to_pose(Arc::clone(&all), goal)
-        })?;
+        self.action::<ToPoseGoal, ToPoseResult, Empty, _, _>(
+            "compute_path_to_pose",
+            "ComputePathToPose",
+            move |goal, _| plans::to_pose(Arc::clone(&all), goal),
+        )?;
         let all = Arc::clone(planner);
-        self.action::<RouteGoal, RouteResult, Empty, _, _>("compute_route", "ComputeRoute", move |goal, _| {
-            track::compute(Arc::clone(&all), goal)
-        })?;
+        self.action::<RouteGoal, RouteResult, Empty, _, _>(
+            "compute_route",
+            "ComputeRoute",
+            move |goal, _| plans::route(Arc::clone(&all), goal),
+        )?;
         let all = Arc::clone(planner);
         self.action::<RouteGoal, TrackResult, TrackFeedback, _, _>(
             "compute_and_track_route",
@@ -228,7 +249,10 @@ impl Ros {
     /// Hears from now on, until the program ends.
     pub fn listen(self) -> anyhow::Result<Node> {
         let ears = self.ears;
-        std::thread::Builder::new().name("ears".to_owned()).spawn(move || ears.listen()).context("no thread to hear")?;
+        std::thread::Builder::new()
+            .name("ears".to_owned())
+            .spawn(move || ears.listen())
+            .context("no thread to hear")?;
         Ok(self.node)
     }
 
@@ -250,48 +274,5 @@ impl Ros {
 fn report(heard: Result<(), String>) {
     if let Err(words) = heard {
         say(&words);
-    }
-}
-
-/// `GetPlan`, which has no field for what is wrong: then the plan has no poses, and the log says why.
-async fn get_plan(planner: &Planner, request: &GetPlanRequest) -> Path {
-    let planned = async {
-        let tolerance = f64::from(request.tolerance);
-        if !(tolerance.is_finite() && tolerance >= 0.0) {
-            return Err(Failure::new(Kind::Unknown, format!("the tolerance is {tolerance}; expected metres")));
-        }
-        let mut question = planner.question(Some(&request.start), &request.goal)?;
-        question.tolerance = tolerance;
-        let route = planner.plan(&question).await?;
-        let path = path::path(&route, &question.goal, planner.frames.map());
-        planner.goes(Some(Arc::new(route)));
-        Ok(path)
-    };
-    planned.await.unwrap_or_else(|failure| {
-        say(&format!("get_plan: {}", failure.words));
-        Path { header: crate::msgs::Header::now(planner.frames.map()), poses: Vec::new() }
-    })
-}
-
-/// `ComputePathToPose`.
-async fn to_pose(planner: Arc<Planner>, goal: ToPoseGoal) -> Ended<ToPoseResult> {
-    let began = Instant::now();
-    let planned = async {
-        let mut question = planner.question(goal.use_start.then_some(&goal.start), &goal.goal)?;
-        question.robot = planner.planner(&goal.planner_id);
-        let route = planner.plan(&question).await?;
-        let path = path::path(&route, &question.goal, planner.frames.map());
-        planner.goes(Some(Arc::new(route)));
-        Ok::<Path, Failure>(path)
-    };
-    let planned = planned.await;
-    let planning_time = Duration::into(began.elapsed());
-    match planned {
-        Ok(path) => Ok(ToPoseResult { path, planning_time, ..ToPoseResult::default() }),
-        Err(failure) => {
-            say(&format!("compute_path_to_pose: {}", failure.words));
-            let (error_code, error_msg) = (failure.kind.to_pose(), failure.words);
-            Err(ToPoseResult { planning_time, error_code, error_msg, ..ToPoseResult::default() })
-        }
     }
 }

@@ -106,8 +106,9 @@ impl Planner {
             Failure::new(Kind::Timeout, format!("the site's service has no answer within {seconds} s"))
         })?;
         let answer = answer.map_err(|trouble| Failure::refused(&trouble))?;
-        let route: Route = serde_json::from_value(answer)
-            .map_err(|error| Failure::new(Kind::Unknown, format!("the site's route cannot be read: {error}")))?;
+        let route: Route = serde_json::from_value(answer).map_err(|error| {
+            Failure::new(Kind::Unknown, format!("the site's route cannot be read: {error}"))
+        })?;
         if route.leads() { Ok(route) } else { Err(Failure::no_way(&route)) }
     }
 

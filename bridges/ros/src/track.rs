@@ -9,9 +9,10 @@ use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
 use crate::actions::{Ended, Feedback};
 use crate::failure::{Failure, Kind};
-use crate::msgs::{RouteGoal, RouteResult, TrackFeedback, TrackResult};
+use crate::msgs::{RouteGoal, TrackFeedback, TrackResult};
 use crate::path::{self, along};
 use crate::planner::{Planner, Question};
+use crate::plans::question;
 use crate::say;
 
 /// How often it is said how far the robot is.
@@ -32,47 +33,6 @@ struct Kept(tokio::task::JoinHandle<()>);
 impl Drop for Kept {
     fn drop(&mut self) {
         self.0.abort();
-    }
-}
-
-/// The question of a goal of the route server.
-fn question(planner: &Planner, goal: &RouteGoal) -> Result<Question, Failure> {
-    if !goal.use_poses {
-        let words = format!(
-            "the site's rooms have no lasting numbers, so {} and {} are no nodes; ask by poses (`use_poses`)",
-            goal.start_id, goal.goal_id
-        );
-        return Err(Failure::new(Kind::NoNodes, words));
-    }
-    planner.question(goal.use_start.then_some(&goal.start), &goal.goal)
-}
-
-/// `ComputeRoute`.
-pub async fn compute(planner: Arc<Planner>, goal: RouteGoal) -> Ended<RouteResult> {
-    let began = Instant::now();
-    let planned = async {
-        let question = question(&planner, &goal)?;
-        let route = planner.plan(&question).await?;
-        Ok::<_, Failure>((question, route))
-    };
-    match planned.await {
-        Ok::<_, Failure>((question, route)) => {
-            let frame = planner.frames.map();
-            let path = path::path(&route, &question.goal, frame);
-            let result = RouteResult {
-                planning_time: began.elapsed().into(),
-                path,
-                route: path::route(&route, frame),
-                ..RouteResult::default()
-            };
-            planner.goes(Some(Arc::new(route)));
-            Ok(result)
-        }
-        Err(failure) => {
-            say(&format!("compute_route: {}", failure.words));
-            let (error_code, error_msg) = (failure.kind.of_route(), failure.words);
-            Err(RouteResult { planning_time: began.elapsed().into(), error_code, error_msg, ..RouteResult::default() })
-        }
     }
 }
 

@@ -28,7 +28,12 @@ fn refused(client: &mut Client, action: &str, goal: &Value, code: u16, words: &s
 /// Closes all doorways of the dock.
 fn close_dock(floor: &Floor) {
     let map = floor.service.ask("GET", "/api/map", None).1;
-    for doorway in map["doorways"].as_array().unwrap().iter().filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1))) {
+    for doorway in map["doorways"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1)))
+    {
         floor.edit(&json!({"kind": "close", "what": format!("doorway {}", doorway["doorway"])}));
     }
 }
@@ -102,7 +107,13 @@ fn a_route_is_the_same_way_with_the_codes_of_the_route_server() {
     assert_eq!(route["edges"].as_array().unwrap().len(), expected.len() - 1);
     assert!((route["route_cost"].as_f64().unwrap() - 68.2388).abs() < 1e-3);
 
-    refused(&mut client, action, &by_poses(pose_in("world", 4.7, 1.5), archive.clone()), 401, "frame `world`");
+    refused(
+        &mut client,
+        action,
+        &by_poses(pose_in("world", 4.7, 1.5), archive.clone()),
+        401,
+        "frame `world`",
+    );
     let by_ids = json!({"start_id": 1, "goal_id": 2, "use_start": true});
     refused(&mut client, action, &by_ids, 403, "ask by poses");
     refused(&mut client, action, &by_poses(dock, pose(4.7, 1.0)), 403, "is inside an obstacle");

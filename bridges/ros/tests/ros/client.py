@@ -130,7 +130,8 @@ def main():
         except ExternalShutdownException:
             pass
 
-    threading.Thread(target=spin, daemon=True).start()
+    spinning = threading.Thread(target=spin)
+    spinning.start()
     say({"is": "there"})
     for line in sys.stdin:
         told = json.loads(line)
@@ -139,6 +140,7 @@ def main():
         except Exception as error:
             say({"id": told.get("id"), "error": repr(error)})
     rclpy.shutdown()
+    spinning.join()
 
 
 main()

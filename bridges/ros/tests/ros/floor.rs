@@ -84,7 +84,12 @@ impl Floor {
 
     /// The waypoints that `adit route --json` prints.
     pub fn waypoints(&self, start: &str, goal: &str) -> Vec<[f64; 2]> {
-        let ran = Command::new(adit()).arg("route").arg(self.site.path()).args([start, goal, "--json"]).output().unwrap();
+        let ran = Command::new(adit())
+            .arg("route")
+            .arg(self.site.path())
+            .args([start, goal, "--json"])
+            .output()
+            .unwrap();
         let route: Value = serde_json::from_slice(&ran.stdout).unwrap();
         let points = route["waypoints"].as_array().unwrap();
         points.iter().map(|point| [&point["x"], &point["y"]].map(|v| v.as_f64().unwrap())).collect()
@@ -124,7 +129,11 @@ impl Client {
     pub fn several(name: &str, nodes: usize) -> Self {
         let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/ros/client.py");
         let mut program = Command::new(python());
-        program.arg(script).args([name, &nodes.to_string()]).env("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp").env("ROS_LOG_DIR", std::env::temp_dir());
+        program
+            .arg(script)
+            .args([name, &nodes.to_string()])
+            .env("RMW_IMPLEMENTATION", "rmw_fastrtps_cpp")
+            .env("ROS_LOG_DIR", std::env::temp_dir());
         let mut child = program.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let (orders, out) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
         let (say, heard) = channel();
@@ -222,7 +231,10 @@ pub fn pose_in(frame: &str, x: f64, y: f64) -> Value {
 /// The points of a path.
 pub fn points(path: &Value) -> Vec<[f64; 2]> {
     let poses = path["poses"].as_array().unwrap();
-    poses.iter().map(|of| [&of["pose"]["position"]["x"], &of["pose"]["position"]["y"]].map(|v| v.as_f64().unwrap())).collect()
+    poses
+        .iter()
+        .map(|of| [&of["pose"]["position"]["x"], &of["pose"]["position"]["y"]].map(|v| v.as_f64().unwrap()))
+        .collect()
 }
 
 /// Where `tests/run` put rclpy.
@@ -230,7 +242,11 @@ fn python() -> PathBuf {
     let exe = std::env::current_exe().unwrap();
     let folder = exe.ancestors().nth(3).unwrap().join("ros2");
     let python = folder.join("bin/python");
-    assert!(folder.join("done").exists(), "bridges/ros/tests/ros/install.sh {} installs rclpy", folder.display());
+    assert!(
+        folder.join("done").exists(),
+        "bridges/ros/tests/ros/install.sh {} installs rclpy",
+        folder.display()
+    );
     python
 }
 

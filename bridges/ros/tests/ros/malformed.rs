@@ -18,14 +18,26 @@ fn requests_that_make_no_sense_are_refused_in_words_and_the_node_goes_on() {
         pose
     };
     let bad = [
-        (json!({"start": nan(pose(4.7, 1.5)), "goal": archive}), "the start is at (NaN, 1.5, 0); expected metres"),
-        (json!({"start": pose(4.7, 1.5), "goal": nan(archive.clone())}), "the goal is at (NaN, 14, 0); expected metres"),
+        (
+            json!({"start": nan(pose(4.7, 1.5)), "goal": archive}),
+            "the start is at (NaN, 1.5, 0); expected metres",
+        ),
+        (
+            json!({"start": pose(4.7, 1.5), "goal": nan(archive.clone())}),
+            "the goal is at (NaN, 14, 0); expected metres",
+        ),
         (json!({}), "the start has no frame; expected `map`"),
         (json!({"start": pose_in("", 4.7, 1.5), "goal": archive}), "the start has no frame"),
         (json!({"start": pose_in("mars", 4.7, 1.5), "goal": archive}), "frame `mars` is not known"),
         (json!({"start": pose(1e300, -1e300), "goal": archive}), "is outside of the map"),
-        (json!({"start": pose(4.7, 1.5), "goal": archive, "tolerance": -1.0}), "the tolerance is -1; expected metres"),
-        (json!({"start": pose(4.7, 1.5), "goal": archive, "tolerance": "nan"}), "the tolerance is NaN; expected metres"),
+        (
+            json!({"start": pose(4.7, 1.5), "goal": archive, "tolerance": -1.0}),
+            "the tolerance is -1; expected metres",
+        ),
+        (
+            json!({"start": pose(4.7, 1.5), "goal": archive, "tolerance": "nan"}),
+            "the tolerance is NaN; expected metres",
+        ),
     ];
     for (request, words) in bad {
         assert!(points(&client.plan(&request)).is_empty(), "{request}");

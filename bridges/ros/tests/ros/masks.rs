@@ -12,7 +12,8 @@ fn mask(full: Option<[usize; 4]>) -> Value {
     let is_full = |x: usize, y: usize| {
         full.is_some_and(|[x0, y0, x1, y1]| (x0..x1).contains(&x) && (y0..y1).contains(&y))
     };
-    let data: Vec<i8> = (0..width * height).map(|cell| if is_full(cell % width, cell / width) { 100 } else { 0 }).collect();
+    let data: Vec<i8> =
+        (0..width * height).map(|cell| if is_full(cell % width, cell / width) { 100 } else { 0 }).collect();
     json!({"header": {"frame_id": "map"}, "data": data,
         "info": {"resolution": 0.1, "width": width, "height": height, "origin": {"orientation": {"w": 1.0}}}})
 }

@@ -11,7 +11,9 @@ fn a_plan_of_the_clinic_is_the_route_that_adit_prints() {
     }
     let floor = Floor::start("clinic", &[]);
     let mut client = Client::start("asks");
-    for (start, goal) in [([4.7, 1.5], [53.8, 14.0]), ([53.8, 14.0], [22.2, 27.6]), ([22.2, 27.6], [4.7, 1.5])] {
+    for (start, goal) in
+        [([4.7, 1.5], [53.8, 14.0]), ([53.8, 14.0], [22.2, 27.6]), ([22.2, 27.6], [4.7, 1.5])]
+    {
         let request = json!({"start": pose(start[0], start[1]), "goal": pose(goal[0], goal[1])});
         let plan = client.plan(&request);
         let words = |at: [f64; 2]| format!("{},{}", at[0], at[1]);
@@ -27,7 +29,10 @@ fn a_plan_of_the_clinic_is_the_route_that_adit_prints() {
             let went = (pair[1][1] - pair[0][1]).atan2(pair[1][0] - pair[0][0]);
             assert!((yaw - went).cos() > 0.999, "waypoint {index}: {yaw} instead of {went}");
         }
-        assert_eq!(poses.last().unwrap()["pose"]["orientation"], json!({"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}));
+        assert_eq!(
+            poses.last().unwrap()["pose"]["orientation"],
+            json!({"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0})
+        );
     }
 
     // what is inside a wall is moved as far as the request allows

@@ -56,7 +56,8 @@ fn twenty_clients_for_half_a_minute_leave_memory_and_files_as_they_were() {
         for (index, id) in ids.into_iter().enumerate() {
             let client = &mut clients[index % PROGRAMS];
             let said = client.until("an answer", |said| said["id"] == id && said["accepted"].is_null());
-            let path = if said["response"].is_null() { &said["result"]["path"] } else { &said["response"]["plan"] };
+            let path =
+                if said["response"].is_null() { &said["result"]["path"] } else { &said["response"]["plan"] };
             assert!(points(path).len() > 2, "{said}");
             answers += 1;
         }
@@ -81,5 +82,7 @@ fn twenty_clients_for_half_a_minute_leave_memory_and_files_as_they_were() {
     let mut last = clients.pop().unwrap();
     drop(clients);
     let (start, goal) = ends(0);
-    within("it answers", || (points(&last.plan(&json!({"start": start, "goal": goal}))).len() > 2).then_some(()));
+    within("it answers", || {
+        (points(&last.plan(&json!({"start": start, "goal": goal}))).len() > 2).then_some(())
+    });
 }

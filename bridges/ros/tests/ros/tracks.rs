@@ -49,15 +49,21 @@ fn a_route_is_followed_to_its_end_and_is_another_one_when_a_doorway_closes() {
     assert!((2..60).contains(&took), "{took} s");
 
     // it was said where it was, and what it did there
-    let went = client.until("how far it is", |said| is_feedback(said, id) && said["feedback"]["last_node_id"] != 0);
+    let went =
+        client.until("how far it is", |said| is_feedback(said, id) && said["feedback"]["last_node_id"] != 0);
     assert_eq!(went["feedback"]["rerouted"], false);
     assert_eq!(client.until("an action", |said| said["topic"] == "/adit/action")["message"]["data"], "WALK");
     let footprint = client.until("a footprint", |said| said["topic"] == "/adit/footprint")["message"].clone();
     let corners = footprint["polygon"]["points"].as_array().unwrap();
     assert_eq!(corners.len(), 16);
     let across = (corners[0]["x"].as_f64().unwrap() - corners[8]["x"].as_f64().unwrap()).abs();
-    assert!((0.6..0.62).contains(&across), "the robot is 0.6 m wide where it walks, and its footprint {across} m");
-    client.until("it goes sideways", |said| said["topic"] == "/adit/action" && said["message"]["data"] == "SIDE-WALK");
+    assert!(
+        (0.6..0.62).contains(&across),
+        "the robot is 0.6 m wide where it walks, and its footprint {across} m"
+    );
+    client.until("it goes sideways", |said| {
+        said["topic"] == "/adit/action" && said["message"]["data"] == "SIDE-WALK"
+    });
 }
 
 #[test]
@@ -76,7 +82,12 @@ fn a_route_that_leads_nowhere_any_more_is_given_up_and_one_can_be_cancelled() {
     let id = client.begin("/compute_and_track_route", &goal());
     client.until("a route", |said| is_feedback(said, id));
     let map = floor.service.ask("GET", "/api/map", None).1;
-    for doorway in map["doorways"].as_array().unwrap().iter().filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1))) {
+    for doorway in map["doorways"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1)))
+    {
         floor.edit(&json!({"kind": "close", "what": format!("doorway {}", doorway["doorway"])}));
     }
     let ended = client.until("the end", |said| said["id"] == id && !said["status"].is_null());
@@ -89,6 +100,7 @@ fn a_route_that_leads_nowhere_any_more_is_given_up_and_one_can_be_cancelled() {
     let id = client.begin("/compute_and_track_route", &goal());
     client.until("a route", |said| is_feedback(said, id));
     client.order("publish", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(22.2, 27.6));
-    let other = client.until("another way", |said| is_feedback(said, id) && said["feedback"]["rerouted"] == true);
+    let other =
+        client.until("another way", |said| is_feedback(said, id) && said["feedback"]["rerouted"] == true);
     assert_eq!(points(&other["feedback"]["path"]), floor.waypoints("22.2,27.6", "53.8,14"));
 }
