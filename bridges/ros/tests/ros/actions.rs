@@ -126,7 +126,7 @@ fn a_plan_that_takes_too_long_is_given_up_and_a_goal_can_be_cancelled() {
     if is_outside("actions::a_plan_that_takes_too_long_is_given_up_and_a_goal_can_be_cancelled") {
         return;
     }
-    let floor = Floor::start("clinic", &["--timeout", "1"]);
+    let floor = Floor::start("clinic", &["--timeout", "2"]);
     let mut client = Client::start("asks");
     let goal = by_poses(pose(4.7, 1.5), pose(53.8, 14.0));
     let stopped = |signal: &str| {
@@ -135,9 +135,9 @@ fn a_plan_that_takes_too_long_is_given_up_and_a_goal_can_be_cancelled() {
     };
     stopped("-STOP");
     let to_pose = between(pose(4.7, 1.5), pose(53.8, 14.0));
-    refused(&mut client, "/compute_path_to_pose", &to_pose, 207, "no answer within 1 s");
-    refused(&mut client, "/compute_route", &goal, 404, "no answer within 1 s");
-    refused(&mut client, "/compute_and_track_route", &goal, 404, "no answer within 1 s");
+    refused(&mut client, "/compute_path_to_pose", &to_pose, 207, "no answer within 2 s");
+    refused(&mut client, "/compute_route", &goal, 404, "no answer within 2 s");
+    refused(&mut client, "/compute_and_track_route", &goal, 404, "no answer within 2 s");
     let id = client.begin("/compute_path_to_pose", &to_pose);
     assert_eq!(client.cancel(id)["code"], 0);
     let ended = client.until("a result", |said| said["id"] == id && !said["status"].is_null());

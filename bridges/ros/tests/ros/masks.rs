@@ -6,7 +6,7 @@ use crate::floor::{Client, Floor, is_outside, points, pose, within};
 
 const GRID: &str = "nav_msgs/msg/OccupancyGrid";
 
-/// A mask of ten-centimetre cells over the south-west of the clinic, full in a rectangle.
+/// A mask of ten-centimetre cells over the middle of the clinic, from 30,5 on, full in a rectangle.
 fn mask(full: Option<[usize; 4]>) -> Value {
     let (width, height) = (60, 80);
     let is_full = |x: usize, y: usize| {
@@ -15,7 +15,7 @@ fn mask(full: Option<[usize; 4]>) -> Value {
     let data: Vec<i8> =
         (0..width * height).map(|cell| if is_full(cell % width, cell / width) { 100 } else { 0 }).collect();
     json!({"header": {"frame_id": "map"}, "data": data,
-        "info": {"resolution": 0.1, "width": width, "height": height, "origin": {"orientation": {"w": 1.0}}}})
+        "info": {"resolution": 0.1, "width": width, "height": height, "origin": {"position": {"x": 30.0, "y": 5.0}, "orientation": {"w": 1.0}}}})
 }
 
 /// How many cells of a grid that came have this value, as the client writes it.
@@ -37,20 +37,20 @@ fn a_keepout_mask_closes_a_doorway_until_it_is_another_one() {
 
     let request = json!({"start": pose(4.7, 1.5), "goal": pose(53.8, 14.0)});
     let before = points(&client.plan(&request));
-    assert!(before.iter().any(|[x, y]| (2.4..3.6).contains(x) && (6.0..7.5).contains(y)), "{before:?}");
+    assert!(before.iter().any(|[x, y]| (33.0..33.4).contains(x) && (8.6..9.5).contains(y)), "{before:?}");
 
-    // doorway 1 is from 2.4,6.7 to 3.6,6.7
-    client.latched("publish", "/keepout_filter_mask", GRID, &mask(Some([22, 65, 38, 69])));
+    // doorway 30 is from 33.2,8.725 to 33.2,9.375
+    client.latched("publish", "/keepout_filter_mask", GRID, &mask(Some([30, 36, 34, 45])));
     floor.says("the keepout mask is 1 areas of the site: 1 new, 0 taken back");
     let round = points(&client.plan(&request));
     assert!(!round.is_empty());
-    assert!(round.iter().all(|[x, y]| !((2.4..3.6).contains(x) && (6.0..7.5).contains(y))), "{round:?}");
+    assert!(round.iter().all(|[x, y]| !((33.0..33.4).contains(x) && (8.6..9.5).contains(y))), "{round:?}");
 
-    // what is not to be entered is published, whoever said so: 1.6 by 0.4 metres in cells of five centimetres
+    // what is not to be entered is published, whoever said so: 0.4 by 0.9 metres in cells of five centimetres
     let said = client.until("a mask", |said| said["topic"] == "/adit/keepout_mask");
-    assert_eq!(count(&said["message"], 100), 32 * 8);
+    assert_eq!(count(&said["message"], 100), 8 * 18);
 
-    // a cell below the limit is none
+    // the next mask no longer has it
     client.latched("publish", "/keepout_filter_mask", GRID, &mask(None));
     floor.says("the keepout mask is 0 areas of the site: 0 new, 1 taken back");
     assert_eq!(points(&client.plan(&request)), before);

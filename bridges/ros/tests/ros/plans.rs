@@ -74,17 +74,17 @@ fn what_is_closed_and_blocked_is_told_to_the_site() {
     let mut client = Client::start("tells");
     let request = json!({"start": pose(4.7, 1.5), "goal": pose(53.8, 14.0)});
     let before = points(&client.plan(&request));
-    client.order("publish", "/adit/close", "std_msgs/msg/String", &json!({"data": "doorway 1"}));
-    floor.says("close `doorway 1`: told to the site");
+    client.order("publish", "/adit/close", "std_msgs/msg/String", &json!({"data": "doorway 30"}));
+    floor.says("close `doorway 30`: told to the site");
     let round = points(&client.plan(&request));
     assert_ne!(round, before);
-    client.order("publish", "/adit/open", "std_msgs/msg/String", &json!({"data": "doorway 1"}));
-    floor.says("open `doorway 1`: told to the site");
+    client.order("publish", "/adit/open", "std_msgs/msg/String", &json!({"data": "doorway 30"}));
+    floor.says("open `doorway 30`: told to the site");
     assert_eq!(points(&client.plan(&request)), before);
 
-    // doorway 1 lies north of here
+    // doorway 30 lies east of here
     let blocked = json!({"header": {"frame_id": "map"},
-        "pose": {"position": {"x": 3.0, "y": 6.2}, "orientation": {"z": 0.707_106_78, "w": 0.707_106_78}}});
+        "pose": {"position": {"x": 32.7, "y": 9.05}, "orientation": {"w": 1.0}}});
     client.order("publish", "/adit/blocked", "geometry_msgs/msg/PoseStamped", &blocked);
     floor.says("the way ahead of a pose is blocked: told to the site");
     assert_eq!(points(&client.plan(&request)), round);

@@ -26,22 +26,19 @@ fn a_route_is_followed_to_its_end_and_is_another_one_when_a_doorway_closes() {
     assert_eq!(first["rerouted"], false);
     assert_eq!(points(&first["path"]), floor.waypoints("4.7,1.5", "53.8,14"));
 
-    floor.edit(&json!({"kind": "close", "what": "doorway 1"}));
+    floor.edit(&json!({"kind": "close", "what": "doorway 30"}));
     let second = client.until("another route", |said| is_feedback(said, id))["feedback"].clone();
     assert_eq!(second["rerouted"], true);
     let way = points(&second["path"]);
     assert_ne!(way, points(&first["path"]));
 
     // the robot goes from waypoint to waypoint
-    let mut ended = None;
-    for [x, y] in &way {
-        for _ in 0..3 {
+    for [x, y] in way.iter().chain(way.last()).chain(way.last()) {
+        for _ in 0..2 {
             client.order("publish", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(*x, *y));
-            std::thread::sleep(std::time::Duration::from_millis(100));
+            std::thread::sleep(std::time::Duration::from_millis(80));
         }
-        ended = Some([*x, *y]);
     }
-    assert_eq!(ended, way.last().copied());
     let result = client.until("the end", |said| said["id"] == id && !said["status"].is_null());
     assert_eq!(result["status"], 4, "{result}");
     assert_eq!(result["result"]["error_code"], 0);
