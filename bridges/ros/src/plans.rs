@@ -1,11 +1,11 @@
 //! Plans that are asked for once: `GetPlan`, `ComputePathToPose`, `ComputeRoute`.
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::actions::Ended;
 use crate::failure::{Failure, Kind};
-use crate::msgs::{GetPlanRequest, Header, Path, RouteGoal, RouteResult, ToPoseGoal, ToPoseResult};
+use crate::msgs::{GetPlanRequest, Header, Path, RouteGoal, RouteResult, Time, ToPoseGoal, ToPoseResult};
 use crate::planner::{Planner, Question};
 use crate::{path, say};
 
@@ -14,10 +14,8 @@ pub async fn get_plan(planner: &Planner, request: &GetPlanRequest) -> Path {
     let planned = async {
         let tolerance = f64::from(request.tolerance);
         if !(tolerance.is_finite() && tolerance >= 0.0) {
-            return Err(Failure::new(
-                Kind::Unknown,
-                format!("the tolerance is {tolerance}; expected metres"),
-            ));
+            let words = format!("the tolerance is {tolerance}; expected metres");
+            return Err(Failure::new(Kind::Unknown, words));
         }
         let mut question = planner.question(Some(&request.start), &request.goal)?;
         question.tolerance = tolerance;
@@ -44,7 +42,7 @@ pub async fn to_pose(planner: Arc<Planner>, goal: ToPoseGoal) -> Ended<ToPoseRes
         Ok::<Path, Failure>(path)
     };
     let planned = planned.await;
-    let planning_time = Duration::into(began.elapsed());
+    let planning_time: Time = began.elapsed().into();
     match planned {
         Ok(path) => Ok(ToPoseResult { path, planning_time, ..ToPoseResult::default() }),
         Err(failure) => {
@@ -76,7 +74,7 @@ pub async fn route(planner: Arc<Planner>, goal: RouteGoal) -> Ended<RouteResult>
         Ok::<_, Failure>((question, route))
     };
     match planned.await {
-        Ok::<_, Failure>((question, route)) => {
+        Ok((question, route)) => {
             let frame = planner.frames.map();
             let path = path::path(&route, &question.goal, frame);
             let result = RouteResult {
