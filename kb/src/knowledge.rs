@@ -259,7 +259,7 @@ impl KnowledgeBase {
             return Ok(measures);
         }
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
-        Ok(Store::open_or_create(&folder.path().join("new.db"))?.snapshot(read)?)
+        Ok(Store::open_or_create(folder.path().join("new.db"))?.snapshot(read)?)
     }
 
     /// Says what is wrong with a map that is not cut into rooms, where it could not be read.

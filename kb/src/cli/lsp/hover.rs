@@ -1,5 +1,7 @@
 //! What a word means.
 
+use std::fmt::Write;
+
 use super::library::{File, Library};
 use super::occurrences::{Named, Occurrence};
 use super::vocabulary::{Vocabulary, called, manual};
@@ -49,10 +51,10 @@ fn of_class(library: &Library, vocabulary: &Vocabulary, class: &str) -> String {
     let root = library.classes.root(class);
     let mut said = format!("**{class}**");
     if root != class {
-        said += &format!(": those of {root} that pass a condition");
+        write!(said, ": those of {root} that pass a condition").ok();
     }
     if let Some(what) = manual().of_class(root).filter(|what| !what.is_empty()) {
-        said += &format!("\n\n{what}");
+        write!(said, "\n\n{what}").ok();
     }
     let mut all: Vec<&str> = vocabulary.given(root).map(|(property, _)| property).collect();
     all.extend(library.properties(root).into_keys());
@@ -60,7 +62,7 @@ fn of_class(library: &Library, vocabulary: &Vocabulary, class: &str) -> String {
     all.dedup();
     if !all.is_empty() {
         let listed: Vec<String> = all.iter().map(|property| format!("`{property}`")).collect();
-        said += &format!("\n\n{}", listed.join(", "));
+        write!(said, "\n\n{}", listed.join(", ")).ok();
     }
     said
 }
@@ -68,14 +70,14 @@ fn of_class(library: &Library, vocabulary: &Vocabulary, class: &str) -> String {
 fn of_property(library: &Library, vocabulary: &Vocabulary, class: &str, property: &str) -> String {
     let mut said = format!("**{class}.{property}**");
     if let Some(kind) = vocabulary.kind(class, property) {
-        said += &format!(": {}", called(kind));
+        write!(said, ": {}", called(kind)).ok();
     }
     if let Some(what) = manual().of(class, property) {
-        said += &format!("\n\n{what}");
+        write!(said, "\n\n{what}").ok();
     }
     let named = Named::Property(class.to_owned(), property.to_owned());
     for (file, item) in library.setting(&named) {
-        said += &format!("\n- set by {} \"{}\" in `{}`", item.word, item.name, called_file(file));
+        write!(said, "\n- set by {} \"{}\" in `{}`", item.word, item.name, called_file(file)).ok();
     }
     said
 }

@@ -7,6 +7,9 @@ use std::{fs, io};
 
 use tempfile::TempDir;
 
+/// A path below the mirrored folder, with the text that shall stand there; without one it is a folder of its own.
+type Wanted<'p> = (Vec<&'p Path>, Option<&'p str>);
+
 /// How many folders above a site its settings may name something in, as `map = "../maps/floor.yaml"` does.
 const ABOVE: usize = 3;
 
@@ -22,7 +25,7 @@ impl Mirror {
     pub fn new(folder: &Path, drafts: &BTreeMap<PathBuf, String>) -> io::Result<Self> {
         let of = folder.ancestors().take(ABOVE + 1).last().unwrap_or(folder).to_owned();
         let top = tempfile::Builder::new().prefix("adit-lsp-").tempdir()?;
-        let mut wanted: Vec<(Vec<&Path>, Option<&str>)> = vec![(below(folder, &of), None)];
+        let mut wanted: Vec<Wanted<'_>> = vec![(below(folder, &of), None)];
         wanted.extend(
             drafts
                 .iter()
@@ -55,8 +58,8 @@ fn below<'p>(path: &'p Path, of: &Path) -> Vec<&'p Path> {
 }
 
 /// Links all that lies in a folder, but for what is wanted as a folder or a text of its own.
-fn fill(from: &Path, into: &Path, wanted: &[(Vec<&Path>, Option<&str>)]) -> io::Result<()> {
-    let mut own: BTreeMap<&Path, Vec<(Vec<&Path>, Option<&str>)>> = BTreeMap::new();
+fn fill(from: &Path, into: &Path, wanted: &[Wanted<'_>]) -> io::Result<()> {
+    let mut own: BTreeMap<&Path, Vec<Wanted<'_>>> = BTreeMap::new();
     for (path, text) in wanted {
         if let Some((first, rest)) = path.split_first() {
             own.entry(first).or_default().push((rest.to_vec(), *text));
@@ -70,13 +73,11 @@ fn fill(from: &Path, into: &Path, wanted: &[(Vec<&Path>, Option<&str>)]) -> io::
         }
     }
     for (name, inside) in own {
-        let text = inside.iter().find_map(|(rest, text)| text.filter(|_| rest.is_empty()));
-        match text {
-            Some(text) => fs::write(into.join(name), text)?,
-            None => {
-                fs::create_dir_all(into.join(name))?;
-                fill(&from.join(name), &into.join(name), &inside)?;
-            }
+        if let Some(text) = inside.iter().find_map(|(rest, text)| text.filter(|_| rest.is_empty())) {
+            fs::write(into.join(name), text)?;
+        } else {
+            fs::create_dir_all(into.join(name))?;
+            fill(&from.join(name), &into.join(name), &inside)?;
         }
     }
     Ok(())

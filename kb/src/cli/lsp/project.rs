@@ -54,12 +54,9 @@ impl Project {
     /// The rule bases that count, the lowest first, as they are saved.
     pub fn bases(&self) -> Vec<Base> {
         match self {
-            Self::Site(folder) => {
-                KnowledgeBase::open(folder).map(|site| site.rule_bases()).unwrap_or_else(|_| {
-                    // site.toml may be what is being written
-                    vec![Base::Folder(folder.join("rules"))]
-                })
-            }
+            // where site.toml is what is being written, its own rules are all that is known
+            Self::Site(folder) => KnowledgeBase::open(folder)
+                .map_or_else(|_| vec![Base::Folder(folder.join("rules"))], |site| site.rule_bases()),
             Self::Rules(folder) => vec![Base::Folder(folder.clone())],
         }
     }

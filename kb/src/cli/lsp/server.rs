@@ -270,7 +270,7 @@ impl<'c> Server<'c> {
         let places = self.at(&params.text_document_position_params, |library, _, file, found| {
             let all: Vec<_> = library.all(&found.named, &file.path).collect();
             let of = |role| {
-                all.iter().filter(|(_, found)| found.role == role).filter_map(self.location()).collect()
+                all.iter().filter(|(_, found)| found.role == role).filter_map(Self::location).collect()
             };
             let declared: Vec<Location> = of(Role::Declared);
             let set: Vec<Location> = of(Role::Set);
@@ -288,23 +288,21 @@ impl<'c> Server<'c> {
                 let wanted = all
                     .filter(|(_, found)| params.context.include_declaration || found.role != Role::Declared);
                 let all: Vec<_> = wanted.collect();
-                all.iter().filter_map(self.location()).collect()
+                all.iter().filter_map(Self::location).collect()
             });
         serde_json::json!(places.unwrap_or_default())
     }
 
     /// Where a name stands; a file that the program carries is written out, to be looked at.
-    fn location<'f>(&self) -> impl Fn(&(&'f File, &'f Occurrence)) -> Option<Location> {
-        |(file, found)| {
-            if !file.is_own && !file.path.exists() {
-                std::fs::create_dir_all(file.path.parent()?).ok()?;
-                std::fs::write(&file.path, &file.text).ok()?;
-                let mut rights = std::fs::metadata(&file.path).ok()?.permissions();
-                rights.set_readonly(true);
-                std::fs::set_permissions(&file.path, rights).ok()?;
-            }
-            Some(Location::new(uri_of(&file.path)?, lines::span(&file.text, &found.span)))
+    fn location((file, found): &(&File, &Occurrence)) -> Option<Location> {
+        if !file.is_own && !file.path.exists() {
+            std::fs::create_dir_all(file.path.parent()?).ok()?;
+            std::fs::write(&file.path, &file.text).ok()?;
+            let mut rights = std::fs::metadata(&file.path).ok()?.permissions();
+            rights.set_readonly(true);
+            std::fs::set_permissions(&file.path, rights).ok()?;
         }
+        Some(Location::new(uri_of(&file.path)?, lines::span(&file.text, &found.span)))
     }
 
     fn symbols(&self, params: &DocumentSymbolParams) -> Value {

@@ -24,7 +24,7 @@ fn below(table: &DeTable<'_>, found: &mut Vec<Occurrence>) {
             DeValue::Table(inside) if is_objects => inside.iter().for_each(|class| objects(class, found)),
             DeValue::Table(inside) => below(inside, found),
             DeValue::Array(parts) => {
-                for part in parts.iter() {
+                for part in parts {
                     if let DeValue::Table(inside) = part.get_ref() {
                         below(inside, found);
                     }
