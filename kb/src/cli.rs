@@ -9,6 +9,7 @@ mod curve;
 mod demo;
 mod doctor;
 mod experiment;
+mod export;
 mod firm;
 mod fit;
 mod lay;
@@ -92,6 +93,8 @@ pub enum Verb {
     Sql(sql::SqlArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
+    /// The lanes of a site as a file of Open-RMF, Nav2 or LIF
+    Export(export::ExportArgs),
     /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
     Tasks(tasks::TasksArgs),
     /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
@@ -141,6 +144,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
+        Verb::Export(args) => (args.site.json, export::run(args).map(|()| 0)),
         Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),
         Verb::Experiment(args) => (args.json, experiment::run(args).map(|found| u8::from(!found))),

@@ -25,6 +25,7 @@ mod error;
 pub mod fit;
 mod graph;
 mod knowledge;
+pub mod lanes;
 mod live;
 pub mod navigation;
 pub mod plan;

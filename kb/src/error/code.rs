@@ -73,6 +73,11 @@ codes! {
     /// No state of this name has rooms.
     DrawUnknownState = "draw/unknown-state", NOT_FOUND;
 
+    /// The file to export to is neither .yaml, .geojson nor .lif.json.
+    ExportFormat = "export/format", BAD_REQUEST;
+    /// A route graph of Nav2 numbers at most 65,536 nodes and as many edges.
+    ExportTooMany = "export/too-many", BAD_REQUEST;
+
     /// The cell or row is another by now than the editor saw; look at it, then edit again.
     EditConflict = "edit/conflict", CONFLICT;
     /// The table follows from others and cannot be edited; edit what it follows from.

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use adit_planners::lanes::is_lane_graph;
 use adit_planners::read::{Document, Problem};
 
 use super::assembly::Assembly;
@@ -12,6 +13,7 @@ use super::drives::CorridorsOf;
 use super::parts::PartsOf;
 use crate::adapt::{self, Cell, CellOf};
 use crate::error::{Code, Error, Result};
+use crate::lanes::course::LanesOf;
 use crate::navigation::course::FloorOf;
 use crate::navigation::floor::Floor;
 use crate::navigation::reading;
@@ -41,6 +43,9 @@ impl World {
 
 /// The planner of a map that is not cut into rooms.
 pub fn course(map: &Path) -> Result<Box<dyn Course>> {
+    if is_lane_graph(map) {
+        return Ok(Box::new(LanesOf::read(map)?));
+    }
     let file = map.to_owned();
     Ok(match World::read(map)? {
         World::Corridor(corridor) => Box::new(CorridorsOf { file, corridor }),
