@@ -10,7 +10,7 @@ use adit_planners::geometry::Point;
 use adit_planners::lanes::{Node, Use};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
-use petgraph::visit::{Dfs, EdgeRef};
+use petgraph::visit::Dfs;
 
 use super::judge::{Judge, Weighed};
 use super::tables::Now;

@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 20] = [
+const PAGES: [Page; 21] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -109,6 +109,7 @@ const PAGES: [Page; 20] = [
     },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
+    page("manual/src/lane-graphs.md"),
     Page {
         file: "manual/src/corridors-and-parts.md",
         blocks: &[],
@@ -239,6 +240,7 @@ each_page! {
     floor_plans_and_missions: "manual/src/floor-plans-and-missions.md";
     cells_and_experience: "manual/src/cells.md";
     the_service: "manual/src/service.md";
+    lane_graphs: "manual/src/lane-graphs.md";
     figures: "manual/src/figures.md";
 }
 

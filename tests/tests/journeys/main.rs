@@ -19,6 +19,7 @@ mod from_rule_files;
 mod hours;
 mod house;
 mod laid;
+mod lane_sites;
 mod large_site;
 mod lazy_route;
 mod live;
