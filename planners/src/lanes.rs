@@ -224,7 +224,8 @@ impl LaneGraph {
 
     /// Gives each vehicle of a file that tells them apart by the graph they drive on a type.
     fn types_by_graph(&mut self, graphs: &[String]) {
-        let called = |graph: &String| if graphs.len() < 2 { ROBOT.to_owned() } else { format!("graph {graph}") };
+        let called =
+            |graph: &String| if graphs.len() < 2 { ROBOT.to_owned() } else { format!("graph {graph}") };
         let type_of = |graph: &String| VehicleType {
             vehicle_type: called(graph),
             graph: Some(graph.clone()),

@@ -146,7 +146,12 @@ impl Panel<'_> {
             let (x, y) = self.at(node.at);
             if node.lift.is_some() {
                 let block = Block::about(x, y, 9.0, 9.0);
-                svg.element("rect").block(&block).attr("fill", "#ffffff").attr("stroke", BRIDGE).num("stroke-width", 1.6).end();
+                svg.element("rect")
+                    .block(&block)
+                    .attr("fill", "#ffffff")
+                    .attr("stroke", BRIDGE)
+                    .num("stroke-width", 1.6)
+                    .end();
             } else {
                 let fill = if node.closed { CLOSED } else { "#ffffff" };
                 svg.disc((x, y), 3.4, fill, (INK, 1.4));

@@ -61,7 +61,8 @@ impl Close {
         };
         if property != CLOSED && tx.site_value(LAYOUT)?.is_some() {
             let message = format!("`{what}` is closed to everybody, or to nobody");
-            let help = "which robots are kept out is for a rule of PASSAGES, WAYS or TRAVELS to say".to_owned();
+            let help =
+                "which robots are kept out is for a rule of PASSAGES, WAYS or TRAVELS to say".to_owned();
             return Err(Error::said(Code::TellUsage, message, Some(help)));
         }
         if property != CLOSED && !lists_robots(class, property) {

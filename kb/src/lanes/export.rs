@@ -21,14 +21,17 @@ pub fn export(routes: &Routes, format: Format, robot: Option<&str>) -> Result<Ex
     }
     let Exported { text, mut notes } = write(&graph, format).map_err(Error::of(Code::ExportTooMany))?;
     if !routes.now().closed_doors.is_empty() || !routes.now().closed_lifts.is_empty() {
-        notes.push("that doors or lifts are closed now is not written; lanes and nodes that are say so".to_owned());
+        notes.push(
+            "that doors or lifts are closed now is not written; lanes and nodes that are say so".to_owned(),
+        );
     }
     Ok(Exported { text, notes })
 }
 
 /// Leaves what one vehicle type may drive on, with what rules weigh where Nav2 would weigh otherwise.
 fn keep_to(graph: &mut LaneGraph, robot: &str, weighed: &[Weighed], format: Format) {
-    let of_graph = graph.vehicle_types.iter().find(|of| of.vehicle_type == robot).and_then(|of| of.graph.clone());
+    let of_graph =
+        graph.vehicle_types.iter().find(|of| of.vehicle_type == robot).and_then(|of| of.graph.clone());
     let listed: BTreeSet<&str> = graph.uses.iter().map(|of| of.lane.as_str()).collect();
     let allowed: BTreeSet<&str> =
         graph.uses.iter().filter(|of| of.vehicle_type == robot).map(|of| of.lane.as_str()).collect();

@@ -37,7 +37,9 @@ impl Judge {
         consult(&mut self.rules, &object(told(), travel), &mut self.trouble);
         match (self.rules.truth(1), self.rules.number(0)) {
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Ok(weight),
-            (Some(true), Some(weight)) => Err(format!("rules weigh lane {lane} {weight}, which is no weight")),
+            (Some(true), Some(weight)) => {
+                Err(format!("rules weigh lane {lane} {weight}, which is no weight"))
+            }
             (Some(true), None) => Err(format!("rules do not say how heavy is lane {lane}, or disagree")),
             (Some(false), _) => {
                 let refusal = self.rules.text(2).map(|refusal| refusal.to_string());

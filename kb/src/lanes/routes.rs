@@ -119,17 +119,24 @@ impl Routes {
         let at = place.map(|place| Point::new(place.x, place.y)).or_else(|| point(text));
         let no_end = |reason| NoEnd { is_start, reason };
         let Some(at) = at else {
-            let known = self.places.iter().map(|place| place.place.as_str()).chain(self.by_id.keys().map(String::as_str));
+            let known = self
+                .places
+                .iter()
+                .map(|place| place.place.as_str())
+                .chain(self.by_id.keys().map(String::as_str));
             let meant = did_you_mean(text, known).map_or(String::new(), |help| format!("; {help}"));
             return Err(no_end(format!("`{text}` is no place, no node and no point `x,y`{meant}")));
         };
         let far = |node: &Node| node.at.distance(at);
         let nodes = self.now.graph.nodes.iter().enumerate();
         let near = nodes.min_by(|(_, one), (_, other)| far(one).total_cmp(&far(other)));
-        let (node, metres) = near.map(|(place, node)| (place, far(node))).ok_or_else(|| no_end("there are no nodes".to_owned()))?;
+        let (node, metres) = near
+            .map(|(place, node)| (place, far(node)))
+            .ok_or_else(|| no_end("there are no nodes".to_owned()))?;
         let id = &self.now.graph.nodes[node].node;
         let way = if is_start { "starts" } else { "ends" };
-        let remark = (metres > 0.01).then(|| format!("the route {way} at node {id}, {metres:.2} m from {text}"));
+        let remark =
+            (metres > 0.01).then(|| format!("the route {way} at node {id}, {metres:.2} m from {text}"));
         Ok(End { node, remark })
     }
 
@@ -138,11 +145,13 @@ impl Routes {
         if let Some(node) = self.by_id.get(id) {
             return Some(*node);
         }
-        let mut named = self.now.graph.nodes.iter().enumerate().filter(|(_, node)| node.name.as_deref() == Some(text));
+        let mut named =
+            self.now.graph.nodes.iter().enumerate().filter(|(_, node)| node.name.as_deref() == Some(text));
         if let (Some((node, _)), None) = (named.next(), named.next()) {
             return Some(node);
         }
-        let is_it = |of: &&adit_planners::lanes::Station| of.station == text || of.name.as_deref() == Some(text);
+        let is_it =
+            |of: &&adit_planners::lanes::Station| of.station == text || of.name.as_deref() == Some(text);
         let station = self.now.graph.stations.iter().find(is_it)?;
         self.by_id.get(station.nodes.split(',').next()?.trim()).copied()
     }
@@ -174,7 +183,8 @@ impl Routes {
             reached.contains(&a) && !reached.contains(&b)
         };
         let refusals = net.weighed.iter().enumerate().filter(|(lane, _)| leads_on(*lane));
-        let mut refusals: Vec<&str> = refusals.filter_map(|(_, weighed)| weighed.as_ref().err()).map(String::as_str).collect();
+        let mut refusals: Vec<&str> =
+            refusals.filter_map(|(_, weighed)| weighed.as_ref().err()).map(String::as_str).collect();
         refusals.dedup();
         match refusals.as_slice() {
             [] => format!("no lane leads on from the {} nodes that can be reached", reached.len()),
@@ -192,7 +202,13 @@ impl Routes {
         Arc::clone(said)
     }
 
-    fn found(&self, vehicle: usize, [robot, start, goal]: [&str; 3], ends: [&End; 2], lanes: &[usize]) -> Found {
+    fn found(
+        &self,
+        vehicle: usize,
+        [robot, start, goal]: [&str; 3],
+        ends: [&End; 2],
+        lanes: &[usize],
+    ) -> Found {
         let mut row = Row::blank(robot, start, goal);
         row.remarks = ends.into_iter().filter_map(|end| end.remark.clone()).collect();
         let (mut cost, mut distance, mut said) = (0.0, 0.0, Vec::new());
@@ -259,11 +275,16 @@ impl Routes {
         let graph = &self.now.graph;
         let name = name.trim();
         let of = |kind: &str| name.strip_prefix(kind).map_or(name, str::trim);
-        let lane = graph.lanes.iter().position(|lane| lane.lane == of("lane ") || lane.name.as_deref() == Some(name));
+        let lane = graph
+            .lanes
+            .iter()
+            .position(|lane| lane.lane == of("lane ") || lane.name.as_deref() == Some(name));
         if let Some(lane) = lane.filter(|_| !self.by_id.contains_key(name)) {
             return vec![lane];
         }
-        let all = |is_it: &dyn Fn(usize) -> bool| (0..graph.lanes.len()).filter(|lane| is_it(*lane)).collect::<Vec<_>>();
+        let all = |is_it: &dyn Fn(usize) -> bool| {
+            (0..graph.lanes.len()).filter(|lane| is_it(*lane)).collect::<Vec<_>>()
+        };
         let door = all(&|lane| graph.lanes[lane].doors().any(|door| door == of("door ")));
         if !door.is_empty() {
             return door;
@@ -308,7 +329,10 @@ impl Pathfinder for Routes {
             let Ok(weight) = &self.nets[vehicle].weighed[lane] else { continue };
             let [a, b] = self.ends_of(lane);
             let there = self.lanes(vehicle, from.node, a);
-            let Some(((before, mut lanes), (after, rest))) = there.zip(self.lanes(vehicle, b, to.node)) else { continue };
+            let Some(((before, mut lanes), (after, rest))) = there.zip(self.lanes(vehicle, b, to.node))
+            else {
+                continue;
+            };
             lanes.push(lane);
             lanes.extend(rest);
             let cost = before + weight + after;
@@ -320,7 +344,10 @@ impl Pathfinder for Routes {
             Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
             None => {
                 let refused = meant.iter().find_map(|&lane| self.nets[vehicle].weighed[lane].as_ref().err());
-                self.none(names, refused.cloned().unwrap_or_else(|| format!("no way leads to {through} and on from it")))
+                self.none(
+                    names,
+                    refused.cloned().unwrap_or_else(|| format!("no way leads to {through} and on from it")),
+                )
             }
         })
     }

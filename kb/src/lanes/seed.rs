@@ -114,7 +114,8 @@ fn rest(properties: &Properties) -> Cell {
 }
 
 pub fn tables(file: &Path, graph: &LaneGraph) -> Vec<TableFile> {
-    let levels = graph.levels.iter().map(|of| vec![text(&of.level), Cell::Real(of.elevation), rest(&of.properties)]);
+    let levels =
+        graph.levels.iter().map(|of| vec![text(&of.level), Cell::Real(of.elevation), rest(&of.properties)]);
     let nodes = graph.nodes.iter().map(|of| {
         vec![
             text(&of.node),
@@ -169,9 +170,10 @@ pub fn tables(file: &Path, graph: &LaneGraph) -> Vec<TableFile> {
         let ends = [from.x, from.y, to.x, to.y].map(Cell::Real);
         [Cell::Integer(number), text(&of.level)].into_iter().chain(ends).collect()
     });
-    let types = graph.vehicle_types.iter().map(|of| {
-        vec![text(&of.vehicle_type), perhaps(of.graph.as_ref()), real(of.height), real(of.speed)]
-    });
+    let types = graph
+        .vehicle_types
+        .iter()
+        .map(|of| vec![text(&of.vehicle_type), perhaps(of.graph.as_ref()), real(of.height), real(of.speed)]);
     let uses = graph.uses.iter().map(|of| {
         vec![
             text(&of.lane),
@@ -195,7 +197,9 @@ pub fn tables(file: &Path, graph: &LaneGraph) -> Vec<TableFile> {
             rest(&of.properties),
         ]
     });
-    let table = |name, columns: Columns, key, rows: Vec<Vec<Cell>>| TableFile::of_map(file, name, (columns, key), rows);
+    let table = |name, columns: Columns, key, rows: Vec<Vec<Cell>>| {
+        TableFile::of_map(file, name, (columns, key), rows)
+    };
     vec![
         table("levels", LEVELS, 1, levels.collect()),
         table("nodes", NODES, 1, nodes.collect()),

@@ -33,7 +33,8 @@ pub fn now(asked: &Asked<'_>, file: &LaneGraph) -> Result<Now> {
         graph.levels.push(Level { level: id(of, row, "level")?, elevation, properties: rest(of, row)? });
     }
     // in the order of the file, where the table still has its levels
-    let place = |level: &Level| file.levels.iter().position(|known| known.level == level.level).unwrap_or(usize::MAX);
+    let place =
+        |level: &Level| file.levels.iter().position(|known| known.level == level.level).unwrap_or(usize::MAX);
     graph.levels.sort_by_key(place);
     nodes_and_lanes(asked, &mut graph)?;
     let mut now = Now::default();

@@ -295,7 +295,8 @@ fn seed_loads(tx: &mut Tx<'_>, loads: &[Load], again: bool) -> Result<Option<Str
     }
     let kept = tx.loads()?;
     let is_kept = |load: &Load| kept.iter().any(|of| (&of.robot, &of.load) == (&load.robot, &load.load));
-    let note = "the file names other loads than the table loads; the database counts (--reseed takes the file)";
+    let note =
+        "the file names other loads than the table loads; the database counts (--reseed takes the file)";
     Ok((!loads.iter().all(is_kept)).then(|| note.to_owned()))
 }
 

@@ -128,8 +128,7 @@ fn node(vertex: &At<'_>, id: String, level: &str, place: Place) -> Read<Node> {
         node.is_parking_spot = truth(given, "is_parking_spot")?;
         node.is_charger = truth(given, "is_charger")?;
         node.is_holding_point = truth(given, "is_holding_point")?;
-        node.properties =
-            rest(given, &["lift_cabin", "is_parking_spot", "is_charger", "is_holding_point"]);
+        node.properties = rest(given, &["lift_cabin", "is_parking_spot", "is_charger", "is_holding_point"]);
     }
     Ok(node)
 }
@@ -230,7 +229,9 @@ fn places<'v>(top: &At<'v>, levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v s
     let system = top.name("coordinate_system")?.unwrap_or_else(|| "reference_image".to_owned());
     match system.as_str() {
         "reference_image" => {}
-        "cartesian_meters" => return Ok(levels.iter().map(|(name, _)| (*name, Place::scaled(1.0, false))).collect()),
+        "cartesian_meters" => {
+            return Ok(levels.iter().map(|(name, _)| (*name, Place::scaled(1.0, false))).collect());
+        }
         "wgs84" => return on_the_earth(levels),
         _ => {
             let of = top.need("coordinate_system")?;
@@ -240,7 +241,9 @@ fn places<'v>(top: &At<'v>, levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v s
     let named = top.name("reference_level_name")?;
     let reference = named.as_deref().or_else(|| levels.first().map(|(name, _)| *name)).unwrap_or_default();
     let Some((_, first)) = levels.iter().find(|(name, _)| *name == reference) else {
-        return Err(top.problem(Code::Impossible, &format!("has no level `{reference}`, which others lie on")));
+        return Err(
+            top.problem(Code::Impossible, &format!("has no level `{reference}`, which others lie on"))
+        );
     };
     let base = Place::scaled(measured(first)?.unwrap_or(1.0), true);
     let known = fiducials(first)?;
@@ -279,7 +282,9 @@ fn measured(level: &At<'_>) -> Read<Option<f64>> {
             .positive()?;
         let pixels = from.distance(to);
         if pixels <= 0.0 {
-            return Err(measurement.problem(Code::Degenerate, "is measured between two vertices at one point"));
+            return Err(
+                measurement.problem(Code::Degenerate, "is measured between two vertices at one point")
+            );
         }
         scales.push(distance / pixels);
     }
@@ -332,7 +337,9 @@ fn on_the_earth<'v>(levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v str, Plac
         if let Some(vertex) = level.list("vertices")?.first() {
             let at = vertex.point()?;
             if at.y.abs() > 89.0 || at.x.abs() > 180.0 {
-                return Err(vertex.wrong("degrees east and degrees north, as `coordinate_system: wgs84` says"));
+                return Err(
+                    vertex.wrong("degrees east and degrees north, as `coordinate_system: wgs84` says")
+                );
             }
             origin = origin.or(Some(at));
         }

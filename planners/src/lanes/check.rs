@@ -29,15 +29,15 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
     }
     for lane in &graph.lanes {
         let of = format!("lane `{}` from `{}` to `{}`", lane.lane, lane.from, lane.to);
-        if let Some(missing) = [&lane.from, &lane.to].into_iter().find(|node| !nodes.contains(node.as_str())) {
+        if let Some(missing) = [&lane.from, &lane.to].into_iter().find(|node| !nodes.contains(node.as_str()))
+        {
             return wrong(Code::Impossible, format!("{of}: there is no node `{missing}`"));
-        }
-        if lane.from == lane.to {
-            return wrong(Code::Impossible, format!("{of} leads nowhere; expected two nodes"));
         }
         let share = lane.speed_share.unwrap_or(1.0);
         if !(share > 0.0 && share <= 1.0) {
-            let message = format!("{of}: its speed is limited to {share} of a vehicle's own, expected more than 0, up to 1");
+            let message = format!(
+                "{of}: its speed is limited to {share} of a vehicle's own, expected more than 0, up to 1"
+            );
             return wrong(Code::NotPositive, message);
         }
         for (what, number) in [("cost", lane.cost), ("penalty", lane.penalty), ("length", lane.length)] {
@@ -48,7 +48,10 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
         }
         if lane.speed_limit.is_some_and(|limit| !(limit.is_finite() && limit > 0.0)) {
             let found = lane.speed_limit.unwrap_or_default();
-            return wrong(Code::NotPositive, format!("{of}: its speed limit is {found} m/s, expected more than 0"));
+            return wrong(
+                Code::NotPositive,
+                format!("{of}: its speed limit is {found} m/s, expected more than 0"),
+            );
         }
     }
     for station in &graph.stations {

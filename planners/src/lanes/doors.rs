@@ -15,7 +15,8 @@ pub(super) fn cross(graph: &mut LaneGraph) {
         if from.level != to.level {
             continue;
         }
-        let crossed = doors.iter().filter(|door| door.level == from.level && do_cross([from.at, to.at], door.ends));
+        let crossed =
+            doors.iter().filter(|door| door.level == from.level && do_cross([from.at, to.at], door.ends));
         let names: Vec<&str> = crossed.map(|door| door.door.as_str()).collect();
         lane.door = (!names.is_empty()).then(|| names.join(", "));
     }
@@ -33,11 +34,18 @@ pub(super) fn rides(graph: &mut LaneGraph, graphs: &[String]) {
     let in_cabins: Vec<_> = graph.nodes.iter().filter(|node| node.lift.is_some()).collect();
     for of in graphs {
         let is_served = |id: &str| {
-            graph.lanes.iter().any(|lane| lane.graph.as_ref() == Some(of) && (lane.from == id || lane.to == id))
+            graph
+                .lanes
+                .iter()
+                .any(|lane| lane.graph.as_ref() == Some(of) && (lane.from == id || lane.to == id))
         };
         for one in &in_cabins {
             for other in &in_cabins {
-                if one.lift != other.lift || one.level == other.level || !is_served(&one.node) || !is_served(&other.node) {
+                if one.lift != other.lift
+                    || one.level == other.level
+                    || !is_served(&one.node)
+                    || !is_served(&other.node)
+                {
                     continue;
                 }
                 let lift = one.lift.clone().unwrap_or_default();

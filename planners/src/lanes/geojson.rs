@@ -1,6 +1,6 @@
 //! A route graph of Nav2's route server: GeoJSON.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
@@ -36,11 +36,32 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         }
     }
     bent(&mut graph, &bends);
+    tell_apart(&mut graph);
     if others > 0 {
-        graph.notes.push(format!("{others} features are neither points nor lines, and are no part of the graph"));
+        graph
+            .notes
+            .push(format!("{others} features are neither points nor lines, and are no part of the graph"));
     }
     graph.types_by_graph(&[]);
     Ok(graph)
+}
+
+/// Gives edges whose id another has an id of their own; Nav2 reads such files, and there are some.
+fn tell_apart(graph: &mut LaneGraph) {
+    let mut taken: BTreeSet<String> = graph.lanes.iter().map(|lane| lane.lane.clone()).collect();
+    let mut seen = BTreeSet::new();
+    for lane in &mut graph.lanes {
+        if seen.insert(lane.lane.clone()) {
+            continue;
+        }
+        let own = (2..).map(|copy| format!("{}#{copy}", lane.lane)).find(|id| taken.insert(id.clone()));
+        let Some(own) = own else { continue };
+        graph.notes.push(format!(
+            "two edges have the id {}; the one from {} to {} is called {own}",
+            lane.lane, lane.from, lane.to
+        ));
+        lane.lane = own;
+    }
 }
 
 /// Lengths of lines that are longer than straight ones.
@@ -93,7 +114,14 @@ fn node(properties: &At<'_>, at: Point) -> Read<Node> {
     node.is_charger = metadata.maybe_truth("is_charger")?.unwrap_or(false);
     node.is_holding_point = metadata.maybe_truth("is_holding_point")?.unwrap_or(false);
     let rest = metadata.rest(&[
-        "node", "name", "level", "lift", "closed", "is_parking_spot", "is_charger", "is_holding_point",
+        "node",
+        "name",
+        "level",
+        "lift",
+        "closed",
+        "is_parking_spot",
+        "is_charger",
+        "is_holding_point",
     ]);
     if !rest.is_empty() {
         node.properties.insert("metadata".to_owned(), Value::Object(rest));
@@ -131,8 +159,20 @@ fn lane(properties: &At<'_>) -> Read<Lane> {
     lane.action = metadata.name("action")?;
     lane.closed = metadata.maybe_truth("closed")?.unwrap_or(false);
     let rest = metadata.rest(&[
-        "lane", "from", "to", "name", "graph", "speed_limit", "abs_speed_limit", "penalty", "length", "orientation",
-        "door", "lift", "action", "closed",
+        "lane",
+        "from",
+        "to",
+        "name",
+        "graph",
+        "speed_limit",
+        "abs_speed_limit",
+        "penalty",
+        "length",
+        "orientation",
+        "door",
+        "lift",
+        "action",
+        "closed",
     ]);
     if !rest.is_empty() {
         lane.properties.insert("metadata".to_owned(), Value::Object(rest));
@@ -147,5 +187,8 @@ fn share(limit: &At<'_>) -> Read<f64> {
     if share <= 1.0 {
         return Ok(share);
     }
-    Err(limit.problem(Code::WrongType, &format!("is {number}, expected a part of the speed up to 1, or up to 100 %")))
+    Err(limit.problem(
+        Code::WrongType,
+        &format!("is {number}, expected a part of the speed up to 1, or up to 100 %"),
+    ))
 }

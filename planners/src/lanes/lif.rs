@@ -18,7 +18,8 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     for layout in top.need("layouts")?.items()? {
         one_layout(&mut graph, &layout)?;
     }
-    let types: BTreeSet<String> = graph.uses.iter().map(|of| of.vehicle_type.clone()).chain(at_nodes(&graph)).collect();
+    let types: BTreeSet<String> =
+        graph.uses.iter().map(|of| of.vehicle_type.clone()).chain(at_nodes(&graph)).collect();
     graph.vehicle_types = types
         .into_iter()
         .map(|vehicle_type| VehicleType { vehicle_type, ..VehicleType::default() })
@@ -35,7 +36,8 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
 
 /// The vehicle types that nodes name.
 fn at_nodes(graph: &LaneGraph) -> Vec<String> {
-    let lists = graph.nodes.iter().filter_map(|node| node.properties.get("vehicleTypeNodeProperties")?.as_array());
+    let lists =
+        graph.nodes.iter().filter_map(|node| node.properties.get("vehicleTypeNodeProperties")?.as_array());
     let ids = lists.flatten().filter_map(|of| of.get("vehicleTypeId")?.as_str());
     ids.map(str::to_owned).collect()
 }
@@ -60,7 +62,9 @@ fn one_layout(graph: &mut LaneGraph, layout: &At<'_>) -> Read<()> {
         let mut length: Option<f64> = None;
         for of in edge.list("vehicleTypeEdgeProperties")? {
             if let Some(curve) = of.get("trajectory") {
-                length = curve_length(&curve)?.map(|metres| length.map_or(metres, |most| metres.max(most))).or(length);
+                length = curve_length(&curve)?
+                    .map(|metres| length.map_or(metres, |most| metres.max(most)))
+                    .or(length);
             }
             graph.uses.push(one_use(&lane, &of)?);
         }
@@ -70,7 +74,13 @@ fn one_layout(graph: &mut LaneGraph, layout: &At<'_>) -> Read<()> {
             from: edge.need("startNodeId")?.id()?,
             to: edge.need("endNodeId")?.id()?,
             length,
-            properties: edge.rest(&["edgeId", "edgeName", "startNodeId", "endNodeId", "vehicleTypeEdgeProperties"]),
+            properties: edge.rest(&[
+                "edgeId",
+                "edgeName",
+                "startNodeId",
+                "endNodeId",
+                "vehicleTypeEdgeProperties",
+            ]),
             ..Lane::default()
         });
     }
@@ -92,7 +102,14 @@ fn one_use(lane: &str, of: &At<'_>) -> Read<Use> {
     let restriction = of.get("loadRestriction");
     let allowed = |key: &str| restriction.as_ref().map_or(Ok(None), |of| of.maybe_truth(key));
     let (unloaded, loaded) = (allowed("unloaded")?, allowed("loaded")?);
-    let mut rest = of.rest(&["vehicleTypeId", "maxSpeed", "minHeight", "maxHeight", "rotationAllowed", "loadRestriction"]);
+    let mut rest = of.rest(&[
+        "vehicleTypeId",
+        "maxSpeed",
+        "minHeight",
+        "maxHeight",
+        "rotationAllowed",
+        "loadRestriction",
+    ]);
     let mut load_sets = None;
     if let Some(restriction) = restriction {
         let names = restriction.list("loadSetNames")?;
@@ -136,7 +153,8 @@ fn curve_length(curve: &At<'_>) -> Read<Option<f64>> {
     }
     let (first, last) = (knots[degree], knots[points.len()]);
     let at = |step: u32| {
-        let [x, y, weight] = de_boor(degree, &knots, &points, first + (last - first) * f64::from(step) / 64.0);
+        let [x, y, weight] =
+            de_boor(degree, &knots, &points, first + (last - first) * f64::from(step) / 64.0);
         Point::new(x / weight, y / weight)
     };
     let length = (0..64).map(|step| at(step).distance(at(step + 1))).sum::<f64>();

@@ -7,7 +7,8 @@ use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, doors};
 const GRAPH: &str = "0";
 
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
-    let mut graph = LaneGraph { name: top.name("building_name")?.unwrap_or_default(), ..LaneGraph::default() };
+    let mut graph =
+        LaneGraph { name: top.name("building_name")?.unwrap_or_default(), ..LaneGraph::default() };
     graph.properties = top.rest(&["building_name", "levels", "doors", "lifts"]);
     let levels = top.need("levels")?.entries()?;
     let is_alone = levels.len() < 2;
@@ -28,7 +29,14 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
             let number = graph.lanes.len() as u32;
             let read = rest.first().map_or(Ok(Lane::default()), one_lane)?;
             let lane = if read.lane.is_empty() { number.to_string() } else { read.lane.clone() };
-            graph.lanes.push(Lane { lane, from, to, graph: Some(GRAPH.to_owned()), number: Some(number), ..read });
+            graph.lanes.push(Lane {
+                lane,
+                from,
+                to,
+                graph: Some(GRAPH.to_owned()),
+                number: Some(number),
+                ..read
+            });
         }
     }
     for (name, door) in top.object("doors")? {
@@ -44,7 +52,13 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         graph.lifts.push(Lift {
             lift: name.to_owned(),
             at: position.point()?,
-            yaw_degrees: position.items()?.get(2).map(|yaw| yaw.number()).transpose()?.unwrap_or(0.0).to_degrees(),
+            yaw_degrees: position
+                .items()?
+                .get(2)
+                .map(|yaw| yaw.number())
+                .transpose()?
+                .unwrap_or(0.0)
+                .to_degrees(),
             width: size.first().map(|size| size.number()).transpose()?,
             depth: size.get(1).map(|size| size.number()).transpose()?,
         });
@@ -77,8 +91,17 @@ fn node(vertex: &At<'_>, id: String, level: &str) -> Read<Node> {
 /// A lane but for its ends; without an id where the file gives none.
 fn one_lane(given: &At<'_>) -> Read<Lane> {
     const READ: [&str; 11] = [
-        "id", "name", "door_name", "speed_limit", "orientation_constraint", "closed", "cost", "overridable", "penalty",
-        "length", "speed_share",
+        "id",
+        "name",
+        "door_name",
+        "speed_limit",
+        "orientation_constraint",
+        "closed",
+        "cost",
+        "overridable",
+        "penalty",
+        "length",
+        "speed_share",
     ];
     Ok(Lane {
         lane: given.get("id").map(|id| id.id()).transpose()?.unwrap_or_default(),

@@ -22,8 +22,10 @@ pub(super) fn fill(graph: &mut LaneGraph) {
 /// are too many.
 pub(super) fn distinct(own: &[Option<u32>], largest: u32) -> Option<Vec<u32>> {
     let mut taken = BTreeSet::new();
-    let is_free = |number: &u32| *number <= largest && taken.insert(*number);
-    let mut numbers: Vec<Option<u32>> = { let mut is_free = is_free; own.iter().map(|number| number.filter(&mut is_free)).collect() };
+    let mut numbers: Vec<Option<u32>> = own
+        .iter()
+        .map(|number| number.filter(|number| *number <= largest && taken.insert(*number)))
+        .collect();
     let mut free = (0..=largest).filter(|number| !taken.contains(number));
     for number in numbers.iter_mut().filter(|number| number.is_none()) {
         *number = Some(free.next()?);

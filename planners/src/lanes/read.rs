@@ -49,7 +49,11 @@ pub fn read_lane_graph(path: &Path) -> Result<LaneGraph, Problem> {
 /// Reads a text; `file` is how messages call it.
 pub(super) fn parse(file: &str, text: &str) -> Result<LaneGraph, Problem> {
     let extension = Path::new(file).extension().and_then(|end| end.to_str()).unwrap_or_default();
-    let value = if ["yaml", "yml", "tmap2"].contains(&extension) { of_yaml(file, text) } else { of_json(file, text) }?;
+    let value = if ["yaml", "yml", "tmap2"].contains(&extension) {
+        of_yaml(file, text)
+    } else {
+        of_json(file, text)
+    }?;
     let top = At::top(file, &value);
     let mut graph = match kind(&top)? {
         Kind::Building => building::read(&top)?,
@@ -75,9 +79,9 @@ fn of_json(file: &str, text: &str) -> Read<Value> {
 fn of_yaml(file: &str, text: &str) -> Read<Value> {
     serde_saphyr::from_str(text).map_err(|error| {
         let error = error.without_snippet();
-        let place = error.location().map_or_else(String::new, |at| {
-            format!(", line {}, column {}", at.line(), at.column())
-        });
+        let place = error
+            .location()
+            .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
         Problem::of_file(Code::Syntax, format!("{file}{place}: not YAML: {error}"))
     })
 }

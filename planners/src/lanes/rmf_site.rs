@@ -70,9 +70,9 @@ fn ends<'a>(of: &At<'_>, anchors: &'a Anchors<'_>) -> Read<[&'a (Point, String);
 
 fn anchor<'a>(of: &At<'_>, anchors: &'a Anchors<'_>) -> Read<&'a (Point, String)> {
     let id = of.id()?;
-    anchors
-        .get(id.as_str())
-        .ok_or_else(|| of.problem(Code::Impossible, &format!("is {id}, and there is no anchor of this number")))
+    anchors.get(id.as_str()).ok_or_else(|| {
+        of.problem(Code::Impossible, &format!("is {id}, and there is no anchor of this number"))
+    })
 }
 
 /// Lifts stand between two anchors; those of their cabin lie in the frame of its middle.
@@ -139,7 +139,13 @@ fn navigation(top: &At<'_>, graph: &mut LaneGraph, anchors: &Anchors<'_>) -> Rea
                 format!("{name}{id}{way}")
             };
             let graph_of = Some(name.clone());
-            let there = Lane { lane: called(""), from: from.clone(), to: to.clone(), graph: graph_of.clone(), ..there.clone() };
+            let there = Lane {
+                lane: called(""),
+                from: from.clone(),
+                to: to.clone(),
+                graph: graph_of.clone(),
+                ..there.clone()
+            };
             graph.lanes.push(there);
             if is_both_ways {
                 let (from, to) = (to.clone(), from.clone());
@@ -167,7 +173,9 @@ fn of_graphs(lane: &At<'_>, names: &BTreeMap<&str, String>) -> Read<Vec<String>>
         let Some(list) = of.get(key) else { return Ok(None) };
         let name = |id: &At<'_>| {
             let number = id.id()?;
-            let unknown = || id.problem(Code::Impossible, &format!("is {number}, and there is no graph of this number"));
+            let unknown = || {
+                id.problem(Code::Impossible, &format!("is {number}, and there is no graph of this number"))
+            };
             names.get(number.as_str()).cloned().ok_or_else(unknown)
         };
         list.items()?.iter().map(name).collect::<Read<Vec<_>>>().map(Some)
@@ -196,5 +204,10 @@ fn motion(of: Option<&At<'_>>) -> Read<Lane> {
             None => Some(constraint.value.to_string()),
         },
     };
-    Ok(Lane { speed_limit, orientation, properties: of.rest(&["speed_limit", "orientation_constraint"]), ..Lane::default() })
+    Ok(Lane {
+        speed_limit,
+        orientation,
+        properties: of.rest(&["speed_limit", "orientation_constraint"]),
+        ..Lane::default()
+    })
 }

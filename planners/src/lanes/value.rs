@@ -46,9 +46,9 @@ impl<'v> At<'v> {
 
     pub fn need(&self, key: &str) -> Read<Self> {
         match self.value {
-            Value::Object(_) => self.get(key).ok_or_else(|| {
-                self.problem(Code::MissingKey, &format!("has no `{key}`"))
-            }),
+            Value::Object(_) => {
+                self.get(key).ok_or_else(|| self.problem(Code::MissingKey, &format!("has no `{key}`")))
+            }
             _ => Err(self.wrong(&format!("an object with `{key}`"))),
         }
     }

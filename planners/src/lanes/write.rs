@@ -53,7 +53,9 @@ pub struct Exported {
 
 /// More nodes or lanes than Nav2 can number: its ids have sixteen bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a route graph of Nav2 has at most 65,536 nodes and as many edges; this one has {nodes} nodes and {lanes} lanes")]
+#[error(
+    "a route graph of Nav2 has at most 65,536 nodes and as many edges; this one has {nodes} nodes and {lanes} lanes"
+)]
 pub struct TooMany {
     pub nodes: usize,
     pub lanes: usize,

@@ -56,7 +56,8 @@ pub(super) fn meant(tx: &mut Tx<'_>, what: &str) -> Result<Option<(&'static str,
         [] => Ok(None),
         [(kind, key)] => Ok(Some((kind.class, key.clone()))),
         several => {
-            let said: Vec<String> = several.iter().map(|(kind, key)| format!("{} {key}", kind.word)).collect();
+            let said: Vec<String> =
+                several.iter().map(|(kind, key)| format!("{} {key}", kind.word)).collect();
             let message = format!("`{what}` may be {}", said.join(" or "));
             let help = format!("say which: `{}`", said[0]);
             Err(Error::said(Code::TellUnknownObject, message, Some(help)))

@@ -21,7 +21,9 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
     });
     let layouts: Vec<Value> = graph.levels.iter().map(|level| layout(graph, level)).collect();
     let mut top = Map::from_iter([("metaInformation".to_owned(), meta)]);
-    top.extend(graph.properties.clone().into_iter().filter(|(key, _)| key != "metaInformation" && key != "crs"));
+    top.extend(
+        graph.properties.clone().into_iter().filter(|(key, _)| key != "metaInformation" && key != "crs"),
+    );
     top.insert("layouts".to_owned(), layouts.into());
     let by_id = graph.by_id();
     let level_of = |id: &str| by_id.get(id).map(|node| node.level.as_str());
@@ -95,14 +97,16 @@ fn of_node(node: &Node, types: &[&str]) -> Value {
 fn of_lane(graph: &LaneGraph, lane: &Lane, uses: &[&Use]) -> Value {
     let said: Vec<Value> = if uses.is_empty() {
         let types = graph.vehicle_types.iter().filter(|of| of.graph.is_none() || of.graph == lane.graph);
-        let of = |id: &String| with(
-            object([
-                ("vehicleTypeId", Some(json!(id))),
-                ("maxSpeed", lane.speed_limit.map(|limit| json!(limit))),
-                ("rotationAllowed", Some(json!(true))),
-            ]),
-            &Properties::new(),
-        );
+        let of = |id: &String| {
+            with(
+                object([
+                    ("vehicleTypeId", Some(json!(id))),
+                    ("maxSpeed", lane.speed_limit.map(|limit| json!(limit))),
+                    ("rotationAllowed", Some(json!(true))),
+                ]),
+                &Properties::new(),
+            )
+        };
         types.map(|known| of(&known.vehicle_type)).collect()
     } else {
         uses.iter().map(|of| of_use(of)).collect()

@@ -16,8 +16,13 @@ fn said(site: &TestSite) -> [Vec<String>; 2] {
 }
 
 fn costs(site: &TestSite, robot: &str) -> BTreeMap<String, String> {
-    let rows = site.sqlite3(&format!("SELECT start || ' to ' || goal, round(cost, 6) FROM route WHERE robot = '{robot}'"));
-    rows.iter().filter_map(|row| row.split_once('|')).map(|(key, cost)| (key.to_owned(), cost.to_owned())).collect()
+    let rows = site.sqlite3(&format!(
+        "SELECT start || ' to ' || goal, round(cost, 6) FROM route WHERE robot = '{robot}'"
+    ));
+    rows.iter()
+        .filter_map(|row| row.split_once('|'))
+        .map(|(key, cost)| (key.to_owned(), cost.to_owned()))
+        .collect()
 }
 
 fn export(site: &TestSite, name: &str, robot: Option<&str>) -> String {
@@ -40,7 +45,11 @@ fn all_files_are_written_for_nav2_and_read_again_with_ids_names_and_weights() {
         let robots = site.sqlite3("SELECT DISTINCT vehicle_type FROM vehicle_types ORDER BY 1");
         let robot = &robots[0];
         let text = export(&site, "graph.geojson", Some(robot));
-        assert_eq!(text, export(&site, "graph.geojson", Some(robot)), "{name}: the same from export to export");
+        assert_eq!(
+            text,
+            export(&site, "graph.geojson", Some(robot)),
+            "{name}: the same from export to export"
+        );
         let other = again(&site, "graph.geojson");
         assert_eq!(text, export(&other, "graph.geojson", None), "{name}: and of what was read again");
         if robots.len() == 1 {
@@ -90,7 +99,11 @@ fn lif_is_written_for_all_vehicle_types_at_once() {
         serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
     };
     export(&site, "site.lif.json", None);
-    assert_eq!(read(&site.path().join("site.lif.json")), read(&map), "nothing of a LIF file is lost or added");
+    assert_eq!(
+        read(&site.path().join("site.lif.json")),
+        read(&map),
+        "nothing of a LIF file is lost or added"
+    );
 }
 
 #[test]
@@ -109,5 +122,7 @@ fn what_rules_weigh_otherwise_is_written_for_nav2_and_counts_there() {
     assert_eq!(fixed.len(), 1);
     assert_eq!(fixed[0]["properties"]["id"].to_string(), lane);
     let to = site.path().join("graph.json");
-    site.adit("export", &["--to", to.to_str().unwrap()]).expecting(2).complains(&["neither .yaml, .geojson nor .lif.json"]);
+    site.adit("export", &["--to", to.to_str().unwrap()])
+        .expecting(2)
+        .complains(&["neither .yaml, .geojson nor .lif.json"]);
 }

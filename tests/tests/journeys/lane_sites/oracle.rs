@@ -63,7 +63,8 @@ fn all_routes_over_nav2s_graphs_are_the_shortest() {
 
 #[test]
 fn one_building_lies_in_the_same_place_in_both_of_open_rmfs_formats() {
-    let (Some(building), Some(newer)) = (file("open-rmf/office.building.yaml"), file("open-rmf/office.site.json"))
+    let (Some(building), Some(newer)) =
+        (file("open-rmf/office.building.yaml"), file("open-rmf/office.site.json"))
     else {
         return;
     };
