@@ -1,4 +1,4 @@
-//! `adit export`: the lanes of a site as a file that others read.
+//! `adit export`: what others read of a site, a layer for geographic programs or its lane graph for fleets.
 
 use std::any::Any;
 use std::path::PathBuf;
@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::args::SiteArgs;
 use super::build::open;
+use super::layer;
 use super::output::{json, line, remark};
 use crate::answer::pick;
 use crate::error::{Code, Error, Result};
@@ -21,15 +22,21 @@ use crate::site::whole;
 pub struct ExportArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// The file: .yaml is a navigation graph of Open-RMF, .geojson a route graph of Nav2, .lif.json VDMA's LIF
+    /// A layer: rooms, spaces, doorways, areas, routes, drawn, or one that you put into the database; without, the lane graph
+    pub layer: Option<String>,
+    /// The file: of a layer .geojson or .json; of a lane graph .yaml (Open-RMF), .geojson (Nav2) or .lif.json (LIF)
     #[arg(long, value_name = "FILE")]
     pub to: PathBuf,
     /// The vehicle type whose lanes are written, where the site has several (LIF has them all)
-    #[arg(long)]
+    #[arg(long, conflicts_with = "layer")]
     pub robot: Option<String>,
 }
 
 pub fn run(args: &ExportArgs) -> Result<()> {
+    args.layer.as_ref().map_or_else(|| lanes(args), |name| layer::run(&args.site, name, &args.to))
+}
+
+fn lanes(args: &ExportArgs) -> Result<()> {
     let Some(format) = Format::of(&args.to) else {
         let message = format!("{} is neither .yaml, .geojson nor .lif.json", args.to.display());
         return Err(Error::said(Code::ExportFormat, message, None));
@@ -37,9 +44,9 @@ pub fn run(args: &ExportArgs) -> Result<()> {
     let live = Live::open(open(&args.site)?)?;
     let course = live.site().course().map(|course| &**course as &dyn Any);
     let Some(lanes) = course.and_then(|course| course.downcast_ref::<LanesOf>()) else {
-        let message =
-            format!("the map of {} is no lane graph, and nothing else is exported", live.site().site().name);
-        return Err(Error::said(Code::CourseUnfit, message, None));
+        let message = format!("the map of {} is no lane graph", live.site().site().name);
+        let help = "say a layer, as `adit export SITE rooms --to rooms.geojson`".to_owned();
+        return Err(Error::said(Code::CourseUnfit, message, Some(help)));
     };
     let routes = lanes.routes(&live.asked())?;
     let robot = match (format, &args.robot) {

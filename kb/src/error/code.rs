@@ -73,11 +73,6 @@ codes! {
     /// No state of this name has rooms.
     DrawUnknownState = "draw/unknown-state", NOT_FOUND;
 
-    /// The file to export to is neither .yaml, .geojson nor .lif.json.
-    ExportFormat = "export/format", BAD_REQUEST;
-    /// A route graph of Nav2 numbers at most 65,536 nodes and as many edges.
-    ExportTooMany = "export/too-many", BAD_REQUEST;
-
     /// The cell or row is another by now than the editor saw; look at it, then edit again.
     EditConflict = "edit/conflict", CONFLICT;
     /// The table follows from others and cannot be edited; edit what it follows from.
@@ -99,12 +94,20 @@ codes! {
     /// The edit is not said as edits are: a column is missing, given twice, or is not `column=value`.
     EditUsage = "edit/usage", BAD_REQUEST;
 
+    /// What an editor says is no message of the Language Server Protocol.
+    EditorLost = "editor/lost", BAD_REQUEST;
+
     /// The table of an experiment cannot be written.
     ExperimentCsv = "experiment/csv", BAD_REQUEST;
     /// An experiment needs a scenario (.json).
     ExperimentFormat = "experiment/format", BAD_REQUEST;
     /// The rules failed while the experiment asked them.
     ExperimentRules = "experiment/rules", BAD_REQUEST;
+
+    /// The file to export to is neither .yaml, .geojson nor .lif.json.
+    ExportFormat = "export/format", BAD_REQUEST;
+    /// A route graph of Nav2 numbers at most 65,536 nodes and as many edges.
+    ExportTooMany = "export/too-many", BAD_REQUEST;
 
     /// A class cannot be told to the rules.
     FactsClass = "facts/class", BAD_REQUEST;
@@ -142,6 +145,13 @@ codes! {
     LaidUnreadable = "laid/unreadable", BAD_REQUEST;
     /// What is laid over a map is an area, or an obstacle, which is of no kind; its corners are pairs of numbers.
     LaidUsage = "laid/usage", BAD_REQUEST;
+
+    /// A layer is written as .geojson or .json.
+    LayerFile = "layer/file", BAD_REQUEST;
+    /// The site has no layer of this name.
+    LayerUnknown = "layer/unknown", NOT_FOUND;
+    /// A row of a layer has a shape that cannot be read.
+    LayerUnreadable = "layer/unreadable", BAD_REQUEST;
 
     /// The tables were edited meanwhile; try again.
     LiveStale = "live/stale", INTERNAL_SERVER_ERROR;
