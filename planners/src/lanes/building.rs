@@ -218,10 +218,15 @@ fn one_lift(name: &str, lift: &At<'_>, places: &BTreeMap<&str, Place>) -> Read<L
     Ok(Lift {
         lift: name.to_owned(),
         at: place.at(Point::new(lift.need("x")?.number()?, lift.need("y")?.number()?)),
-        yaw_degrees: lift.maybe_number("yaw")?.unwrap_or(0.0).to_degrees(),
+        yaw_degrees: degrees(lift.maybe_number("yaw")?.unwrap_or(0.0)),
         width: lift.maybe_number("width")?,
         depth: lift.maybe_number("depth")?,
     })
+}
+
+/// An angle as a table holds it: rounded, so that it is the same after it was written in radians and read again.
+pub(super) fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e9).round() / 1e9
 }
 
 /// How each level lies: by what was measured on it, the others on the first one by their fiducials.

@@ -1,5 +1,6 @@
 //! A navigation graph of Open-RMF: `nav_graphs/0.yaml`, as fleet adapters read it.
 
+use super::building::degrees;
 use super::value::{At, Read};
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, doors};
 
@@ -52,13 +53,9 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         graph.lifts.push(Lift {
             lift: name.to_owned(),
             at: position.point()?,
-            yaw_degrees: position
-                .items()?
-                .get(2)
-                .map(|yaw| yaw.number())
-                .transpose()?
-                .unwrap_or(0.0)
-                .to_degrees(),
+            yaw_degrees: degrees(
+                position.items()?.get(2).map(|yaw| yaw.number()).transpose()?.unwrap_or(0.0),
+            ),
             width: size.first().map(|size| size.number()).transpose()?,
             depth: size.get(1).map(|size| size.number()).transpose()?,
         });
@@ -90,7 +87,8 @@ fn node(vertex: &At<'_>, id: String, level: &str) -> Read<Node> {
 
 /// A lane but for its ends; without an id where the file gives none.
 fn one_lane(given: &At<'_>) -> Read<Lane> {
-    const READ: [&str; 11] = [
+    const READ: [&str; 12] = [
+        "demo_mock_lift_name",
         "id",
         "name",
         "door_name",
@@ -107,6 +105,7 @@ fn one_lane(given: &At<'_>) -> Read<Lane> {
         lane: given.get("id").map(|id| id.id()).transpose()?.unwrap_or_default(),
         name: given.name("name")?,
         door: given.name("door_name")?,
+        lift: given.name("demo_mock_lift_name")?,
         speed_limit: given.maybe_number("speed_limit")?.filter(|limit| *limit > 0.0),
         speed_share: given.maybe_number("speed_share")?,
         orientation: given.name("orientation_constraint")?,

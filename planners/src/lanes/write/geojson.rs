@@ -19,8 +19,12 @@ pub(super) fn write(graph: &LaneGraph) -> Result<Exported, TooMany> {
     let numbered = || graph.nodes.iter().zip(&nodes);
     let by_id: BTreeMap<&str, (&Node, &u32)> = numbered().map(|of| (of.0.node.as_str(), of)).collect();
     let mut top = json!({"type": "FeatureCollection", "name": graph.name});
-    let mut features: Vec<Value> = numbered().map(|(node, number)| of_node(node, *number)).collect();
-    for (lane, number) in graph.lanes.iter().zip(&lanes) {
+    let mut in_order: Vec<(&Node, &u32)> = numbered().collect();
+    in_order.sort_by_key(|(_, number)| **number);
+    let mut features: Vec<Value> = in_order.iter().map(|(node, number)| of_node(node, **number)).collect();
+    let mut in_order: Vec<(&Lane, &u32)> = graph.lanes.iter().zip(&lanes).collect();
+    in_order.sort_by_key(|(_, number)| **number);
+    for (lane, number) in in_order {
         let ends = by_id.get(lane.from.as_str()).zip(by_id.get(lane.to.as_str()));
         if let Some((&from, &to)) = ends {
             features.push(of_lane(lane, *number, from, to));

@@ -39,7 +39,7 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
     // across levels only lifts lead, and these are made of the nodes in their cabins
     let by_id = graph.by_id();
     let level_of = |id: &str| by_id.get(id).map(|node| node.level.as_str());
-    let is_within = |lane: &&Lane| level_of(&lane.from) == level_of(&lane.to) && !is_ride(lane);
+    let is_within = |lane: &&Lane| level_of(&lane.from) == level_of(&lane.to);
     let mut number = 0;
     for level in &graph.levels {
         let _ = writeln!(text, "  {}:", quoted(&level.level));
@@ -69,7 +69,7 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
     let notes = [
         note(graph, "an action of their own has no place in a navigation graph", |lane| lane.action.is_some()),
         note(graph, "they lead to another level and no lift rides there, and are left out", |lane| {
-            level_of(&lane.from) != level_of(&lane.to) && !is_ride(lane)
+            level_of(&lane.from) != level_of(&lane.to) && lane.lift.is_none()
         }),
         (!graph.uses.is_empty()).then(|| {
             "which vehicle type may use which lane has no place in a navigation graph: Open-RMF has one for each fleet"
@@ -77,11 +77,6 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
         }),
     ];
     Exported { text, notes: notes.into_iter().flatten().collect() }
-}
-
-/// Whether a lane rides in a lift between two levels.
-const fn is_ride(lane: &Lane) -> bool {
-    lane.lift.is_some()
 }
 
 fn list(text: &mut String, key: &str, lines: &[String]) {
@@ -117,6 +112,7 @@ fn of_lane(lane: &Lane, number: u32) -> Map<String, Value> {
         ("id", (lane.lane != number.to_string()).then(|| json!(lane.lane))),
         ("name", text(&lane.name)),
         ("door_name", text(&lane.door)),
+        ("demo_mock_lift_name", text(&lane.lift)),
         ("speed_limit", real(lane.speed_limit)),
         ("speed_share", real(lane.speed_share)),
         ("orientation_constraint", text(&lane.orientation)),
