@@ -25,7 +25,6 @@ mod error;
 pub mod fit;
 mod graph;
 mod knowledge;
-pub mod lanes;
 mod live;
 pub mod navigation;
 pub mod plan;

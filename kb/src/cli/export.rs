@@ -12,10 +12,10 @@ use super::layer;
 use super::output::{json, line, remark};
 use crate::answer::pick;
 use crate::error::{Code, Error, Result};
-use crate::lanes::course::LanesOf;
-use crate::lanes::export::export;
 use crate::live::Live;
 use crate::plan::course::Pathfinder;
+use crate::plan::lanes::course::LanesOf;
+use crate::plan::lanes::export::export;
 use crate::site::whole;
 
 #[derive(Args, Debug)]

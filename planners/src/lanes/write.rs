@@ -1,4 +1,4 @@
-//! Lane graphs as files of others.
+//! Lane graphs as files of others. Each format is written with what this file gives, and this file asks it: a circle that stays.
 
 mod geojson;
 mod lif;

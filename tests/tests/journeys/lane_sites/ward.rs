@@ -159,7 +159,7 @@ fn which_vehicle_may_drive_where_follows_from_its_type_its_height_and_its_load()
 #[test]
 fn every_property_that_rules_are_told_of_lanes_is_in_the_manual() {
     let page = std::fs::read_to_string(repository().join("manual/src/lane-graphs.md")).unwrap();
-    let class = adit::lanes::judge::class();
+    let class = adit::plan::lanes::judge::class();
     let all = class.told.iter().map(|(name, _)| *name).chain(class.asked.iter().copied());
     for name in all {
         assert!(page.contains(&format!("`{name}`")), "{name} is not in manual/src/lane-graphs.md");
