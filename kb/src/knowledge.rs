@@ -20,7 +20,7 @@ use adit_db::{Store, Tx};
 use adit_engine::{Limits, RuleBase, RuleTests, Schema, TestOutcome, Type};
 use adit_planners::bridges::Bridges;
 use adit_planners::facts::{Column, Facts, Table};
-use adit_planners::layers::RoomsByState;
+use adit_planners::layers::{RoomsByState, SmallerStates};
 use adit_planners::minimum::MinimumRooms;
 use adit_planners::overlays::{Overlays, RoomsInOverlays};
 use adit_planners::planner::{Planner, PlannerError, Signature};
@@ -197,7 +197,10 @@ impl KnowledgeBase {
         }
         match mode {
             Rooms::Nothing => {}
-            Rooms::ByState => knowledge.register(Box::new(RoomsByState::default())),
+            Rooms::ByState => {
+                knowledge.register(Box::new(SmallerStates));
+                knowledge.register(Box::new(RoomsByState::default()));
+            }
             Rooms::Paper => {
                 knowledge.register(Box::new(Bridges));
                 knowledge.register(Box::new(PrimeAreas));

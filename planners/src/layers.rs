@@ -20,6 +20,8 @@ mod narrowest;
 mod pieces;
 mod planner;
 mod record;
+mod smaller;
+mod stand_ins;
 mod traced;
 mod transform;
 mod walls;
@@ -42,6 +44,8 @@ pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
+pub use smaller::SmallerStates;
+pub use stand_ins::StandIns;
 pub(crate) use transform::squared_gaps;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -82,17 +86,19 @@ impl Layers {
 /// # Complexity
 /// O(n log n) in the number of corners of walls, times the number of states of different size.
 pub fn cut_layers(world: &World, states: &[State]) -> Result<Layers, String> {
-    cut_layers_anew(world, states, &[], &KnownLayers::default())
+    cut_layers_anew(world, states, &[], &StandIns::default(), &KnownLayers::default())
 }
 
 /// As [`cut_layers`], taking those layers from `known` whose sizes have not changed since.
 ///
 /// # Arguments
-/// `whole` are the areas, by number, that are entered by any part of the robot; others are by its middle.
+/// `whole` are the areas, by number, that are entered by any part of the robot; others are by its middle. A state with one of
+/// `stand_ins` is changed into and out of from that one alone.
 pub fn cut_layers_anew(
     world: &World,
     states: &[State],
     whole: &[usize],
+    stand_ins: &StandIns,
     known: &KnownLayers,
 ) -> Result<Layers, String> {
     check(states)?;
@@ -114,7 +120,7 @@ pub fn cut_layers_anew(
         first += rooms;
     }
     let mut crossings: Vec<Crossing> = stack.iter().flat_map(doors).collect();
-    crossings.extend(changes(states, &stack));
+    crossings.extend(changes(states, stand_ins, &stack));
     crossings.sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
     let members = |of: fn(&Label) -> &[usize]| {
         let labels = stack.iter().flat_map(|placed| &placed.layer.labels).enumerate();

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 use adit_planners::geometry::{Point, Rect};
-use adit_planners::layers::{Crossing, Kind, KnownLayers, Layers, Room, State, cut_layers, cut_layers_anew};
+use adit_planners::layers::{
+    Crossing, Kind, KnownLayers, Layers, Room, StandIns, State, cut_layers, cut_layers_anew,
+};
 use adit_planners::world::{Bridge, Obstacle, Occupancy, Shape, World};
 use geo::{Coord, Distance, Euclidean, LineString, Polygon, Translate};
 use proptest::prelude::*;
@@ -148,19 +150,19 @@ fn only_what_changed_in_size_is_cut_again() {
         .map(|(robot, width)| State { robot: Some(robot.into()), ..state("ROLL", width, None) })
         .into();
     let known = KnownLayers::default();
-    let first = cut_layers_anew(&world, &fleet, &[], &known).unwrap();
+    let first = cut_layers_anew(&world, &fleet, &[], &StandIns::default(), &known).unwrap();
     assert_eq!(known.cut(), 2, "cart and dog share the layer of 0.6 m");
     let robots: Vec<_> = first.rooms.iter().map(|room| room.state).collect();
     assert!((0..3).all(|state| robots.contains(&state)), "and each has rooms of its own");
     fleet[1].width = 0.9;
-    let second = cut_layers_anew(&world, &fleet, &[], &known).unwrap();
+    let second = cut_layers_anew(&world, &fleet, &[], &StandIns::default(), &known).unwrap();
     assert_eq!(known.cut(), 3);
     assert_eq!(second, cut_layers(&world, &fleet).unwrap());
     fleet[1].height = 1.6;
-    cut_layers_anew(&world, &fleet, &[], &known).unwrap();
+    cut_layers_anew(&world, &fleet, &[], &StandIns::default(), &known).unwrap();
     assert_eq!(known.cut(), 3, "what no bridge tells apart is of the same size");
     world.obstacles.push(Obstacle { shape: Shape::Rect(Rect::new(1.0, 1.0, 1.5, 1.5)) });
-    cut_layers_anew(&world, &fleet, &[], &known).unwrap();
+    cut_layers_anew(&world, &fleet, &[], &StandIns::default(), &known).unwrap();
     assert_eq!(known.cut(), 5, "another map, other layers");
 }
 

@@ -31,8 +31,9 @@ const CUT: [&str; 2] = ["ROOMS", "DOORS"];
 /// code is what it was.
 const MADE: [&str; 4] = ["AREA_ROOMS", "DOOR_ROOMS", "SPACES", "DOORWAYS"];
 
-/// Classes that have tables of ours, or are kept with them.
-const OURS: [&str; 7] = ["STRIPS", "PRIME_AREAS", "BRIDGES", "ROOMS", "DOORS", "SPACES", "DOORWAYS"];
+/// Classes that have tables of ours, are kept with them, or are made anew in no time.
+const OURS: [&str; 8] =
+    ["STRIPS", "PRIME_AREAS", "BRIDGES", "SMALLER_STATES", "ROOMS", "DOORS", "SPACES", "DOORWAYS"];
 
 /// Properties that have a column of ours.
 const TABLED: [(&str, &str); 7] = [

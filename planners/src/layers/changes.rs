@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::footprint::FACINGS;
 use super::layer::{Layer, Placed, Places};
 use super::record::{Crossing, Kind, State};
+use super::stand_ins::StandIns;
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Point, Rect, Segment};
 
@@ -17,9 +18,11 @@ const THIN_M: f64 = 0.1;
 const FITTED: f64 = 1e-3;
 
 /// All changes of shape and turns between layers.
-pub(super) fn changes(states: &[State], stack: &[Placed]) -> Vec<Crossing> {
+pub(super) fn changes(states: &[State], stand_ins: &StandIns, stack: &[Placed]) -> Vec<Crossing> {
     let pairs = (0..stack.len()).flat_map(|from| (from + 1..stack.len()).map(move |to| (from, to)));
-    let pairs: Vec<_> = pairs.filter(|&(from, to)| may_change(states, &stack[from], &stack[to])).collect();
+    let may_pay =
+        |from: &Placed, to: &Placed| may_change(states, from, to) && stand_ins.may_pay(from.state, to.state);
+    let pairs: Vec<_> = pairs.filter(|&(from, to)| may_pay(&stack[from], &stack[to])).collect();
     let of_pair = |&(from, to): &(usize, usize)| changes_between(&stack[from], &stack[to]);
     pairs.par_iter().map(of_pair).collect::<Vec<_>>().concat()
 }

@@ -1,6 +1,7 @@
 //! The planner that asserts the rooms and doors of all layers.
 
-use super::{Crossing, Kind, KnownLayers, Room, State, cut_layers_anew};
+use super::stand_ins::SMALLER;
+use super::{Crossing, Kind, KnownLayers, Room, StandIns, State, cut_layers_anew, stand_ins};
 use crate::facts::Facts;
 use crate::overlays::{AREAS, MEMBERS_GIVE, member_facts};
 use crate::planner::{Planner, PlannerError, Signature};
@@ -11,6 +12,10 @@ use crate::world::World;
 
 const NAME: &str = "rooms by state";
 
+/// What decides how large a state is, and whether it is one to move in.
+pub(super) const OF_ROBOTS: [&str; 6] =
+    ["ROBOTS.robot", "ROBOTS.state", "ROBOTS.height", "ROBOTS.width", "ROBOTS.length", "ROBOTS.moves"];
+
 /// One layer of rooms a state. Which states move at all (`ROBOTS.moves`) a rule says.
 ///
 /// Gives ROOMS by robot (in the order in which the table first names them), state and then as made; and DOORS of
@@ -18,6 +23,9 @@ const NAME: &str = "rooms by state";
 /// numbered by (room1, room2). `width` is a room's smaller side, a door's length, the smaller side of the overlap
 /// of a change. `AREA_ROOMS` and `DOOR_ROOMS` say which room lies in which named area or door: rooms are cut along them. An
 /// area is entered by the robot's middle, or, where a rule or the map says so (`AREAS.whole_body`), by any part of it.
+///
+/// Where rules say in `SMALLER_STATES` that one state stands in for another, the other is changed into and out of from that one
+/// alone, so changes grow with states and not with pairs of them.
 ///
 /// Layers are kept from one run to the next: where the size of one state changes, the others' are not cut again.
 #[derive(Debug, Default)]
@@ -31,11 +39,12 @@ impl Planner for RoomsByState {
     }
 
     fn signature(&self) -> Signature {
-        let of_robots = ["robot", "state", "height", "width", "length", "moves", "berth?", "berth_cost?"]
-            .map(|p| format!("ROBOTS.{p}"));
+        let of_robots =
+            OF_ROBOTS.iter().chain(&["ROBOTS.berth?", "ROBOTS.berth_cost?"]).map(|need| (*need).to_owned());
         let of_areas = ["area", "whole_body"].map(|p| format!("{AREAS}.{p}?"));
         let of_spaces = OF_SPACES.map(str::to_owned);
-        let needs: Vec<String> = of_robots.into_iter().chain(of_areas).chain(of_spaces).collect();
+        let of_smaller = stand_ins::NEEDS.map(str::to_owned);
+        let needs: Vec<String> = of_robots.chain(of_areas).chain(of_smaller).chain(of_spaces).collect();
         let gives = GIVES.iter().chain(&MEMBERS_GIVE).map(|given| (*given).to_owned()).collect();
         Signature { needs, gives }
     }
@@ -47,7 +56,8 @@ impl Planner for RoomsByState {
         };
         let (states, berths) = moving_states(known, world.clearance).map_err(fact("ROBOTS"))?;
         let whole = for_the_whole_body(world, known).map_err(fact(AREAS))?;
-        let layers = cut_layers_anew(world, &states, &whole, &self.known)
+        let stand_ins = StandIns::read(known, &states).map_err(fact(SMALLER))?;
+        let layers = cut_layers_anew(world, &states, &whole, &stand_ins, &self.known)
             .map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
         let room = |room: &Room| RoomRow {
             robot: states[room.state].robot.clone(),
@@ -89,7 +99,10 @@ fn for_the_whole_body(world: &World, known: &Facts) -> Result<Vec<usize>, String
 
 /// The states that move, by robot and then in the table's order, each with how much farther off walls than the clearance that
 /// is kept anyway its ways keep.
-fn moving_states(known: &Facts, clearance: f64) -> Result<(Vec<State>, Vec<Option<Berth>>), String> {
+pub(super) fn moving_states(
+    known: &Facts,
+    clearance: f64,
+) -> Result<(Vec<State>, Vec<Option<Berth>>), String> {
     let table = known.get("ROBOTS").ok_or("the class is missing")?;
     let (robots, names) = (table.texts("robot")?, table.texts("state")?);
     let (heights, widths) = (table.numbers("height")?, table.numbers("width")?);

@@ -97,6 +97,7 @@ fn every_property_that_rules_see_stands_in_the_manual() {
         "ROBOTS",
         "CHANGES",
         "LOADS",
+        "SMALLER_STATES",
         "SPACES",
         "DOORWAYS",
         "AREAS",
