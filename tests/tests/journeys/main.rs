@@ -41,6 +41,7 @@ mod robots_to_begin_with;
 mod rule_tests;
 mod rules_decide;
 mod slanted_rooms;
+mod stand_ins;
 mod table_files;
 mod tell;
 mod told_places;
