@@ -1,6 +1,7 @@
 //! Robots of many states: where others stand in for some, ways cost what they cost where everybody changes into everything, and
 //! no more than a search over points and states finds.
 #![allow(clippy::unwrap_used, reason = "in a test a failed unwrap is a failed test")]
+#![allow(clippy::float_cmp, reason = "two infinities are the same")]
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -164,18 +165,18 @@ fn worlds() -> impl Strategy<Value = World> {
     )
 }
 
-/// Some 6 to 24 states; what changes of shape cost is told for some pairs, as in the table, or alike for all.
+/// Some 6 to 12 states; what changes of shape cost is told for some pairs, as in the table, or alike for all.
 fn robots() -> impl Strategy<Value = Robot> {
     let size = (prop_oneof![Just(0.6), Just(1.1), Just(1.7)], 0.3..1.0_f64, 1.0..6.0_f64);
-    prop::collection::vec(size, 6..25).prop_flat_map(|sizes| {
+    prop::collection::vec(size, 6..13).prop_flat_map(|sizes| {
         let count = sizes.len();
         let alike = (0.0..2.0_f64).prop_map(move |price| vec![price; count * count]);
         let price = prop_oneof![2 => Just(0.0), 1 => 0.2..3.0_f64];
         let told = prop::collection::vec(price, count * count);
         let by_state = prop::collection::vec(0.0..2.0_f64, count).prop_map(move |prices| {
-            (0..count * count).map(|pair| prices[pair / count] + prices[pair % count]).collect()
+            (0..count * count).map(|pair| prices[pair / count] + prices[pair % count]).collect::<Vec<f64>>()
         });
-        prop_oneof![alike, told, by_state].prop_map(move |prices| {
+        prop_oneof![alike, told, by_state].prop_map(move |prices: Vec<f64>| {
             let state = |(number, &(height, width, _)): (usize, &(f64, f64, f64))| State {
                 robot: None,
                 state: format!("SHAPE-{number}"),
@@ -194,7 +195,7 @@ fn robots() -> impl Strategy<Value = Robot> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
 
     #[test]
     fn where_states_stand_in_for_others_ways_cost_as_much(
@@ -210,7 +211,8 @@ proptest! {
             let rooms = layers.rooms.iter().filter(|room| room.outline.contains(p));
             rooms.map(|room| room.state).collect()
         };
-        let ends = [(from, &*fitting(from)), (to, &*fitting(to))];
+        let (starts, goals) = (fitting(from), fitting(to));
+        let ends = [(from, &starts[..]), (to, &goals[..])];
         let driven = robot.least_on_a_lattice(&world, ends);
         prop_assert!(few <= driven * (1.0 + TOLERANCE), "{} beside {} on a lattice", few, driven);
     }

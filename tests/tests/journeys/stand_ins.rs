@@ -33,7 +33,13 @@ fn site() -> TestSite {
                 .expect("written to a string");
         }
     }
-    TestSite::example("starter").with("robots.toml", &text).built()
+    TestSite::example("starter")
+        .with(
+            "site.toml",
+            "name = \"starter\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n",
+        )
+        .with("robots.toml", &text)
+        .built()
 }
 
 #[test]
