@@ -13,6 +13,7 @@ const KEYS: [(&str, &[&str]); 8] = [
     ("ROBOTS", &["robot", "state"]),
     ("CHANGES", &["robot", "from_state", "to_state"]),
     ("LOADS", &["robot", "load"]),
+    ("MEASURES", &["measure"]),
     ("STRIPS", &["axis", "strip"]),
     ("AREA_ROOMS", &["room", "area"]),
     ("DOOR_ROOMS", &["room", "door"]),
