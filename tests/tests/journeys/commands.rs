@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 20] = [
+const PAGES: [Page; 21] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -129,12 +129,14 @@ const PAGES: [Page; 20] = [
         blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
         databases: &[],
     },
+    page("manual/src/packages.md"),
     page("manual/src/figures.md"),
 ];
 
 /// What is not run, and why.
-const NOT_RUN: [(&str, &str); 5] = [
+const NOT_RUN: [(&str, &str); 6] = [
     ("cargo ", "builds the program or its documents anew: minutes; the tests run what it builds"),
+    ("podman ", "needs an engine for containers, and the image; packages.rs makes what it is built of"),
     ("tests/run", "runs all tests, this one too"),
     ("tests/peers/", "needs other people's programs; tests/tests/peers.rs runs them where these are"),
     ("tests/pictures.sh", "draws pictures to be looked at"),
@@ -239,6 +241,7 @@ each_page! {
     floor_plans_and_missions: "manual/src/floor-plans-and-missions.md";
     cells_and_experience: "manual/src/cells.md";
     the_service: "manual/src/service.md";
+    packages: "manual/src/packages.md";
     figures: "manual/src/figures.md";
 }
 
