@@ -1,6 +1,8 @@
 # What the makers of packages share: where things lie, the version, and what goes into each package.
 # Sourced by its neighbours; ADIT_PROGRAM=FILE packs that program instead of building one.
 set -euo pipefail
+# from where the command was given
+[ -z "${ADIT_PROGRAM:-}" ] || ADIT_PROGRAM="$(realpath -m "$ADIT_PROGRAM")"
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 version="$(sed -n 's/^version = "\(.*\)"$/\1/p' Cargo.toml | head -n 1)"
@@ -26,7 +28,11 @@ needs() {
 }
 
 # Whether a program needs no library of the machine.
-is_static() { ! readelf --program-headers "$1" | grep -q INTERP; }
+is_static() {
+    local headers
+    headers="$(readelf --program-headers "$1")" || fail "$1 is no program for Linux"
+    [[ "$headers" != *INTERP* ]]
+}
 
 # A tar file whose bytes depend on nothing but the files' names and contents.
 tar_of() {
