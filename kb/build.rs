@@ -1,14 +1,15 @@
-//! What the program carries as data: the shipped rule bases, the example sites and the page, as tables of paths and bytes.
+//! What the program carries as data: the shipped rule bases, the example sites, the page, and what it quotes of the manual, as tables of paths and bytes.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// The table's name, its folder, and the endings of the files that go into it.
-const CARRIED: [(&str, &str, &[&str]); 3] = [
+const CARRIED: [(&str, &str, &[&str]); 4] = [
     ("RULES", "rules", &["rhai", "toml"]),
     ("SITES", "sites", &["csv", "rhai", "toml"]),
     ("PAGE", "page", &["css", "html", "js", "svg"]),
+    ("MANUAL", "manual", &["md"]),
 ];
 
 fn main() -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! What the program carries: the shipped rule bases, the example sites, and the page.
+//! What the program carries: the shipped rule bases, the example sites, the page, and what it quotes of the manual.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -9,8 +9,14 @@ use crate::site::whole::Whole;
 /// Files by their paths, in the order of these.
 pub type Files = &'static [(&'static str, &'static [u8])];
 
-// RULES, SITES and PAGE, made by kb/build.rs
+// RULES, SITES, PAGE and MANUAL, made by kb/build.rs
 include!(concat!(env!("OUT_DIR"), "/carried.rs"));
+
+/// A page of the manual that the program quotes; of one that it does not carry, nothing.
+pub fn page(name: &str) -> String {
+    let found = MANUAL.iter().find(|(path, _)| *path == name);
+    found.map_or_else(String::new, |(_, content)| String::from_utf8_lossy(content).into_owned())
+}
 
 /// Files of one folder, by name, in the order of their names.
 pub fn files(carried: Files, folder: &str) -> Vec<(String, String)> {

@@ -89,6 +89,15 @@ const PAGES: [Page; 21] = [
     },
     page("manual/src/tuning.md"),
     Page {
+        file: "manual/src/measures.md",
+        blocks: &[
+            ("changing shape costs", Use::File("quick/rules/quick.rhai")),
+            ("every metre is a risk", Use::File("my-site/rules/risk.rhai")),
+            ("each leg in LEGS", Use::File("halls/rules/own.rhai")),
+        ],
+        databases: &[("action_sequence", "my-site/site.db"), ("FROM waypoints", "my-site/site.db")],
+    },
+    Page {
         file: "manual/src/telling.md",
         blocks: &[
             ("name = \"ward door\"", Use::Added("my-site/site.toml")),
@@ -107,6 +116,7 @@ const PAGES: [Page; 21] = [
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
     },
+    Page { file: "manual/src/geodata.md", blocks: &[("file = \"keepout.yaml\"", Use::Shown)], databases: &[] },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
     Page {

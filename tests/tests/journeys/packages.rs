@@ -32,7 +32,8 @@ impl Made {
     /// The one package with this ending.
     fn package(&self, ending: &str) -> PathBuf {
         let entries = fs::read_dir(self.folder()).expect("a folder").flatten().map(|entry| entry.path());
-        let found: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == ending)).collect();
+        let found: Vec<PathBuf> =
+            entries.filter(|path| path.extension().is_some_and(|e| e == ending)).collect();
         let [package] = &found[..] else { panic!("one package .{ending} is made: {found:?}") };
         package.clone()
     }
@@ -45,7 +46,8 @@ fn done(output: std::io::Result<Output>) -> String {
 /// Begins a site, builds it and asks for a route, by the program that was installed.
 fn expect_works(program: &Path) {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let run = |arguments: &[&str]| done(Command::new(program).args(arguments).current_dir(folder.path()).output());
+    let run =
+        |arguments: &[&str]| done(Command::new(program).args(arguments).current_dir(folder.path()).output());
     run(&["new", "my-site"]);
     run(&["build", "my-site"]);
     assert!(run(&["route", "my-site", "home", "window"]).contains("SQUAT"), "the starter's route squats");
@@ -69,7 +71,8 @@ fn debian_unpacks_the_package_and_man_bash_and_the_program_work() {
     let page = done(Command::new("gzip").arg("-dc").arg(page).output());
     assert!(page.contains(".TH") && page.contains("through"), "{page}");
 
-    let ask = "source \"$1\"; COMP_WORDS=(adit rou); COMP_CWORD=1; _adit adit rou adit; echo \"${COMPREPLY[*]}\"";
+    let ask =
+        "source \"$1\"; COMP_WORDS=(adit rou); COMP_CWORD=1; _adit adit rou adit; echo \"${COMPREPLY[*]}\"";
     let words = usr.join("share/bash-completion/completions/adit");
     let completed = done(Command::new("bash").args(["-c", ask, "bash"]).arg(words).output());
     assert_eq!(completed.trim(), "route");
@@ -102,7 +105,11 @@ fn pip_installs_the_wheel_into_a_fresh_environment_and_adit_is_on_its_path() {
 fn an_image_is_not_made_of_a_program_that_needs_libraries() {
     let made = Made::new();
     let refused = made.run("container", &[]).expecting(2);
-    assert!(refused.stderr.contains("the program needs libraries, and the image has none"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("the program needs libraries, and the image has none"),
+        "{}",
+        refused.stderr
+    );
     made.run("container", &["--context"]).expect_status(0);
     let context = made.folder().join("container");
     let file = fs::read_to_string(context.join("Containerfile")).expect("readable");
@@ -144,14 +151,23 @@ fn crates_are_packed_with_rules_page_licences_and_a_readme() {
     cargo.args(crates.iter().flat_map(|name| ["--package", name]));
     done(cargo.current_dir(repository()).env("CARGO_TARGET_DIR", made.0.path()).output());
     for name in crates {
-        let packed = made.0.path().join("package").join(format!("{name}-{}.crate", env!("CARGO_PKG_VERSION")));
+        let packed =
+            made.0.path().join("package").join(format!("{name}-{}.crate", env!("CARGO_PKG_VERSION")));
         let listed = done(Command::new("tar").arg("--list").arg("--file").arg(&packed).output());
-        let has = |file: &str| listed.lines().any(|line| line.split_once('/').is_some_and(|(_, below)| below == file));
+        let has = |file: &str| {
+            listed.lines().any(|line| line.split_once('/').is_some_and(|(_, below)| below == file))
+        };
         for file in ["README.md", "LICENSE-MIT", "LICENSE-APACHE", "Cargo.toml"] {
             assert!(has(file), "{name} has {file}: {listed}");
         }
         if name == "adit" {
-            for file in ["rules/rooms/paper/rooms.rhai", "page/index.html", "sites/clinic/map.toml", "build.rs"] {
+            for file in [
+                "rules/rooms/paper/rooms.rhai",
+                "page/index.html",
+                "sites/clinic/map.toml",
+                "manual/what-rules-see.md",
+                "build.rs",
+            ] {
                 assert!(has(file), "{name} has {file}: {listed}");
             }
         }

@@ -17,6 +17,8 @@ pub struct Schema {
 pub struct Schemas {
     pub order: Schema,
     pub instant: Schema,
+    /// From 3.0 on.
+    pub zones: Option<Schema>,
 }
 
 pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
@@ -29,8 +31,11 @@ pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
         let top = compiler.compile("published.json", &mut compiled).unwrap();
         Schema { compiled, top }
     };
-    let both =
-        |version: &str| Schemas { order: of(version, "order"), instant: of(version, "instantActions") };
+    let both = |version: &str| Schemas {
+        order: of(version, "order"),
+        instant: of(version, "instantActions"),
+        zones: (version == "schemas-3").then(|| of(version, "zoneSet")),
+    };
     Some(BTreeMap::from([
         ("2.0.0", both("schemas-2.0.0")),
         ("2.1.0", both("schemas-2.1.0")),
@@ -38,7 +43,7 @@ pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
     ]))
 }
 
-fn expect_valid(schema: &Schema, message: &Value) {
+pub fn expect_valid(schema: &Schema, message: &Value) {
     if let Err(error) = schema.compiled.validate(message, schema.top) {
         panic!("{error:#}\n{message:#}");
     }
