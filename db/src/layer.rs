@@ -1,4 +1,4 @@
-//! The layers of the database as a `GeoPackage`: what they are called, the shape of a row, and the outlines of areas.
+//! The layers of the database as a GeoPackage: what they are called, the shape of a row, and the outlines of areas.
 
 use sqlx::{Row, SqliteConnection};
 
@@ -48,7 +48,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Reads the geometry of a `GeoPackage`; `None` where it is none, or neither a line nor a polygon of the plane.
+    /// Reads the geometry of a GeoPackage; `None` where it is none, or neither a line nor a polygon of the plane.
     pub fn of_blob(blob: &[u8]) -> Option<Self> {
         let flags = *blob.strip_prefix(b"GP")?.get(1)?;
         let envelope = match flags >> 1 & 7 {
@@ -117,7 +117,7 @@ async fn replace(connection: &mut SqliteConnection, outlines: &[AreaOutline]) ->
 }
 
 impl Tx<'_> {
-    /// The layers that the database has as a `GeoPackage`, by table.
+    /// The layers that the database has as a GeoPackage, by table.
     pub fn layers(&mut self) -> Result<Vec<Layer>> {
         self.run(layers)
     }

@@ -135,7 +135,7 @@ pub struct Relation {
     pub columns: Vec<RelationColumn>,
 }
 
-/// The tables and views that are not ours, by name; what a `GeoPackage` keeps about its layers is nobody's.
+/// The tables and views that are not ours, by name; what a GeoPackage keeps about its layers is nobody's.
 pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTable>> {
     let query = sqlx::query(
         "SELECT name, type FROM sqlite_schema

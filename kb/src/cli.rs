@@ -92,7 +92,7 @@ pub enum Verb {
     Fit(fit::FitArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(sql::SqlArgs),
-    /// A layer of the site (rooms, spaces, doorways, areas, routes) as a file of geographic programs, `GeoJSON`
+    /// A layer of the site (rooms, spaces, doorways, areas, routes) as GeoJSON
     Export(layer::ExportArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),

@@ -18,7 +18,7 @@ use crate::ears::{Ears, drain, words};
 use crate::say;
 
 /// How long a result is kept after the end.
-const KEPT: Duration = Duration::from_secs(60);
+const KEPT: Duration = Duration::from_mins(1);
 
 /// So many goals run at once; more are rejected.
 const AT_ONCE: usize = 256;

@@ -52,19 +52,16 @@ impl Size {
     /// Its outline about a pose.
     fn outline(self, at: OnFloor) -> Vec<Point32> {
         let half = self.width / 2.0;
-        let corners: Vec<[f64; 2]> = match self.length {
-            Some(length) => {
-                let ahead = length / 2.0;
-                vec![[ahead, -half], [ahead, half], [-ahead, half], [-ahead, -half]]
-            }
-            None => {
-                let step = std::f64::consts::TAU / f64::from(CORNERS);
-                let radius = half / (step / 2.0).cos();
-                (0..CORNERS)
-                    .map(|corner| f64::from(corner) * step)
-                    .map(|turn| [radius * turn.cos(), radius * turn.sin()])
-                    .collect()
-            }
+        let corners: Vec<[f64; 2]> = if let Some(length) = self.length {
+            let ahead = length / 2.0;
+            vec![[ahead, -half], [ahead, half], [-ahead, half], [-ahead, -half]]
+        } else {
+            let step = std::f64::consts::TAU / f64::from(CORNERS);
+            let radius = half / (step / 2.0).cos();
+            (0..CORNERS)
+                .map(|corner| f64::from(corner) * step)
+                .map(|turn| [radius * turn.cos(), radius * turn.sin()])
+                .collect()
         };
         let (sin, cos) = at.yaw.unwrap_or_default().sin_cos();
         let moved = |[x, y]: [f64; 2]| Point32 {

@@ -71,7 +71,7 @@ impl Ears {
         let service = std::sync::Arc::new(service);
         self.then(Box::new(move || {
             drain(&name, || service.receive_request().map_err(words), &mut |(id, request)| {
-                on(&service, id, request)
+                on(&service, id, request);
             });
         }));
         Ok(())

@@ -8,6 +8,7 @@ macro_rules! messages {
         $(
             $(#[$doc])*
             #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+            #[allow(clippy::struct_field_names)] // they are called as in the messages
             pub struct $name {
                 $(pub $field: $kind),*
             }

@@ -26,7 +26,7 @@ pub struct ExportArgs {
     pub to: PathBuf,
 }
 
-/// Writes a layer as `GeoJSON`, in the metres of the map.
+/// Writes a layer as GeoJSON, in the metres of the map.
 pub fn run(args: &ExportArgs) -> Result<()> {
     if !args.to.extension().is_some_and(|end| end == "geojson" || end == "json") {
         let message = format!("{} is neither .geojson nor .json", args.to.display());
@@ -60,7 +60,7 @@ fn unknown(name: &str, layers: &[Layer]) -> Error {
     Error::said(Code::LayerUnknown, format!("the site has no layer `{name}`"), Some(help))
 }
 
-/// The rows as features of `GeoJSON`; one without a shape has `null`, as that wants it.
+/// The rows as features of GeoJSON; one without a shape has `null`, as that wants it.
 fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
     let count = rows.columns.first().map_or(0, |column| column.values.len());
     let feature = |row: usize| {

@@ -35,7 +35,7 @@ fn told(version: Version, all: &[Value]) -> (Vec<(&'static str, Value)>, Vec<Str
     (told, said)
 }
 
-fn area(name: &str, kind: Option<&str>, properties: Value) -> Value {
+fn area(name: &str, kind: Option<&str>, properties: &Value) -> Value {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.5]];
     json!({"name": name, "kind": kind, "corners": corners, "properties": properties})
 }
@@ -58,7 +58,7 @@ fn areas(chance: &mut Chance) -> Value {
         if chance.below(4) > 0 {
             properties["zone"] = json!(zones[chance.below(8) as usize]);
         }
-        let mut area = area(&format!("area {number}"), kinds[chance.below(4) as usize], properties);
+        let mut area = area(&format!("area {number}"), kinds[chance.below(4) as usize], &properties);
         let corners: Vec<_> = (0..3 + chance.below(5)).map(|_| [chance.metres(), chance.metres()]).collect();
         area["corners"] = json!(corners);
         area
@@ -92,19 +92,19 @@ proptest! {
 #[test]
 fn each_kind_of_zone_says_what_is_said_of_the_area() {
     let areas = json!([
-        area("stairs", Some("keep-out"), json!({})),
-        area("shut", None, json!({"closed": true})),
-        area("ramp", Some("speed-limit"), json!({"speed_limit": 0.5})),
-        area("wet", Some("wet"), json!({"zone": "PENALTY", "zone_factor": 0.8})),
-        area("lane", None, json!({"zone": "PRIORITY", "zone_factor": 0.25})),
+        area("stairs", Some("keep-out"), &json!({})),
+        area("shut", None, &json!({"closed": true})),
+        area("ramp", Some("speed-limit"), &json!({"speed_limit": 0.5})),
+        area("wet", Some("wet"), &json!({"zone": "PENALTY", "zone_factor": 0.8})),
+        area("lane", None, &json!({"zone": "PRIORITY", "zone_factor": 0.25})),
         area(
             "one way",
             None,
-            json!({"zone": "DIRECTED", "zone_direction": 90.0, "zone_limitation": "STRICT"})
+            &json!({"zone": "DIRECTED", "zone_direction": 90.0, "zone_limitation": "STRICT"})
         ),
-        area("crossing", None, json!({"zone": "ACTION", "zone_action": "beep", "zone_blocking": "NONE"})),
-        area("hall", None, json!({})),
-        area("slow", Some("speed-limit"), json!({"speed_percent": 50.0})),
+        area("crossing", None, &json!({"zone": "ACTION", "zone_action": "beep", "zone_blocking": "NONE"})),
+        area("hall", None, &json!({})),
+        area("slow", Some("speed-limit"), &json!({"speed_percent": 50.0})),
     ]);
     let (told, said) = told(Version::V3_0, &[areas.clone(), areas, json!([])]);
     assert_eq!(told.len(), 4, "once, and when there are none any more");

@@ -1,4 +1,5 @@
 //! `ComputePathToPose` and `ComputeRoute`, with each of Nav2's error codes where it belongs.
+#![allow(clippy::needless_pass_by_value)] // JSON is written where it is given
 
 use serde_json::{Value, json};
 
