@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use lsp_types::{CompletionItem, CompletionItemKind, Documentation, MarkupContent, MarkupKind};
 
+use super::hover::with_example;
 use super::library::{File, Library};
 use super::occurrences::{QUANTIFIERS, code};
 use super::tokens::{Kind, Token, tokens};
@@ -54,7 +55,7 @@ pub fn complete(library: &Library, vocabulary: &Vocabulary, file: &File, byte: u
         .chain(["where", "then", "by", "have", "given", "set", "rows", "level"])
     {
         let (what, example) = manual().of_word(word).unwrap_or_default();
-        let what = (!what.is_empty()).then(|| format!("{what}\n```rhai\n{example}\n```"));
+        let what = (!what.is_empty()).then(|| with_example(what, example));
         add(proposal(word, CompletionItemKind::KEYWORD, None, what));
     }
     for (name, what) in manual().functions() {

@@ -42,9 +42,14 @@ pub fn of_name(library: &Library, vocabulary: &Vocabulary, file: &File, found: &
 /// What a word of the language or one of its functions means.
 pub fn of_word(word: &str) -> Option<String> {
     if let Some((what, example)) = manual().of_word(word) {
-        return Some(format!("`{word}`: {what}\n```rhai\n{example}\n```"));
+        return Some(format!("`{word}`: {}", with_example(what, example)));
     }
     manual().of_function(word).map(|what| format!("`{word}`: {what}"))
+}
+
+/// What a word is for, and how it looks where a line shows that.
+pub fn with_example(what: &str, example: &str) -> String {
+    if example.is_empty() { what.to_owned() } else { format!("{what}\n```rhai\n{example}\n```") }
 }
 
 fn of_class(library: &Library, vocabulary: &Vocabulary, class: &str) -> String {

@@ -185,13 +185,16 @@ mod tests {
         assert!(manual.of("DOORWAYS", "width").is_some(), "DOORWAYS.width");
         assert!(manual.of_class("SPACES").is_some(), "SPACES");
         for word in
-            ["rule", "revise", "on", "table", "each", "least", "none", "count", "hypothesis", "priority"]
+            ["rule", "revise", "on", "each", "least", "most", "none", "count", "hypothesis", "priority"]
         {
-            assert!(
-                manual.of_word(word).is_some_and(|(what, example)| !what.is_empty() && !example.is_empty()),
-                "{word}"
-            );
+            let said = manual.of_word(word);
+            assert!(said.is_some_and(|(what, example)| !what.is_empty() && !example.is_empty()), "{word}");
         }
+        assert_eq!(
+            manual.of_word("table"),
+            Some(("a decision table", "")),
+            "its example is longer than a line"
+        );
         assert_eq!(
             manual.of_function("known"),
             Some("whether a property has a value; the value that is none")
