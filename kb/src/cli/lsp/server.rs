@@ -341,6 +341,11 @@ impl<'c> Server<'c> {
     }
 
     fn rename(&self, params: &RenameParams) -> std::result::Result<Value, String> {
+        let project =
+            path_of(&params.text_document_position.text_document.uri).and_then(|path| Project::of(&path));
+        if project.is_some_and(|of| matches!(of, Project::Site(_)) && !self.vocabularies.contains_key(&of)) {
+            return Err("the site is still being looked at, or was never built: what comes from its tables and map is not known yet".to_owned());
+        }
         let edits = self.at(&params.text_document_position, |library, vocabulary, file, found| {
             let places = rename::places(library, vocabulary, (&found.named, &file.path), &params.new_name)?;
             let mut edits: Vec<(Uri, Vec<TextEdit>)> = Vec::new();
