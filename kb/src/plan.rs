@@ -11,7 +11,6 @@ pub mod course;
 mod drives;
 pub(crate) mod figures;
 mod gap;
-pub mod legs;
 mod parts;
 mod refusal;
 pub mod rules;

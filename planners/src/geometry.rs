@@ -3,7 +3,6 @@
 
 mod convex;
 mod orientation;
-pub mod outline;
 mod point;
 pub mod polygon;
 pub mod ray_grid;

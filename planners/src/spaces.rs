@@ -9,6 +9,7 @@ mod clutter;
 mod doorways;
 mod located;
 mod openings;
+mod outline;
 mod planner;
 mod record;
 
@@ -16,7 +17,7 @@ use geo::Area;
 use rayon::prelude::*;
 
 use crate::geometry::polygon::to_geo;
-use crate::geometry::{Point, Segment, outline};
+use crate::geometry::{Point, Segment};
 use crate::layers::{Lattice, Solid, squared_gaps};
 use crate::world::{Occupancy, World};
 

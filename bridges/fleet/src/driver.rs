@@ -7,7 +7,6 @@ mod orders;
 mod stopping;
 mod telling;
 mod words;
-mod zones;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,7 +15,7 @@ use serde_json::Value;
 pub use effect::{Clock, Effect};
 
 use crate::given::Given;
-use crate::site::{Area, Fleet, Route, Vehicle};
+use crate::site::{Fleet, Route, Vehicle};
 use crate::way::{Bridge, Margins};
 use crate::wire::{Addressee, Factsheet, Link, Report, Version};
 
@@ -52,9 +51,7 @@ pub struct Driver {
     written: BTreeMap<String, Value>,
     /// What was wrong with its last states.
     said: Option<String>,
-    /// The zones that it was told, and what could not be told.
-    zones: Option<(String, Vec<String>)>,
-    heads: [u32; 3],
+    heads: [u32; 2],
     epoch: u64,
     orders: u32,
 }
@@ -105,8 +102,7 @@ impl Driver {
             checks: false,
             acted: BTreeSet::new(),
             said: None,
-            zones: None,
-            heads: [0; 3],
+            heads: [0; 2],
             epoch: 0,
             orders: 0,
         }
@@ -183,7 +179,6 @@ impl Driver {
 
     /// The broker was away: what was not acknowledged is said again at once.
     pub fn connected(&mut self) {
-        self.zones = None;
         for at in
             self.given.iter_mut().map(|sent| &mut sent.at).chain(self.cancels.iter_mut().map(|c| &mut c.at))
         {
@@ -216,7 +211,6 @@ impl Driver {
         let held = held::why(&report, self.factsheet.as_ref(), (&robot, &map), world.fleet);
         let now = Now { report: &report, held: held.as_deref(), to: &to, world };
         self.act_on_errors(&now, effects);
-        self.tell_zones(&now, effects);
         if self.is_cancelling(&now, effects) {
             let why = self.cancels.as_ref().map(|cancel| cancel.why.clone());
             return format!("stops: {}", why.unwrap_or_default());
@@ -263,7 +257,6 @@ pub struct World<'a> {
     pub fleet: &'a Fleet,
     pub margins: &'a Margins,
     pub bridges: &'a [Bridge],
-    pub areas: &'a [Area],
     /// How vehicles call the map, unless their rows say otherwise.
     pub map: &'a str,
     pub clock: &'a Clock,

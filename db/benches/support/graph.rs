@@ -114,7 +114,6 @@ pub fn root(start: usize) -> TreeRow {
         hops: 0,
         reach: 0.0,
         leg: 0.0,
-        walked: None,
         at: None,
         heading: None,
         distance: None,
@@ -137,8 +136,6 @@ fn walker() -> State {
         length: None,
         hardness: 1.0,
         position: 0,
-        speed: None,
-        power: None,
     }
 }
 
@@ -164,7 +161,6 @@ fn room(index: usize) -> Room {
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },
-        measures: None,
     }
 }
 
@@ -182,7 +178,6 @@ fn door((index, edge): (usize, &Edge)) -> Door {
         hardness: Derived::by(1, None, edge.hardness),
         action: Derived::by(1, None, "WALK".to_owned()),
         passable: Derived::by(1, None, true),
-        measures: None,
         one_way: edge.one_way,
     }
 }

@@ -17,7 +17,6 @@ const EDITABLE: &[&str] = &[
     "told",
     "laid",
     "hours",
-    "measures",
     "tuning_cells",
     "active_tunings",
 ];

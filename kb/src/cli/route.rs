@@ -1,6 +1,5 @@
 //! `adit route`.
 
-use adit_db::measure::Measure;
 use clap::Args;
 
 use super::args::WayArgs;
@@ -9,7 +8,6 @@ use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};
 use crate::edit::Errand;
 use crate::error::{Code, Result};
-use crate::words::measure::taken;
 
 #[derive(Args, Debug)]
 pub struct RouteArgs {
@@ -68,15 +66,15 @@ pub fn run(args: &RouteArgs) -> Result<u8> {
             remark(reason);
         }
     } else if args.steps {
-        steps(&answer, &knowledge.measures()?);
+        steps(&answer);
     } else {
-        summary(&answer, &knowledge.measures()?);
+        summary(&answer);
     }
     Ok(answer.status.code().map_or(u8::from(answer.status == Status::NoRoute), Code::exit))
 }
 
 /// Prints an answer for people; whether there are steps to print.
-fn head(answer: &Answer, measures: &[Measure]) -> bool {
+fn head(answer: &Answer) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
     for instead in &answer.taken {
         let name = if instead.end == "start" { start } else { goal };
@@ -85,9 +83,7 @@ fn head(answer: &Answer, measures: &[Measure]) -> bool {
     match answer.status {
         Status::Ok => {
             let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));
-            let taken = taken(&answer.measures, measures)
-                .map_or(String::new(), |taken| format!(", takes about {taken}"));
-            line(&format!("{start} to {goal}, hardness {}{metres}{taken}:", maybe(answer.cost)));
+            line(&format!("{start} to {goal}, hardness {}{metres}:", maybe(answer.cost)));
         }
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
         Status::NoRoute => {
@@ -106,15 +102,12 @@ fn head(answer: &Answer, measures: &[Measure]) -> bool {
 }
 
 /// Prints every step of an answer.
-pub fn steps(answer: &Answer, measures: &[Measure]) {
-    if !head(answer, measures) {
+pub fn steps(answer: &Answer) {
+    if !head(answer) {
         return;
     }
-    let known: Vec<&str> = measures.iter().map(|of| of.measure.as_str()).collect();
-    let known: Vec<&str> = known.into_iter().filter(|name| answer.measures.0.contains_key(*name)).collect();
     let rows = answer.steps.iter().map(|step| {
-        let taken = known.iter().map(|name| maybe(step.measures.0.get(*name).copied()));
-        let row = vec![
+        vec![
             step.step.to_string(),
             step.kind.clone(),
             step.place.clone(),
@@ -127,14 +120,12 @@ pub fn steps(answer: &Answer, measures: &[Measure]) {
             step.z.map_or(String::new(), number),
             step.heading.map_or(String::new(), |heading| format!("{heading:.0}°")),
             step.space.clone().or_else(|| step.doorway.clone()).unwrap_or_default(),
-        ];
-        row.into_iter().chain(taken).collect()
+        ]
     });
-    let mut columns = vec![
-        "step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where",
-    ];
-    columns.extend(&known);
-    table(&columns, rows);
+    table(
+        &["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where"],
+        rows,
+    );
 }
 
 /// Prints a route over a map that is not cut into rooms: a line a step, where it leads and through what.
@@ -161,8 +152,8 @@ struct Run {
 }
 
 /// Prints an answer in a few lines: a line for each run of steps with one action, and the spaces that it leads through.
-pub fn summary(answer: &Answer, measures: &[Measure]) {
-    if !head(answer, measures) {
+pub fn summary(answer: &Answer) {
+    if !head(answer) {
         return;
     }
     if answer.steps.iter().all(|step| !["room", "door", "change"].contains(&step.kind.as_str())) {

@@ -7,4 +7,3 @@ mod malformed;
 mod messages;
 mod storm;
 mod yard;
-mod zones;

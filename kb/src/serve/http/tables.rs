@@ -172,14 +172,7 @@ fn column(relation: &Relation, column: &RelationColumn) -> ColumnOf {
             _ => "text",
         },
         key: column.key > 0,
-        unit: match column.name.as_str() {
-            "height" | "width" | "length" => Some("m"),
-            "speed" => Some("m/s"),
-            "power" => Some("W"),
-            "seconds" => Some("s"),
-            "joules" => Some("J"),
-            _ => None,
-        },
+        unit: matches!(column.name.as_str(), "height" | "width" | "length").then_some("m"),
         required: column.required,
     }
 }
