@@ -4,6 +4,7 @@ use sqlx::{Row as _, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
 use crate::error::Result;
+use crate::measure::Measures;
 use crate::route::{Step, Waypoint};
 use crate::transaction::Tx;
 
@@ -26,6 +27,8 @@ pub struct Course {
     pub distance: Option<f64>,
     /// The least metres from anything solid.
     pub clearance: Option<f64>,
+    /// What it takes of each measure that rules say.
+    pub measures: Measures,
     /// What to do, from the start.
     pub steps: Vec<Step>,
     /// Where it bends, from the start.
@@ -44,6 +47,7 @@ impl Course {
             cost: None,
             distance: None,
             clearance: None,
+            measures: Measures::default(),
             steps: Vec::new(),
             waypoints: Vec::new(),
         }
@@ -52,8 +56,19 @@ impl Course {
 
 impl Record for &Course {
     const TABLE: &'static str = "courses";
-    const COLUMNS: &'static [&'static str] =
-        &["robot", "start", "goal", "status", "reason", "remarks", "cost", "distance", "clearance", "steps"];
+    const COLUMNS: &'static [&'static str] = &[
+        "robot",
+        "start",
+        "goal",
+        "status",
+        "reason",
+        "remarks",
+        "cost",
+        "distance",
+        "clearance",
+        "steps",
+        "measures",
+    ];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);
@@ -66,6 +81,7 @@ impl Record for &Course {
         values.real(self.distance);
         values.real(self.clearance);
         values.integer(self.reason.is_none().then_some(self.steps.len() as i64));
+        values.text(self.measures.text().as_deref());
     }
 }
 
@@ -76,7 +92,7 @@ impl Record for StepOf<'_> {
     const TABLE: &'static str = "course_steps";
     const COLUMNS: &'static [&'static str] = &[
         "robot", "start", "goal", "step", "kind", "place", "state", "action", "hardness", "cost", "x", "y",
-        "z", "heading", "rule",
+        "z", "heading", "rule", "measures",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -96,6 +112,7 @@ impl Record for StepOf<'_> {
         values.real(step.z);
         values.real(step.heading);
         values.text(step.rule.as_deref());
+        values.text(step.measures.text().as_deref());
     }
 }
 
@@ -121,6 +138,7 @@ impl Record for WaypointOf<'_> {
         "centre_x",
         "centre_y",
         "turn",
+        "measures",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -141,6 +159,7 @@ impl Record for WaypointOf<'_> {
         values.real(point.centre_x);
         values.real(point.centre_y);
         values.text(point.turn.as_deref());
+        values.text(point.measures.text().as_deref());
     }
 }
 

@@ -59,6 +59,8 @@ pub struct Door {
     pub action: Derived<String>,
     /// Whether it can be passed.
     pub passable: Derived<bool>,
+    /// What passing takes of each [measure](crate::measure::Measures), as JSON; `None`: nothing is said.
+    pub measures: Option<String>,
     /// Whether it leads from room 1 to room 2 only.
     pub one_way: bool,
 }
@@ -111,9 +113,10 @@ impl Row for Door {
         column!(Weight Truth "passable" passable.value),
         column!(Weight Integer "passable_rule" passable.rule),
         column!(Weight Integer "passable_witness" passable.witness),
+        column!(Weight Text "measures" measures),
     ];
     const NAMES: &'static [&'static str] = &names::<Self, { Door::COLUMNS.len() }>(Self::COLUMNS, 0);
-    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 10>(Self::COLUMNS, Self::COLUMNS.len() - 10);
+    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 11>(Self::COLUMNS, Self::COLUMNS.len() - 11);
 
     fn key(&self) -> i64 {
         self.door
@@ -128,11 +131,13 @@ impl Row for Door {
             hardness: self.hardness.clone(),
             action: self.action.clone(),
             passable: self.passable.clone(),
+            measures: self.measures.clone(),
         }
     }
 
     fn weigh(&mut self, weight: Weight) {
-        (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
+        (self.hardness, self.action) = (weight.hardness, weight.action);
+        (self.passable, self.measures) = (weight.passable, weight.measures);
     }
 }
 

@@ -22,7 +22,8 @@ pub async fn starts(connection: &mut SqliteConnection) -> Result<Vec<Start>> {
 /// The rows of one tree, by node.
 pub async fn tree_rows(connection: &mut SqliteConnection, tree: i64) -> Result<Vec<TreeRow>> {
     let query = sqlx::query(
-        "SELECT node, prev, from_room, door, hops, reach, leg, x, y, heading, distance, clearance, bend
+        "SELECT node, prev, from_room, door, hops, reach, leg, x, y, heading, distance, clearance, bend,
+           walked
          FROM tree_rows WHERE tree = ? ORDER BY node",
     );
     let rows = query.bind(tree).fetch_all(connection).await?;
@@ -42,6 +43,7 @@ pub async fn tree_rows(connection: &mut SqliteConnection, tree: i64) -> Result<V
             distance: row.try_get(10)?,
             clearance: row.try_get(11)?,
             bend: row.try_get(12)?,
+            walked: row.try_get(13)?,
         })
     };
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)

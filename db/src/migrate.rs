@@ -82,6 +82,11 @@ pub(crate) const STEPS: &[Step] = &[
         all: &[include_str!("../sql/v12/20-change-sets.sql")],
         worlds: &[include_str!("../sql/v12/10-plans-are-sites.sql")],
     },
+    Step::of_all(&[
+        include_str!("../sql/v13/10-views-for-all.sql"),
+        include_str!("../sql/v13/20-geopackage.sql"),
+    ]),
+    Step::of_all(&[include_str!("../sql/v14/10-measures.sql"), include_str!("../sql/v14/20-routes.sql")]),
 ];
 
 /// The newest schema version.

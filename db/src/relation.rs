@@ -13,6 +13,7 @@ use crate::worlds;
 pub(crate) const OWN: &[&str] = &[
     "action_sequence",
     "active_tunings",
+    "area_outlines",
     "attachments",
     "blocks",
     "carried_out",
@@ -26,14 +27,30 @@ pub(crate) const OWN: &[&str] = &[
     "derivations",
     "doors",
     "doorways",
+    "drawn",
+    "drawn_outlines",
     "ends",
     "facts_told",
     "frames",
+    "gpkg_contents",
+    "gpkg_geometry_columns",
+    "gpkg_spatial_ref_sys",
     "history",
     "hours",
+    "kept_routes",
+    "kept_steps",
+    "kept_waypoints",
     "laid",
+    "laid_shapes",
     "loads",
     "loads_in_force",
+    "map_areas",
+    "map_doorways",
+    "map_rooms",
+    "map_routes",
+    "map_spaces",
+    "measures",
+    "octets",
     "opening_hours",
     "places",
     "prime_area_strips",
@@ -56,6 +73,7 @@ pub(crate) const OWN: &[&str] = &[
     "told",
     "told_states",
     "traversals",
+    "tree_measures",
     "tree_rows",
     "tuning_cells",
     "waypoints",
@@ -117,11 +135,12 @@ pub struct Relation {
     pub columns: Vec<RelationColumn>,
 }
 
-/// The tables and views that are not ours, by name.
+/// The tables and views that are not ours, by name; what a GeoPackage keeps about its layers is nobody's.
 pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTable>> {
     let query = sqlx::query(
         "SELECT name, type FROM sqlite_schema
-         WHERE type IN ('table', 'view') AND substr(name, 1, 7) <> 'sqlite_' ORDER BY name",
+         WHERE type IN ('table', 'view') AND substr(name, 1, 7) <> 'sqlite_'
+         AND substr(name, 1, 5) <> 'gpkg_' AND substr(name, 1, 6) <> 'rtree_' ORDER BY name",
     );
     let mut tables = Vec::new();
     for row in query.fetch_all(&mut *connection).await? {

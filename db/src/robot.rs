@@ -26,6 +26,10 @@ pub struct State {
     pub hardness: f64,
     /// Row order, which breaks ties.
     pub position: i64,
+    /// Metres a second; `None`: not known.
+    pub speed: Option<f64>,
+    /// Watts while it moves so; `None`: not known.
+    pub power: Option<f64>,
 }
 
 /// The cost of changing from one state into another.
@@ -39,12 +43,16 @@ pub struct Change {
     pub to_state: String,
     /// Cost of one change.
     pub hardness: f64,
+    /// How long it takes; `None`: not known.
+    pub seconds: Option<f64>,
+    /// What it takes of the battery; `None`: not known.
+    pub joules: Option<f64>,
 }
 
 impl Record for &State {
     const TABLE: &'static str = "robots";
     const COLUMNS: &'static [&'static str] =
-        &["robot", "state", "action", "height", "width", "length", "hardness", "position"];
+        &["robot", "state", "action", "height", "width", "length", "hardness", "position", "speed", "power"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);
@@ -55,25 +63,30 @@ impl Record for &State {
         values.real(self.length);
         values.real(self.hardness);
         values.integer(self.position);
+        values.real(self.speed);
+        values.real(self.power);
     }
 }
 
 impl Record for &Change {
     const TABLE: &'static str = "changes";
-    const COLUMNS: &'static [&'static str] = &["robot", "from_state", "to_state", "hardness"];
+    const COLUMNS: &'static [&'static str] =
+        &["robot", "from_state", "to_state", "hardness", "seconds", "joules"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.robot);
         values.text(&*self.from_state);
         values.text(&*self.to_state);
         values.real(self.hardness);
+        values.real(self.seconds);
+        values.real(self.joules);
     }
 }
 
 /// All states: by robot, then in row order.
 pub async fn states(connection: &mut SqliteConnection) -> Result<Vec<State>> {
     let query = sqlx::query(
-        "SELECT robot, state, action, height, width, length, hardness, position FROM robots
+        "SELECT robot, state, action, height, width, length, hardness, position, speed, power FROM robots
          ORDER BY robot, position, state",
     );
     read(&query.fetch_all(connection).await?)
@@ -82,7 +95,7 @@ pub async fn states(connection: &mut SqliteConnection) -> Result<Vec<State>> {
 /// All states as they count, with the named tunings that are on: by robot, then in row order.
 pub async fn states_in_force(connection: &mut SqliteConnection) -> Result<Vec<State>> {
     let query = sqlx::query(
-        "SELECT robot, state, action, height, width, length, hardness, position FROM robots_in_force
+        "SELECT robot, state, action, height, width, length, hardness, position, speed, power FROM robots_in_force
          ORDER BY robot, position, state",
     );
     read(&query.fetch_all(connection).await?)
@@ -99,6 +112,8 @@ fn read(rows: &[sqlx::sqlite::SqliteRow]) -> Result<Vec<State>> {
             length: row.try_get(5)?,
             hardness: row.try_get(6)?,
             position: row.try_get(7)?,
+            speed: row.try_get(8)?,
+            power: row.try_get(9)?,
         })
     };
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
@@ -106,7 +121,9 @@ fn read(rows: &[sqlx::sqlite::SqliteRow]) -> Result<Vec<State>> {
 
 /// All changes, by key.
 pub async fn changes(connection: &mut SqliteConnection) -> Result<Vec<Change>> {
-    let rows = sqlx::query("SELECT robot, from_state, to_state, hardness FROM changes ORDER BY 1, 2, 3");
+    let rows = sqlx::query(
+        "SELECT robot, from_state, to_state, hardness, seconds, joules FROM changes ORDER BY 1, 2, 3",
+    );
     let rows = rows.fetch_all(connection).await?;
     let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<Change> {
         Ok(Change {
@@ -114,6 +131,8 @@ pub async fn changes(connection: &mut SqliteConnection) -> Result<Vec<Change>> {
             from_state: row.try_get(1)?,
             to_state: row.try_get(2)?,
             hardness: row.try_get(3)?,
+            seconds: row.try_get(4)?,
+            joules: row.try_get(5)?,
         })
     };
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)

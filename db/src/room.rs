@@ -44,6 +44,8 @@ pub struct Room {
     pub action: Derived<String>,
     /// Whether it is entered.
     pub passable: Derived<bool>,
+    /// What a metre takes of each [measure](crate::measure::Measures), as JSON; `None`: nothing is said.
+    pub measures: Option<String>,
 }
 
 impl Row for Room {
@@ -86,9 +88,10 @@ impl Row for Room {
         column!(Weight Truth "passable" passable.value),
         column!(Weight Integer "passable_rule" passable.rule),
         column!(Weight Integer "passable_witness" passable.witness),
+        column!(Weight Text "measures" measures),
     ];
     const NAMES: &'static [&'static str] = &names::<Self, { Room::COLUMNS.len() }>(Self::COLUMNS, 0);
-    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 10>(Self::COLUMNS, Self::COLUMNS.len() - 10);
+    const WEIGHT_NAMES: &'static [&'static str] = &names::<Self, 11>(Self::COLUMNS, Self::COLUMNS.len() - 11);
 
     fn key(&self) -> i64 {
         self.room
@@ -103,11 +106,13 @@ impl Row for Room {
             hardness: self.hardness.clone(),
             action: self.action.clone(),
             passable: self.passable.clone(),
+            measures: self.measures.clone(),
         }
     }
 
     fn weigh(&mut self, weight: Weight) {
-        (self.hardness, self.action, self.passable) = (weight.hardness, weight.action, weight.passable);
+        (self.hardness, self.action) = (weight.hardness, weight.action);
+        (self.passable, self.measures) = (weight.passable, weight.measures);
     }
 }
 

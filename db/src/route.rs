@@ -5,6 +5,7 @@ use sqlx::sqlite::SqliteRow;
 use sqlx::{Row, SqliteConnection};
 
 use crate::error::Result;
+use crate::measure::Measures;
 use crate::transaction::Tx;
 
 /// A row of the view `routes`: the least-cost route into one room.
@@ -75,6 +76,9 @@ pub struct Step {
     /// Where the step ends, metres, on maps with heights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<f64>,
+    /// What this step takes of each measure that rules say; none where it is not known.
+    #[serde(skip_serializing_if = "Measures::is_empty")]
+    pub measures: Measures,
 }
 
 /// A row of the view `waypoints`: where a route bends, changes shape, starts or ends.
@@ -113,6 +117,9 @@ pub struct Waypoint {
     /// Of an arc that leads there, to which side it turns: left or right.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<String>,
+    /// What the way there takes of each measure that rules say: its `seconds` are the time since the start.
+    #[serde(skip_serializing_if = "Measures::is_empty")]
+    pub measures: Measures,
 }
 
 /// The waypoints of a route, in order; none where there is no route or no such name.
@@ -123,7 +130,8 @@ pub async fn waypoints(
     goal: &str,
 ) -> Result<Vec<Waypoint>> {
     let query = sqlx::query(
-        "SELECT waypoint, x, y, heading, state, action, facing, clearance, distance, cost, z, centre_x, centre_y, turn
+        "SELECT waypoint, x, y, heading, state, action, facing, clearance, distance, cost, z, centre_x, centre_y, turn,
+           measures
          FROM waypoints
          WHERE robot = ? AND start = ? AND goal = ? ORDER BY waypoint",
     );
@@ -143,10 +151,16 @@ pub async fn waypoints(
             centre_x: row.try_get(11)?,
             centre_y: row.try_get(12)?,
             turn: row.try_get(13)?,
+            measures: said(row, 14)?,
         })
     };
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;
     Ok(rows.iter().map(read).collect::<sqlx::Result<_>>()?)
+}
+
+/// What a column says of measures, as answers say it.
+fn said(row: &SqliteRow, column: usize) -> sqlx::Result<Measures> {
+    Ok(Measures::of(row.try_get::<Option<&str>, _>(column)?).rounded())
 }
 
 fn step(row: &SqliteRow) -> sqlx::Result<Step> {
@@ -165,6 +179,7 @@ fn step(row: &SqliteRow) -> sqlx::Result<Step> {
         space: row.try_get(11)?,
         doorway: row.try_get(12)?,
         z: row.try_get(13)?,
+        measures: said(row, 14)?,
     })
 }
 
@@ -176,7 +191,7 @@ pub async fn action_sequence(
     goal: &str,
 ) -> Result<Vec<Step>> {
     let query = sqlx::query(
-        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway, z
+        "SELECT step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway, z, measures
          FROM action_sequence WHERE robot = ? AND start = ? AND goal = ? ORDER BY step",
     );
     let rows = query.bind(robot).bind(start).bind(goal).fetch_all(connection).await?;

@@ -62,6 +62,8 @@ pub struct TreeRow {
     pub reach: f64,
     /// What the walk in the room adds; 0 in the paper's modes, where the doors bear it all.
     pub leg: f64,
+    /// Metres walked in the room since its door, of which `leg` is the hardness; `None` where ways are not measured.
+    pub walked: Option<f64>,
     /// Where the step ends, metres; `None` is the door's own point.
     pub at: Option<[f64; 2]>,
     /// Direction of the movement into that point: degrees counterclockwise from +x, kept to 0.01 degrees; `None`
@@ -123,6 +125,7 @@ impl Record for Rooted {
         "distance",
         "clearance",
         "bend",
+        "walked",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -141,6 +144,7 @@ impl Record for Rooted {
         values.real(row.distance);
         values.real(row.clearance);
         values.integer(i64::from(row.bend));
+        values.real(row.walked);
     }
 }
 

@@ -11,10 +11,12 @@ pub struct Weight {
     pub action: Derived<String>,
     /// Whether the room is entered, the door passed.
     pub passable: Derived<bool>,
+    /// Of which [measure](crate::measure::Measures) a metre, or passing, takes how much, as JSON.
+    pub measures: Option<String>,
 }
 
 impl Weight {
-    /// Whether the same is said, whoever says it.
+    /// Whether the same is said of the way, whoever says it; what it takes besides is not looked at.
     pub fn is_same(&self, other: &Self) -> bool {
         self.hardness.value == other.hardness.value
             && self.action.value == other.action.value

@@ -5,6 +5,11 @@
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+/// The way into the language of rules, in Markdown, for programs that show it.
+pub const GUIDE: &str = include_str!("../README.md");
+/// All functions that rules may call, in Markdown, for programs that show them.
+pub const FUNCTIONS: &str = include_str!("../FUNCTIONS.md");
+
 mod agenda;
 mod changes;
 mod check;

@@ -15,6 +15,35 @@ export const cost = (value) => (value === null || value === undefined ? 'none' :
 /** A length in metres. */
 export const metres = (value) => `${value < 10 ? value.toFixed(1) : value.toFixed(value < 100 ? 1 : 0)} m`;
 
+/** A time as people say it: `4.5 s`, `1 min 20 s`, `2 h 5 min`. */
+function time(seconds) {
+  if (seconds < 10) return `${Number(seconds.toFixed(1))} s`;
+  const whole = Math.round(seconds);
+  const and = (rest, unit) => (rest > 0 ? ` ${rest} ${unit}` : '');
+  if (whole < 60) return `${whole} s`;
+  const minutes = Math.floor(whole / 60);
+  return minutes < 60 ? `${minutes} min${and(whole % 60, 's')}` : `${Math.floor(minutes / 60)} h${and(minutes % 60, 'min')}`;
+}
+
+/** An energy as people say it: `413 J`, `4.2 kJ`. */
+function energy(joules) {
+  const [size, unit] = joules >= 1e6 ? [1e6, 'MJ'] : joules >= 1e3 ? [1e3, 'kJ'] : [1, 'J'];
+  const amount = joules / size;
+  return `${Number(amount.toFixed(amount >= 100 ? 0 : 1))} ${unit}`;
+}
+
+/** What a way takes, times and energies first: `1 min 20 s, 4.2 kJ`; nothing where nothing is known. */
+export function taken(amounts, measures) {
+  const rank = ({ unit }) => (unit === 's' ? 0 : unit === 'J' ? 1 : 2);
+  const known = (measures ?? []).filter(({ measure }) => amounts?.[measure] !== undefined).sort((one, other) => rank(one) - rank(other));
+  const word = ({ measure, unit }) => {
+    const amount = amounts[measure];
+    if (unit === 's') return time(amount);
+    return unit === 'J' ? energy(amount) : `${measure} ${number(amount)}${unit ? ` ${unit}` : ''}`;
+  };
+  return known.map(word).join(', ');
+}
+
 /** `2 doors`, `1 room`, `no routes`. */
 export const count = (n, noun) => `${n === 0 ? 'no' : n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
 

@@ -3,7 +3,7 @@
 import { why } from './answers.js';
 import { button, byId, copy, el, fill } from './dom.js';
 import { firmButton } from './firm.js';
-import { action, cost, metres } from './format.js';
+import { action, cost, metres, taken } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { Actions } from './palette.js';
@@ -53,8 +53,10 @@ function show() {
   const all = runs(route);
   const actions = colours();
   const far = route.distance === undefined ? '' : `, ${metres(route.distance)}`;
+  const takes = taken(route.measures, model.site?.measures);
+  const about = takes ? `, takes about ${takes}` : '';
   const same = route.status === 'same_room' ? el('p', { class: 'hint', text: 'Start and goal lie in the same room.' }) : null;
-  return fill(byId('route'), el('p', { class: 'hint', text: `${route.robot}: cost ${cost(route.cost)}${far}, ${route.steps.length} steps` }), same,
+  return fill(byId('route'), el('p', { class: 'hint', text: `${route.robot}: cost ${cost(route.cost)}${far}${about}, ${route.steps.length} steps` }), same,
     el('ol', { class: 'runs' }, ...all.map((_, index) => item(all, index, route, actions))), model.site.layout_kind ? null : el('div', { class: 'buttons' }, firmButton()), copies(route));
 }
 

@@ -8,8 +8,10 @@ pub(crate) mod reason;
 pub(crate) mod scene;
 mod search;
 mod steps;
+mod taken;
 
 use adit_db::Tx;
+use adit_db::measure::Measures;
 use adit_db::route::{Step, Waypoint};
 use serde::Serialize;
 
@@ -65,6 +67,9 @@ pub struct Answer {
     /// Metres; only where rooms weigh them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
+    /// What all of it takes of each measure that rules say: `seconds`, `joules`; none of which something on the way is not known.
+    #[serde(skip_serializing_if = "Measures::is_empty")]
+    pub measures: Measures,
     /// Why there is no route, or which name is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -107,6 +112,11 @@ impl State {
 }
 
 impl Answer {
+    /// What the way to its last waypoint takes.
+    pub(crate) fn at_the_end(&self) -> Measures {
+        self.waypoints.last().map(|point| point.measures.clone()).unwrap_or_default()
+    }
+
     /// An answer of which no more is known than the question.
     pub(crate) fn blank(robot: &str, start: &str, goals: &[String], generation: u64) -> Self {
         Self {
@@ -117,6 +127,7 @@ impl Answer {
             generation,
             cost: None,
             distance: None,
+            measures: Measures::default(),
             reason: None,
             nearest: None,
             taken: Vec::new(),

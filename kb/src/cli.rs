@@ -12,7 +12,9 @@ mod experiment;
 mod firm;
 mod fit;
 mod lay;
+mod layer;
 mod learn;
+mod lsp;
 mod new;
 mod output;
 mod picture;
@@ -90,6 +92,8 @@ pub enum Verb {
     Fit(fit::FitArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(sql::SqlArgs),
+    /// A layer of the site (rooms, spaces, doorways, areas, routes) as GeoJSON
+    Export(layer::ExportArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
     /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
@@ -106,6 +110,8 @@ pub enum Verb {
     Serve(serve::ServeArgs),
     /// Vehicles that speak VDA 5050 drive the routes of a served site (the program `adit-fleet`)
     Fleet(beside::BesideArgs),
+    /// What editors show while one writes rules, their tests and site files (Language Server Protocol)
+    Lsp(lsp::LspArgs),
     /// Who may do what by HTTP: add, list and remove tokens
     Token(serve::TokenArgs),
     /// Integrity, versions, backup
@@ -140,6 +146,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Firm(args) => (args.site.json, firm::run(args).map(|()| 0)),
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
+        Verb::Export(args) => (args.site.json, layer::run(args).map(|()| 0)),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
         Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),
@@ -148,6 +155,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),
         Verb::Serve(args) => (args.site.json, serve::run(args).map(|()| 0)),
         Verb::Fleet(args) => (false, beside::run("fleet", args)),
+        Verb::Lsp(args) => (false, lsp::run(args).map(|()| 0)),
         Verb::Token(args) => (args.json, serve::token(args).map(|()| 0)),
         Verb::Doctor(args) => (args.site.json, doctor::doctor(args).map(|sound| u8::from(!sound))),
     };

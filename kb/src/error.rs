@@ -11,7 +11,7 @@ use std::path::Path;
 pub use code::Code;
 pub use finding::Finding;
 pub use nearest::Nearest;
-use problem::Problem;
+pub use problem::Problem;
 
 /// One or more problems, none of them half-done work: whatever failed has left the site as it was.
 pub struct Error {

@@ -14,6 +14,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use adit_db::history::Author;
+use adit_db::measure::Measure;
 use adit_db::place::Place;
 use adit_db::robot::State;
 use adit_db::{Store, Tx};
@@ -40,6 +41,7 @@ use crate::knowledge::tunings::RowKeys;
 use crate::plan;
 use crate::plan::consult::Class;
 use crate::plan::course::Course;
+use crate::plan::legs;
 use crate::site::alone;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
@@ -226,11 +228,38 @@ impl KnowledgeBase {
         self.course = Some(course);
     }
 
-    /// The properties that the planner of a map that is not cut into rooms asks rules for.
-    pub(crate) fn asked(&self) -> Vec<String> {
-        let asks = self.course.iter().flat_map(|course| course.asks());
+    /// The classes of objects that rules are asked about one at a time, where the map is not cut into rooms.
+    pub(crate) fn asks(&self) -> Vec<Class> {
+        self.course.iter().flat_map(|course| course.asks().into_iter().chain([legs::class()])).collect()
+    }
+
+    /// The properties that the planner of a map that is not cut into rooms asks rules for, and what adds up along routes.
+    pub(crate) fn asked(&self) -> Result<Vec<String>> {
         let of = |class: Class| class.asked.iter().map(move |property| format!("{}.{property}", class.name));
-        asks.flat_map(of).collect()
+        let mut asked: Vec<String> = self.asks().into_iter().flat_map(of).collect();
+        let classes: &[&str] = match (&self.course, self.site.has_rooms()) {
+            (Some(_), _) => &[legs::class().name],
+            (None, true) => &["ROOMS", "DOORS"],
+            (None, false) => return Ok(asked),
+        };
+        for Measure { measure, .. } in self.measures()? {
+            asked.extend(classes.iter().map(|class| format!("{class}.{measure}")));
+        }
+        Ok(asked)
+    }
+
+    /// What adds up along routes besides hardness; of a site that was never built, what every site begins with.
+    pub fn measures(&self) -> Result<Vec<Measure>> {
+        let read = |tx: &mut Tx<'_>| tx.measures();
+        // a database of an older version has none of its own
+        let kept = Store::open_read_only(&self.database).and_then(|mut store| store.snapshot(read));
+        if self.database.exists()
+            && let Ok(measures) = kept
+        {
+            return Ok(measures);
+        }
+        let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
+        Ok(Store::open_or_create(folder.path().join("new.db"))?.snapshot(read)?)
     }
 
     /// Says what is wrong with a map that is not cut into rooms, where it could not be read.
@@ -406,7 +435,7 @@ impl KnowledgeBase {
         progress.stage("map");
         self.needs_course()?;
         let know = |world: &World| self.overlays.know(world);
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked(), know)?))
+        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked()?, know)?))
     }
 
     /// For what holds on to it while others go on.
@@ -436,6 +465,7 @@ impl KnowledgeBase {
             ("ROBOTS".to_owned(), tables::robots(&tx.states()?)),
             ("CHANGES".to_owned(), tables::changes(&tx.changes()?)),
             ("LOADS".to_owned(), tables::loads(&tx.loads()?)),
+            ("MEASURES".to_owned(), tables::measures(&tx.measures()?)),
         ]);
         let mut told = Told { classes, ..Told::default() };
         let keys = |table: &Table, parts: &[&str]| {
@@ -536,7 +566,7 @@ impl KnowledgeBase {
             classes::declare(&mut schema, &planner.signature().gives);
         }
         classes::declare(&mut schema, &classes::ROUTES_GIVE.map(str::to_owned));
-        for asked in self.course.iter().flat_map(|course| course.asks()) {
+        for asked in self.asks() {
             schema = schema.class(asked.name, &asked.told);
         }
         if let Some(course) = &self.course {
@@ -558,7 +588,7 @@ impl KnowledgeBase {
         }
         // what a rule sets and nothing reads is often why
         let failures = failures.into_iter().map(|failure| Finding::from(failure.diagnostic));
-        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners, &self.asked()))))
+        Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners, &self.asked()?))))
     }
 
     /// Runs tests; all of them together may take what one inference may.
@@ -578,8 +608,7 @@ impl KnowledgeBase {
         }
         let mut given = self.planned_classes();
         given.extend(tables::unbuilt().into_keys().chain([classes::ROUTES.to_owned()]));
-        let asked = self.course.iter().flat_map(|course| course.asks());
-        let asked: Vec<&str> = asked.map(|class| class.name).collect();
+        let asked: Vec<&str> = self.asks().into_iter().map(|class| class.name).collect();
         let amiss = lint::reactions(rules, &given, classes::ROUTES, &asked);
         if !amiss.is_empty() {
             return Err(Error::all(amiss));

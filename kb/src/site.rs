@@ -20,7 +20,8 @@ use std::path::{Path, PathBuf};
 
 use adit_planners::geometry::Rect;
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, nearest, read_map, read_world,
+    Code, Document, Fields, MapReport, MapSettings, Mask, Overlay, Problem, Unknown, nearest, read_map,
+    read_world,
 };
 use adit_planners::world::{Place, World};
 use jiff::tz::TimeZone;
@@ -97,6 +98,7 @@ pub struct Site {
     pub zone: Option<TimeZone>,
     settings: MapSettings,
     overlay: Overlay,
+    masks: Vec<Mask>,
     text: String,
 }
 
@@ -194,7 +196,7 @@ const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours"
 /// The keys of a site without a map.
 const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "name",
     "map",
     "robots",
@@ -207,6 +209,7 @@ const KEYS: [&str; 12] = [
     "clearance",
     "hours",
     "timezone",
+    "mask",
 ];
 
 impl Site {
@@ -257,6 +260,7 @@ impl Site {
             zone: zone(&fields, &mut problems),
             settings: settings(&fields, &mut problems),
             overlay: Overlay::from_fields(&fields, &mut problems),
+            masks: Mask::from_fields(&fields, folder, &mut problems),
             text: text.clone(),
         };
         site.check_clearance(&fields, &mut problems);
@@ -332,6 +336,7 @@ impl Site {
             let image = image.map(|image| image.trim().trim_matches(['"', '\'']));
             files.extend(image.map(|image| self.map.with_file_name(image)));
         }
+        files.extend(self.masks.iter().flat_map(Mask::files));
         files
     }
 
@@ -340,6 +345,9 @@ impl Site {
         let map = if self.map.is_file() { fs::read(&self.map).unwrap_or_default() } else { Vec::new() };
         let mut hasher = SipHasher13::new();
         (&self.text, map).hash(&mut hasher);
+        for mask in &self.masks {
+            fs::read(mask.file()).unwrap_or_default().hash(&mut hasher);
+        }
         hasher.finish()
     }
 
@@ -356,7 +364,11 @@ impl Site {
 
     /// Lays over its map what `site.toml` says, and gives notes.
     pub fn lay_over(&self, map: &mut World) -> Result<Vec<Problem>> {
-        self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))
+        let mut notes = self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))?;
+        for mask in &self.masks {
+            notes.extend(mask.lay_over(map).map_err(|errors| Error::all(errors.problems))?);
+        }
+        Ok(notes)
     }
 
     /// Reads the map and lays over it what `site.toml` says.

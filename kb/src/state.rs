@@ -11,7 +11,7 @@ pub(crate) mod rows;
 mod spaces;
 mod step;
 mod twin;
-mod weighed;
+pub mod weighed;
 pub(crate) mod weights;
 
 use std::sync::Arc;

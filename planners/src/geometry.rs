@@ -3,6 +3,7 @@
 
 mod convex;
 mod orientation;
+pub mod outline;
 mod point;
 pub mod polygon;
 pub mod ray_grid;

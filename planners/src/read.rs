@@ -3,6 +3,7 @@
 pub mod diagnostic;
 mod fields;
 pub mod image;
+pub mod mask;
 mod occupancy;
 pub mod overlay;
 mod report;
@@ -19,6 +20,7 @@ use crate::world::World;
 pub use diagnostic::{Code, MapErrors, Problem, Text};
 pub(crate) use fields::span_of;
 pub use fields::{Document, Fields, Located};
+pub use mask::Mask;
 pub use overlay::Overlay;
 pub use report::MapReport;
 pub use settings::{MapSettings, Unknown};

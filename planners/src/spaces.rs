@@ -9,7 +9,6 @@ mod clutter;
 mod doorways;
 mod located;
 mod openings;
-mod outline;
 mod planner;
 mod record;
 
@@ -17,7 +16,7 @@ use geo::Area;
 use rayon::prelude::*;
 
 use crate::geometry::polygon::to_geo;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Segment, outline};
 use crate::layers::{Lattice, Solid, squared_gaps};
 use crate::world::{Occupancy, World};
 

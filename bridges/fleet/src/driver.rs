@@ -7,6 +7,7 @@ mod orders;
 mod stopping;
 mod telling;
 mod words;
+mod zones;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,7 +16,7 @@ use serde_json::Value;
 pub use effect::{Clock, Effect};
 
 use crate::given::Given;
-use crate::site::{Fleet, Route, Vehicle};
+use crate::site::{Area, Fleet, Route, Vehicle};
 use crate::way::{Bridge, Margins};
 use crate::wire::{Addressee, Factsheet, Link, Report, Version};
 
@@ -51,7 +52,9 @@ pub struct Driver {
     written: BTreeMap<String, Value>,
     /// What was wrong with its last states.
     said: Option<String>,
-    heads: [u32; 2],
+    /// The zones that it was told, and what could not be told.
+    zones: Option<(String, Vec<String>)>,
+    heads: [u32; 3],
     epoch: u64,
     orders: u32,
 }
@@ -102,7 +105,8 @@ impl Driver {
             checks: false,
             acted: BTreeSet::new(),
             said: None,
-            heads: [0; 2],
+            zones: None,
+            heads: [0; 3],
             epoch: 0,
             orders: 0,
         }
@@ -179,6 +183,7 @@ impl Driver {
 
     /// The broker was away: what was not acknowledged is said again at once.
     pub fn connected(&mut self) {
+        self.zones = None;
         for at in
             self.given.iter_mut().map(|sent| &mut sent.at).chain(self.cancels.iter_mut().map(|c| &mut c.at))
         {
@@ -211,6 +216,7 @@ impl Driver {
         let held = held::why(&report, self.factsheet.as_ref(), (&robot, &map), world.fleet);
         let now = Now { report: &report, held: held.as_deref(), to: &to, world };
         self.act_on_errors(&now, effects);
+        self.tell_zones(&now, effects);
         if self.is_cancelling(&now, effects) {
             let why = self.cancels.as_ref().map(|cancel| cancel.why.clone());
             return format!("stops: {}", why.unwrap_or_default());
@@ -257,6 +263,7 @@ pub struct World<'a> {
     pub fleet: &'a Fleet,
     pub margins: &'a Margins,
     pub bridges: &'a [Bridge],
+    pub areas: &'a [Area],
     /// How vehicles call the map, unless their rows say otherwise.
     pub map: &'a str,
     pub clock: &'a Clock,

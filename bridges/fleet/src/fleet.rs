@@ -13,7 +13,7 @@ use tokio::task::JoinHandle;
 
 use crate::driver::{Driver, Effect, World};
 use crate::heard::Heard;
-use crate::site::{Fleet as Tables, Site, VEHICLES};
+use crate::site::{Area, Fleet as Tables, Site, VEHICLES};
 use crate::way::{Bridge, Margins};
 use crate::wire;
 
@@ -40,6 +40,7 @@ pub struct Fleet {
     heard: UnboundedSender<Heard>,
     tables: Tables,
     bridges: Vec<Bridge>,
+    areas: Vec<Area>,
     drivers: BTreeMap<String, Driver>,
     follows: BTreeMap<String, asked::Following>,
     strangers: BTreeSet<String>,
@@ -58,6 +59,7 @@ impl Fleet {
             heard,
             tables: Tables::default(),
             bridges: Vec::new(),
+            areas: Vec::new(),
             drivers: BTreeMap::new(),
             follows: BTreeMap::new(),
             strangers: BTreeSet::new(),
@@ -118,6 +120,10 @@ impl Fleet {
                 }
             }
             Heard::Bridges(bridges) => self.bridges = bridges,
+            Heard::Areas(areas) => {
+                self.areas = areas;
+                return About::All;
+            }
             Heard::Floor => {
                 self.drivers.values_mut().for_each(Driver::doubted);
                 return About::All;
@@ -217,6 +223,7 @@ impl Fleet {
             fleet: &self.tables,
             margins: &self.settings.margins,
             bridges: &self.bridges,
+            areas: &self.areas,
             map: &self.settings.map,
             clock: &clock,
         };

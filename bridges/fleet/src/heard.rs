@@ -1,6 +1,6 @@
 //! What comes to the fleet, from wherever.
 
-use crate::site::{Fleet as Tables, Route};
+use crate::site::{Area, Fleet as Tables, Route};
 use crate::way::Bridge;
 
 /// Something that was heard.
@@ -13,6 +13,7 @@ pub enum Heard {
     Tables(Result<Tables, String>),
     /// What is low over the floor.
     Bridges(Vec<Bridge>),
+    Areas(Vec<Area>),
     /// Something of the floor is another one.
     Floor,
     /// The way of a vehicle, and who follows it.

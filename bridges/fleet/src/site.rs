@@ -3,7 +3,9 @@
 mod http;
 mod route;
 mod tables;
+mod zones;
 
 pub use http::{Site, Trouble, query};
 pub use route::{Followed, Route, Step, Waypoint};
 pub use tables::{Fleet, Meaning, State, VEHICLES, Vehicle};
+pub use zones::{Area, Meaning as ZoneMeaning};

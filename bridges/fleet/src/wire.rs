@@ -3,7 +3,9 @@
 mod heard;
 mod said;
 mod version;
+mod zones;
 
 pub use heard::{Connection, Factsheet, Fault, Link, Report, connection, factsheet, state};
 pub use said::{Action, Addressee, Blocking, Edge, Instant, Node, Order};
 pub use version::Version;
+pub use zones::{Zone, ZoneSet};

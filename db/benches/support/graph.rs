@@ -114,6 +114,7 @@ pub fn root(start: usize) -> TreeRow {
         hops: 0,
         reach: 0.0,
         leg: 0.0,
+        walked: None,
         at: None,
         heading: None,
         distance: None,
@@ -136,6 +137,8 @@ fn walker() -> State {
         length: None,
         hardness: 1.0,
         position: 0,
+        speed: None,
+        power: None,
     }
 }
 
@@ -161,6 +164,7 @@ fn room(index: usize) -> Room {
         hardness: Derived::default(),
         action: Derived::by(2, None, "WALK".to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },
+        measures: None,
     }
 }
 
@@ -178,6 +182,7 @@ fn door((index, edge): (usize, &Edge)) -> Door {
         hardness: Derived::by(1, None, edge.hardness),
         action: Derived::by(1, None, "WALK".to_owned()),
         passable: Derived::by(1, None, true),
+        measures: None,
         one_way: edge.one_way,
     }
 }

@@ -17,6 +17,7 @@ const EDITABLE: &[&str] = &[
     "told",
     "laid",
     "hours",
+    "measures",
     "tuning_cells",
     "active_tunings",
 ];

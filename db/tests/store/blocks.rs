@@ -57,6 +57,7 @@ fn room(number: i64) -> Room {
         },
         action: Derived::by(7, None, if number % 7 == 0 { "crawl" } else { "walk" }.to_owned()),
         passable: Derived { value: Some(number % 11 > 0), rule: None, witness: None },
+        measures: (number % 3 > 0).then(|| format!("{{\"seconds\":{}.5}}", number % 3)),
     }
 }
 
@@ -84,6 +85,7 @@ fn what_rules_say_anew_of_some_rows_is_in_their_blocks() {
         hardness: Derived::by(2, Some(5), 0.25),
         action: Derived::by(3, None, "hop".to_owned()),
         passable: Derived::default(),
+        measures: Some("{\"joules\":9.5}".to_owned()),
     };
     let changed: Vec<usize> = vec![0, 127, 128, 2_000, 4_999];
     let weights = changed.iter().map(|row| (rooms[*row].room, &weight));
@@ -91,6 +93,7 @@ fn what_rules_say_anew_of_some_rows_is_in_their_blocks() {
     for row in changed {
         (rooms[row].hardness, rooms[row].action) = (weight.hardness.clone(), weight.action.clone());
         rooms[row].passable = weight.passable.clone();
+        rooms[row].measures = weight.measures.clone();
     }
     let before = count(&store, "rooms");
     assert_eq!(all(&mut store), (rooms.clone(), doors.clone()));

@@ -53,6 +53,8 @@ fn states() -> Vec<State> {
         length: None,
         hardness,
         position,
+        speed: None,
+        power: None,
     };
     vec![
         state(0, "STAND", "WALK", 20.0, 3.0, 1.0),
@@ -99,6 +101,7 @@ pub fn rooms() -> Vec<Room> {
         hardness: Derived::default(),
         action: Derived::by(WALK_IN, None, action.to_owned()),
         passable: Derived { value: Some(true), rule: None, witness: None },
+        measures: None,
     };
     vec![
         room(1, "a", [19.1, 0.0, 29.5, 6.0], Some(4.0), 6.0, "NO-ACTION"),
@@ -138,6 +141,7 @@ pub fn door(door: i64, room1: i64, room2: i64, hardness: f64, action: &str, at: 
         hardness: Derived::by(WEIGH, Some(1), hardness),
         action: Derived::by(WEIGH, Some(1), action.to_owned()),
         passable: Derived::by(WEIGH, None, hardness < 10000.0),
+        measures: None,
         one_way: false,
     }
 }
@@ -150,6 +154,7 @@ pub const START: TreeRow = TreeRow {
     hops: 0,
     reach: 0.0,
     leg: 0.0,
+    walked: None,
     at: Some([9.55, 8.25]),
     heading: None,
     distance: None,

@@ -23,7 +23,10 @@ fn marks(store: &mut Store) -> Vec<(String, String)> {
 fn each_edit_from_outside_is_noticed_and_named() {
     let edits = [
         ("UPDATE robots SET hardness = 3 WHERE state = 'SQUAT'", ("robots", "robot/SQUAT")),
-        ("INSERT INTO changes VALUES ('robot', 'STAND', 'SQUAT', 2)", ("changes", "robot/STAND/SQUAT")),
+        (
+            "INSERT INTO changes (robot, from_state, to_state, hardness) VALUES ('robot', 'STAND', 'SQUAT', 2)",
+            ("changes", "robot/STAND/SQUAT"),
+        ),
         ("UPDATE doors SET passable = 0 WHERE door = 7", ("doors", "7")),
         ("DELETE FROM doors WHERE door = 3", ("doors", "3")),
         ("UPDATE rooms SET action = 'HOP' WHERE name = 'd'", ("rooms", "4")),

@@ -45,6 +45,7 @@ fn one(courses: &Courses, [robot, start, goal]: [&str; 3], generation: u64) -> A
                 answer.status = Status::NoRoute;
             }
             (answer.cost, answer.distance, answer.reason) = (row.cost, row.distance, row.reason);
+            answer.measures = row.measures;
             (answer.steps, answer.waypoints, answer.remarks) = (row.steps, row.waypoints, row.remarks);
         }
     }

@@ -1,8 +1,10 @@
 //! A route over doors as JSON, put together from what is written of its rooms and doors already.
 
+use adit_db::measure::Measures;
 use adit_planners::routes::{Leg, Way};
 use serde_json::{Result, to_writer};
 
+use super::taken::{Taken, Taking};
 use super::{Answer, Status};
 use crate::graph::heading;
 use crate::graph::{Rules, SiteGraph, Texts};
@@ -28,6 +30,7 @@ pub(super) fn write(answer: &Answer, site: (&SiteGraph, &Texts, &Rules), way: &W
         out.extend_from_slice(value.as_bytes());
     }
     let legs = Legs::new(site, way)?;
+    out.extend_from_slice(legs.takes.last().map_or(&[], |takes| &takes.so_far));
     out.extend_from_slice(br#","steps":["#);
     legs.steps(&mut out)?;
     out.extend_from_slice(br#"],"waypoints":["#);
@@ -43,6 +46,18 @@ struct Legs<'a> {
     numbers: Vec<u8>,
     /// Where each leg's heading and cost end.
     ends: Vec<[usize; 2]>,
+    /// What each leg takes, as it is written.
+    takes: Vec<Takes>,
+    /// What is said of that at the start.
+    at_start: Vec<u8>,
+}
+
+/// What a leg takes of measures, each with the comma and the name before it; empty where nothing is known.
+#[derive(Default)]
+struct Takes {
+    room: Vec<u8>,
+    door: Vec<u8>,
+    so_far: Vec<u8>,
 }
 
 impl<'a> Legs<'a> {
@@ -55,7 +70,15 @@ impl<'a> Legs<'a> {
             to_writer(&mut numbers, &leg.cost)?;
             ends.push([heading_ends, numbers.len()]);
         }
-        Ok(Self { site, way, numbers, ends })
+        let mut taken = Taken::new(site.0, way);
+        let at_start = written(&taken.at_start())?;
+        let take = |leg| {
+            let Taking { room, door, so_far } = taken.follow(leg);
+            let (room, door) = (written(&room)?, written(&door.unwrap_or_default())?);
+            Ok(Takes { room, door, so_far: written(&so_far)? })
+        };
+        let takes = way.legs.iter().map(take).collect::<Result<_>>()?;
+        Ok(Self { site, way, numbers, ends, takes, at_start })
     }
 
     fn heading(&self, leg: usize) -> &[u8] {
@@ -78,7 +101,7 @@ impl<'a> Legs<'a> {
         for (index, leg) in self.way.legs.iter().enumerate() {
             let room = texts.room(graph, rules, leg.room)?;
             let door = leg.door.map(|door| texts.door(graph, rules, door)).transpose()?;
-            let mut step = |text: &[u8], cost: &[u8], rule: &[u8]| -> Result<()> {
+            let mut step = |text: &[u8], cost: &[u8], rule: &[u8], takes: &[u8]| -> Result<()> {
                 out.extend_from_slice(if number == 1 { br#"{"step":"#.as_slice() } else { br#",{"step":"# });
                 to_writer(&mut *out, &number)?;
                 out.extend_from_slice(text);
@@ -89,12 +112,15 @@ impl<'a> Legs<'a> {
                 }
                 out.extend_from_slice(self.heading(index));
                 out.extend_from_slice(rule);
+                out.extend_from_slice(takes);
+                out.push(b'}');
                 number += 1;
                 Ok(())
             };
-            step(room.step(), self.cost_before(index), room.rule())?;
+            let takes = &self.takes[index];
+            step(room.step(), self.cost_before(index), room.rule(), &takes.room)?;
             if let Some(door) = door {
-                step(door.step(), self.cost(index), door.rule())?;
+                step(door.step(), self.cost(index), door.rule(), &takes.door)?;
             }
         }
         Ok(())
@@ -109,7 +135,9 @@ impl<'a> Legs<'a> {
                 put_point(out, &Leg { to: leg.from, ..*leg })?;
                 out.extend_from_slice(b"null");
                 out.extend_from_slice(room.point());
-                out.extend_from_slice(b"0.0}");
+                out.extend_from_slice(b"0.0");
+                out.extend_from_slice(&self.at_start);
+                out.push(b'}');
             }
             out.extend_from_slice(br#",{"waypoint":"#);
             to_writer(&mut *out, &(index + 2))?;
@@ -120,10 +148,20 @@ impl<'a> Legs<'a> {
             out.extend_from_slice(self.heading(index));
             out.extend_from_slice(room.point());
             out.extend_from_slice(self.cost(index));
+            out.extend_from_slice(&self.takes[index].so_far);
             out.push(b'}');
         }
         Ok(())
     }
+}
+
+fn written(measures: &Measures) -> Result<Vec<u8>> {
+    if measures.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut text = br#","measures":"#.to_vec();
+    to_writer(&mut text, measures)?;
+    Ok(text)
 }
 
 /// Where a leg ends, up to the heading.

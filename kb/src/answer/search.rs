@@ -68,6 +68,7 @@ impl Basis<'_> {
         answer.waypoints = steps::waypoints(graph, way, gauge);
         answer.cost = Some(way.cost);
         answer.distance = gauge.map(|_| way.length());
+        answer.measures = answer.at_the_end();
         answer.status = Status::of(way);
         Ok(())
     }

@@ -1,9 +1,11 @@
 //! The rows of `action_sequence` and of `waypoints` of a route that is not kept.
 
 use adit_db::door::DoorKind;
+use adit_db::measure::Measures;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::routes::{Leg, Way};
 
+use super::taken::Taken;
 use crate::graph::gauge::{Gauge, bends, headings};
 use crate::graph::heading;
 use crate::graph::{Rules, SiteGraph, word};
@@ -12,16 +14,19 @@ use crate::graph::{Rules, SiteGraph, word};
 pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool) -> Vec<Step> {
     let mut steps: Vec<Step> = Vec::with_capacity(way.legs.len() * 2);
     let (mut before, mut walked) = (0.0, 0.0);
+    let mut taken = Taken::new(graph, way);
     for (index, leg) in way.legs.iter().enumerate() {
         let is_goal = index + 1 == way.legs.len();
         walked += leg.hardness;
+        let taking = taken.follow(leg);
         if leg.door.is_none() && !is_goal {
             // a bend within a room is no step
             continue;
         }
         let leg = &Leg { hardness: std::mem::take(&mut walked), ..*leg };
         let heading = heading(leg.from, leg.to).filter(|_| !is_goal || to_point);
-        steps.push(Step { heading, ..room_step(graph, rules, leg, before + leg.hardness) });
+        let step = room_step(graph, rules, leg, before + leg.hardness);
+        steps.push(Step { heading, measures: taking.room, ..step });
         before = leg.cost;
         let Some(door) = leg.door.map(|door| &graph[door]) else { continue };
         let layer_of = match door.kind {
@@ -42,6 +47,7 @@ pub(super) fn steps(graph: &SiteGraph, rules: &Rules, way: &Way, to_point: bool)
             rule: door.hardness.rule.and_then(|rule| rules.get(&rule).cloned()),
             space: None,
             doorway: graph.doorway(door),
+            measures: taking.door.unwrap_or_default(),
             z: None,
         });
     }
@@ -67,6 +73,7 @@ fn room_step(graph: &SiteGraph, rules: &Rules, leg: &Leg, cost: f64) -> Step {
         rule: room.action.rule.and_then(|rule| rules.get(&rule).cloned()),
         space: room.space.and_then(|space| graph.building.space(space)),
         doorway: None,
+        measures: Measures::default(),
         z: None,
     }
 }
@@ -78,7 +85,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> 
     let clearances = gauge.map(|gauge| gauge.clearances(graph, way, &bends));
     let headings = headings(way, &bends);
     let mut points: Vec<Waypoint> = Vec::new();
-    let mut distance = 0.0;
+    let (mut distance, mut taken) = (0.0, Taken::new(graph, way));
     for (index, leg) in way.legs.iter().enumerate() {
         let room = &graph[leg.room];
         let here = Waypoint {
@@ -92,12 +99,14 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> 
             clearance: None,
             distance: is_measured.then_some(0.0),
             cost: 0.0,
+            measures: taken.at_start(),
             ..Waypoint::default()
         };
         if index == 0 {
             points.push(here.clone());
         }
         distance += leg.length();
+        let taking = taken.follow(leg);
         if bends.get(index + 1).is_none_or(|bends| *bends) {
             points.push(Waypoint {
                 waypoint: points.len() as i64 + 1,
@@ -107,6 +116,7 @@ pub(super) fn waypoints(graph: &SiteGraph, way: &Way, gauge: Option<&Gauge>) -> 
                 clearance: clearances.as_ref().and_then(|clearances| clearances[index]),
                 distance: is_measured.then_some(distance),
                 cost: leg.cost,
+                measures: taking.so_far,
                 ..here
             });
         }

@@ -39,13 +39,13 @@ pub fn run(args: &DemoArgs) -> Result<()> {
     );
     show(&clinic.knowledge, &clinic.report);
     line("");
-    route::summary(&clinic.answer);
+    route::summary(&clinic.answer, &clinic.knowledge.measures()?);
     line(&format!("picture: {}\n", clinic.picture.display()));
     line("== The example of the paper (Abou-Ali et al.), from which this comes\n");
     show(&paper.knowledge, &paper.report);
     rooms(&paper.knowledge)?;
     line("");
-    route::steps(&paper.answer);
+    route::steps(&paper.answer, &paper.knowledge.measures()?);
     line(&format!("picture: {}\n", paper.picture.display()));
     let (adit, site) = (program(), quoted(&args.out.join("clinic")));
     let picture = quoted(&args.out.join("lobby.svg"));

@@ -1,5 +1,6 @@
 //! `adit route`.
 
+use adit_db::measure::Measure;
 use clap::Args;
 
 use super::args::WayArgs;
@@ -8,6 +9,7 @@ use super::output::{json, line, maybe, number, remark, table};
 use crate::answer::{Answer, Status};
 use crate::edit::Errand;
 use crate::error::{Code, Result};
+use crate::words::measure::taken;
 
 #[derive(Args, Debug)]
 pub struct RouteArgs {
@@ -66,15 +68,15 @@ pub fn run(args: &RouteArgs) -> Result<u8> {
             remark(reason);
         }
     } else if args.steps {
-        steps(&answer);
+        steps(&answer, &knowledge.measures()?);
     } else {
-        summary(&answer);
+        summary(&answer, &knowledge.measures()?);
     }
     Ok(answer.status.code().map_or(u8::from(answer.status == Status::NoRoute), Code::exit))
 }
 
 /// Prints an answer for people; whether there are steps to print.
-fn head(answer: &Answer) -> bool {
+fn head(answer: &Answer, measures: &[Measure]) -> bool {
     let (start, goal) = (&answer.start, &answer.goal);
     for instead in &answer.taken {
         let name = if instead.end == "start" { start } else { goal };
@@ -83,7 +85,9 @@ fn head(answer: &Answer) -> bool {
     match answer.status {
         Status::Ok => {
             let metres = answer.distance.map_or(String::new(), |metres| format!(", {metres:.1} m"));
-            line(&format!("{start} to {goal}, hardness {}{metres}:", maybe(answer.cost)));
+            let taken = taken(&answer.measures, measures)
+                .map_or(String::new(), |taken| format!(", takes about {taken}"));
+            line(&format!("{start} to {goal}, hardness {}{metres}{taken}:", maybe(answer.cost)));
         }
         Status::SameRoom => line(&format!("{start} and {goal} are in the same room:")),
         Status::NoRoute => {
@@ -102,12 +106,15 @@ fn head(answer: &Answer) -> bool {
 }
 
 /// Prints every step of an answer.
-pub fn steps(answer: &Answer) {
-    if !head(answer) {
+pub fn steps(answer: &Answer, measures: &[Measure]) {
+    if !head(answer, measures) {
         return;
     }
+    let known: Vec<&str> = measures.iter().map(|of| of.measure.as_str()).collect();
+    let known: Vec<&str> = known.into_iter().filter(|name| answer.measures.0.contains_key(*name)).collect();
     let rows = answer.steps.iter().map(|step| {
-        vec![
+        let taken = known.iter().map(|name| maybe(step.measures.0.get(*name).copied()));
+        let row = vec![
             step.step.to_string(),
             step.kind.clone(),
             step.place.clone(),
@@ -120,12 +127,14 @@ pub fn steps(answer: &Answer) {
             step.z.map_or(String::new(), number),
             step.heading.map_or(String::new(), |heading| format!("{heading:.0}°")),
             step.space.clone().or_else(|| step.doorway.clone()).unwrap_or_default(),
-        ]
+        ];
+        row.into_iter().chain(taken).collect()
     });
-    table(
-        &["step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where"],
-        rows,
-    );
+    let mut columns = vec![
+        "step", "kind", "place", "state", "action", "hardness", "cost", "x", "y", "z", "heading", "where",
+    ];
+    columns.extend(&known);
+    table(&columns, rows);
 }
 
 /// Prints a route over a map that is not cut into rooms: a line a step, where it leads and through what.
@@ -152,8 +161,8 @@ struct Run {
 }
 
 /// Prints an answer in a few lines: a line for each run of steps with one action, and the spaces that it leads through.
-pub fn summary(answer: &Answer) {
-    if !head(answer) {
+pub fn summary(answer: &Answer, measures: &[Measure]) {
+    if !head(answer, measures) {
         return;
     }
     if answer.steps.iter().all(|step| !["room", "door", "change"].contains(&step.kind.as_str())) {

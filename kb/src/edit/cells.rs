@@ -24,7 +24,7 @@ pub(super) fn cell(text: &str) -> Cell {
     }
 }
 
-pub(crate) const TUNABLE: [&str; 4] = ["robots", "changes", "loads", "hours"];
+pub(crate) const TUNABLE: [&str; 5] = ["robots", "changes", "loads", "hours", "measures"];
 const DERIVED: [&str; 19] = [
     "rooms",
     "doors",

@@ -94,6 +94,9 @@ codes! {
     /// The edit is not said as edits are: a column is missing, given twice, or is not `column=value`.
     EditUsage = "edit/usage", BAD_REQUEST;
 
+    /// What an editor says is no message of the Language Server Protocol.
+    EditorLost = "editor/lost", BAD_REQUEST;
+
     /// The table of an experiment cannot be written.
     ExperimentCsv = "experiment/csv", BAD_REQUEST;
     /// An experiment needs a scenario (.json).
@@ -137,6 +140,13 @@ codes! {
     LaidUnreadable = "laid/unreadable", BAD_REQUEST;
     /// What is laid over a map is an area, or an obstacle, which is of no kind; its corners are pairs of numbers.
     LaidUsage = "laid/usage", BAD_REQUEST;
+
+    /// A layer is written as .geojson or .json.
+    LayerFile = "layer/file", BAD_REQUEST;
+    /// The site has no layer of this name.
+    LayerUnknown = "layer/unknown", NOT_FOUND;
+    /// A row of a layer has a shape that cannot be read.
+    LayerUnreadable = "layer/unreadable", BAD_REQUEST;
 
     /// The tables were edited meanwhile; try again.
     LiveStale = "live/stale", INTERNAL_SERVER_ERROR;

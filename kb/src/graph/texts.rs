@@ -34,7 +34,7 @@ impl Text {
         &self.all[..self.rule]
     }
 
-    /// The end of a step, after its heading.
+    /// A step after its heading, up to what it takes.
     pub fn rule(&self) -> &[u8] {
         &self.all[self.rule..self.point]
     }
@@ -88,7 +88,7 @@ fn end<T>(
 ) -> Result<String> {
     let rule = to_string(&value.rule.and_then(|rule| rules.get(&rule)))?;
     let (space, doorway) = (to_string(&space)?, to_string(&doorway)?);
-    Ok(format!(r#","rule":{rule},"space":{space},"doorway":{doorway}}}"#))
+    Ok(format!(r#","rule":{rule},"space":{space},"doorway":{doorway}"#))
 }
 
 fn room_text(graph: &SiteGraph, rules: &Rules, room: RoomIndex) -> Result<Arc<Text>> {

@@ -3,6 +3,7 @@
 use std::hash::{Hash, Hasher};
 
 use adit_db::load::Load;
+use adit_db::measure::Measure;
 use adit_db::place::Place;
 use adit_db::relation::{Relation, RelationColumn};
 use adit_db::robot::{Change, State};
@@ -23,6 +24,8 @@ pub fn robots(states: &[State]) -> Table {
         .with("length", states.iter().map(|row| row.length).collect::<Column>())
         .with("hardness", states.iter().map(|row| row.hardness).collect::<Column>())
         .with("position", states.iter().map(|row| row.position as f64).collect::<Column>())
+        .with("speed", states.iter().map(|row| row.speed).collect::<Column>())
+        .with("power", states.iter().map(|row| row.power).collect::<Column>())
 }
 
 /// The costs of changing shape as a class.
@@ -32,6 +35,15 @@ pub fn changes(changes: &[Change]) -> Table {
         .with("from_state", changes.iter().map(|row| row.from_state.clone()).collect::<Column>())
         .with("to_state", changes.iter().map(|row| row.to_state.clone()).collect::<Column>())
         .with("hardness", changes.iter().map(|row| row.hardness).collect::<Column>())
+        .with("seconds", changes.iter().map(|row| row.seconds).collect::<Column>())
+        .with("joules", changes.iter().map(|row| row.joules).collect::<Column>())
+}
+
+/// What adds up along routes, as a class.
+pub fn measures(measures: &[Measure]) -> Table {
+    Table::default()
+        .with("measure", measures.iter().map(|row| row.measure.clone()).collect::<Column>())
+        .with("unit", measures.iter().map(|row| row.unit.clone()).collect::<Column>())
 }
 
 /// The places as a class.
@@ -64,6 +76,7 @@ pub fn unbuilt() -> Facts {
         ("CHANGES".to_owned(), changes(&[])),
         ("HOURS".to_owned(), hours()),
         ("LOADS".to_owned(), loads(&[])),
+        ("MEASURES".to_owned(), measures(&[])),
     ])
 }
 

@@ -8,7 +8,7 @@ use adit_db::history::Author;
 use adit_db::place::Place;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
-use adit_engine::RuleBase;
+use adit_engine::{RuleBase, Schema};
 
 use super::memory::Memory;
 use super::report::Report;
@@ -100,9 +100,14 @@ impl KnowledgeBase {
     /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
     /// away; the site's database is not touched.
     pub fn check(&self) -> Result<Vec<Finding>> {
+        self.examine(|_| Ok(())).map(|(problems, ())| problems)
+    }
+
+    /// As [`check`](Self::check), with what is to be known of the site as it was built and thrown away.
+    pub(crate) fn examine<T>(&self, look: impl FnOnce(&Self) -> Result<T>) -> Result<(Vec<Finding>, T)> {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
         let mut problems =
-            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked());
+            lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked()?);
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
@@ -123,7 +128,20 @@ impl KnowledgeBase {
         problems.extend(lint::never_chosen(&report.dominated));
         let built = self.clone().with_database(Some(&scratch));
         problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
-        Ok(problems)
+        Ok((problems, look(&built)?))
+    }
+
+    /// The classes and properties that rules may name, of a site that was built.
+    ///
+    /// Where the rules that are in force cannot be read, what the lowest of them leaves is taken.
+    pub(crate) fn classes(&self) -> Result<Schema> {
+        let lowest = |_| {
+            let bases = rules::bases(self.site(), self.rules.as_deref());
+            rules::load_bases(&bases[..1.min(bases.len())]).map(|rules| rules.base)
+        };
+        let rules = self.rule_base().or_else(lowest)?;
+        let mut store = Store::open_read_only(self.database())?;
+        store.snapshot(|tx| Ok(self.schema(&self.told(tx, &rules)?)))
     }
 
     /// The route of least hardness between two places, rooms or points (`x,y`).
@@ -240,6 +258,7 @@ impl KnowledgeBase {
                 (answer.cost, answer.distance) = (route.cost, route.distance);
                 answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
                 answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+                answer.measures = answer.at_the_end();
                 answer.remarks = tx.course_remarks(&robot, start, &route.goal)?;
                 answer.goal = route.goal;
                 return Ok(answer);
@@ -263,6 +282,7 @@ impl KnowledgeBase {
             (answer.cost, answer.distance) = (route.cost, route.distance);
             answer.steps = tx.action_sequence(&robot, start, &route.goal)?;
             answer.waypoints = tx.waypoints(&robot, start, &route.goal)?;
+            answer.measures = answer.at_the_end();
             answer.goal = route.goal;
             return Ok(answer);
         }

@@ -423,8 +423,7 @@ impl Change {
 fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> Vec<String> {
     let mut notes = Vec::new();
     // what a planner asks about comes when it asks
-    let asked: Vec<&str> =
-        site.course().iter().flat_map(|course| course.asks()).map(|class| class.name).collect();
+    let asked: Vec<&str> = site.asks().iter().map(|class| class.name).collect();
     let is_asked = |need: &String| asked.contains(&need.split('.').next().unwrap_or_default());
     for waiting in conclusions.waiting.iter().filter(|waiting| !waiting.needs.iter().any(is_asked)) {
         notes.push(format!(

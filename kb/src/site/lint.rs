@@ -33,8 +33,8 @@ const READ_BY_ROUTES: [&str; 11] = [
 
 /// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people
 /// to read.
-/// Where the map is not cut into rooms, `asked` are the properties that its planner asks for, and those of other classes are
-/// for people.
+/// `asked` are the properties that add up along routes; where the map is not cut into rooms those, too, that its planner asks
+/// for, and what is said of other classes is for people.
 pub fn unread(
     site: &Site,
     rules: &RuleBase,
@@ -50,7 +50,7 @@ pub fn unread(
     }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
-    unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs))
+    unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs).chain(asked.iter().cloned()))
 }
 
 /// As [`unread`], where these properties are read by others than rules.

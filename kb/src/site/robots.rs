@@ -108,13 +108,15 @@ const EXAMPLE: &str = "it needs at least one entry:\n[[robots]]\nstate = \"DRIVE
 fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> (Vec<State>, Named) {
     let (mut rows, mut named): (Vec<State>, Named) = Default::default();
     for entry in fields.tables("robots", "[[robots]]", problems) {
-        entry
-            .refuse_unknown(&["robot", "state", "action", "height", "width", "length", "hardness"], problems);
+        let known = ["robot", "state", "action", "height", "width", "length", "hardness", "speed", "power"];
+        entry.refuse_unknown(&known, problems);
         let robot = robot(&entry, problems);
         let (state, action) = (name(&entry, "state", problems), name(&entry, "action", problems));
         named.add(&robot, state.as_ref().map(|state| state.value.as_str()));
         let sizes = ["height", "width", "hardness"].map(|key| not_negative(&entry, key, problems));
         let length = entry.get("length").is_some().then(|| entry.positive("length", problems));
+        let speed = entry.get("speed").is_some().then(|| entry.positive("speed", problems));
+        let power = perhaps(&entry, "power", problems);
         let (Some(state), Some(action), [Some(height), Some(width), Some(hardness)]) = (state, action, sizes)
         else {
             continue;
@@ -135,8 +137,8 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> (Vec<State>, 
         }
         let position = rows.iter().filter(|row| row.robot == robot).count() as i64 + 1;
         let (state, action) = (state.value, action.value);
-        let length = length.flatten().map(|length| length.value);
-        rows.push(State { robot, state, action, height, width, length, hardness, position });
+        let [length, speed] = [length, speed].map(|number| number.flatten().map(|number| number.value));
+        rows.push(State { robot, state, action, height, width, length, hardness, position, speed, power });
     }
     (rows, named)
 }
@@ -144,7 +146,7 @@ fn robots(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> (Vec<State>, 
 fn changes(fields: &Fields<'_, '_>, named: &Named, problems: &mut Vec<Problem>) -> Vec<Change> {
     let mut rows: Vec<Change> = Vec::new();
     for entry in fields.tables("changes", "[[changes]]", problems) {
-        entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness"], problems);
+        entry.refuse_unknown(&["robot", "from_state", "to_state", "hardness", "seconds", "joules"], problems);
         let robot = robot(&entry, problems);
         let from = name(&entry, "from_state", problems);
         let to = name(&entry, "to_state", problems);
@@ -160,7 +162,9 @@ fn changes(fields: &Fields<'_, '_>, named: &Named, problems: &mut Vec<Problem>) 
         }
         if let (Some(from), Some(to), Some(hardness)) = (from, to, not_negative(&entry, "hardness", problems))
         {
-            let row = Change { robot, from_state: from.value, to_state: to.value, hardness };
+            let [seconds, joules] = ["seconds", "joules"].map(|key| perhaps(&entry, key, problems));
+            let (from_state, to_state) = (from.value, to.value);
+            let row = Change { robot, from_state, to_state, hardness, seconds, joules };
             if rows.iter().any(|known| key(known) == key(&row)) {
                 let message = format!("the change {} stands here twice", key(&row));
                 problems.push(entry.text.problem(Code::DuplicatePlace, &entry.span, message));
@@ -170,6 +174,11 @@ fn changes(fields: &Fields<'_, '_>, named: &Named, problems: &mut Vec<Problem>) 
         }
     }
     rows
+}
+
+/// A number that need not be there.
+fn perhaps(entry: &Fields<'_, '_>, key: &str, problems: &mut Vec<Problem>) -> Option<f64> {
+    entry.get(key).is_some().then(|| not_negative(entry, key, problems)).flatten()
 }
 
 /// The row's key as people write it; names with a `/` may make two of them equal.

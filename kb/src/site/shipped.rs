@@ -22,6 +22,17 @@ pub struct Rules;
 #[include = "*.rhai"]
 pub struct Sites;
 
+/// The pages of the manual that the program quotes.
+#[derive(RustEmbed)]
+#[folder = "$CARGO_MANIFEST_DIR/../manual/src"]
+#[include = "what-rules-see.md"]
+struct Manual;
+
+/// The text of a page of the manual; of one that the program does not carry, none.
+pub fn page(name: &str) -> String {
+    Manual::get(name).map_or_else(String::new, |page| String::from_utf8_lossy(&page.data).into_owned())
+}
+
 /// Files of one folder of `E`, by name, in the order of their names.
 pub fn files<E: RustEmbed>(folder: &str) -> Vec<(String, String)> {
     let mut found: Vec<_> = E::iter()

@@ -8,12 +8,14 @@ use adit_db::place::Place;
 use super::State;
 use crate::error::{Code, Error, Result};
 use crate::plan::course::{Asked, Found, NoEnd, Pathfinder};
+use crate::plan::legs::Legs;
 use crate::site::Starts;
 use crate::words::suggest::did_you_mean;
 
 /// The routes that are kept, between all ends of the map, and who finds others.
 pub struct Courses {
     finder: Box<dyn Pathfinder>,
+    legs: Legs,
     kept: Vec<Found>,
     starts: usize,
 }
@@ -51,6 +53,7 @@ impl State {
     pub(super) fn courses_now(&self) -> Result<Option<Courses>> {
         let Some(course) = self.site.course() else { return Ok(None) };
         let finder = course.pathfinder(&self.asked())?;
+        let legs = Legs::new(&self.asked())?;
         let ends: Vec<String> = finder.ends().into_iter().map(|end| end.place).collect();
         let starts = match &self.site.site().starts {
             Some(Starts::Named(names)) => known(names, &ends)?,
@@ -60,15 +63,17 @@ impl State {
         for robot in finder.robots() {
             for start in &starts {
                 for goal in ends.iter().filter(|goal| goal != start) {
-                    kept.push(finder.find(&robot, start, goal).map_err(no_end)?);
+                    let mut found = finder.find(&robot, start, goal).map_err(no_end)?;
+                    legs.measure(&mut found.row);
+                    kept.push(found);
                 }
             }
         }
-        if let Some(trouble) = finder.trouble() {
+        if let Some(trouble) = finder.trouble().or_else(|| legs.trouble()) {
             return Err(Error::said(Code::PlanRules, trouble, None));
         }
         let starts = starts.len();
-        Ok(Some(Courses { finder, kept, starts }))
+        Ok(Some(Courses { finder, legs, kept, starts }))
     }
 }
 
@@ -161,7 +166,10 @@ impl Courses {
     pub fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
         let is_it = |Found { row, .. }: &&Found| row.robot == robot && row.start == start && row.goal == goal;
         let kept = self.kept.iter().find(is_it);
-        kept.map_or_else(|| self.finder.find(robot, start, goal), |found| Ok(found.clone()))
+        match kept {
+            Some(found) => Ok(found.clone()),
+            None => Ok(self.measured(self.finder.find(robot, start, goal)?)),
+        }
     }
 
     /// The map as a picture, with a route.
@@ -171,6 +179,11 @@ impl Courses {
 
     /// The best route through something.
     pub fn find_through(&self, robot: &str, ends: [&str; 2], through: &str) -> Result<Found> {
-        self.finder.find_through(robot, ends, through)
+        Ok(self.measured(self.finder.find_through(robot, ends, through)?))
+    }
+
+    fn measured(&self, mut found: Found) -> Found {
+        self.legs.measure(&mut found.row);
+        found
     }
 }

@@ -22,6 +22,7 @@ use crate::knowledge::told::{Attached, Told};
 use crate::state::grounds::Reasons;
 use crate::state::rows;
 use crate::state::spaces;
+use crate::state::weighed;
 use crate::state::{Look, Recall, State, Step, Which, truth};
 
 /// What planners of rooms make, and rows of ours hold.
@@ -111,7 +112,7 @@ impl Kept {
             }
         }
         let mut derivations = Vec::new();
-        for (class, property) in untabled(rules) {
+        for (class, property) in untabled(knowledge, rules) {
             derivations.extend(derivations_of(&mut look, class, property));
         }
         let mut facts = reasons.into_facts();
@@ -169,6 +170,7 @@ impl Kept {
             yaw: world.frame.heading,
         };
         tx.replace_frames(&[frame])?;
+        tx.replace_area_outlines(&rows::area_outlines(&step.world))?;
         tx.replace_rules(
             &rule_rows(&state.inputs.rules),
             &witnesses(facts, |at| kept.uses.contains_key(&at)),
@@ -229,7 +231,7 @@ impl Kept {
     /// All derivations as they are now; `None` where none can have changed.
     fn derivations_now(&self, look: &mut Look<'_, '_>) -> Option<Vec<Derivation>> {
         let mut now = None;
-        for (class, property) in untabled(look.rules) {
+        for (class, property) in untabled(look.knowledge, look.rules) {
             if !look.may_differ(class, property) {
                 continue;
             }
@@ -350,17 +352,23 @@ fn witnesses(facts: BTreeMap<i64, String>, is_wanted: impl Fn(i64) -> bool) -> V
 
 /// What rules conclude that has no column of ours. Routes are told once a step is over, so that what is concluded of them is
 /// of the moment.
-fn untabled(rules: &RuleBase) -> impl Iterator<Item = (&str, &str)> {
+fn untabled<'r>(knowledge: &Inference, rules: &'r RuleBase) -> impl Iterator<Item = (&'r str, &'r str)> {
     let names = rules.concluded().into_iter();
     let names = names.map(|name| (name.class.as_str(), name.property.as_str()));
-    names.filter(|name| !TABLED.contains(name) && name.0 != ROUTES)
+    let added = CUT.map(|class| (class, weighed::measures(knowledge, class)));
+    let adds_up = move |(class, property): (&str, &str)| {
+        added.iter().any(|(of, names)| *of == class && names.iter().any(|name| name == property))
+    };
+    names.filter(move |name| !TABLED.contains(name) && !adds_up(*name) && name.0 != ROUTES)
 }
 
 /// What rules conclude of classes without a table of ours, of the objects that a step touched.
 pub fn touched(knowledge: &Inference, rules: &RuleBase, changes: &Changes) -> Vec<Derivation> {
     let mut reasons = Reasons::new(knowledge, rules);
     let mut look = Look { knowledge, rules, which: Which::Touched(changes), reasons: Some(&mut reasons) };
-    untabled(rules).flat_map(|(class, property)| derivations_of(&mut look, class, property)).collect()
+    untabled(knowledge, rules)
+        .flat_map(|(class, property)| derivations_of(&mut look, class, property))
+        .collect()
 }
 
 /// Values that rules concluded of one property that has no column of ours.

@@ -4,12 +4,13 @@ use std::borrow::Cow;
 
 use adit_db::Derived;
 use adit_db::area::Area;
+use adit_db::layer::AreaOutline;
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::{Column, Kind, Part, Row, Value};
 use adit_engine::Class;
 use adit_planners::facts::{self, Table};
-use adit_planners::world::World;
+use adit_planners::world::{Shape, World};
 
 use crate::error::{Code, Error, Result};
 use crate::graph::outline_of;
@@ -177,4 +178,19 @@ pub fn places(world: &World) -> Vec<Place> {
         .collect();
     places.sort_by(|a, b| a.place.cmp(&b.place));
     places
+}
+
+/// The areas of the map, and those that lie over it, as rows.
+pub fn area_outlines(world: &World) -> Vec<AreaOutline> {
+    let row = |area: &adit_planners::world::Area| {
+        let corners: Vec<[f64; 2]> = match &area.shape {
+            Shape::Rect(rect) => rect.corners().iter().map(|corner| [corner.x, corner.y]).collect(),
+            Shape::Polygon(corners) => corners.iter().map(|corner| [corner.x, corner.y]).collect(),
+        };
+        let outline = serde_json::json!(corners).to_string();
+        AreaOutline { area: area.name.clone(), kind: area.kind.clone(), outline }
+    };
+    let mut rows: Vec<AreaOutline> = world.areas.iter().map(row).collect();
+    rows.sort_by(|a, b| a.area.cmp(&b.area));
+    rows
 }

@@ -29,7 +29,7 @@ use crate::words::progress::{Progress, Stage, Stopwatch};
 /// What a step changes. The state shows it once it is [accepted](State::accept).
 pub struct Step {
     /// The map with what lies over it now.
-    world: Arc<World>,
+    pub world: Arc<World>,
     /// What is told now.
     pub told: Told,
     /// Which objects facts are about.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use adit_db::Derived;
 use adit_db::door::Door;
+use adit_db::measure::Measures;
 use adit_db::room::Room;
 use adit_db::schema::{Part, Row};
 use adit_db::space::Doorway;
@@ -15,6 +16,9 @@ use crate::graph::Building;
 use crate::knowledge::told::Line;
 use crate::state::grounds::{Reason, Reasons};
 use crate::state::spaces;
+
+/// Where it stands which measures there are.
+const MEASURES: (&str, &str) = ("MEASURES", "measure");
 
 /// Rooms and doors with what rules now say of them: those that differ from what they said, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -136,18 +140,30 @@ impl Look<'_, '_> {
     }
 
     fn weights<I: From<u32>>(&mut self, class: &str) -> impl Iterator<Item = (I, Weight)> + use<I> {
+        let measures = measures(self.knowledge, class);
+        let others = measures.iter().map(String::as_str);
         let mut rows: Vec<u32> = ["hardness", "action", "passable"]
-            .iter()
+            .into_iter()
+            .chain(others)
             .flat_map(|property| self.rows(class, property))
             .collect();
+        if self.may_differ(MEASURES.0, MEASURES.1) {
+            rows = (0..self.knowledge.len(class).unwrap_or(0) as u32).collect();
+        }
         rows.sort_unstable();
         rows.dedup();
         // made one by one: what rules say of all doors at once is more than the doors
         let hardness = self.values((class, "hardness"), &rows, number);
         let action = self.values((class, "action"), &rows, text);
         let passable = self.values((class, "passable"), &rows, truth);
-        let weights = hardness.zip(action).zip(passable);
-        let weights = weights.map(|((hardness, action), passable)| Weight { hardness, action, passable });
+        let measures = texts(self.knowledge, class, &rows, &measures);
+        let weights = hardness.zip(action).zip(passable).zip(measures);
+        let weights = weights.map(|(((hardness, action), passable), measures)| Weight {
+            hardness,
+            action,
+            passable,
+            measures,
+        });
         rows.into_iter().map(I::from).zip(weights)
     }
 
@@ -203,6 +219,38 @@ impl Look<'_, '_> {
             || !changes.reasons(class, property).is_empty()
             || changes.classes.get(class).is_some_and(moved)
     }
+}
+
+/// The names of the measures that rules say of a class, or that are told of it.
+pub fn measures(knowledge: &Inference, class: &str) -> Vec<String> {
+    let known = knowledge.texts(MEASURES.0, MEASURES.1).unwrap_or_default();
+    let known = known.into_iter().flatten().map(|name| name.to_string());
+    known.filter(|name| knowledge.kind_of(class, name).is_some()).collect()
+}
+
+/// What is said of measures, row by row, as the database has it.
+fn texts(
+    knowledge: &Inference,
+    class: &str,
+    rows: &[u32],
+    names: &[String],
+) -> impl Iterator<Item = Option<String>> + use<> {
+    let columns: Vec<Vec<Option<Value>>> =
+        names.iter().map(|name| knowledge.values_at(class, rows, name)).collect();
+    let names = names.to_vec();
+    // rooms of a state mostly say the same
+    let mut last: (Vec<Option<f64>>, Option<String>) = (vec![None; names.len()], None);
+    (0..rows.len()).map(move |row| {
+        let amounts: Vec<Option<f64>> =
+            columns.iter().map(|column| column[row].as_ref().and_then(number)).collect();
+        if amounts != last.0 {
+            let known = names.iter().cloned().zip(&amounts);
+            let known = known.filter_map(|(name, amount)| Some((name, (*amount)?)));
+            let text = Measures(known.collect()).text();
+            last = (amounts, text);
+        }
+        last.1.clone()
+    })
 }
 
 fn number(value: &Value) -> Option<f64> {

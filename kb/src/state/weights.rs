@@ -7,32 +7,37 @@ use adit_planners::facts::Column;
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::classes;
+use crate::state::weighed::measures;
 use crate::words::number::number;
 
 /// The largest hardness that the tables take.
 const LARGEST: f64 = 1e300;
 
-/// Checks the hardness of a class's objects.
+/// Checks what weighs or adds up of a class's objects.
 ///
 /// # Arguments
 /// `name` is how messages call the object in a row.
-fn check_hardness(knowledge: &Inference, class: &str, name: impl Fn(usize) -> String) -> Result<()> {
-    let values = match classes::column(knowledge, class, "hardness") {
+fn check_all(
+    knowledge: &Inference,
+    (class, property): (&str, &str),
+    name: impl Fn(usize) -> String,
+) -> Result<()> {
+    let values = match classes::column(knowledge, class, property) {
         Some(Column::Number(values)) => values,
         Some(other) => {
             let kind = if matches!(other, Column::Text(_)) { "texts" } else { "truth values" };
-            let rules = rules(knowledge, class);
-            let message = format!("{class}.hardness must hold numbers, and {rules} gives it {kind}");
+            let rules = rules(knowledge, (class, property));
+            let message = format!("{class}.{property} must hold numbers, and {rules} gives it {kind}");
             return Err(Error::said(Code::RuleHardness, message, None));
         }
         None => return Ok(()),
     };
     let wrong = |value: &Option<f64>| value.is_some_and(|value| !(0.0..=LARGEST).contains(&value));
     let Some(row) = values.iter().position(wrong) else { return Ok(()) };
-    Err(refusal(knowledge, class, (row, values[row]), name))
+    Err(refusal(knowledge, (class, property), (row, values[row]), name))
 }
 
-/// Checks the hardness of rooms and doors: of those that an update changed, or of all.
+/// Checks the hardness of rooms and doors and what of them adds up: of those that an update changed, or of all.
 pub fn check(
     knowledge: &Inference,
     (rooms, doors): (&[Room], &[Door]),
@@ -40,27 +45,35 @@ pub fn check(
 ) -> Result<()> {
     let room = |row: usize| format!("room {}", rooms[row].name);
     let door = |row: usize| format!("door {}", doors[row].door);
-    let Some(changes) = changes else {
-        check_hardness(knowledge, "ROOMS", room)?;
-        return check_hardness(knowledge, "DOORS", door);
-    };
-    check_rows(knowledge, "ROOMS", changes.rows("ROOMS", "hardness"), room)?;
-    check_rows(knowledge, "DOORS", changes.rows("DOORS", "hardness"), door)
+    let names: [(&str, &dyn Fn(usize) -> String); 2] = [("ROOMS", &room), ("DOORS", &door)];
+    for (class, name) in names {
+        let measures = measures(knowledge, class);
+        for property in ["hardness"].into_iter().chain(measures.iter().map(String::as_str)) {
+            // one that is declared just now was never looked at
+            match changes.filter(|changes| !changes.classes.contains_key("MEASURES")) {
+                None => check_all(knowledge, (class, property), name)?,
+                Some(changes) => {
+                    check_rows(knowledge, (class, property), changes.rows(class, property), name)?;
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
-/// Checks the hardness of the objects in these rows, of a class that was checked before.
+/// Checks the objects in these rows, of a class that was checked before.
 fn check_rows(
     knowledge: &Inference,
-    class: &str,
+    (class, property): (&str, &str),
     rows: &[u32],
     name: impl Fn(usize) -> String,
 ) -> Result<()> {
     for &row in rows {
         let row = row as usize;
-        if let Some(Value::Number(value)) = knowledge.value_at(class, row, "hardness")
+        if let Some(Value::Number(value)) = knowledge.value_at(class, row, property)
             && !(0.0..=LARGEST).contains(&value)
         {
-            return Err(refusal(knowledge, class, (row, Some(value)), name));
+            return Err(refusal(knowledge, (class, property), (row, Some(value)), name));
         }
     }
     Ok(())
@@ -68,24 +81,24 @@ fn check_rows(
 
 fn refusal(
     knowledge: &Inference,
-    class: &str,
+    (class, property): (&str, &str),
     (row, value): (usize, Option<f64>),
     name: impl Fn(usize) -> String,
 ) -> Error {
-    let by = knowledge.justifications(class, "hardness").and_then(|found| {
+    let by = knowledge.justifications(class, property).and_then(|found| {
         let rule = found.of_row.get(row).copied().flatten()?;
         found.rules.get(rule as usize).map(|(rule, _)| format!("rule \"{rule}\""))
     });
-    let by = by.unwrap_or_else(|| rules(knowledge, class));
+    let by = by.unwrap_or_else(|| rules(knowledge, (class, property)));
     let found = value.map_or_else(String::new, number);
-    let message = format!("{by} gives {} the hardness {found}", name(row));
-    let help = "a hardness is finite and not negative; revisions count, too".to_owned();
+    let message = format!("{by} gives {} the {property} {found}", name(row));
+    let help = format!("{property} must be finite and not negative; revisions count, too");
     Error::said(Code::RuleHardness, message, Some(help))
 }
 
-/// The rules that give a class its hardness.
-fn rules(knowledge: &Inference, class: &str) -> String {
-    let found = knowledge.justifications(class, "hardness");
+/// The rules that give a class a property.
+fn rules(knowledge: &Inference, (class, property): (&str, &str)) -> String {
+    let found = knowledge.justifications(class, property);
     let names: Vec<String> =
         found.into_iter().flat_map(|found| found.rules).map(|(rule, _)| format!("rule \"{rule}\"")).collect();
     if names.is_empty() { "a planner".to_owned() } else { names.join(" or ") }

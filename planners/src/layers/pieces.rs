@@ -180,7 +180,9 @@ impl Mesh {
             let hull =
                 outline.iter().map(|&half| Coord::from(self.at(half))).collect::<LineString>().convex_hull();
             let corners: Vec<Point> = hull.exterior().coords().map(|&corner| corner.into()).collect();
-            Convex::new(without_straight(&corners, ROUNDING_M))
+            let kept = without_straight(&corners, ROUNDING_M);
+            // of a piece that is as thin as rounding the corners of the hull are kept; the last is the first again
+            Convex::new(if kept.len() < 3 { corners[1..].to_vec() } else { kept })
         };
         let shapes: Vec<Convex> = outlines.iter().map(shape).collect();
         let mut order: Vec<usize> = (0..shapes.len()).collect();

@@ -11,6 +11,7 @@ mod outline;
 
 use super::diagnostic::{MapErrors, Problem, Text};
 use super::fields::{Document, Fields, Located};
+use crate::overlays::AREAS;
 use crate::world::{Area, Bridge, NamedDoor, Place, Shape, World};
 use named::Given;
 use names::Names;
@@ -60,6 +61,25 @@ impl Overlay {
             doors: named::doors(fields, &mut names, &mut given, problems),
             given,
             text: fields.text.clone(),
+        }
+    }
+
+    /// Areas that were made of what stands in a text.
+    pub(super) fn of_areas(text: &Text, areas: Vec<Located<Area>>) -> Self {
+        let given = areas.iter().flat_map(|area| {
+            area.value.further.iter().map(|(property, value)| Located {
+                value: Given { class: AREAS, property: property.clone(), kind: value.kind() },
+                span: area.span.clone(),
+            })
+        });
+        Self {
+            given: given.collect(),
+            text: text.clone(),
+            obstacles: Vec::new(),
+            bridges: Vec::new(),
+            places: Vec::new(),
+            areas,
+            doors: Vec::new(),
         }
     }
 

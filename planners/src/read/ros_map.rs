@@ -54,6 +54,6 @@ pub fn read_ros_map(
 }
 
 /// The pose that turns site coordinates into ROS's map frame: a turn about the image's lower left corner.
-fn frame(origin: Pose) -> Pose {
+pub(crate) fn frame(origin: Pose) -> Pose {
     Pose { at: origin.at - origin.at.rotated(Point::towards(origin.heading)), ..origin }
 }

@@ -7,7 +7,7 @@
 
 use rayon::prelude::*;
 
-use super::outline::{outlines, simplified};
+use crate::geometry::outline::{outlines, simplified};
 use crate::geometry::{Point, Segment};
 use crate::world::Occupancy;
 

@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 20] = [
+const PAGES: [Page; 22] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -89,6 +89,15 @@ const PAGES: [Page; 20] = [
     },
     page("manual/src/tuning.md"),
     Page {
+        file: "manual/src/measures.md",
+        blocks: &[
+            ("changing shape costs", Use::File("quick/rules/quick.rhai")),
+            ("every metre is a risk", Use::File("my-site/rules/risk.rhai")),
+            ("each leg in LEGS", Use::File("halls/rules/own.rhai")),
+        ],
+        databases: &[("action_sequence", "my-site/site.db"), ("FROM waypoints", "my-site/site.db")],
+    },
+    Page {
         file: "manual/src/telling.md",
         blocks: &[
             ("name = \"ward door\"", Use::Added("my-site/site.toml")),
@@ -106,6 +115,11 @@ const PAGES: [Page; 20] = [
         file: "manual/src/sql.md",
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
+    },
+    Page {
+        file: "manual/src/geodata.md",
+        blocks: &[("file = \"keepout.yaml\"", Use::Shown)],
+        databases: &[],
     },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
@@ -230,9 +244,11 @@ each_page! {
     rules: "manual/src/rules.md";
     without_a_map: "manual/src/without-a-map.md";
     tuning: "manual/src/tuning.md";
+    seconds_and_joules: "manual/src/measures.md";
     telling: "manual/src/telling.md";
     asking_why: "manual/src/asking-why.md";
     sql: "manual/src/sql.md";
+    geodata: "manual/src/geodata.md";
     ways: "manual/src/ways.md";
     other_maps: "manual/src/other-maps.md";
     parts_and_corridors: "manual/src/corridors-and-parts.md";

@@ -27,6 +27,7 @@ const FORGET: &str = "
     DELETE FROM prime_area_strips; DELETE FROM strips; DELETE FROM starts; DELETE FROM ends; DELETE FROM tree_rows;
     DELETE FROM places; DELETE FROM frames; DELETE FROM attachments; DELETE FROM told_states; DELETE FROM site_hours;
     DELETE FROM spaces; DELETE FROM doorways; DELETE FROM blocks; DELETE FROM areas; DELETE FROM named_doors; DELETE FROM area_rooms; DELETE FROM door_rooms;
+    DELETE FROM area_outlines;
     DELETE FROM site WHERE key NOT LIKE 'class.%';";
 
 #[derive(Clone, Debug)]
@@ -54,7 +55,12 @@ fn step(chance: &mut Chance) -> Step {
         Step::Edit(Edit::Set("robots".to_owned(), state.to_owned(), column.to_owned(), value))
     };
     match chance.below(14) {
-        0 | 1 => set("hardness", number(chance, 0.0, 9.0)),
+        0 => set("hardness", number(chance, 0.0, 9.0)),
+        1 => match chance.below(3) {
+            0 => set("hardness", number(chance, 0.0, 9.0)),
+            1 => set("speed", number(chance, 0.2, 2.0)),
+            _ => set("power", number(chance, 0.0, 500.0)),
+        },
         2 => set("width", number(chance, 0.3, 1.1)),
         3 => set("height", number(chance, 0.9, 1.9)),
         4 | 5 => {

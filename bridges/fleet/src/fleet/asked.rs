@@ -8,7 +8,7 @@ use tokio::sync::mpsc::UnboundedSender;
 use tokio::task::JoinHandle;
 
 use crate::heard::Heard;
-use crate::site::{Fleet as Tables, Followed, Route, Site, Trouble, query};
+use crate::site::{Area, Fleet as Tables, Followed, Route, Site, Trouble, query};
 use crate::way::Bridge;
 
 /// How long to wait before a service that is away is asked again.
@@ -211,6 +211,9 @@ async fn read(site: Site, changed: Arc<tokio::sync::Notify>, heard: UnboundedSen
             Err(trouble) => Err(trouble.to_string()),
         };
         let _ = heard.send(Heard::Tables(tables));
+        if let Ok(answer) = site.get("/api/areas").await {
+            let _ = heard.send(Heard::Areas(Area::read(&answer)));
+        }
         let now = site.get("/api/site").await.ok().map(|site| site["layout"].clone());
         if now.is_some()
             && now != layout

@@ -13,6 +13,12 @@ const ERRORS: &str = "vehicle_errors";
 /// What errors mean where the site does not say.
 const MEANINGS: &str = include_str!("../../tables/vehicle_errors.csv");
 
+/// The site's table of what zones areas are, by their kind; without it the one below counts.
+const ZONES: &str = "zones";
+
+/// What areas are where the site does not say.
+const KINDS: &str = include_str!("../../tables/zones.csv");
+
 /// All that tables say of vehicles.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fleet {
@@ -21,6 +27,8 @@ pub struct Fleet {
     pub states: BTreeMap<String, Vec<State>>,
     /// By the error's type, or by its level.
     pub meanings: BTreeMap<String, Meaning>,
+    /// What zone areas of a kind are.
+    pub zones: BTreeMap<String, String>,
     /// Columns of the table of vehicles: what it has no column for is not written.
     pub columns: Vec<String>,
 }
@@ -119,7 +127,10 @@ impl Fleet {
             });
         }
         let meanings = meanings.into_iter().map(|(key, row)| (key, meaning(&row))).collect();
-        Ok(Self { vehicles: found, states, meanings, columns: vehicles.columns })
+        let zones = table(answer, ZONES).map_or_else(|| read_csv(KINDS), |table| table.rows);
+        let zone = |(_, row): (_, BTreeMap<_, _>)| Some((text(&row, "kind")?, text(&row, "zone")?));
+        let zones = zones.into_iter().filter_map(zone).collect();
+        Ok(Self { vehicles: found, states, meanings, zones, columns: vehicles.columns })
     }
 
     /// What an error means, by its type or else by its level.
@@ -145,7 +156,7 @@ fn meaning(row: &BTreeMap<String, Value>) -> Meaning {
     Meaning { closes_for, for_all: truth("for_all"), stops: truth("stops") }
 }
 
-fn is_true(value: &Value) -> bool {
+pub(super) fn is_true(value: &Value) -> bool {
     match value {
         Value::Bool(truth) => *truth,
         Value::Number(number) => number.as_f64().is_some_and(|number| number > 0.0),
@@ -191,7 +202,7 @@ fn read_csv(text: &str) -> Vec<(String, BTreeMap<String, Value>)> {
     lines.map(row).collect()
 }
 
-fn text(row: &BTreeMap<String, Value>, column: &str) -> Option<String> {
+pub(super) fn text(row: &BTreeMap<String, Value>, column: &str) -> Option<String> {
     match row.get(column)? {
         Value::String(text) if !text.is_empty() => Some(text.clone()),
         Value::Number(number) => Some(number.to_string()),
@@ -199,6 +210,6 @@ fn text(row: &BTreeMap<String, Value>, column: &str) -> Option<String> {
     }
 }
 
-fn number(row: &BTreeMap<String, Value>, column: &str) -> Option<f64> {
+pub(super) fn number(row: &BTreeMap<String, Value>, column: &str) -> Option<f64> {
     row.get(column)?.as_f64()
 }

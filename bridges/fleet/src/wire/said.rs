@@ -98,7 +98,7 @@ impl Blocking {
         }
     }
 
-    fn word(self, version: Version) -> &'static str {
+    pub(super) fn word(self, version: Version) -> &'static str {
         match self {
             Self::None => "NONE",
             Self::Soft => "SOFT",
@@ -109,7 +109,7 @@ impl Blocking {
 }
 
 impl Addressee {
-    fn head(&self, number: u32, at: &str) -> Map<String, Value> {
+    pub(super) fn head(&self, number: u32, at: &str) -> Map<String, Value> {
         object([
             ("headerId", json!(number)),
             ("timestamp", json!(at)),
@@ -237,12 +237,12 @@ impl Addressee {
 }
 
 /// An object of what is there.
-fn object<const N: usize>(entries: [(&str, Value); N]) -> Map<String, Value> {
+pub(super) fn object<const N: usize>(entries: [(&str, Value); N]) -> Map<String, Value> {
     let there = entries.into_iter().filter(|(_, value)| !value.is_null());
     there.map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// Degrees as an angle of at most half a turn to either side.
-fn radians(degrees: f64) -> f64 {
+pub(super) fn radians(degrees: f64) -> f64 {
     ((degrees + 180.0).rem_euclid(360.0) - 180.0).to_radians()
 }

@@ -11,6 +11,8 @@ use serde_json::{Value, json};
 pub struct Schemas {
     pub order: Validator,
     pub instant: Validator,
+    /// From 3.0 on.
+    pub zones: Option<Validator>,
 }
 
 pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
@@ -20,8 +22,11 @@ pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
         let schema = serde_json::from_str(&text).unwrap();
         jsonschema::options().should_validate_formats(true).build(&schema).unwrap()
     };
-    let both =
-        |version: &str| Schemas { order: of(version, "order"), instant: of(version, "instantActions") };
+    let both = |version: &str| Schemas {
+        order: of(version, "order"),
+        instant: of(version, "instantActions"),
+        zones: (version == "schemas-3").then(|| of(version, "zoneSet")),
+    };
     Some(BTreeMap::from([
         ("2.0.0", both("schemas-2.0.0")),
         ("2.1.0", both("schemas-2.1.0")),
@@ -29,7 +34,7 @@ pub fn schemas() -> Option<BTreeMap<&'static str, Schemas>> {
     ]))
 }
 
-fn expect_valid(schema: &Validator, message: &Value) {
+pub fn expect_valid(schema: &Validator, message: &Value) {
     let errors: Vec<String> =
         schema.iter_errors(message).map(|e| format!("{}: {e}", e.instance_path())).collect();
     assert!(errors.is_empty(), "{errors:#?}\n{message:#}");

@@ -7,3 +7,4 @@ mod malformed;
 mod messages;
 mod storm;
 mod yard;
+mod zones;

@@ -54,7 +54,7 @@ fn route(chance: &mut Chance, start: [f64; 2]) -> Route {
     Route { status: status.to_owned(), start, goal: "gate".to_owned(), steps, waypoints, ..Route::default() }
 }
 
-fn fleet() -> Fleet {
+pub fn fleet() -> Fleet {
     let state = |name: &str, action: Value| {
         let columns = ["robot", "state", "width", "height"].map(|name| json!({"name": name}));
         let concluded = json!([{"property": "vehicle_action", "values": [action]},
@@ -90,7 +90,14 @@ fn drive(seed: u64, version: Version, schemas: Option<&Schemas>) -> usize {
     let (mut sent, mut follows) = (0, None);
     for moment in 0..200 {
         let clock = Clock { seconds: f64::from(moment), words: format!("2026-11-24T08:00:00.{moment:03}Z") };
-        let world = World { fleet: &fleet, margins: &margins, bridges: &bridges, map: "m", clock: &clock };
+        let world = World {
+            fleet: &fleet,
+            margins: &margins,
+            bridges: &bridges,
+            areas: &[],
+            map: "m",
+            clock: &clock,
+        };
         for effect in driver.think(&world) {
             match effect {
                 Effect::Send { topic, message, .. } => {
@@ -203,7 +210,14 @@ fn orders_of_small_sites_of_chance_are_valid() {
                 let clock =
                     Clock { seconds: f64::from(moment), words: format!("2026-11-24T08:00:00.{moment:03}Z") };
                 let margins = Margins { before: 0.3, ahead: 1.0 };
-                let world = World { fleet: &fleet, margins: &margins, bridges: &[], map: "m", clock: &clock };
+                let world = World {
+                    fleet: &fleet,
+                    margins: &margins,
+                    bridges: &[],
+                    areas: &[],
+                    map: "m",
+                    clock: &clock,
+                };
                 for effect in driver.think(&world) {
                     match effect {
                         Effect::Send { topic, message, .. } => judge.hears(topic, &message),

@@ -41,6 +41,7 @@ fn floor(side: usize) -> SiteGraph {
             Derived::by(1, None, "walk".to_owned())
         },
         passable: Derived::by(2, None, true),
+        measures: Some(r#"{"joules":0.0,"seconds":0.0}"#.to_owned()),
     };
     let pairs = (0..side * side).flat_map(|room| {
         let (x, y) = (room % side, room / side);
@@ -80,7 +81,15 @@ fn door(number: usize, rooms: [usize; 2], all: &[Room]) -> Door {
         action: Derived::by(3, None, if number.is_multiple_of(3) { "side-walk" } else { "walk" }.to_owned()),
         passable: Derived::by(3, None, !number.is_multiple_of(31)),
         one_way: number.is_multiple_of(11),
+        measures: measures(number),
     }
+}
+
+/// What some doors say; of many ways one of the measures is not known.
+fn measures(number: usize) -> Option<String> {
+    let seconds = format!(r#"{{"seconds":{:?}}}"#, hardness(number) / 3.0);
+    let both = format!(r#"{{"joules":{:?},"seconds":1.5}}"#, hardness(number) * 7.0);
+    [Some(both), Some(seconds)][usize::from(number.is_multiple_of(17))].clone()
 }
 
 fn hardness(number: usize) -> f64 {
@@ -102,6 +111,7 @@ fn both(graph: &SiteGraph, [start, goal]: [&str; 2]) -> Option<[Vec<u8>; 2]> {
     answer.steps = steps::steps(graph, &rules, &way, goals[0].at.is_some());
     answer.waypoints = steps::waypoints(graph, &way, None);
     (answer.cost, answer.status) = (Some(way.cost), Status::of(&way));
+    answer.measures = answer.at_the_end();
     Some([serde_json::to_vec(&answer).unwrap(), text])
 }
 
@@ -127,7 +137,8 @@ fn what_is_put_together_is_what_serde_writes() {
         let weighed = graph.graph().door_indices().step_by(2).map(|door| {
             let hardness = Derived::by(1, None, hardness(door.index() + round + 1));
             let (action, passable) = (Derived::by(1, None, "crawl".to_owned()), graph[door].passable.clone());
-            (door, Weight { hardness, action, passable })
+            let measures = measures(door.index() + round);
+            (door, Weight { hardness, action, passable, measures })
         });
         let weighed: Vec<_> = weighed.collect();
         let building = Arc::clone(&graph.building);

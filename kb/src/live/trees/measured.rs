@@ -63,6 +63,8 @@ struct Walked {
     doors: i64,
     /// Hardness in the room since its door: a way may bend in it.
     hardness: f64,
+    /// Metres in it since then.
+    metres: f64,
 }
 
 /// No node is before the first.
@@ -104,6 +106,7 @@ impl<'g> Chains<'g> {
         for (index, leg) in way.legs[..doors].iter().enumerate() {
             distance += leg.length();
             walked.hardness += leg.hardness;
+            walked.metres += leg.length();
             walked.doors += i64::from(leg.door.is_some());
             let row = TreeRow {
                 distance: Some(distance),
@@ -113,13 +116,14 @@ impl<'g> Chains<'g> {
                 ..self.row(leg, Some(before), walked)
             };
             if leg.door.is_some() {
-                walked.hardness = 0.0;
+                (walked.hardness, walked.metres) = (0.0, 0.0);
             }
             let room = way.legs[index + 1].room;
             let step = (before, leg.room, leg.door, [leg.to.x.to_bits(), leg.to.y.to_bits()]);
             before = self.node(step, room, node.filter(|_| index + 1 == doors), row);
         }
         walked.hardness += way.legs[doors].hardness;
+        walked.metres += way.legs[doors].length();
         let (clearance, heading) = (clearances[doors], headings[doors]);
         self.last = Last { node: before, clearance, heading, bend: bends[doors], walked };
     }
@@ -151,6 +155,7 @@ impl<'g> Chains<'g> {
             hops: walked.doors,
             reach: if is_start { 0.0 } else { leg.cost - weight },
             leg: if is_start { 0.0 } else { walked.hardness },
+            walked: (!is_start).then_some(walked.metres),
             at: Some([leg.to.x, leg.to.y]),
             heading: None,
             distance: None,

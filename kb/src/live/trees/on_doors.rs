@@ -63,6 +63,7 @@ fn blank(node: i64) -> TreeRow {
         hops: 0,
         reach: 0.0,
         leg: 0.0,
+        walked: None,
         at: None,
         heading: None,
         distance: None,

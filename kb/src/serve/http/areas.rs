@@ -2,15 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use adit_db::relation::Relation;
+use adit_db::{Cell, Tx};
 use axum::Json;
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use utoipa::ToSchema;
 
 use super::edits::{self, Edited, LaidBody, LaidThing, Scalar, Wish};
 use super::extract::{Asked, Body, Named, Site};
 use super::facts::Why;
 use crate::edit::Edit;
+use crate::error::Result;
 use crate::serve::fault::Answered;
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
@@ -20,6 +23,20 @@ pub struct AreasAnswer {
     generation: u64,
     /// By name.
     laid: Vec<LaidOf>,
+    /// All areas, those of the map too, by name.
+    areas: Vec<NamedArea>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct NamedArea {
+    name: String,
+    kind: Option<String>,
+    /// A list of `[x, y]`, metres.
+    #[schema(value_type = Vec<[f64; 2]>)]
+    corners: Value,
+    /// What the map, people and rules say of it.
+    #[schema(value_type = Object)]
+    properties: Map<String, Value>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -41,7 +58,7 @@ struct LaidOf {
     why: String,
 }
 
-/// What people laid over the map. The map's own areas are in `/api/map`.
+/// What people laid over the map; and all areas with what is said of each.
 #[utoipa::path(get, path = "/api/areas", tag = "facts", responses((status = 200, body = AreasAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<AreasAnswer>> {
     let answer = site.read(|tx| {
@@ -58,9 +75,53 @@ pub async fn list(site: Site) -> Answered<Json<AreasAnswer>> {
             at: row.at,
             why: row.why,
         });
-        Ok(AreasAnswer { generation, laid: laid.collect() })
+        Ok(AreasAnswer { generation, laid: laid.collect(), areas: named(tx)? })
     });
     answer.await.map(Json)
+}
+
+/// The areas as the last build knows them, with what is said of each, and what rules conclude.
+fn named(tx: &mut Tx<'_>) -> Result<Vec<NamedArea>> {
+    let mut areas: BTreeMap<String, NamedArea> = BTreeMap::new();
+    for row in tx.area_outlines()? {
+        let corners = serde_json::from_str(&row.outline).unwrap_or_default();
+        let area = NamedArea { name: row.area.clone(), kind: row.kind, corners, properties: Map::new() };
+        areas.insert(row.area, area);
+    }
+    let mut say = |area: &Cell, property: &str, value: Value| {
+        if let (Cell::Text(area), false) = (area, value.is_null())
+            && let Some(area) = areas.get_mut(area)
+        {
+            area.properties.insert(property.to_owned(), value);
+        }
+    };
+    if tx.user_tables()?.iter().any(|table| table.name == "areas") {
+        let said = tx.read_table("areas")?;
+        let names = values(&said, "area");
+        let known = ["area", "kind", "x", "y"];
+        for column in said.columns.iter().filter(|column| !known.contains(&column.name.as_str())) {
+            for (area, cell) in names.iter().zip(&column.values) {
+                let value = match cell {
+                    Cell::Integer(truth) if column.declared.contains("BOOL") => Value::from(*truth != 0),
+                    other => serde_json::json!(other),
+                };
+                say(area, &column.name, value);
+            }
+        }
+    }
+    let concluded = tx.read_table("derivations")?;
+    let [classes, keys, properties, found] =
+        ["class", "key", "property", "value"].map(|column| values(&concluded, column));
+    let of_areas = (0..classes.len()).filter(|&row| classes[row] == Cell::from("areas"));
+    for row in of_areas {
+        say(&keys[row], &properties[row].to_string(), serde_json::json!(found[row]));
+    }
+    Ok(areas.into_values().collect())
+}
+
+fn values<'r>(relation: &'r Relation, name: &str) -> &'r [Cell] {
+    let column = relation.columns.iter().find(|column| column.name == name);
+    column.map_or(&[][..], |column| column.values.as_slice())
 }
 
 #[derive(Debug, Deserialize, ToSchema)]

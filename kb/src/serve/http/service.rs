@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use adit_db::measure::Measure;
 use axum::Json;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -48,17 +49,20 @@ pub struct SiteAnswer {
     routes_due: bool,
     /// What the expert should know, in sentences.
     notes: Vec<String>,
+    /// What adds up along routes besides hardness, with its unit.
+    measures: Vec<Measure>,
     version: &'static str,
 }
 
 /// What is served, and where it stands.
 #[utoipa::path(get, path = "/api/site", tag = "service", responses((status = 200, body = SiteAnswer)))]
-pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
+pub async fn site(shared: Site, caller: Caller) -> Answered<Json<SiteAnswer>> {
+    let measures = shared.read(|tx| Ok(tx.measures()?)).await?;
     let seen = shared.view.load();
     let view = &seen.view;
     let (graph, site) = (view.graph(), view.site().site());
     let bounds = view.world().bounds;
-    Json(SiteAnswer {
+    Ok(Json(SiteAnswer {
         name: site.name.clone(),
         generation: view.generation(),
         layout: view.layout().to_owned(),
@@ -75,8 +79,9 @@ pub async fn site(shared: Site, caller: Caller) -> Json<SiteAnswer> {
         problems: shared.problems(),
         routes_due: view.routes_due(),
         notes: seen.notes.clone(),
+        measures,
         version: env!("CARGO_PKG_VERSION"),
-    })
+    }))
 }
 
 /// This description.

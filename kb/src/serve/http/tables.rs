@@ -172,7 +172,14 @@ fn column(relation: &Relation, column: &RelationColumn) -> ColumnOf {
             _ => "text",
         },
         key: column.key > 0,
-        unit: matches!(column.name.as_str(), "height" | "width" | "length").then_some("m"),
+        unit: match column.name.as_str() {
+            "height" | "width" | "length" => Some("m"),
+            "speed" => Some("m/s"),
+            "power" => Some("W"),
+            "seconds" => Some("s"),
+            "joules" => Some("J"),
+            _ => None,
+        },
         required: column.required,
     }
 }

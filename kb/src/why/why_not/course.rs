@@ -49,6 +49,7 @@ pub fn why_not(courses: &Courses, route: [&str; 3], through: &str, generation: u
     let answer = (row.reason.is_none()).then(|| Answer {
         cost: row.cost,
         distance: row.distance,
+        measures: row.measures.clone(),
         steps: row.steps.clone(),
         waypoints: row.waypoints.clone(),
         ..Answer::blank(robot, start, &[goal.to_owned()], generation)

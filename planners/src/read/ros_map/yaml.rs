@@ -77,6 +77,26 @@ impl MapFile {
     }
 }
 
+impl MapFile {
+    /// What nav2's map server tells of a pixel whose grid it publishes: occupancy in percent; `None` for unknown.
+    pub(crate) fn percent(&self, pixel: Pixel) -> Option<u8> {
+        let opaque = pixel.alpha.is_none_or(|alpha| alpha == 255);
+        match (self.mode, self.classify(pixel)) {
+            (Mode::Raw, _) => (pixel.colour <= 100.0).then(|| pixel.colour.round() as u8),
+            (_, Cell::Wall) => Some(100),
+            (_, Cell::Free) => Some(0),
+            (Mode::Scale, Cell::Unknown) if opaque => {
+                let shade = pixel.colour / 255.0;
+                let occupied = if self.negate { shade } else { 1.0 - shade };
+                let range = self.occupied_thresh - self.free_thresh;
+                let share = if range > 0.0 { (occupied - self.free_thresh) / range } else { 1.0 };
+                Some((share * 100.0).round() as u8)
+            }
+            _ => None,
+        }
+    }
+}
+
 const KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
 #[derive(Deserialize)]
@@ -106,7 +126,7 @@ impl Default for Negate {
     }
 }
 
-pub(super) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
+pub(crate) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
     let written: Written = serde_saphyr::from_str(text).map_err(|error| explain(source, &error))?;
     let mut problems = Vec::new();
     let image = Located::from(&written.image);

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{Point, Segment};
+use super::{Point, Segment};
 
 /// A corner of cells: column and row of the cell that has it lower left.
 type Corner = (i32, i32);
 
 /// The outlines of the cells of a set, in cells: the set lies left of each; outer ones run counterclockwise, those of
 /// holes clockwise. Cells that touch in a corner only are apart.
-pub(super) fn outlines(columns: usize, rows: usize, is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<Point>> {
+pub fn outlines(columns: usize, rows: usize, is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<Point>> {
     let has = |column: i32, row: i32| {
         (0..columns as i32).contains(&column)
             && (0..rows as i32).contains(&row)
@@ -62,7 +62,7 @@ fn take(sides: &mut BTreeMap<Corner, Vec<Corner>>, before: Option<Corner>, at: C
 }
 
 /// A closed outline with fewer corners, none further from what it was than `off` (Douglas and Peucker 1973).
-pub(super) fn simplified(outline: &[Point], off: f64) -> Vec<Point> {
+pub fn simplified(outline: &[Point], off: f64) -> Vec<Point> {
     let Some(&first) = outline.first() else { return Vec::new() };
     let far = (0..outline.len())
         .max_by(|&a, &b| first.squared_distance(outline[a]).total_cmp(&first.squared_distance(outline[b])))
@@ -91,7 +91,7 @@ mod tests {
     fn an_outline_runs_around_its_cells_and_the_other_way_around_a_hole() {
         let ring = outlines(3, 3, |column, row| (column, row) != (1, 1));
         let area = |outline: &Vec<Point>| {
-            crate::geometry::polygon::sides(outline).map(|side| side.a.cross(side.b)).sum::<f64>() / 2.0
+            super::super::polygon::sides(outline).map(|side| side.a.cross(side.b)).sum::<f64>() / 2.0
         };
         assert_eq!(ring.iter().map(area).collect::<Vec<_>>(), [9.0, -1.0]);
         assert_eq!(ring.iter().map(|outline| simplified(outline, 0.1).len()).collect::<Vec<_>>(), [4, 4]);
