@@ -109,12 +109,15 @@ impl View {
         courses.picture("", Some([robot.as_str(), start, goal]))
     }
 
-    /// What routes between places cost, by robot, start and goal; those that there are.
-    pub fn place_costs(&self) -> PlaceCosts {
+    /// What routes between places cost, by robot, start and goal; those that there are. `None` where it is broken off.
+    ///
+    /// # Arguments
+    /// `goes_on` is asked before the routes of each start are found.
+    pub fn place_costs(&self, goes_on: impl Fn() -> bool) -> Option<PlaceCosts> {
         if let Some(courses) = &self.courses {
             let costs = courses.costs().into_iter();
             let named = |(key, cost): ([&str; 3], Option<f64>)| Some((key.map(str::to_owned).into(), cost?));
-            return costs.filter_map(named).collect();
+            return Some(costs.filter_map(named).collect());
         }
         let graph = &self.graph;
         let place = |index| End::Place(index);
@@ -125,6 +128,9 @@ impl View {
             let goals: Vec<Goal> =
                 all.clone().map(|index| graph.goal(gauge, &place(index), robot_name)).collect();
             for from in all.clone() {
+                if !goes_on() {
+                    return None;
+                }
                 let start = graph.start(gauge, &place(from), robot_name);
                 let ways = graph.graph().ways(&start, &goals, false).goals;
                 for (to, way) in ways.into_iter().enumerate() {
@@ -135,7 +141,7 @@ impl View {
                 }
             }
         }
-        costs
+        Some(costs)
     }
 
     /// The site's files.

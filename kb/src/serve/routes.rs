@@ -35,14 +35,15 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
     let work = move || {
         // one view for both: an edit that comes while costs are found is seen as a change
         let first = shared.view.load().view.clone();
-        let (mut costs, mut generation) = (costs(&first), first.generation());
+        let (found, mut generation) = (costs(&shared, &first), first.generation());
         drop(first);
+        let Some(mut costs) = found else { return };
         let mut changed = Instant::now();
         while !*shared.ending.borrow() {
             let view = shared.view.load().view.clone();
             if view.generation() != generation {
                 (generation, changed) = (view.generation(), Instant::now());
-                let now = self::costs(&view);
+                let Some(now) = self::costs(&shared, &view) else { return };
                 say(&shared, generation, &costs, &now);
                 costs = now;
             } else if view.routes_due() && changed.elapsed() > QUIET {
@@ -59,10 +60,11 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
     builder.spawn(work).map_err(Error::of(Code::ServeThread))
 }
 
-/// What routes between places cost, by robot, start and goal.
-fn costs(view: &View) -> Costs {
+/// What routes between places cost, by robot, start and goal. `None` once the service ends: on a large floor that takes
+/// seconds, which nobody should wait for who has told it to.
+fn costs(shared: &Shared, view: &View) -> Option<Costs> {
     let pairs = view.graph().places.len().pow(2) * view.robots().len();
-    if pairs > PAIRS { Costs::new() } else { view.place_costs() }
+    if pairs > PAIRS { Some(Costs::new()) } else { view.place_costs(|| !*shared.ending.borrow()) }
 }
 
 fn say(shared: &Shared, generation: u64, before: &Costs, now: &Costs) {
