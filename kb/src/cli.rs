@@ -9,6 +9,7 @@ mod curve;
 mod demo;
 mod doctor;
 mod experiment;
+mod export;
 mod firm;
 mod fit;
 mod lay;
@@ -92,8 +93,8 @@ pub enum Verb {
     Fit(fit::FitArgs),
     /// A read-only SQL query on the site, or a small shell without QUERY
     Sql(sql::SqlArgs),
-    /// A layer of the site (rooms, spaces, doorways, areas, routes) as GeoJSON
-    Export(layer::ExportArgs),
+    /// A layer of the site (rooms, spaces, doorways, areas, routes) as GeoJSON; its lane graph for Open-RMF, Nav2 or LIF
+    Export(export::ExportArgs),
     /// Draw the map with rooms, doors, hardness and a route, as SVG or PNG
     Draw(picture::DrawArgs),
     /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
@@ -146,7 +147,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Firm(args) => (args.site.json, firm::run(args).map(|()| 0)),
         Verb::Fit(args) => (args.site.json, fit::run(args).map(|()| 0)),
         Verb::Sql(args) => (args.site.json, sql::run(args).map(|well| if well { 0 } else { 2 })),
-        Verb::Export(args) => (args.site.json, layer::run(args).map(|()| 0)),
+        Verb::Export(args) => (args.site.json, export::run(args).map(|()| 0)),
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
         Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),

@@ -14,6 +14,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use adit_db::history::Author;
+use adit_db::load::Load;
 use adit_db::measure::Measure;
 use adit_db::place::Place;
 use adit_db::robot::State;
@@ -277,6 +278,11 @@ impl KnowledgeBase {
     /// The tables that the map's file fills.
     pub(crate) fn tables_of_map(&self) -> Vec<TableFile> {
         self.course.as_ref().map_or_else(Vec::new, |course| course.tables())
+    }
+
+    /// What vehicles can carry, as the map's file says.
+    pub(crate) fn loads_of_map(&self) -> Vec<Load> {
+        self.course.as_ref().map_or_else(Vec::new, |course| course.loads())
     }
 
     /// The places that the map's file and `site.toml` name, where the map is not cut into rooms.

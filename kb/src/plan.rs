@@ -11,6 +11,7 @@ pub mod course;
 mod drives;
 pub(crate) mod figures;
 mod gap;
+pub mod lanes;
 pub mod legs;
 mod parts;
 mod refusal;

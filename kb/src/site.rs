@@ -19,6 +19,7 @@ use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use adit_planners::geometry::Rect;
+use adit_planners::lanes::is_lane_graph;
 use adit_planners::read::{
     Code, Document, Fields, MapReport, MapSettings, Mask, Overlay, Problem, Unknown, nearest, read_map,
     read_world,
@@ -102,7 +103,7 @@ pub struct Site {
     text: String,
 }
 
-/// What a map is that is not cut into rooms: the table that its file has.
+/// What a map is that is not cut into rooms: the table that its file has, or a lane graph of others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// Channels through which a robot drives.
@@ -113,6 +114,8 @@ pub enum Layout {
     FloorPlan,
     /// Objects, among which an arm or a disc moves from goal to goal.
     Cell,
+    /// Nodes and lanes, on which fleets drive.
+    Lanes,
 }
 
 impl Layout {
@@ -126,7 +129,7 @@ impl Layout {
     /// What the map in a file is; `None` where it is cut into rooms, or cannot be read.
     pub fn of(map: &Path) -> Option<Self> {
         if map.extension().is_none_or(|extension| extension != "toml") {
-            return None;
+            return is_lane_graph(map).then_some(Self::Lanes);
         }
         let text = fs::read_to_string(map).ok()?;
         let document = Document::parse("map", &text).ok()?;
@@ -186,6 +189,7 @@ impl Layout {
             Self::Corridor | Self::Assembly => "channels/corrected",
             Self::FloorPlan => "navigation",
             Self::Cell => "adapt",
+            Self::Lanes => "lanes",
         }
     }
 }

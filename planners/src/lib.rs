@@ -14,6 +14,7 @@ pub mod figures;
 pub mod floor_plan;
 pub mod geometry;
 mod known;
+pub mod lanes;
 pub mod layers;
 pub mod local_model;
 pub mod minimum;

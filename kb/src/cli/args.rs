@@ -9,7 +9,7 @@ use crate::error::{Code, Error, Result};
 /// What every verb on a site takes.
 #[derive(Args, Debug, Clone)]
 pub struct SiteArgs {
-    /// Folder of the site, or the file of a map of corridors, parts, walls or a cell alone
+    /// Folder of the site, or the file of a map of corridors, parts, walls, a cell or lanes alone
     pub site: PathBuf,
     /// The database, instead of `site.db` in the site's folder
     #[arg(long, value_name = "FILE")]

@@ -1,11 +1,10 @@
-//! `adit export`: a layer of the site for a geographic information system.
+//! `adit export SITE LAYER`: a layer of the site for a geographic information system.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use adit_db::layer::{Layer, Shape};
 use adit_db::relation::Relation;
 use adit_db::{Cell, Store};
-use clap::Args;
 use serde_json::{Map, Value};
 
 use super::args::SiteArgs;
@@ -15,28 +14,17 @@ use crate::error::{Code, Error, Result};
 use crate::site::whole;
 use crate::words::suggest::did_you_mean;
 
-#[derive(Args, Debug)]
-pub struct ExportArgs {
-    #[command(flatten)]
-    pub site: SiteArgs,
-    /// What: rooms, spaces, doorways, areas, routes, drawn, or a layer that you put into the database
-    pub layer: String,
-    /// The file: .geojson or .json
-    #[arg(long, value_name = "FILE")]
-    pub to: PathBuf,
-}
-
 /// Writes a layer as GeoJSON, in the metres of the map.
-pub fn run(args: &ExportArgs) -> Result<()> {
-    if !args.to.extension().is_some_and(|end| end == "geojson" || end == "json") {
-        let message = format!("{} is neither .geojson nor .json", args.to.display());
+pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
+    if !to.extension().is_some_and(|end| end == "geojson" || end == "json") {
+        let message = format!("{} is neither .geojson nor .json", to.display());
         return Err(Error::said(Code::LayerFile, message, None));
     }
-    let knowledge = open(&args.site)?;
+    let knowledge = open(site)?;
     let (layer, rows) = Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
         let layers = tx.layers()?;
-        let is_meant = |layer: &&Layer| layer.name == args.layer || layer.table == args.layer;
-        let layer = layers.iter().find(is_meant).ok_or_else(|| unknown(&args.layer, &layers))?.clone();
+        let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;
+        let layer = layers.iter().find(is_meant).ok_or_else(|| unknown(name, &layers))?.clone();
         let rows = tx.read_table(&layer.table)?;
         Ok((layer, rows))
     })?;
@@ -44,12 +32,12 @@ pub fn run(args: &ExportArgs) -> Result<()> {
     let count = features.len();
     let collection =
         serde_json::json!({"type": "FeatureCollection", "name": layer.name, "features": features});
-    whole::write(&args.to, collection.to_string().as_bytes())?;
-    if args.site.json {
-        return json(&serde_json::json!({"file": args.to, "features": count}));
+    whole::write(to, collection.to_string().as_bytes())?;
+    if site.json {
+        return json(&serde_json::json!({"file": to, "features": count}));
     }
     let s = if count == 1 { "" } else { "s" };
-    line(&format!("{}: {count} feature{s} of {}", args.to.display(), layer.name));
+    line(&format!("{}: {count} feature{s} of {}", to.display(), layer.name));
     Ok(())
 }
 
@@ -60,7 +48,7 @@ fn unknown(name: &str, layers: &[Layer]) -> Error {
     Error::said(Code::LayerUnknown, format!("the site has no layer `{name}`"), Some(help))
 }
 
-/// The rows as features of GeoJSON; one without a shape has `null`, as that wants it.
+/// The rows as features of GeoJSON; one without a shape has `null`, as GeoJSON wants it.
 fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
     let count = rows.columns.first().map_or(0, |column| column.values.len());
     let feature = |row: usize| {

@@ -20,7 +20,7 @@ use crate::site::{Layout, Rooms, Site};
 pub struct NewArgs {
     /// The folder to make; the present one without
     pub dir: Option<PathBuf>,
-    /// A map to copy into it: a TOML map, or a ROS map.yaml with its image
+    /// A map to copy into it: a TOML map, a ROS map.yaml with its image, or a lane graph of Open-RMF, Nav2 or LIF
     #[arg(long, value_name = "FILE")]
     pub map: Option<PathBuf>,
     /// A robot to begin with, of the size that such machines have: cart, forklift, humanoid, quadruped; several may be said
@@ -115,7 +115,7 @@ fn without_map(args: &NewArgs, dir: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Starts a site whose map is not cut into rooms: corridors, or a part in another one.
+/// Starts a site whose map is not cut into rooms: corridors, a part in another one, a lane graph.
 fn without_rooms((args, dir): (&NewArgs, &Path), map: &Path, layout: Layout) -> Result<()> {
     // what is wrong with it is said where the user has it
     let course = course_of(map)?;
@@ -153,7 +153,7 @@ map  = {map}                # fills tables once; from then on `adit tune` change
 # rules = "{base}"  # what lies beneath the folder rules; a folder, or a list of some; "rules": nothing does
 "#
     );
-    if matches!(layout, Layout::Corridor | Layout::FloorPlan) {
+    if matches!(layout, Layout::Corridor | Layout::FloorPlan | Layout::Lanes) {
         text.push_str(
             r#"# starts = ["dock"]      # from where routes are kept; every place without this line
 # [[place]]                # in the map's coordinates

@@ -1,6 +1,8 @@
 //! What is closed and opened again by the name that people have for it: a doorway, a named door, an area, a space, or the
 //! place at which a robot was blocked. Each becomes a fact, or takes facts back.
 
+mod lanes;
+
 use adit_db::Tx;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
@@ -59,7 +61,8 @@ impl Close {
         };
         if property != CLOSED && tx.site_value(LAYOUT)?.is_some() {
             let message = format!("`{what}` is closed to everybody, or to nobody");
-            let help = "which robots are kept out is for a rule of PASSAGES or WAYS to say".to_owned();
+            let help =
+                "which robots are kept out is for a rule of PASSAGES, WAYS or TRAVELS to say".to_owned();
             return Err(Error::said(Code::TellUsage, message, Some(help)));
         }
         if property != CLOSED && !lists_robots(class, property) {
@@ -155,10 +158,14 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     ))
 }
 
-/// Of a map that is not cut into rooms, what can be closed, with its class: a channel, a doorway; or the one at a point, along
-/// the heading where one is said.
+/// Of a map that is not cut into rooms, what can be closed, with its class: a lane, a channel, a doorway, ...; or the one at a
+/// point, along the heading where one is said.
 fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     let (channels, building) = (channels(tx)?, Building::read(tx)?);
+    let (lanes, of_lanes) = (lanes::names(tx)?, lanes::meant(tx, what)?);
+    if let Some(meant) = of_lanes {
+        return Ok(meant);
+    }
     let point = place::split(what);
     if let Some(number) =
         numbered(what, CHANNEL).filter(|number| channels.iter().any(|(known, _)| known == number))
@@ -193,6 +200,7 @@ fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     }
     let mut known: Vec<String> = channels.iter().map(|(number, _)| format!("channel {number}")).collect();
     known.extend(building.doorways.iter().map(Building::name));
+    known.extend(lanes);
     let help = match (did_you_mean(what, known.iter().map(String::as_str)), known.first()) {
         (Some(help), _) => help,
         (None, Some(first)) => format!("what can be closed here is called like `{first}`"),

@@ -104,6 +104,11 @@ codes! {
     /// The rules failed while the experiment asked them.
     ExperimentRules = "experiment/rules", BAD_REQUEST;
 
+    /// The file to export to is neither .yaml, .geojson nor .lif.json.
+    ExportFormat = "export/format", BAD_REQUEST;
+    /// A route graph of Nav2 numbers at most 65,536 nodes and as many edges.
+    ExportTooMany = "export/too-many", BAD_REQUEST;
+
     /// A class cannot be told to the rules.
     FactsClass = "facts/class", BAD_REQUEST;
     /// A property of a class is missing or holds something else than its column should.

@@ -9,10 +9,11 @@ use crate::error::{Code, Error, Result};
 const UNLIMITED: [(&str, &str); 3] = [("ROOMS", "height"), ("DOORS", "height1"), ("DOORS", "height2")];
 
 /// Classes whose key is not their first property alone.
-const KEYS: [(&str, &[&str]); 8] = [
+const KEYS: [(&str, &[&str]); 9] = [
     ("ROBOTS", &["robot", "state"]),
     ("CHANGES", &["robot", "from_state", "to_state"]),
     ("LOADS", &["robot", "load"]),
+    ("LANE_VEHICLES", &["lane", "vehicle_type"]),
     ("MEASURES", &["measure"]),
     ("STRIPS", &["axis", "strip"]),
     ("AREA_ROOMS", &["room", "area"]),

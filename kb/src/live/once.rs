@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use adit_db::history::Author;
+use adit_db::load::Load;
 use adit_db::place::Place;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
@@ -60,13 +61,15 @@ impl KnowledgeBase {
         let seed = if site.has_rooms() { Some(RobotFile::read(&site.robots)?) } else { None };
         let mut tables = self.tables_of_map();
         tables.extend(tables::read(&site.tables())?);
-        let places = self.places_of_map();
+        let (places, loads) = (self.places_of_map(), self.loads_of_map());
         store.transaction(|tx| {
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
                 notes.extend(table.seed(tx, again)?);
             }
+            notes.extend(seed_loads(tx, &loads, again)?);
+            notes.extend(self.course().iter().flat_map(|course| course.notes()));
             if let Some(places) = &places {
                 notes.extend(seed_places(tx, places, again)?);
             }
@@ -301,6 +304,22 @@ impl KnowledgeBase {
 
 /// Fills the places of a map that is not cut into rooms the first time, or when asked; otherwise says where file and table
 /// differ.
+/// What vehicles can carry on a map, the first time or when asked.
+fn seed_loads(tx: &mut Tx<'_>, loads: &[Load], again: bool) -> Result<Option<String>> {
+    if loads.is_empty() {
+        return Ok(None);
+    }
+    if again || tx.site_value(LAYOUT)?.is_none() {
+        tx.replace_loads(loads)?;
+        return Ok(None);
+    }
+    let kept = tx.loads()?;
+    let is_kept = |load: &Load| kept.iter().any(|of| (&of.robot, &of.load) == (&load.robot, &load.load));
+    let note =
+        "the file names other loads than the table loads; the database counts (--reseed takes the file)";
+    Ok((!loads.iter().all(is_kept)).then(|| note.to_owned()))
+}
+
 fn seed_places(tx: &mut Tx<'_>, places: &[Place], again: bool) -> Result<Option<String>> {
     let kept = tx.places()?;
     // what a build has signed was filled before, and whoever took all places away meant it

@@ -1,7 +1,7 @@
 //! Paths over a floor plan as it is, over the adits by what rules say that ways weigh (Crowley).
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use adit_db::course::Course as Row;
 use adit_db::place::Place;
@@ -290,5 +290,5 @@ fn found([robot, start, goal]: [&str; 3], walked: &Walked<'_>) -> Found {
             row.clearance = near.min_by(f64::total_cmp);
         }
     }
-    Found { row, said: walked.legs.clone() }
+    Found { row, said: walked.legs.iter().cloned().map(Arc::new).collect() }
 }

@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use adit_db::course::Course as Row;
+use adit_db::load::Load;
 use adit_db::place::Place;
 use adit_engine::{
     Class as Objects, Consultation, KnowledgeBase as Inference, RuleBase, Schema, Type, Value,
@@ -31,6 +32,16 @@ pub trait Course: Any + fmt::Debug + Send + Sync {
 
     /// The places that its file names.
     fn places(&self) -> Vec<Place>;
+
+    /// What vehicles can carry on it, as its file says.
+    fn loads(&self) -> Vec<Load> {
+        Vec::new()
+    }
+
+    /// What is worth a look of how its file was read, in sentences.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// What of it is given to rules as facts, besides its tables.
     fn planner(&self) -> Option<Arc<dyn Planner>>;
@@ -75,7 +86,7 @@ pub trait Pathfinder: Send + Sync {
 pub struct Found {
     pub row: Row,
     /// Junction by junction, as far as rules were asked.
-    pub said: Vec<Said>,
+    pub said: Vec<Arc<Said>>,
 }
 
 /// A start or goal that is none.
@@ -191,7 +202,15 @@ impl ObjectsOf<'_> {
 
     /// A truth value; what is unknown is false.
     pub fn truth(&self, row: usize, property: &str) -> bool {
-        matches!(self.known.value_at(self.class, row, property), Some(Value::Truth(true)))
+        self.known_truth(row, property) == Some(true)
+    }
+
+    /// A truth value, where it is known.
+    pub fn known_truth(&self, row: usize, property: &str) -> Option<bool> {
+        match self.known.value_at(self.class, row, property) {
+            Some(Value::Truth(truth)) => Some(truth),
+            _ => None,
+        }
     }
 
     /// A number that has to be there.

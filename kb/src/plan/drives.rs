@@ -306,7 +306,7 @@ fn found([robot, start, goal]: [&str; 3], answer: Answer<Driven>) -> Found {
             row.reason = Some(no_path.reason);
         }
     }
-    Found { row, said }
+    Found { row, said: said.into_iter().map(Arc::new).collect() }
 }
 
 /// A drive as rows: a step and a waypoint for each line and arc. What a passage weighs is the step's that leads through it.

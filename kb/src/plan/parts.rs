@@ -287,7 +287,7 @@ impl<const D: usize> Pathfinder for Ways<D> {
             }
             Err(no_path) => row.reason = Some(no_path.reason),
         }
-        Ok(Found { row, said })
+        Ok(Found { row, said: said.into_iter().map(Arc::new).collect() })
     }
 
     fn find_through(&self, robot: &str, ends: [&str; 2], through: &str) -> Result<Found> {

@@ -3,12 +3,14 @@
 use std::fs;
 use std::path::Path;
 
+use adit_planners::lanes::is_lane_graph;
 use adit_planners::read::{Document, Problem};
 
 use super::assembly::Assembly;
 use super::corridor::Corridor;
 use super::course::Course;
 use super::drives::CorridorsOf;
+use super::lanes::course::LanesOf;
 use super::parts::PartsOf;
 use crate::adapt::{self, Cell, CellOf};
 use crate::error::{Code, Error, Result};
@@ -41,6 +43,9 @@ impl World {
 
 /// The planner of a map that is not cut into rooms.
 pub fn course(map: &Path) -> Result<Box<dyn Course>> {
+    if is_lane_graph(map) {
+        return Ok(Box::new(LanesOf::read(map)?));
+    }
     let file = map.to_owned();
     Ok(match World::read(map)? {
         World::Corridor(corridor) => Box::new(CorridorsOf { file, corridor }),

@@ -16,7 +16,7 @@ pub fn folder(map: &Path) -> Result<TempDir> {
             course_of(map)?;
         }
         let map = map.display();
-        let message = format!("{map} is no site, and no map of corridors, parts, walls or a cell");
+        let message = format!("{map} is no site, and no map of corridors, parts, walls, a cell or lanes");
         let help = format!("`adit new DIR --map {map}` makes a site of a map that is cut into rooms");
         return Err(Error::said(Code::SiteMissing, message, Some(help)));
     }

@@ -2,6 +2,8 @@
 //!
 //! The answer is made of it and it of the answer's parts: a circle that stays.
 
+use std::sync::Arc;
+
 use adit_db::course::Course as Row;
 use serde_json::json;
 
@@ -19,7 +21,7 @@ pub fn why(courses: &Courses, what: &str, generation: u64) -> Result<Option<Why>
         Some((place, ends)) => (place.trim(), ends.split_once(" to ")),
         None => (what.trim(), None),
     };
-    let is_meant = |said: &&Said| said.place == place;
+    let is_meant = |said: &&Arc<Said>| said.place == place;
     let (mut conclusions, mut facts) = (Vec::new(), Vec::new());
     if let Some((start, goal)) = ends {
         for robot in courses.robots() {

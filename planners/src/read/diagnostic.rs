@@ -41,7 +41,7 @@ codes! {
     Unreadable = "map/unreadable",
     /// The file's extension says nothing that a reader knows.
     UnknownFormat = "map/unknown-format",
-    /// The text is not TOML or not YAML.
+    /// The text is not TOML, YAML or JSON.
     Syntax = "map/syntax",
     /// A key that means nothing here.
     UnknownKey = "map/unknown-key",

@@ -123,6 +123,7 @@ const PAGES: [Page; 22] = [
     },
     page("manual/src/ways.md"),
     page("manual/src/other-maps.md"),
+    page("manual/src/lane-graphs.md"),
     Page {
         file: "manual/src/corridors-and-parts.md",
         blocks: &[],
@@ -255,6 +256,7 @@ each_page! {
     floor_plans_and_missions: "manual/src/floor-plans-and-missions.md";
     cells_and_experience: "manual/src/cells.md";
     the_service: "manual/src/service.md";
+    lane_graphs: "manual/src/lane-graphs.md";
     figures: "manual/src/figures.md";
 }
 

@@ -21,6 +21,7 @@ mod geodata;
 mod hours;
 mod house;
 mod laid;
+mod lane_sites;
 mod large_site;
 mod lazy_route;
 mod live;

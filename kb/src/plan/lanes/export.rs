@@ -1,0 +1,74 @@
+//! A site's lane graph as a file of others.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use adit_planners::geometry::Point;
+use adit_planners::lanes::{Exported, Format, Lane, LaneGraph, write};
+
+use super::judge::Weighed;
+use super::routes::Routes;
+use crate::error::{Code, Error, Result};
+
+/// Weights nearer than this are the same.
+const SAME: f64 = 1e-9;
+
+/// # Arguments
+/// `robot` is the vehicle type whose lanes are written; all are where none is said.
+pub fn export(routes: &Routes, format: Format, robot: Option<&str>) -> Result<Exported> {
+    let mut graph = routes.now().graph.clone();
+    if let Some(robot) = robot {
+        keep_to(&mut graph, robot, routes.weighed(robot)?, format);
+    }
+    let Exported { text, mut notes } = write(&graph, format).map_err(Error::of(Code::ExportTooMany))?;
+    if !routes.now().closed_doors.is_empty() || !routes.now().closed_lifts.is_empty() {
+        notes.push(
+            "that doors or lifts are closed now is not written; lanes and nodes that are say so".to_owned(),
+        );
+    }
+    Ok(Exported { text, notes })
+}
+
+/// Leaves what one vehicle type may drive on, with what rules weigh where Nav2 would weigh otherwise.
+fn keep_to(graph: &mut LaneGraph, robot: &str, weighed: &[Weighed], format: Format) {
+    let of_graph =
+        graph.vehicle_types.iter().find(|of| of.vehicle_type == robot).and_then(|of| of.graph.clone());
+    let listed: BTreeSet<&str> = graph.uses.iter().map(|of| of.lane.as_str()).collect();
+    let allowed: BTreeSet<&str> =
+        graph.uses.iter().filter(|of| of.vehicle_type == robot).map(|of| of.lane.as_str()).collect();
+    let is_for = |lane: &Lane| {
+        (of_graph.is_none() || lane.graph == of_graph)
+            && (!listed.contains(lane.lane.as_str()) || allowed.contains(lane.lane.as_str()))
+    };
+    let kept: Vec<bool> = graph.lanes.iter().map(is_for).collect();
+    let all = std::mem::take(&mut graph.lanes);
+    let at: BTreeMap<&str, Point> = graph.nodes.iter().map(|node| (node.node.as_str(), node.at)).collect();
+    let mut lanes = Vec::new();
+    for ((mut lane, is_kept), weight) in all.into_iter().zip(kept).zip(weighed) {
+        if !is_kept {
+            continue;
+        }
+        if let (Format::RouteGraph, Ok(weight)) = (format, weight)
+            && (nav2(&at, &lane) - weight).abs() > SAME
+        {
+            (lane.cost, lane.is_cost_fixed) = (Some(*weight), true);
+        }
+        lanes.push(lane);
+    }
+    graph.lanes = lanes;
+    if of_graph.is_some() && graph.vehicle_types.len() > 1 {
+        let used: BTreeSet<String> =
+            graph.lanes.iter().flat_map(|lane| [lane.from.clone(), lane.to.clone()]).collect();
+        graph.nodes.retain(|node| used.contains(&node.node));
+    }
+    graph.uses.clear();
+}
+
+/// What Nav2's own scorers of distance and penalty make of a lane.
+fn nav2(at: &BTreeMap<&str, Point>, lane: &Lane) -> f64 {
+    if let (true, Some(cost)) = (lane.is_cost_fixed, lane.cost) {
+        return cost;
+    }
+    let ends = at.get(lane.from.as_str()).zip(at.get(lane.to.as_str()));
+    let straight = ends.map_or(0.0, |(from, to)| from.distance(*to));
+    straight / lane.speed_share.unwrap_or(1.0) + lane.penalty.unwrap_or(0.0)
+}

@@ -1,0 +1,382 @@
+//! Routes over a lane graph as it is: for each vehicle type, Dijkstra's over the lanes that rules let it drive on.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use adit_db::course::Course as Row;
+use adit_db::place::Place;
+use adit_db::route::{Step, Waypoint};
+use adit_planners::geometry::Point;
+use adit_planners::lanes::{Node, Use};
+use petgraph::algo::astar;
+use petgraph::graph::{DiGraph, NodeIndex};
+use petgraph::visit::Dfs;
+
+use super::judge::{Judge, Weighed};
+use super::tables::Now;
+use super::travel::{Carrying, Travel, length_m};
+use crate::draw::render_lanes;
+use crate::error::Result;
+use crate::plan::Said;
+use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, point};
+use crate::words::suggest::did_you_mean;
+
+/// The lanes that a vehicle type may drive on: nodes by place, lanes by place, with what each weighs.
+struct Net {
+    graph: DiGraph<(), (usize, f64)>,
+    weighed: Vec<Weighed>,
+}
+
+pub struct Routes {
+    now: Now,
+    carrying: Carrying,
+    places: Vec<Place>,
+    by_id: BTreeMap<String, usize>,
+    /// What the file allows whom on a lane, by the lane.
+    uses: BTreeMap<String, Vec<usize>>,
+    nets: Vec<Net>,
+    judge: Mutex<Judge>,
+    said: Mutex<BTreeMap<(usize, usize), Arc<Said>>>,
+}
+
+/// An end: a node, and what is worth a remark of it.
+struct End {
+    node: usize,
+    remark: Option<String>,
+}
+
+impl Routes {
+    pub fn new(now: Now, carrying: Carrying, places: Vec<Place>, judge: Judge) -> Self {
+        let by_id = now.graph.nodes.iter().enumerate().map(|(at, node)| (node.node.clone(), at)).collect();
+        let mut uses: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        for (at, of) in now.graph.uses.iter().enumerate() {
+            uses.entry(of.lane.clone()).or_default().push(at);
+        }
+        let (judge, said) = (Mutex::new(judge), Mutex::default());
+        let mut routes = Self { now, carrying, places, by_id, uses, nets: Vec::new(), judge, said };
+        routes.nets = (0..routes.now.graph.vehicle_types.len()).map(|vehicle| routes.net(vehicle)).collect();
+        routes
+    }
+
+    fn net(&self, vehicle: usize) -> Net {
+        let mut graph = DiGraph::new();
+        for _ in &self.now.graph.nodes {
+            graph.add_node(());
+        }
+        let mut judge = self.judge.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut weighed = Vec::new();
+        for (at, lane) in self.now.graph.lanes.iter().enumerate() {
+            let weight = judge.weigh(&self.travel(vehicle, at), &lane.lane);
+            if let Ok(weight) = weight {
+                let [from, to] = self.ends_of(at).map(NodeIndex::new);
+                graph.add_edge(from, to, (at, weight));
+            }
+            weighed.push(weight);
+        }
+        Net { graph, weighed }
+    }
+
+    /// The nodes between which a lane leads; both are there, or the tables were refused.
+    fn ends_of(&self, lane: usize) -> [usize; 2] {
+        let lane = &self.now.graph.lanes[lane];
+        [&lane.from, &lane.to].map(|id| self.by_id.get(id).copied().unwrap_or_default())
+    }
+
+    fn nodes_of(&self, lane: usize) -> [&Node; 2] {
+        self.ends_of(lane).map(|node| &self.now.graph.nodes[node])
+    }
+
+    fn travel(&self, vehicle: usize, lane: usize) -> Travel<'_> {
+        let of = &self.now.graph.lanes[lane];
+        let uses = self.uses.get(&of.lane).into_iter().flatten();
+        let uses: Vec<&Use> = uses.map(|at| &self.now.graph.uses[*at]).collect();
+        let vehicle = &self.now.graph.vehicle_types[vehicle];
+        Travel::of(&self.now, (of, self.nodes_of(lane)), vehicle, &uses, &self.carrying)
+    }
+
+    pub const fn now(&self) -> &Now {
+        &self.now
+    }
+
+    /// What lanes weigh for a vehicle type.
+    pub fn weighed(&self, vehicle: &str) -> std::result::Result<&[Weighed], NoEnd> {
+        Ok(&self.nets[self.vehicle(vehicle)?].weighed)
+    }
+
+    fn vehicle(&self, robot: &str) -> std::result::Result<usize, NoEnd> {
+        let at = self.now.graph.vehicle_types.iter().position(|of| of.vehicle_type == robot);
+        at.ok_or_else(|| NoEnd { is_start: true, reason: format!("there is no vehicle type `{robot}`") })
+    }
+
+    /// The node of a place, by its id, by its name, or the nearest one to a point.
+    fn end(&self, text: &str, is_start: bool) -> std::result::Result<End, NoEnd> {
+        let exactly = |node| Ok(End { node, remark: None });
+        let text = text.trim();
+        if let Some(node) = self.node_called(text) {
+            return exactly(node);
+        }
+        let place = self.places.iter().find(|place| place.place == text);
+        let at = place.map(|place| Point::new(place.x, place.y)).or_else(|| point(text));
+        let no_end = |reason| NoEnd { is_start, reason };
+        let Some(at) = at else {
+            let known = self
+                .places
+                .iter()
+                .map(|place| place.place.as_str())
+                .chain(self.by_id.keys().map(String::as_str));
+            let meant = did_you_mean(text, known).map_or(String::new(), |help| format!("; {help}"));
+            return Err(no_end(format!("`{text}` is no place, no node and no point `x,y`{meant}")));
+        };
+        let far = |node: &Node| node.at.distance(at);
+        let nodes = self.now.graph.nodes.iter().enumerate();
+        let near = nodes.min_by(|(_, one), (_, other)| far(one).total_cmp(&far(other)));
+        let (node, metres) = near
+            .map(|(place, node)| (place, far(node)))
+            .ok_or_else(|| no_end("there are no nodes".to_owned()))?;
+        let id = &self.now.graph.nodes[node].node;
+        let way = if is_start { "starts" } else { "ends" };
+        let remark =
+            (metres > 0.01).then(|| format!("the route {way} at node {id}, {metres:.2} m from {text}"));
+        Ok(End { node, remark })
+    }
+
+    fn node_called(&self, text: &str) -> Option<usize> {
+        let id = text.strip_prefix("node ").or_else(|| text.strip_prefix("waypoint ")).unwrap_or(text);
+        if let Some(node) = self.by_id.get(id) {
+            return Some(*node);
+        }
+        let mut named =
+            self.now.graph.nodes.iter().enumerate().filter(|(_, node)| node.name.as_deref() == Some(text));
+        if let (Some((node, _)), None) = (named.next(), named.next()) {
+            return Some(node);
+        }
+        let is_it =
+            |of: &&adit_planners::lanes::Station| of.station == text || of.name.as_deref() == Some(text);
+        let station = self.now.graph.stations.iter().find(is_it)?;
+        self.by_id.get(station.nodes.split(',').next()?.trim()).copied()
+    }
+
+    /// The lanes of the best way, in order.
+    fn lanes(&self, vehicle: usize, from: usize, to: usize) -> Option<(f64, Vec<usize>)> {
+        let graph = &self.nets[vehicle].graph;
+        let goal = NodeIndex::new(to);
+        let (cost, nodes) =
+            astar(graph, NodeIndex::new(from), |node| node == goal, |edge| edge.weight().1, |_| 0.0)?;
+        let lane = |pair: &[NodeIndex]| {
+            let between = graph.edges_connecting(pair[0], pair[1]).map(|edge| *edge.weight());
+            let best = between.min_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
+            best.map(|(lane, _)| lane)
+        };
+        Some((cost, nodes.windows(2).filter_map(lane).collect()))
+    }
+
+    /// Why nothing leads from one node to another: what keeps a vehicle from the lanes that would lead on.
+    fn because(&self, vehicle: usize, from: usize) -> String {
+        let net = &self.nets[vehicle];
+        let mut search = Dfs::new(&net.graph, NodeIndex::new(from));
+        let mut reached = BTreeSet::new();
+        while let Some(node) = search.next(&net.graph) {
+            reached.insert(node.index());
+        }
+        let leads_on = |lane: usize| {
+            let [a, b] = self.ends_of(lane);
+            reached.contains(&a) && !reached.contains(&b)
+        };
+        let refusals = net.weighed.iter().enumerate().filter(|(lane, _)| leads_on(*lane));
+        let mut refusals: Vec<&str> =
+            refusals.filter_map(|(_, weighed)| weighed.as_ref().err()).map(String::as_str).collect();
+        refusals.dedup();
+        match refusals.as_slice() {
+            [] => format!("no lane leads on from the {} nodes that can be reached", reached.len()),
+            [one, two, three, _, ..] => format!("{one}; {two}; {three}; and {} more", refusals.len() - 3),
+            few => few.join("; "),
+        }
+    }
+
+    fn said(&self, vehicle: usize, lane: usize) -> Arc<Said> {
+        let mut kept = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        let said = kept.entry((vehicle, lane)).or_insert_with(|| {
+            let mut judge = self.judge.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::new(judge.said(&self.travel(vehicle, lane), &self.now.graph.lanes[lane].lane))
+        });
+        Arc::clone(said)
+    }
+
+    fn found(
+        &self,
+        vehicle: usize,
+        [robot, start, goal]: [&str; 3],
+        ends: [&End; 2],
+        lanes: &[usize],
+    ) -> Found {
+        let mut row = Row::blank(robot, start, goal);
+        row.remarks = ends.into_iter().filter_map(|end| end.remark.clone()).collect();
+        let (mut cost, mut distance, mut said) = (0.0, 0.0, Vec::new());
+        let first = &self.now.graph.nodes[ends[0].node];
+        let is_level = self.now.graph.levels.len() < 2;
+        let height = |node: &Node| {
+            let level = self.now.graph.levels.iter().find(|level| level.level == node.level);
+            level.filter(|_| !is_level).map(|level| level.elevation)
+        };
+        row.waypoints.push(Waypoint {
+            waypoint: 1,
+            x: first.at.x,
+            y: first.at.y,
+            z: height(first),
+            distance: Some(0.0),
+            ..Waypoint::default()
+        });
+        for (number, &lane) in (1..).zip(lanes) {
+            let [from, to] = self.nodes_of(lane);
+            let of = self.said(vehicle, lane);
+            let hardness = self.nets[vehicle].weighed[lane].clone().unwrap_or_default();
+            cost += hardness;
+            distance += length_m(&self.now, &self.now.graph.lanes[lane], [from, to]);
+            let moves = from.at.distance(to.at) > 0.0;
+            let heading = moves.then(|| (to.at.y - from.at.y).atan2(to.at.x - from.at.x).to_degrees());
+            let action = of.action.as_ref().map(ToString::to_string);
+            row.steps.push(Step {
+                step: number,
+                kind: "lane".to_owned(),
+                place: of.place.clone(),
+                action: action.clone(),
+                hardness: Some(hardness),
+                cost,
+                x: Some(to.at.x),
+                y: Some(to.at.y),
+                z: height(to),
+                heading,
+                rule: of.rule_of("weight"),
+                ..Step::default()
+            });
+            row.waypoints.push(Waypoint {
+                waypoint: number + 1,
+                x: to.at.x,
+                y: to.at.y,
+                z: height(to),
+                heading,
+                action,
+                distance: Some(distance),
+                cost,
+                ..Waypoint::default()
+            });
+            said.push(of);
+        }
+        (row.cost, row.distance) = (Some(cost), Some(distance));
+        Found { row, said }
+    }
+
+    fn none(&self, [robot, start, goal]: [&str; 3], reason: String) -> Found {
+        Found { row: Row { reason: Some(reason), ..Row::blank(robot, start, goal) }, said: Vec::new() }
+    }
+
+    /// The lanes that a name stands for.
+    fn through(&self, name: &str) -> Vec<usize> {
+        let graph = &self.now.graph;
+        let name = name.trim();
+        let of = |kind: &str| name.strip_prefix(kind).map_or(name, str::trim);
+        let lane = graph
+            .lanes
+            .iter()
+            .position(|lane| lane.lane == of("lane ") || lane.name.as_deref() == Some(name));
+        if let Some(lane) = lane.filter(|_| !self.by_id.contains_key(name)) {
+            return vec![lane];
+        }
+        let all = |is_it: &dyn Fn(usize) -> bool| {
+            (0..graph.lanes.len()).filter(|lane| is_it(*lane)).collect::<Vec<_>>()
+        };
+        let door = all(&|lane| graph.lanes[lane].doors().any(|door| door == of("door ")));
+        if !door.is_empty() {
+            return door;
+        }
+        let lift = all(&|lane| graph.lanes[lane].lift.as_deref() == Some(of("lift ")));
+        if !lift.is_empty() {
+            return lift;
+        }
+        self.node_called(name).map_or(Vec::new(), |node| all(&|lane| self.ends_of(lane)[1] == node))
+    }
+}
+
+impl Pathfinder for Routes {
+    fn robots(&self) -> Vec<String> {
+        self.now.graph.vehicle_types.iter().map(|of| of.vehicle_type.clone()).collect()
+    }
+
+    fn ends(&self) -> Vec<Place> {
+        self.places.clone()
+    }
+
+    fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
+        let vehicle = self.vehicle(robot)?;
+        let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
+        let names = [robot, start, goal];
+        Ok(match self.lanes(vehicle, from.node, to.node) {
+            Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
+            None => self.none(names, self.because(vehicle, from.node)),
+        })
+    }
+
+    fn find_through(&self, robot: &str, ends: [&str; 2], through: &str) -> Result<Found> {
+        let vehicle = self.vehicle(robot)?;
+        let (from, to) = (self.end(ends[0], true)?, self.end(ends[1], false)?);
+        let meant = self.through(through);
+        if meant.is_empty() {
+            return Err(no_through(through, "a lane (`lane 12`), a node, a door or a lift"));
+        }
+        let names = [robot, ends[0], ends[1]];
+        let mut best: Option<(f64, Vec<usize>)> = None;
+        for &lane in &meant {
+            let Ok(weight) = &self.nets[vehicle].weighed[lane] else { continue };
+            let [a, b] = self.ends_of(lane);
+            let there = self.lanes(vehicle, from.node, a);
+            let Some(((before, mut lanes), (after, rest))) = there.zip(self.lanes(vehicle, b, to.node))
+            else {
+                continue;
+            };
+            lanes.push(lane);
+            lanes.extend(rest);
+            let cost = before + weight + after;
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, lanes));
+            }
+        }
+        Ok(match best {
+            Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
+            None => {
+                let refused = meant.iter().find_map(|&lane| self.nets[vehicle].weighed[lane].as_ref().err());
+                self.none(
+                    names,
+                    refused.cloned().unwrap_or_else(|| format!("no way leads to {through} and on from it")),
+                )
+            }
+        })
+    }
+
+    fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
+        let vehicle = self.nets.first();
+        let mut weighed = vehicle.map_or(&[][..], |net| &net.weighed);
+        let mut lanes = Vec::new();
+        if let Some([robot, start, goal]) = route {
+            let vehicle = self.vehicle(robot)?;
+            weighed = &self.nets[vehicle].weighed;
+            let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
+            lanes = self.lanes(vehicle, from.node, to.node).map(|(_, lanes)| lanes).unwrap_or_default();
+        }
+        let is_open = |lane: usize| weighed.get(lane).is_some_and(|of| of.is_ok());
+        Ok(render_lanes(title, &self.now.graph, is_open, |door| self.now.closed_doors.contains(door), &lanes))
+    }
+
+    fn trouble(&self) -> Option<String> {
+        self.judge.lock().unwrap_or_else(PoisonError::into_inner).trouble().map(str::to_owned)
+    }
+
+    fn summary(&self) -> String {
+        let graph = &self.now.graph;
+        let doors = match (graph.doors.len(), graph.lifts.len()) {
+            (0, 0) => String::new(),
+            (doors, 0) => format!(", {doors} doors"),
+            (doors, lifts) => format!(", {doors} doors, {lifts} lifts"),
+        };
+        format!("{} nodes, {} lanes{doors}", graph.nodes.len(), graph.lanes.len())
+    }
+}

@@ -1,0 +1,70 @@
+//! What cannot be right in a lane graph, whoever made it: a file, or tables that were edited.
+
+use std::collections::BTreeSet;
+
+use super::LaneGraph;
+use crate::read::{Code, Problem};
+
+/// Refuses ids that stand for several things, or for none, and numbers that mean nothing.
+pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
+    let wrong = |code, message: String| Err(Problem::of_file(code, message));
+    let twice = [
+        ("level", repeated(graph.levels.iter().map(|level| &level.level))),
+        ("node", repeated(graph.nodes.iter().map(|node| &node.node))),
+        ("lane", repeated(graph.lanes.iter().map(|lane| &lane.lane))),
+        ("door", repeated(graph.doors.iter().map(|door| &door.door))),
+        ("lift", repeated(graph.lifts.iter().map(|lift| &lift.lift))),
+        ("station", repeated(graph.stations.iter().map(|station| &station.station))),
+    ];
+    if let Some((what, Some(id))) = twice.into_iter().find(|(_, id)| id.is_some()) {
+        return wrong(Code::DuplicateName, format!("two {what}s are called `{id}`; expected an id for each"));
+    }
+    let levels: BTreeSet<&str> = graph.levels.iter().map(|level| level.level.as_str()).collect();
+    let nodes: BTreeSet<&str> = graph.nodes.iter().map(|node| node.node.as_str()).collect();
+    for node in &graph.nodes {
+        if !levels.contains(node.level.as_str()) {
+            let message = format!("node `{}` is on level `{}`, which is not there", node.node, node.level);
+            return wrong(Code::Impossible, message);
+        }
+    }
+    for lane in &graph.lanes {
+        let of = format!("lane `{}` from `{}` to `{}`", lane.lane, lane.from, lane.to);
+        if let Some(missing) = [&lane.from, &lane.to].into_iter().find(|node| !nodes.contains(node.as_str()))
+        {
+            return wrong(Code::Impossible, format!("{of}: there is no node `{missing}`"));
+        }
+        let share = lane.speed_share.unwrap_or(1.0);
+        if !(share > 0.0 && share <= 1.0) {
+            let message = format!(
+                "{of}: its speed is limited to {share} of a vehicle's own, expected more than 0, up to 1"
+            );
+            return wrong(Code::NotPositive, message);
+        }
+        for (what, number) in [("cost", lane.cost), ("penalty", lane.penalty), ("length", lane.length)] {
+            if number.is_some_and(|number| !(number.is_finite() && number >= 0.0)) {
+                let found = number.unwrap_or_default();
+                return wrong(Code::NotPositive, format!("{of}: its {what} is {found}, expected 0 or more"));
+            }
+        }
+        if lane.speed_limit.is_some_and(|limit| !(limit.is_finite() && limit > 0.0)) {
+            let found = lane.speed_limit.unwrap_or_default();
+            return wrong(
+                Code::NotPositive,
+                format!("{of}: its speed limit is {found} m/s, expected more than 0"),
+            );
+        }
+    }
+    for station in &graph.stations {
+        let mut of = station.nodes.split(',').map(str::trim).filter(|node| !node.is_empty());
+        if let Some(missing) = of.find(|node| !nodes.contains(node)) {
+            let message = format!("station `{}`: there is no node `{missing}`", station.station);
+            return wrong(Code::Impossible, message);
+        }
+    }
+    Ok(())
+}
+
+fn repeated<'i>(ids: impl Iterator<Item = &'i String>) -> Option<&'i str> {
+    let mut seen = BTreeSet::new();
+    ids.map(String::as_str).find(|id| !seen.insert(*id))
+}

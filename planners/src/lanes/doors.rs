@@ -1,0 +1,69 @@
+//! Which lanes lead through which doors, where the file leaves it to the drawing; and rides between levels.
+
+use std::collections::BTreeMap;
+
+use super::{Lane, LaneGraph, Node};
+use crate::geometry::Point;
+
+/// Names the doors on each lane that has none by name: those that it crosses.
+pub(super) fn cross(graph: &mut LaneGraph) {
+    let LaneGraph { lanes, doors, nodes, .. } = graph;
+    let by_id: BTreeMap<&str, &Node> = nodes.iter().map(|node| (node.node.as_str(), node)).collect();
+    for lane in lanes.iter_mut().filter(|lane| lane.door.is_none()) {
+        let ends = by_id.get(lane.from.as_str()).zip(by_id.get(lane.to.as_str()));
+        let Some((from, to)) = ends else { continue };
+        if from.level != to.level {
+            continue;
+        }
+        let crossed =
+            doors.iter().filter(|door| door.level == from.level && do_cross([from.at, to.at], door.ends));
+        let names: Vec<&str> = crossed.map(|door| door.door.as_str()).collect();
+        lane.door = (!names.is_empty()).then(|| names.join(", "));
+    }
+}
+
+fn do_cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0 && a != b && c != d
+}
+
+/// Adds a ride for each two levels at which nodes lie in the cabin of one lift, both ways; `graphs` are those that vehicles
+/// drive on, of whose lanes one ends in the cabin at either level.
+pub(super) fn rides(graph: &mut LaneGraph, graphs: &[String]) {
+    let mut rides = Vec::new();
+    let in_cabins: Vec<_> = graph.nodes.iter().filter(|node| node.lift.is_some()).collect();
+    for of in graphs {
+        let is_served = |id: &str| {
+            graph
+                .lanes
+                .iter()
+                .any(|lane| lane.graph.as_ref() == Some(of) && (lane.from == id || lane.to == id))
+        };
+        for one in &in_cabins {
+            for other in &in_cabins {
+                if one.lift != other.lift
+                    || one.level == other.level
+                    || !is_served(&one.node)
+                    || !is_served(&other.node)
+                {
+                    continue;
+                }
+                let lift = one.lift.clone().unwrap_or_default();
+                let name = format!("{lift} {} to {}", one.level, other.level);
+                let lane = if graphs.len() < 2 { name } else { format!("{of}:{name}") };
+                let ride = Lane {
+                    lane,
+                    from: one.node.clone(),
+                    to: other.node.clone(),
+                    graph: Some(of.clone()),
+                    lift: Some(lift),
+                    ..Lane::default()
+                };
+                if rides.iter().all(|known: &Lane| known.lane != ride.lane) {
+                    rides.push(ride);
+                }
+            }
+        }
+    }
+    graph.lanes.extend(rides);
+}

@@ -1,0 +1,194 @@
+//! A route graph of Nav2's route server: GeoJSON.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::Value;
+
+use super::value::{At, Read};
+use super::{Lane, LaneGraph, Level, Node};
+use crate::geometry::Point;
+use crate::read::Code;
+
+/// All nodes of a route graph are on one level.
+pub(super) const LEVEL: &str = "map";
+
+pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
+    let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };
+    graph.properties = top.rest(&["name", "features", "type"]);
+    let mut others = 0;
+    let mut bends: Vec<(usize, f64)> = Vec::new();
+    for feature in top.need("features")?.items()? {
+        let (properties, geometry) = (feature.need("properties")?, feature.need("geometry")?);
+        let kind = geometry.need("type")?.text()?;
+        let coordinates = geometry.need("coordinates")?;
+        match kind.as_str() {
+            "Point" => graph.nodes.push(node(&properties, coordinates.point()?)?),
+            "MultiLineString" | "LineString" => {
+                bends.push((graph.lanes.len(), length(&coordinates, kind == "MultiLineString")?));
+                graph.lanes.push(lane(&properties)?);
+            }
+            _ => others += 1,
+        }
+    }
+    for node in &graph.nodes {
+        if graph.levels.iter().all(|level| level.level != node.level) {
+            graph.levels.push(Level { level: node.level.clone(), ..Level::default() });
+        }
+    }
+    bent(&mut graph, &bends);
+    tell_apart(&mut graph);
+    if others > 0 {
+        graph
+            .notes
+            .push(format!("{others} features are neither points nor lines, and are no part of the graph"));
+    }
+    graph.types_by_graph(&[]);
+    Ok(graph)
+}
+
+/// Gives edges whose id another has an id of their own; Nav2 reads such files, and there are some.
+fn tell_apart(graph: &mut LaneGraph) {
+    let mut taken: BTreeSet<String> = graph.lanes.iter().map(|lane| lane.lane.clone()).collect();
+    let mut seen = BTreeSet::new();
+    for lane in &mut graph.lanes {
+        if seen.insert(lane.lane.clone()) {
+            continue;
+        }
+        let own = (2..).map(|copy| format!("{}#{copy}", lane.lane)).find(|id| taken.insert(id.clone()));
+        let Some(own) = own else { continue };
+        graph.notes.push(format!(
+            "two edges have the id {}; the one from {} to {} is called {own}",
+            lane.lane, lane.from, lane.to
+        ));
+        lane.lane = own;
+    }
+}
+
+/// Lengths of lines that are longer than straight ones.
+fn bent(graph: &mut LaneGraph, bends: &[(usize, f64)]) {
+    let at: BTreeMap<&str, Point> = graph.nodes.iter().map(|node| (node.node.as_str(), node.at)).collect();
+    for (lane, length) in bends {
+        let lane = &mut graph.lanes[*lane];
+        let ends = at.get(lane.from.as_str()).zip(at.get(lane.to.as_str()));
+        let Some(straight) = ends.map(|(from, to)| from.distance(*to)) else { continue };
+        // a drawing's line ends near its nodes rather than at them
+        if lane.length.is_none() && *length > 1.02 * straight + 0.05 {
+            lane.length = Some(*length);
+        }
+    }
+}
+
+fn length(coordinates: &At<'_>, is_multi: bool) -> Read<f64> {
+    let lines = if is_multi { coordinates.items()? } else { vec![coordinates.clone()] };
+    let mut sum = 0.0;
+    for line in lines {
+        let points = line.items()?.iter().map(At::point).collect::<Read<Vec<Point>>>()?;
+        if points.len() < 2 {
+            return Err(line.wrong("two points or more"));
+        }
+        sum += points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+    }
+    Ok(sum)
+}
+
+/// A number as an id; route graphs have whole ones.
+fn number(id: &At<'_>) -> Option<u32> {
+    id.value.as_u64().and_then(|number| u32::try_from(number).ok())
+}
+
+fn node(properties: &At<'_>, at: Point) -> Read<Node> {
+    let id = properties.need("id")?;
+    let mut node = Node::new(id.id()?, LEVEL, at);
+    node.number = number(&id);
+    node.properties = properties.rest(&["id", "metadata"]);
+    let Some(metadata) = properties.get("metadata") else { return Ok(node) };
+    metadata.entries()?;
+    if let Some(id) = metadata.get("node") {
+        node.node = id.id()?;
+    }
+    node.name = metadata.name("name")?;
+    node.level = metadata.name("level")?.unwrap_or(node.level);
+    node.lift = metadata.name("lift")?;
+    node.closed = metadata.maybe_truth("closed")?.unwrap_or(false);
+    node.is_parking_spot = metadata.maybe_truth("is_parking_spot")?.unwrap_or(false);
+    node.is_charger = metadata.maybe_truth("is_charger")?.unwrap_or(false);
+    node.is_holding_point = metadata.maybe_truth("is_holding_point")?.unwrap_or(false);
+    let rest = metadata.rest(&[
+        "node",
+        "name",
+        "level",
+        "lift",
+        "closed",
+        "is_parking_spot",
+        "is_charger",
+        "is_holding_point",
+    ]);
+    if !rest.is_empty() {
+        node.properties.insert("metadata".to_owned(), Value::Object(rest));
+    }
+    Ok(node)
+}
+
+fn lane(properties: &At<'_>) -> Read<Lane> {
+    let id = properties.need("id")?;
+    let mut lane = Lane {
+        lane: id.id()?,
+        number: number(&id),
+        from: properties.need("startid")?.id()?,
+        to: properties.need("endid")?.id()?,
+        cost: properties.not_negative("cost")?,
+        is_cost_fixed: properties.maybe_truth("overridable")? == Some(false),
+        properties: properties.rest(&["id", "startid", "endid", "cost", "overridable", "metadata"]),
+        ..Lane::default()
+    };
+    let Some(metadata) = properties.get("metadata") else { return Ok(lane) };
+    metadata.entries()?;
+    let text = |key: &str| metadata.get(key).map(|id| id.id()).transpose();
+    lane.lane = text("lane")?.unwrap_or(lane.lane);
+    lane.from = text("from")?.unwrap_or(lane.from);
+    lane.to = text("to")?.unwrap_or(lane.to);
+    lane.name = metadata.name("name")?;
+    lane.graph = text("graph")?;
+    lane.speed_share = metadata.get("speed_limit").map(|limit| share(&limit)).transpose()?;
+    lane.speed_limit = metadata.get("abs_speed_limit").map(|limit| limit.positive()).transpose()?;
+    lane.penalty = metadata.not_negative("penalty")?;
+    lane.length = metadata.not_negative("length")?;
+    lane.orientation = metadata.name("orientation")?;
+    lane.door = metadata.name("door")?;
+    lane.lift = metadata.name("lift")?;
+    lane.action = metadata.name("action")?;
+    lane.closed = metadata.maybe_truth("closed")?.unwrap_or(false);
+    let rest = metadata.rest(&[
+        "lane",
+        "from",
+        "to",
+        "name",
+        "graph",
+        "speed_limit",
+        "abs_speed_limit",
+        "penalty",
+        "length",
+        "orientation",
+        "door",
+        "lift",
+        "action",
+        "closed",
+    ]);
+    if !rest.is_empty() {
+        lane.properties.insert("metadata".to_owned(), Value::Object(rest));
+    }
+    Ok(lane)
+}
+
+/// A limit as a part of the full speed: some files have 0.85 for what others call 85.
+fn share(limit: &At<'_>) -> Read<f64> {
+    let number = limit.positive()?;
+    let share = if number > 1.0 { number / 100.0 } else { number };
+    if share <= 1.0 {
+        return Ok(share);
+    }
+    Err(limit.problem(
+        Code::WrongType,
+        &format!("is {number}, expected a part of the speed up to 1, or up to 100 %"),
+    ))
+}

@@ -1,0 +1,111 @@
+//! Which format a file has, and its reader.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::value::{At, Read};
+use super::{LaneGraph, building, check, geojson, lif, nav_graph, numbers, rmf_site, tmap};
+use crate::read::{Code, Problem};
+
+/// The formats that are told apart by what stands at the top of a file.
+#[derive(Clone, Copy)]
+enum Kind {
+    Building,
+    NavGraph,
+    RmfSite,
+    Nav2,
+    Lif,
+    TopologicalMap,
+}
+
+/// Whether a file is a lane graph, as far as its name and its beginning say.
+pub fn is_lane_graph(path: &Path) -> bool {
+    let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
+    if [".json", ".geojson", ".lif", ".tmap2", ".building.yaml"].iter().any(|end| name.ends_with(end)) {
+        return path.is_file();
+    }
+    if !(name.ends_with(".yaml") || name.ends_with(".yml")) {
+        return false;
+    }
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let starts = |key: &str| text.starts_with(key) || text.contains(&format!("\n{key}"));
+    !starts("image:") && (starts("levels:") || starts("nodes:") || text.trim_start().starts_with('{'))
+}
+
+/// Reads a lane graph.
+pub fn read_lane_graph(path: &Path) -> Result<LaneGraph, Problem> {
+    let file = path.display().to_string();
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Problem::of_file(Code::Unreadable, format!("{file} cannot be read: {error}")))?;
+    let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let mut graph = parse(&file, &text)?;
+    if graph.name.is_empty() {
+        stem.split('.').next().unwrap_or_default().clone_into(&mut graph.name);
+    }
+    Ok(graph)
+}
+
+/// Reads a text; `file` is how messages call it.
+pub(super) fn parse(file: &str, text: &str) -> Result<LaneGraph, Problem> {
+    let extension = Path::new(file).extension().and_then(|end| end.to_str()).unwrap_or_default();
+    let value = if ["yaml", "yml", "tmap2"].contains(&extension) {
+        of_yaml(file, text)
+    } else {
+        of_json(file, text)
+    }?;
+    let top = At::top(file, &value);
+    let mut graph = match kind(&top)? {
+        Kind::Building => building::read(&top)?,
+        Kind::NavGraph => nav_graph::read(&top)?,
+        Kind::RmfSite => rmf_site::read(&top)?,
+        Kind::Nav2 => geojson::read(&top)?,
+        Kind::Lif => lif::read(&top)?,
+        Kind::TopologicalMap => tmap::read(&top)?,
+    };
+    numbers::fill(&mut graph);
+    check::refuse_wrong(&graph)
+        .map_err(|wrong| Problem::of_file(wrong.code, format!("{file}: {}", wrong.message)))?;
+    Ok(graph)
+}
+
+fn of_json(file: &str, text: &str) -> Read<Value> {
+    serde_json::from_str(text).map_err(|error| {
+        let place = format!("{file}, line {}, column {}", error.line(), error.column());
+        Problem::of_file(Code::Syntax, format!("{place}: not JSON: {error}"))
+    })
+}
+
+fn of_yaml(file: &str, text: &str) -> Read<Value> {
+    serde_saphyr::from_str(text).map_err(|error| {
+        let error = error.without_snippet();
+        let place = error
+            .location()
+            .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
+        Problem::of_file(Code::Syntax, format!("{file}{place}: not YAML: {error}"))
+    })
+}
+
+fn kind(top: &At<'_>) -> Read<Kind> {
+    if !top.value.is_object() {
+        return Err(top.wrong("an object, as lane graphs are"));
+    }
+    let has = |key| top.get(key).is_some();
+    Ok(if has("layouts") || has("metaInformation") {
+        Kind::Lif
+    } else if has("features") || top.get("type").is_some_and(|of| of.value == "FeatureCollection") {
+        Kind::Nav2
+    } else if has("format_version") || has("navigation") {
+        Kind::RmfSite
+    } else if has("levels") && has("building_name") {
+        Kind::NavGraph
+    } else if has("levels") {
+        Kind::Building
+    } else if has("nodes") {
+        Kind::TopologicalMap
+    } else {
+        let help = "a building, site or navigation graph of Open-RMF has `levels`, a route graph of Nav2 `features`, \
+                    LIF `layouts`, a topological map `nodes`";
+        return Err(top.problem(Code::UnknownFormat, "is no lane graph that Adit reads").with_help(help));
+    })
+}

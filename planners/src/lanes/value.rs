@@ -1,0 +1,175 @@
+//! A value of a JSON or YAML file with the way that leads to it, so that a message can name both.
+
+use std::fmt::Write as _;
+
+use serde_json::{Map, Value};
+
+use crate::geometry::Point;
+use crate::read::{Code, Problem};
+
+/// Coordinates, lengths and costs beyond it are slips.
+const LARGEST: f64 = 1e9;
+
+#[derive(Clone)]
+pub(super) struct At<'v> {
+    file: &'v str,
+    pub value: &'v Value,
+    path: String,
+}
+
+pub(super) type Read<T> = Result<T, Problem>;
+
+impl<'v> At<'v> {
+    pub fn top(file: &'v str, value: &'v Value) -> Self {
+        Self { file, value, path: String::new() }
+    }
+
+    /// What is wrong with it.
+    pub fn problem(&self, code: Code, message: &str) -> Problem {
+        let path = if self.path.is_empty() { "the whole file" } else { &self.path };
+        Problem::of_file(code, format!("{}: {path} {message}", self.file))
+    }
+
+    pub fn wrong(&self, expected: &str) -> Problem {
+        self.problem(Code::WrongType, &format!("is {}, expected {expected}", found(self.value)))
+    }
+
+    fn within(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    /// What stands under a key; `None` where nothing does, or null.
+    pub fn get(&self, key: &str) -> Option<Self> {
+        let value = self.value.get(key).filter(|value| !value.is_null())?;
+        Some(Self { file: self.file, value, path: self.within(key) })
+    }
+
+    pub fn need(&self, key: &str) -> Read<Self> {
+        match self.value {
+            Value::Object(_) => {
+                self.get(key).ok_or_else(|| self.problem(Code::MissingKey, &format!("has no `{key}`")))
+            }
+            _ => Err(self.wrong(&format!("an object with `{key}`"))),
+        }
+    }
+
+    pub fn items(&self) -> Read<Vec<Self>> {
+        let Value::Array(values) = self.value else { return Err(self.wrong("a list")) };
+        let item = |(place, value)| Self { file: self.file, value, path: format!("{}[{place}]", self.path) };
+        Ok(values.iter().enumerate().map(item).collect())
+    }
+
+    /// The entries of a list under a key, none where it is missing.
+    pub fn list(&self, key: &str) -> Read<Vec<Self>> {
+        self.get(key).map_or(Ok(Vec::new()), |list| list.items())
+    }
+
+    pub fn entries(&self) -> Read<Vec<(&'v str, Self)>> {
+        let Value::Object(entries) = self.value else { return Err(self.wrong("an object")) };
+        let entry = |(key, value): (&'v String, &'v Value)| {
+            (key.as_str(), Self { file: self.file, value, path: self.within(key) })
+        };
+        Ok(entries.iter().map(entry).collect())
+    }
+
+    /// The entries of an object under a key, none where it is missing.
+    pub fn object(&self, key: &str) -> Read<Vec<(&'v str, Self)>> {
+        self.get(key).map_or(Ok(Vec::new()), |object| object.entries())
+    }
+
+    pub fn number(&self) -> Read<f64> {
+        let number = self.value.as_f64().ok_or_else(|| self.wrong("a number"))?;
+        if number.abs() <= LARGEST {
+            return Ok(number);
+        }
+        Err(self.problem(Code::NotFinite, &format!("is {number:e}, expected at most {LARGEST:e}")))
+    }
+
+    pub fn positive(&self) -> Read<f64> {
+        let number = self.number()?;
+        if number > 0.0 {
+            return Ok(number);
+        }
+        Err(self.problem(Code::NotPositive, &format!("is {number}, expected more than 0")))
+    }
+
+    pub fn maybe_number(&self, key: &str) -> Read<Option<f64>> {
+        self.get(key).map(|value| value.number()).transpose()
+    }
+
+    pub fn not_negative(&self, key: &str) -> Read<Option<f64>> {
+        let Some(value) = self.get(key) else { return Ok(None) };
+        let number = value.number()?;
+        if number >= 0.0 {
+            return Ok(Some(number));
+        }
+        Err(value.problem(Code::NotPositive, &format!("is {number}, expected 0 or more")))
+    }
+
+    /// The place of an entry of a list of so many.
+    pub fn index(&self, count: usize, of: &str) -> Read<usize> {
+        let number = self.value.as_u64().ok_or_else(|| self.wrong(&format!("the number of a {of}")))?;
+        if (number as usize) < count {
+            return Ok(number as usize);
+        }
+        let message = format!("is {number}, and there are {count} of {of}, counted from 0");
+        Err(self.problem(Code::Impossible, &message))
+    }
+
+    pub fn text(&self) -> Read<String> {
+        self.value.as_str().map(str::to_owned).ok_or_else(|| self.wrong("a text"))
+    }
+
+    /// A name, where an empty one is none.
+    pub fn name(&self, key: &str) -> Read<Option<String>> {
+        let text = self.get(key).map(|value| value.text()).transpose()?;
+        Ok(text.filter(|text| !text.trim().is_empty()))
+    }
+
+    /// What tells an object apart: a text, or a whole number.
+    pub fn id(&self) -> Read<String> {
+        match self.value {
+            Value::String(text) if !text.trim().is_empty() => Ok(text.clone()),
+            Value::Number(number) if number.is_u64() || number.is_i64() => Ok(number.to_string()),
+            _ => Err(self.wrong("an id, a text or a whole number")),
+        }
+    }
+
+    pub fn truth(&self) -> Read<bool> {
+        self.value.as_bool().ok_or_else(|| self.wrong("true or false"))
+    }
+
+    pub fn maybe_truth(&self, key: &str) -> Read<Option<bool>> {
+        self.get(key).map(|value| value.truth()).transpose()
+    }
+
+    pub fn point(&self) -> Read<Point> {
+        match self.items()?.as_slice() {
+            [x, y, ..] => Ok(Point::new(x.number()?, y.number()?)),
+            _ => Err(self.wrong("[x, y]")),
+        }
+    }
+
+    /// The object without those keys.
+    pub fn rest(&self, without: &[&str]) -> Map<String, Value> {
+        let Value::Object(entries) = self.value else { return Map::new() };
+        let kept = entries.iter().filter(|(key, _)| !without.contains(&key.as_str()));
+        kept.map(|(key, value)| (key.clone(), value.clone())).collect()
+    }
+}
+
+/// A value as a message shows it.
+fn found(value: &Value) -> String {
+    let mut text = value.to_string();
+    if let Some((end, _)) = text.char_indices().nth(40) {
+        text.truncate(end);
+        text.push('…');
+    }
+    let mut said = String::new();
+    let _ = match value {
+        Value::Null => write!(said, "nothing"),
+        Value::String(_) => write!(said, "the text {text}"),
+        _ => write!(said, "{text}"),
+    };
+    said
+}

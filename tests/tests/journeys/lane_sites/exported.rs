@@ -1,0 +1,128 @@
+//! What is written for others is read again with the same ids, names and weights, and written again to the byte.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use adit_tests::TestSite;
+
+use super::{FILES, file, site_of};
+
+/// Nodes, lanes with their ends, names, and what a lane weighs, of those that any format has.
+fn said(site: &TestSite) -> [Vec<String>; 2] {
+    [
+        site.sqlite3("SELECT node, ifnull(name, ''), level, round(x, 6), round(y, 6) FROM nodes ORDER BY 1"),
+        site.sqlite3("SELECT lane, from_node, to_node FROM lanes ORDER BY 1"),
+    ]
+}
+
+fn costs(site: &TestSite, robot: &str) -> BTreeMap<String, String> {
+    let rows = site.sqlite3(&format!(
+        "SELECT start || ' to ' || goal, round(cost, 6) FROM route WHERE robot = '{robot}'"
+    ));
+    rows.iter()
+        .filter_map(|row| row.split_once('|'))
+        .map(|(key, cost)| (key.to_owned(), cost.to_owned()))
+        .collect()
+}
+
+fn export(site: &TestSite, name: &str, robot: Option<&str>) -> String {
+    let to = site.path().join(name);
+    let mut args = vec!["--to", to.to_str().unwrap()];
+    args.extend(robot.into_iter().flat_map(|robot| ["--robot", robot]));
+    site.adit("export", &args).expect_status(0);
+    std::fs::read_to_string(to).unwrap()
+}
+
+fn again(site: &TestSite, name: &str) -> TestSite {
+    site_of(&site.path().join(name))
+}
+
+#[test]
+fn all_files_are_written_for_nav2_and_read_again_with_ids_names_and_weights() {
+    for (name, _, lanes) in FILES.into_iter().filter(|(_, _, lanes)| *lanes > 0) {
+        let Some(map) = file(name) else { return };
+        let site = site_of(&map);
+        let robots = site.sqlite3("SELECT DISTINCT vehicle_type FROM vehicle_types ORDER BY 1");
+        let robot = &robots[0];
+        let text = export(&site, "graph.geojson", Some(robot));
+        assert_eq!(
+            text,
+            export(&site, "graph.geojson", Some(robot)),
+            "{name}: the same from export to export"
+        );
+        let other = again(&site, "graph.geojson");
+        assert_eq!(text, export(&other, "graph.geojson", None), "{name}: and of what was read again");
+        if robots.len() == 1 {
+            assert_eq!(said(&other), said(&site), "{name}, {lanes} lanes");
+        }
+        let (before, after) = (costs(&site, robot), costs(&other, "robot"));
+        let both = before.iter().filter(|(key, _)| after.contains_key(*key));
+        assert!(both.clone().count() > 0 || before.is_empty(), "{name}");
+        for (key, cost) in both {
+            assert_eq!(&after[key], cost, "{name}: {key}");
+        }
+    }
+}
+
+#[test]
+fn all_files_are_written_for_open_rmf_and_read_again() {
+    for (name, ..) in FILES.into_iter().filter(|(name, _, lanes)| *lanes > 0 && !name.starts_with("lif")) {
+        let Some(map) = file(name) else { return };
+        let site = site_of(&map);
+        let robots = site.sqlite3("SELECT DISTINCT vehicle_type FROM vehicle_types ORDER BY 1");
+        let text = export(&site, "nav.yaml", Some(&robots[0]));
+        let other = again(&site, "nav.yaml");
+        assert_eq!(text, export(&other, "nav.yaml", None), "{name}: the same from export to export");
+        if robots.len() == 1 {
+            assert_eq!(said(&other), said(&site), "{name}");
+            assert_eq!(costs(&other, "robot"), costs(&site, "robot"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn lif_is_written_for_all_vehicle_types_at_once() {
+    for (name, ..) in FILES.into_iter().filter(|(.., lanes)| *lanes > 0) {
+        let Some(map) = file(name) else { return };
+        let site = site_of(&map);
+        let text = export(&site, "site.lif.json", None);
+        let other = again(&site, "site.lif.json");
+        assert_eq!(text, export(&other, "site.lif.json", None), "{name}: the same from export to export");
+        if !name.contains("hotel") {
+            // rides between levels have no place in LIF
+            assert_eq!(said(&other), said(&site), "{name}");
+        }
+    }
+    let Some(map) = file("lif/example.lif.json") else { return };
+    let site = site_of(&map);
+    let read = |path: &Path| -> serde_json::Value {
+        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+    };
+    export(&site, "site.lif.json", None);
+    assert_eq!(
+        read(&site.path().join("site.lif.json")),
+        read(&map),
+        "nothing of a LIF file is lost or added"
+    );
+}
+
+#[test]
+fn what_rules_weigh_otherwise_is_written_for_nav2_and_counts_there() {
+    let Some(map) = file("nav2/turtlebot3_graph.geojson") else { return };
+    let site = site_of(&map);
+    let lane = site.sqlite3("SELECT lane FROM lanes ORDER BY number LIMIT 1").remove(0);
+    site.write(
+        "rules/wet.rhai",
+        format!("revise \"it is wet there\"\n    each travel in TRAVELS where travel.lane == \"{lane}\"\n    set travel.weight by * 3\n"),
+    );
+    site.adit("build", &[]).expect_status(0);
+    let text: serde_json::Value = serde_json::from_str(&export(&site, "graph.geojson", None)).unwrap();
+    let edges = text["features"].as_array().unwrap().iter().filter(|of| of["properties"]["startid"].is_u64());
+    let fixed: Vec<_> = edges.filter(|of| of["properties"]["overridable"] == false).collect();
+    assert_eq!(fixed.len(), 1);
+    assert_eq!(fixed[0]["properties"]["id"].to_string(), lane);
+    let to = site.path().join("graph.json");
+    site.adit("export", &["--to", to.to_str().unwrap()])
+        .expecting(2)
+        .complains(&["neither .yaml, .geojson nor .lif.json"]);
+}
