@@ -18,6 +18,7 @@ mod learn;
 mod lsp;
 mod new;
 mod output;
+mod pages;
 mod picture;
 mod route;
 mod rules;
@@ -36,7 +37,7 @@ mod why;
 use std::process::ExitCode;
 
 use args::{SiteArgs, WayArgs};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// A rule engine and knowledge base that tells a mobile robot which way to go and how to move.
 #[derive(Parser, Debug)]
@@ -117,6 +118,10 @@ pub enum Verb {
     Token(serve::TokenArgs),
     /// Integrity, versions, backup
     Doctor(doctor::DoctorArgs),
+    /// Words that a shell completes: for bash, zsh, fish, elvish or PowerShell, printed
+    Completions(pages::CompletionsArgs),
+    /// Pages for `man`, one for each verb, into a folder
+    Man(pages::ManArgs),
 }
 
 /// Runs a verb and prints what came of it.
@@ -159,6 +164,11 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Lsp(args) => (false, lsp::run(args).map(|()| 0)),
         Verb::Token(args) => (args.json, serve::token(args).map(|()| 0)),
         Verb::Doctor(args) => (args.site.json, doctor::doctor(args).map(|sound| u8::from(!sound))),
+        Verb::Completions(args) => {
+            pages::completions(args, Cli::command());
+            (false, Ok(0))
+        }
+        Verb::Man(args) => (false, pages::man(args, Cli::command()).map(|()| 0)),
     };
     match outcome {
         Ok(_) if output::is_lost() => ExitCode::from(2),

@@ -22,9 +22,7 @@ pub fn adit() -> &'static Path {
         let exe = std::env::current_exe().expect("a test knows its own path");
         let profile = exe.ancestors().nth(2).expect("tests run in target/PROFILE/deps").to_path_buf();
         let mut build = Command::new(env!("CARGO"));
-        // of the whole workspace and with a test, as the tests are built: otherwise crates whose features tests add to would
-        // be built anew without them, and with them all that stands on those
-        build.args(["build", "--quiet", "--locked", "--workspace", "--bin", "adit", "--test", "peers"]);
+        build.args(["build", "--quiet", "--locked", "--package", "adit"]);
         if profile.ends_with("release") {
             build.arg("--release");
         }

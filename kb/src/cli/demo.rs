@@ -12,7 +12,7 @@ use crate::answer::scene::main_state;
 use crate::draw::{Layers, Style, render_svg};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::site::shipped::{self, Sites};
+use crate::site::shipped::{self, SITES};
 use crate::site::whole::{self, Whole};
 use crate::words::progress::Spinner;
 use adit_db::Store;
@@ -107,9 +107,9 @@ fn build(args: &DemoArgs, name: &str, (start, goal): (&str, &str)) -> Result<Sho
 /// The example as it is shipped: that of an earlier demo makes room, a site of the user's does not.
 fn renew(folder: &Path, name: &str, made: &mut Whole) -> Result<()> {
     if !folder.join("site.toml").exists() {
-        return shipped::make::<Sites>(name, folder, made);
+        return shipped::make(SITES, name, folder, made);
     }
-    let files = shipped::files::<Sites>(name);
+    let files = shipped::files(SITES, name);
     let of_site = |text: &str| files.iter().any(|(file, shipped)| file == "site.toml" && shipped == text);
     if !std::fs::read_to_string(folder.join("site.toml")).is_ok_and(|text| of_site(&text)) {
         let message =

@@ -12,7 +12,7 @@ use clap::Args;
 use super::output::{json, line, program, quoted};
 use crate::error::{Code, Error, Result};
 use crate::plan::course_of;
-use crate::site::shipped::{self, Sites};
+use crate::site::shipped::{self, SITES};
 use crate::site::whole::Whole;
 use crate::site::{Layout, Rooms, Site};
 
@@ -101,7 +101,7 @@ fn without_map(args: &NewArgs, dir: &Path) -> Result<()> {
     let mut made = Whole::default();
     for folder in ["", "tables", "rules", "rules/tests"] {
         let from = if folder.is_empty() { "shop".to_owned() } else { format!("shop/{folder}") };
-        shipped::make::<Sites>(&from, &dir.join(folder), &mut made)?;
+        shipped::make(SITES, &from, &dir.join(folder), &mut made)?;
     }
     Site::open(dir)?;
     made.keep();

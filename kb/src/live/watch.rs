@@ -86,7 +86,7 @@ mod tests {
     use std::thread;
 
     use super::*;
-    use crate::site::shipped::{self, Rules, Sites};
+    use crate::site::shipped::{self, RULES, SITES};
     use crate::site::whole::Whole;
 
     /// What a watched copy of the paper's example said, one text an event.
@@ -112,9 +112,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let site = folder.path().to_owned();
         let mut made = Whole::default();
-        shipped::make::<Sites>("paper", &site, &mut made).unwrap();
-        shipped::make::<Rules>("rooms/paper", &site.join("rules"), &mut made).unwrap();
-        shipped::make::<Rules>("rooms/paper/tests", &site.join("rules/tests"), &mut made).unwrap();
+        shipped::make(SITES, "paper", &site, &mut made).unwrap();
+        shipped::make(RULES, "rooms/paper", &site.join("rules"), &mut made).unwrap();
+        shipped::make(RULES, "rooms/paper/tests", &site.join("rules/tests"), &mut made).unwrap();
         made.keep();
         let toml = fs::read_to_string(site.join("site.toml")).unwrap();
         fs::write(site.join("site.toml"), format!("rules = \"rules\"\n{toml}")).unwrap();

@@ -12,7 +12,7 @@ use tokio::sync::Semaphore;
 use tower::ServiceExt;
 
 use super::shared::Shared;
-use super::{http, meter};
+use super::http;
 use crate::error::{Code, Error, Result};
 
 /// Rules run on these threads, too, in previews: their deepest nesting needs more than the usual stack.
@@ -38,7 +38,6 @@ pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()>
     let failed = |error: std::io::Error| Error::said(Code::ServeRuntime, error.to_string(), None);
     let mut runtime = tokio::runtime::Builder::new_multi_thread();
     let runtime = runtime.enable_all().thread_stack_size(STACK).build().map_err(failed)?;
-    meter::start();
     runtime.block_on(async {
         let listen = shared.settings.listen;
         let listener = TcpListener::bind(listen).await.map_err(|error| {

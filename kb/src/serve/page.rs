@@ -2,15 +2,10 @@
 
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
 
 use super::fault::Fault;
 use crate::error::Code;
-
-/// The folder `kb/page`.
-#[derive(RustEmbed)]
-#[folder = "$CARGO_MANIFEST_DIR/page"]
-struct Page;
+use crate::site::shipped::PAGE;
 
 pub async fn index() -> Response {
     file("index.html")
@@ -22,7 +17,7 @@ pub async fn asset(axum::extract::Path(name): axum::extract::Path<String>) -> Re
 }
 
 fn file(name: &str) -> Response {
-    let Some(file) = Page::get(name) else {
+    let Some((_, content)) = PAGE.iter().find(|(path, _)| *path == name) else {
         return Fault::new(Code::ServiceUnknown, "there is no such file").into_response();
     };
     let kind = match name.rsplit_once('.').map(|(_, extension)| extension) {
@@ -34,5 +29,5 @@ fn file(name: &str) -> Response {
     };
     // a page that stays open over an update asks anew
     let headers = [(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, "no-cache")];
-    (headers, file.data.into_owned()).into_response()
+    (headers, *content).into_response()
 }

@@ -103,7 +103,7 @@ fn has_tests(file: &Path) -> bool {
 }
 
 fn shipped_files(folder: &str, extension: &str) -> Vec<SourceFile> {
-    let files = shipped::files::<shipped::Rules>(folder).into_iter();
+    let files = shipped::files(shipped::RULES, folder).into_iter();
     let named = |(name, text)| SourceFile::new(format!("rules/{folder}/{name}"), text);
     files.filter(|(name, _)| name.ends_with(extension)).map(named).collect()
 }

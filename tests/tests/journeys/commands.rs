@@ -144,12 +144,14 @@ const PAGES: [Page; 22] = [
         blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
         databases: &[],
     },
+    page("manual/src/packages.md"),
     page("manual/src/figures.md"),
 ];
 
 /// What is not run, and why.
-const NOT_RUN: [(&str, &str); 5] = [
+const NOT_RUN: [(&str, &str); 6] = [
     ("cargo ", "builds the program or its documents anew: minutes; the tests run what it builds"),
+    ("podman ", "needs an engine for containers, and the image; packages.rs makes what it is built of"),
     ("tests/run", "runs all tests, this one too"),
     ("tests/peers/", "needs other people's programs; tests/tests/peers.rs runs them where these are"),
     ("tests/pictures.sh", "draws pictures to be looked at"),
@@ -257,6 +259,7 @@ each_page! {
     cells_and_experience: "manual/src/cells.md";
     the_service: "manual/src/service.md";
     lane_graphs: "manual/src/lane-graphs.md";
+    packages: "manual/src/packages.md";
     figures: "manual/src/figures.md";
 }
 

@@ -4,6 +4,7 @@
 mod adapt;
 mod ask;
 mod bad_input;
+mod built_once;
 mod by_state;
 mod cell_sites;
 mod channel_sites;
@@ -36,6 +37,7 @@ mod on;
 mod one_step;
 mod overlays;
 mod own_rules;
+mod packages;
 mod papers_example;
 mod plugins;
 mod preview;

@@ -109,3 +109,25 @@ fn the_description_lists_the_codes_that_a_failure_may_have() {
     assert_eq!(listed, Code::all().map(Code::as_str).collect::<Vec<_>>());
     assert_eq!(schemas["Fault"]["properties"]["code"]["$ref"], "#/components/schemas/Code");
 }
+
+#[test]
+fn prometheus_reads_what_was_counted() {
+    let (site, service) = served("paper");
+    for _ in 0..3 {
+        assert_eq!(service.ask("GET", "/api/site", None).0, 200);
+    }
+    let (status, text) = service.ask("GET", "/metrics", None);
+    let text = text.as_str().unwrap();
+    assert_eq!(status, 200, "{text}");
+    let rooms = &site.sqlite3("SELECT count(*) FROM rooms")[0];
+    for line in [
+        r#"adit_requests_total{route="/api/site",status="2xx"} 3"#,
+        r#"adit_request_seconds_bucket{route="/api/site",le="+Inf"} 3"#,
+        r#"adit_request_seconds_count{route="/api/site"} 3"#,
+        "# TYPE adit_request_seconds histogram",
+        "# TYPE adit_generation gauge",
+        &format!("adit_rooms {rooms}"),
+    ] {
+        assert!(text.lines().any(|found| found == line), "no line `{line}`:\n{text}");
+    }
+}

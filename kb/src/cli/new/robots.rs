@@ -1,7 +1,7 @@
 //! Robots to begin with, of sizes that such machines have.
 
 use crate::error::{Code, Error, Result};
-use crate::site::shipped::{self, Sites};
+use crate::site::shipped::{self, SITES};
 use crate::words::suggest::did_you_mean;
 
 /// The robot of those who name none.
@@ -14,7 +14,7 @@ fn folder(name: &str) -> String {
 
 /// The robots that the program carries.
 pub fn names() -> Vec<String> {
-    let mut names = shipped::folders::<Sites>("starter/robots");
+    let mut names = shipped::folders(SITES, "starter/robots");
     names.push(FIRST.to_owned());
     names.sort();
     names
@@ -27,7 +27,7 @@ pub fn map(wanted: &[String]) -> String {
 }
 
 fn file(folder: &str, name: &str) -> Option<String> {
-    let files = shipped::files::<Sites>(folder);
+    let files = shipped::files(SITES, folder);
     files.into_iter().find(|(known, _)| known == name).map(|(_, text)| text)
 }
 
