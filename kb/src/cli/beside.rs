@@ -22,7 +22,8 @@ pub fn run(name: &str, args: &BesideArgs) -> Result<u8> {
         std::env::current_exe().ok().and_then(|here| Some(here.parent()?.join(format!("adit-{name}"))));
     let Some(program) = beside.filter(|program| program.is_file()) else {
         let message = format!("the program `adit-{name}` does not lie beside `adit`");
-        let help = format!("`cargo install --locked --path bridges/{name}` in Adit's repository puts it there");
+        let help =
+            format!("`cargo install --locked --path bridges/{name}` in Adit's repository puts it there");
         return Err(Error::said(Code::ProgramMissing, message, Some(help)));
     };
     let error = Command::new(&program).args(&args.args).exec();

@@ -11,8 +11,8 @@ use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 use tower::ServiceExt;
 
-use super::shared::Shared;
 use super::http;
+use super::shared::Shared;
 use crate::error::{Code, Error, Result};
 
 /// Rules run on these threads, too, in previews: their deepest nesting needs more than the usual stack.
