@@ -27,6 +27,10 @@ fn main() -> io::Result<()> {
         writeln!(text, "pub static {name}: Files = &[").map_err(io::Error::other)?;
         for path in found {
             let below = path.strip_prefix(&top).map_err(io::Error::other)?;
+            let [below, path] =
+                [below, &path].map(|path| path.to_str().ok_or(io::ErrorKind::InvalidFilename));
+            // quoted as Rust quotes a text
+            let (below, path) = (below?, path?);
             writeln!(text, "    ({below:?}, include_bytes!({path:?})),").map_err(io::Error::other)?;
         }
         writeln!(text, "];").map_err(io::Error::other)?;

@@ -63,6 +63,7 @@ pub struct Level {
 
 /// Where vehicles turn off, stop and are sent to.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a column of its own")]
 pub struct Node {
     pub node: String,
     pub name: Option<String>,

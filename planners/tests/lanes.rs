@@ -13,9 +13,15 @@ fn reals() -> impl Strategy<Value = Option<f64>> {
     prop_oneof![Just(None), (1..4000u32).prop_map(|number| Some(f64::from(number) / 64.0))]
 }
 
+/// Where, its name, what it is for, and how its id is made.
+type AnyNode = (f64, f64, Option<String>, [bool; 4], usize);
+
+/// Between which nodes, its name, limit, penalty and cost, what it is, and the share of speed.
+type AnyLane = (usize, usize, Option<String>, Option<f64>, Option<f64>, Option<f64>, [bool; 3], u32);
+
 prop_compose! {
     fn nodes()(of in prop::collection::vec((-1e6..1e6f64, -1e6..1e6f64, names(), any::<[bool; 4]>(), 0..3usize), 1..12)) -> Vec<Node> {
-        let node = |(place, (x, y, name, flags, id)): (usize, (f64, f64, Option<String>, [bool; 4], usize))| Node {
+        let node = |(place, (x, y, name, flags, id)): (usize, AnyNode)| Node {
             // some have the number as their id, some a text, some what is another's number
             node: match id { 0 => place.to_string(), 1 => format!("n {place}"), _ => format!("{}", place + 500) },
             name,
@@ -36,7 +42,7 @@ prop_compose! {
             (0..nodes.len(), 0..nodes.len(), names(), reals(), reals(), reals(), any::<[bool; 3]>(), 1..=64u32), 0..20),
         nodes in Just(nodes),
     ) -> LaneGraph {
-        let lane = |(place, (from, to, name, limit, penalty, cost, flags, share)): (usize, (usize, usize, Option<String>, Option<f64>, Option<f64>, Option<f64>, [bool; 3], u32))| Lane {
+        let lane = |(place, (from, to, name, limit, penalty, cost, flags, share)): (usize, AnyLane)| Lane {
             lane: if flags[2] { format!("edge {place}") } else { place.to_string() },
             name,
             from: nodes[from].node.clone(),

@@ -17,7 +17,7 @@ use super::session::{Done, out_of_reach, reason};
 use crate::draw::render_cell;
 use crate::error::{Code, Error, Result};
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_map};
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 
 /// Where the robot is before its first task.
 pub(super) const HOME: &str = "home";
@@ -155,8 +155,7 @@ impl Pathfinder for Motions {
 
     fn summary(&self) -> String {
         let (objects, goals) = (self.cell.objects.len(), self.cell.goals.len());
-        let s = |count: usize| if count == 1 { "" } else { "s" };
-        format!("{objects} object{}, {goals} goal{}", s(objects), s(goals))
+        format!("{}, {}", counted(objects, "object"), counted(goals, "goal"))
     }
 }
 

@@ -12,6 +12,7 @@ use crate::edit::{Edit, Tell};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::why::ask::{Asked, Said};
+use crate::words::number::counted;
 
 #[derive(Args, Debug)]
 pub struct AskArgs {
@@ -67,7 +68,7 @@ fn show(asked: &Asked) {
         (_, Some(question)) => line(&format!("{} is not settled: {}", asked.what, question.text)),
         _ => line(&format!("{} is unknown, and nothing that can be asked would settle it", asked.what)),
     }
-    line(&format!("rules weighed {} objects for it", asked.weighed));
+    line(&format!("rules weighed {} for it", counted(asked.weighed, "object")));
 }
 
 fn tell(live: &mut Live, (said, until): (&[Said], Option<&String>)) -> Result<()> {

@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::{Change, Concluded, Report, RouteChange};
 use crate::site::robots::ONLY_ROBOT;
+use crate::words::number::counted;
 use crate::words::progress::{Silent, Spinner};
 
 #[derive(Args, Debug)]
@@ -57,27 +58,23 @@ pub fn run(args: &BuildArgs) -> Result<()> {
 pub fn show(knowledge: &KnowledgeBase, report: &Report) {
     let (name, values, generation) = (&knowledge.site().name, report.concluded, report.generation);
     if let Some(map) = &report.course {
-        let starts = report.routes.starts;
-        line(&format!("{name}: {map}, routes from {starts} starts (generation {generation})"));
+        let starts = counted(report.routes.starts, "start");
+        line(&format!("{name}: {map}, routes from {starts} (generation {generation})"));
         reacted(report);
         return notes(report);
     }
     if !knowledge.site().has_rooms() {
-        let s = if values == 1 { "" } else { "s" };
-        line(&format!("{name}: {values} value{s} concluded (generation {generation})"));
+        line(&format!("{name}: {} concluded (generation {generation})", counted(values, "value")));
         return notes(report);
     }
     let routes = &report.routes;
-    let (spaces, doorways) = (report.spaces, report.doorways);
     line(&format!(
-        "{}: {spaces} space{}, {doorways} doorway{}, cut into {} rooms, {} doors; routes from {} starts (generation {})",
-        knowledge.site().name,
-        if spaces == 1 { "" } else { "s" },
-        if doorways == 1 { "" } else { "s" },
-        report.rooms.total,
-        report.doors.total,
-        routes.starts,
-        report.generation
+        "{name}: {}, {}, cut into {}, {}; routes from {} (generation {generation})",
+        counted(report.spaces, "space"),
+        counted(report.doorways, "doorway"),
+        counted(report.rooms.total, "room"),
+        counted(report.doors.total, "door"),
+        counted(routes.starts, "start"),
     ));
     free_space(report);
     let stages: Vec<String> = report
@@ -166,15 +163,19 @@ pub fn changes(report: &Report) {
     if report.course.is_some() {
         // there are no rooms that could change
     } else if report.cut_anew {
-        line(&format!("the rooms were cut anew: {} rooms, {} doors", report.rooms.total, report.doors.total));
+        line(&format!(
+            "the rooms were cut anew: {}, {}",
+            counted(report.rooms.total, "room"),
+            counted(report.doors.total, "door")
+        ));
     } else if report.rooms.changed + report.doors.changed > 0 || report.closings.is_empty() {
-        let counted = [(report.rooms.changed, "room"), (report.doors.changed, "door")];
-        let counted: Vec<String> = counted
+        let both = [(report.rooms.changed, "room"), (report.doors.changed, "door")];
+        let changed: Vec<String> = both
             .into_iter()
             .filter(|(count, _)| *count > 0)
-            .map(|(count, what)| format!("{count} {what}{}", if count == 1 { "" } else { "s" }))
+            .map(|(count, what)| counted(count, what))
             .collect();
-        line(&match &counted[..] {
+        line(&match &changed[..] {
             [] => "no room or door changed".to_owned(),
             some => format!("{} changed", some.join(" and ")),
         });
@@ -197,17 +198,18 @@ pub fn changes(report: &Report) {
             let otherwise = report.routes.changes.iter().filter(is_otherwise).count();
             let otherwise = match otherwise {
                 0 => String::new(),
+                1 => "; 1 is driven otherwise".to_owned(),
                 count => format!("; {count} are driven otherwise"),
             };
             line(&match (changed, rerouted, otherwise.is_empty()) {
                 (0, 0, true) => "no route costs anything else or leads another way".to_owned(),
                 _ => format!(
-                    "of the routes from {} starts, {changed} have another cost and {rerouted} lead another way{otherwise}",
-                    report.routes.starts
+                    "of the routes from {}, {changed} have another cost and {rerouted} lead another way{otherwise}",
+                    counted(report.routes.starts, "start")
                 ),
             });
         }
-        _ => line(&format!("routes from {} starts were made anew", report.routes.starts)),
+        _ => line(&format!("routes from {} were made anew", counted(report.routes.starts, "start"))),
     }
     let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
         || report.course.is_some() && report.routes.changes.iter().any(|change| change.robot != ONLY_ROBOT);

@@ -9,6 +9,7 @@ use super::args::SiteArgs;
 use super::build::{open, unbuilt};
 use super::output::{as_json, json, line, problems};
 use crate::error::Result;
+use crate::words::number::counted;
 
 #[derive(Args, Debug)]
 pub struct DoctorArgs {
@@ -72,7 +73,7 @@ pub fn doctor(args: &DoctorArgs) -> Result<bool> {
         health.journal
     ));
     for (table, rows) in &health.rows {
-        line(&format!("  {table}: {rows} rows"));
+        line(&format!("  {table}: {}", counted(usize::try_from(*rows).unwrap_or(usize::MAX), "row")));
     }
     for mark in &health.stale {
         line(&format!("  edited since the last build: {} {}", mark.table, mark.key));

@@ -12,6 +12,7 @@ use super::build::open;
 use super::output::{json, line};
 use crate::error::{Code, Error, Result};
 use crate::site::whole;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// Writes a layer as GeoJSON, in the metres of the map.
@@ -36,8 +37,7 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     if site.json {
         return json(&serde_json::json!({"file": to, "features": count}));
     }
-    let s = if count == 1 { "" } else { "s" };
-    line(&format!("{}: {count} feature{s} of {}", to.display(), layer.name));
+    line(&format!("{}: {} of {}", to.display(), counted(count, "feature"), layer.name));
     Ok(())
 }
 

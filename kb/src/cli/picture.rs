@@ -13,6 +13,7 @@ use crate::draw::{Layers, Style, UnknownLayer, render_png, render_svg};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::whole;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// Width of a PNG in pixels, unless said.
@@ -73,7 +74,12 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     if args.site.json {
         return json(&serde_json::json!({"file": args.output, "bytes": bytes}));
     }
-    line(&format!("{}: {} rooms, {} doors", args.output.display(), scene.rooms.len(), scene.doors.len()));
+    line(&format!(
+        "{}: {}, {}",
+        args.output.display(),
+        counted(scene.rooms.len(), "room"),
+        counted(scene.doors.len(), "door")
+    ));
     Ok(())
 }
 

@@ -24,7 +24,7 @@ use crate::navigation::missions::{Row, Stage, drawn, journalled, noted, refuse, 
 use crate::navigation::reporting::{Reporting, Reports};
 use crate::site::base::Base;
 use crate::site::whole::{self, Whole};
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 use crate::words::progress::Bar;
 
 /// Runs missions and prints a row each; `false` where one ended otherwise than it should.
@@ -286,9 +286,8 @@ fn summary(rows: &[Row]) {
     let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
     let touches: usize = rows.iter().map(|row| row.touches).sum();
     line(&format!(
-        "{} mission{}: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
-        rows.len(),
-        if rows.len() == 1 { "" } else { "s" },
+        "{}: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
+        counted(rows.len(), "mission"),
         count("arrived"),
         count("no_way"),
         count("gave_up"),

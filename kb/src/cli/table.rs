@@ -13,6 +13,7 @@ use crate::edit::Edit;
 use crate::error::{Code, Error, Result};
 use crate::site::sheet::{self, Sheet};
 use crate::site::whole;
+use crate::words::number::counted;
 
 #[derive(Args, Debug)]
 pub struct TableArgs {
@@ -55,7 +56,6 @@ pub fn run(args: &TableArgs) -> Result<()> {
     if args.site.json {
         return json(&serde_json::json!({"file": file, "rows": rows}));
     }
-    let s = if rows == 1 { "" } else { "s" };
-    line(&format!("{}: {rows} row{s} of {}", file.display(), args.table));
+    line(&format!("{}: {} of {}", file.display(), counted(rows, "row"), args.table));
     Ok(())
 }

@@ -12,6 +12,7 @@ use super::cells::{cell_of, columns, explain, is_equal};
 use crate::error::{Code, Error, Result};
 use crate::site::robots::ONLY_ROBOT;
 use crate::site::sheet::Sheet;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// So many changes are listed one by one.
@@ -24,11 +25,10 @@ struct Count([usize; 3]);
 impl Count {
     fn words(self) -> String {
         let [set, new, gone] = self.0;
-        let s = |count: usize| if count == 1 { "" } else { "s" };
         let parts = [
-            (set, format!("{set} cell{} set", s(set))),
-            (new, format!("{new} row{} new", s(new))),
-            (gone, format!("{gone} row{} gone", s(gone))),
+            (set, format!("{} set", counted(set, "cell"))),
+            (new, format!("{} new", counted(new, "row"))),
+            (gone, format!("{} gone", counted(gone, "row"))),
         ];
         parts
             .into_iter()

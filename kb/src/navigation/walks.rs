@@ -17,6 +17,7 @@ use crate::draw::render_floor;
 use crate::error::Result;
 use crate::plan::Said;
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, numbered, point};
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// A robot on the plan.
@@ -226,12 +227,9 @@ impl Pathfinder for Walkers {
             return "no robot that fits through a doorway".to_owned();
         };
         let Network { regions, adits, .. } = &floor.network;
-        format!(
-            "{} regions, {} doorways, {} adits",
-            regions.regions.len(),
-            regions.doorways.len(),
-            adits.len()
-        )
+        [(regions.regions.len(), "region"), (regions.doorways.len(), "doorway"), (adits.len(), "adit")]
+            .map(|(count, what)| counted(count, what))
+            .join(", ")
     }
 }
 

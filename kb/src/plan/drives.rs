@@ -26,6 +26,7 @@ use super::turns::{self, Turns};
 use crate::draw::{ChannelPanel, render_channels};
 use crate::error::Result;
 use crate::site::tables::TableFile;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 const CHANNELS: [(&str, &str); 6] = [
@@ -282,11 +283,9 @@ impl Pathfinder for Drives {
     }
 
     fn summary(&self) -> String {
-        format!(
-            "{} channels, {} junctions",
-            self.corridors.channels().len(),
-            self.corridors.junctions().len()
-        )
+        [(self.corridors.channels().len(), "channel"), (self.corridors.junctions().len(), "junction")]
+            .map(|(count, what)| counted(count, what))
+            .join(", ")
     }
 }
 

@@ -24,6 +24,7 @@ use super::steps::{self, AXES, Steps, named};
 use crate::draw::{ChannelPanel, render_channels};
 use crate::error::Result;
 use crate::site::tables::TableFile;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// The two ends of every way: in the other part (Lee, definition 3.1), and above it (3.2).
@@ -338,8 +339,9 @@ impl<const D: usize> Pathfinder for Ways<D> {
     fn summary(&self) -> String {
         let first = self.parts.first().map(|part| &part.geometry);
         let (channels, junctions) = first.map_or((0, 0), |of| (of.channels().len(), of.junctions().len()));
-        let s = if self.parts.len() == 1 { "" } else { "s" };
-        format!("{channels} channels, {junctions} junctions, {} part{s}", self.parts.len())
+        [(channels, "channel"), (junctions, "junction"), (self.parts.len(), "part")]
+            .map(|(count, what)| counted(count, what))
+            .join(", ")
     }
 }
 

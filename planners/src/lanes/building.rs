@@ -61,7 +61,7 @@ fn text(of: &At<'_>, key: &str) -> Read<Option<String>> {
 fn rest(of: &At<'_>, without: &[&str]) -> Properties {
     let plain = |value: &Value| value.get(1).cloned().unwrap_or_default();
     let entries = of.rest(without).into_iter().map(|(key, value)| (key, plain(&value)));
-    entries.filter(|(_, value)| *value != Value::from("")).collect()
+    entries.filter(|(_, value)| value.as_str() != Some("")).collect()
 }
 
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {

@@ -50,11 +50,14 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
 fn tell_apart(graph: &mut LaneGraph) {
     let mut taken: BTreeSet<String> = graph.lanes.iter().map(|lane| lane.lane.clone()).collect();
     let mut seen = BTreeSet::new();
+    // one of these is free
+    let copies = 2..=graph.lanes.len() + 2;
     for lane in &mut graph.lanes {
         if seen.insert(lane.lane.clone()) {
             continue;
         }
-        let own = (2..).map(|copy| format!("{}#{copy}", lane.lane)).find(|id| taken.insert(id.clone()));
+        let own =
+            copies.clone().map(|copy| format!("{}#{copy}", lane.lane)).find(|id| taken.insert(id.clone()));
         let Some(own) = own else { continue };
         graph.notes.push(format!(
             "two edges have the id {}; the one from {} to {} is called {own}",

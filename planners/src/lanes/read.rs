@@ -25,7 +25,7 @@ pub fn is_lane_graph(path: &Path) -> bool {
     if [".json", ".geojson", ".lif", ".tmap2", ".building.yaml"].iter().any(|end| name.ends_with(end)) {
         return path.is_file();
     }
-    if !(name.ends_with(".yaml") || name.ends_with(".yml")) {
+    if ![".yaml", ".yml"].iter().any(|end| name.ends_with(end)) {
         return false;
     }
     let text = std::fs::read_to_string(path).unwrap_or_default();

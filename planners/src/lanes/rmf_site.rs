@@ -85,7 +85,7 @@ fn lifts<'v>(top: &At<'v>, graph: &mut LaneGraph, anchors: &mut Anchors<'v>) -> 
         let [left, right] = items.as_slice() else { return Err(list.wrong("two anchors")) };
         let (&(left, ref level), &(right, _)) = (anchor(left, anchors)?, anchor(right, anchors)?);
         let level = level.clone();
-        let at = Point::new((left.x + right.x) / 2.0, (left.y + right.y) / 2.0);
+        let at = Point::new(f64::midpoint(left.x, right.x), f64::midpoint(left.y, right.y));
         let yaw = (left.y - right.y).atan2(left.x - right.x) - std::f64::consts::FRAC_PI_2;
         for (id, cabin) in lift.object("cabin_anchors")? {
             let p = position(&cabin)?;

@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 22] = [
+const PAGES: [Page; 24] = [
     Page {
         file: "README.md",
         blocks: &[

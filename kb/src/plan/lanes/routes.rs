@@ -19,6 +19,7 @@ use crate::draw::render_lanes;
 use crate::error::Result;
 use crate::plan::Said;
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, point};
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// The lanes that a vehicle type may drive on: nodes by place, lanes by place, with what each weighs.
@@ -266,10 +267,6 @@ impl Routes {
         Found { row, said }
     }
 
-    fn none(&self, [robot, start, goal]: [&str; 3], reason: String) -> Found {
-        Found { row: Row { reason: Some(reason), ..Row::blank(robot, start, goal) }, said: Vec::new() }
-    }
-
     /// The lanes that a name stands for.
     fn through(&self, name: &str) -> Vec<usize> {
         let graph = &self.now.graph;
@@ -312,7 +309,7 @@ impl Pathfinder for Routes {
         let names = [robot, start, goal];
         Ok(match self.lanes(vehicle, from.node, to.node) {
             Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
-            None => self.none(names, self.because(vehicle, from.node)),
+            None => none(names, self.because(vehicle, from.node)),
         })
     }
 
@@ -340,16 +337,12 @@ impl Pathfinder for Routes {
                 best = Some((cost, lanes));
             }
         }
-        Ok(match best {
-            Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
-            None => {
-                let refused = meant.iter().find_map(|&lane| self.nets[vehicle].weighed[lane].as_ref().err());
-                self.none(
-                    names,
-                    refused.cloned().unwrap_or_else(|| format!("no way leads to {through} and on from it")),
-                )
-            }
-        })
+        if let Some((_, lanes)) = best {
+            return Ok(self.found(vehicle, names, [&from, &to], &lanes));
+        }
+        let refused = meant.iter().find_map(|&lane| self.nets[vehicle].weighed[lane].as_ref().err());
+        let unreached = || format!("no way leads to {through} and on from it");
+        Ok(none(names, refused.cloned().unwrap_or_else(unreached)))
     }
 
     fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
@@ -372,11 +365,19 @@ impl Pathfinder for Routes {
 
     fn summary(&self) -> String {
         let graph = &self.now.graph;
-        let doors = match (graph.doors.len(), graph.lifts.len()) {
-            (0, 0) => String::new(),
-            (doors, 0) => format!(", {doors} doors"),
-            (doors, lifts) => format!(", {doors} doors, {lifts} lifts"),
-        };
-        format!("{} nodes, {} lanes{doors}", graph.nodes.len(), graph.lanes.len())
+        let always = [(graph.nodes.len(), "node"), (graph.lanes.len(), "lane")];
+        let perhaps = [(graph.doors.len(), "door"), (graph.lifts.len(), "lift")];
+        let some = perhaps.into_iter().filter(|(count, _)| *count > 0);
+        always
+            .into_iter()
+            .chain(some)
+            .map(|(count, what)| counted(count, what))
+            .collect::<Vec<_>>()
+            .join(", ")
     }
+}
+
+/// That there is no route.
+fn none([robot, start, goal]: [&str; 3], reason: String) -> Found {
+    Found { row: Row { reason: Some(reason), ..Row::blank(robot, start, goal) }, said: Vec::new() }
 }

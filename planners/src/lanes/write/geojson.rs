@@ -47,11 +47,9 @@ pub(super) fn write(graph: &LaneGraph) -> Result<Exported, TooMany> {
 
 /// All but the features, key by key.
 fn head(top: &Value) -> String {
-    let mut text = "{\n".to_owned();
-    for (key, value) in top.as_object().into_iter().flatten() {
-        text.push_str(&format!("  {}: {value},\n", Value::from(key.as_str())));
-    }
-    text
+    let lines = top.as_object().into_iter().flatten();
+    let lines = lines.map(|(key, value)| format!("  {}: {value},\n", Value::from(key.as_str())));
+    format!("{{\n{}", lines.collect::<String>())
 }
 
 /// What is told beside the columns of a file, with what it said itself.
