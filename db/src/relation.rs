@@ -49,6 +49,8 @@ pub(crate) const OWN: &[&str] = &[
     "map_rooms",
     "map_routes",
     "map_spaces",
+    "measured_routes",
+    "measured_waypoints",
     "measures",
     "octets",
     "opening_hours",

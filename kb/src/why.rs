@@ -14,7 +14,7 @@ pub mod way;
 pub mod why_not;
 
 use adit_db::Cell;
-use adit_engine::{Origin, Support, Value};
+use adit_engine::{Conflict, Origin, Support, Value};
 use adit_planners::geometry::Segment;
 use adit_planners::routes::Walking;
 use serde::Serialize;
@@ -183,6 +183,9 @@ impl State {
     ) -> Option<Reasoned> {
         let (knowledge, rules) = (&self.knowledge, &self.inputs.rules);
         let found = knowledge.why(rules, class, &subject.key, property)?;
+        if let Some(conflict) = knowledge.conflict(rules, class, &subject.key, property) {
+            return Some(disputed(subject, property, &conflict));
+        }
         let mut witness = serde_json::Map::new();
         let mut chosen = Vec::new();
         let support = match &found.origin {
@@ -252,5 +255,26 @@ fn cell(value: &Value) -> Cell {
         Value::Number(number) => Cell::Real(*number),
         Value::Text(text) => Cell::Text(text.to_string()),
         Value::Truth(truth) => Cell::Integer((*truth).into()),
+    }
+}
+
+/// That rules disagree, and what each of them says.
+fn disputed(subject: &Subject, property: &str, conflict: &Conflict) -> Reasoned {
+    let said: Vec<String> =
+        conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
+    let why = format!(
+        "{} {property} is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`",
+        subject.name,
+        said.join(", ")
+    );
+    Reasoned {
+        property: property.to_owned(),
+        value: Cell::Null,
+        rule: None,
+        version: None,
+        file: None,
+        line: None,
+        witness: None,
+        why,
     }
 }

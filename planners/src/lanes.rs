@@ -15,6 +15,7 @@ mod rmf_site;
 mod tmap;
 mod value;
 mod write;
+mod yaml;
 
 use std::collections::BTreeMap;
 

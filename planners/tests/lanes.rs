@@ -2,7 +2,10 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_planners::geometry::Point;
-use adit_planners::lanes::{Format, Lane, LaneGraph, Level, Node, VehicleType, read_lane_graph, write};
+use adit_planners::lanes::{
+    Format, Lane, LaneGraph, Level, Node, VehicleType, is_lane_graph, read_lane_graph, write,
+};
+use adit_planners::read::Problem;
 use proptest::prelude::*;
 
 fn names() -> impl Strategy<Value = Option<String>> {
@@ -110,6 +113,227 @@ proptest! {
         std::fs::write(&file, text).unwrap();
         if let Err(problem) = read_lane_graph(&file) {
             prop_assert!(problem.message.contains("a."), "{}", problem.message);
+        }
+    }
+}
+
+fn read_as(name: &str, text: &str) -> Result<LaneGraph, Problem> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(name);
+    std::fs::write(&file, text).unwrap();
+    read_lane_graph(&file)
+}
+
+/// What is said of a file that is refused.
+fn refused(name: &str, text: &str) -> String {
+    read_as(name, text).unwrap_err().message
+}
+
+const NODES: &str = r#"{"type":"Feature","properties":{"id":0},"geometry":{"type":"Point","coordinates":[0,0]}},
+{"type":"Feature","properties":{"id":1},"geometry":{"type":"Point","coordinates":[1,0]}}"#;
+
+/// A route graph of two nodes and an edge.
+fn route_graph(properties: &str, kind: &str, line: &str) -> String {
+    format!(
+        r#"{{"features":[{NODES},{{"properties":{{"id":2,"startid":0,"endid":1{properties}}},"geometry":{{"type":"{kind}","coordinates":{line}}}}}]}}"#
+    )
+}
+
+#[test]
+fn a_line_is_read_as_it_is_nested() {
+    let (flat, nested) = ("[[0,0],[0,2],[1,0]]", "[[[0,0],[0,2],[1,0]]]");
+    for (kind, line, notes) in [
+        ("LineString", flat, 0),
+        ("MultiLineString", nested, 0),
+        ("LineString", nested, 1),
+        ("MultiLineString", flat, 1),
+    ] {
+        let graph = read_as("g.geojson", &route_graph("", kind, line)).unwrap();
+        assert!((graph.lanes[0].length.unwrap() - 2.0 - 5.0_f64.sqrt()).abs() < 1e-9, "{kind} {line}");
+        assert_eq!(graph.notes.len(), notes, "{:?}", graph.notes);
+    }
+}
+
+#[test]
+fn what_is_written_of_lif_for_others_is_read_as_theirs() {
+    let meta = r#"{"projectIdentification":"p","creator":"c","exportTimestamp":"t","lifVersion":"1.0.0"}"#;
+    let node = |id: &str, x: u8| {
+        format!(
+            r#"{{"nodeId":"{id}","nodePosition":{{"x":{x},"y":0}},"vehicleTypeNodeProperties":[{{"vehicleTypeId":"v"}}]}}"#
+        )
+    };
+    let edge = r#"{"edgeId":"e","startNodeId":"a","endNodeId":"b","vehicleTypeEdgeProperties":[{"vehicleTypeId":"v"}]}"#;
+    let layout = format!(
+        r#"{{"layoutId":"l","layoutVersion":"1","nodes":[{},{}],"edges":[{edge}],"stations":[]}}"#,
+        node("a", 0),
+        node("b", 1)
+    );
+    let lif = format!(r#"{{"metaInformation":{meta},"layouts":[{layout}]}}"#);
+    let graph = read_as("a.lif.json", &lif).unwrap();
+    for (format, name) in
+        [(Format::RouteGraph, "a.geojson"), (Format::NavGraph, "a.yaml"), (Format::Lif, "b.lif.json")]
+    {
+        let text = write(&graph, format).unwrap().text;
+        let read = read_as(name, &text).unwrap();
+        assert_eq!((read.nodes.len(), read.lanes.len()), (2, 1), "{text}");
+        assert_eq!(write(&read, format).unwrap().text, text);
+    }
+}
+
+#[test]
+fn doors_that_lanes_name_are_doors() {
+    let nav = "building_name: t\nlevels:\n  L1:\n    lanes: [[0, 1, {door_name: coe_door}], [1, 0, {door_name: coe_door}]]\n    vertices: [[0, 0, {name: a}], [1, 0, {name: b}]]\n";
+    let route = route_graph(r#","metadata":{"door":"coe_door, other"}"#, "LineString", "[[0,0],[1,0]]");
+    for (name, text, level, count) in [("t.yaml", nav, "L1", 1), ("t.geojson", route.as_str(), "map", 2)] {
+        let graph = read_as(name, text).unwrap();
+        assert_eq!(graph.doors.len(), count, "{name}");
+        let door = &graph.doors[0];
+        assert_eq!((door.door.as_str(), door.level.as_str()), ("coe_door", level));
+        assert_eq!(door.ends, [Point::new(0.5, 0.0); 2]);
+        let text = write(&graph, Format::NavGraph).unwrap().text;
+        assert!(!text.contains("endpoints"), "a place that no file gave is not written: {text}");
+        assert_eq!(read_as("t.yaml", &text).unwrap().doors, graph.doors);
+    }
+}
+
+/// A building of two vertices, with a name of one and parameters of the lane between them.
+fn building(name: &str, lane: &str) -> String {
+    format!(
+        "coordinate_system: cartesian_meters\nname: t\nlevels:\n  L1:\n    vertices:\n      - [0, 0, 0, lobby]\n      - [4, 0, 0, {name}]\n    lanes: [[0, 1, {{{lane}}}]]\n"
+    )
+}
+
+#[test]
+fn names_of_yaml_are_what_stands_there() {
+    for name in ["101", "1.10", "0x1F", "1_000", "007", "n", "Off", "True", "1e3", "-3", "1.", ".inf"] {
+        let graph = read_as("t.building.yaml", &building(name, "bidirectional: [4, yes]")).unwrap();
+        assert_eq!(graph.nodes[1].name.as_deref(), Some(name));
+        assert_eq!(graph.lanes.len(), 2, "yes is true where a truth is expected");
+    }
+    let nav = "building_name: 1.10\nlevels: {1.10: {lanes: [], vertices: [[0, 0, {name: 2.20}], [4.50, 0, {name: '3.30'}]]}}\n";
+    let graph = read_as("t.yaml", nav).unwrap();
+    assert_eq!((graph.name.as_str(), graph.levels[0].level.as_str()), ("1.10", "1.10"));
+    let names: Vec<&str> = graph.nodes.iter().filter_map(|node| node.name.as_deref()).collect();
+    assert_eq!(names, ["2.20", "3.30"]);
+    let map = "name: m\nnodes:\n- node: {name: 1.0, pose: {position: {x: 0, y: 0}}}\n";
+    assert_eq!(read_as("m.tmap2", map).unwrap().nodes[0].node, "1.0");
+}
+
+#[test]
+fn a_large_building_is_read_and_aliases_stay_bounded() {
+    let mut large = "coordinate_system: cartesian_meters\nlevels:\n  L1:\n    vertices:\n".to_owned();
+    large += &"      - [0, 0, 0, \"\"]\n      - [1, 0, 0, \"\"]\n".repeat(26_000);
+    large +=
+        "    lanes: [[0, 1, {bidirectional: [4, true], graph_idx: [2, 0], orientation: [1, forward]}]]\n";
+    assert_eq!(read_as("l.building.yaml", &large).unwrap().lanes.len(), 2);
+    let mut bomb = "a0: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n".to_owned();
+    for of in 0..9 {
+        let many = vec![format!("*a{of}"); 10].join(", ");
+        bomb += &format!("a{}: &a{} [{many}]\n", of + 1, of + 1);
+    }
+    let said = refused("bomb.yaml", &bomb);
+    assert!(said.contains("bomb.yaml") && said.contains("aliases"), "{said}");
+}
+
+#[test]
+fn what_is_wrong_in_yaml_is_said_in_words() {
+    let deep = format!("levels:\n  L1: {}{}\n", "[".repeat(80), "]".repeat(80));
+    for (text, words) in [
+        (deep.as_str(), "nested deeper than 64 levels"),
+        ("levels: {}\nlevels: {}\n", "the key `levels` stands here twice, expected once"),
+        ("levels: {}\n---\nlevels: {}\n", "a second document begins"),
+        ("levels: *nothing\n", "stands for nothing"),
+        ("levels: [\n", "not YAML"),
+        (
+            "levels: {L1: {vertices: [[.nan, 0]], lanes: []}}\nbuilding_name: t\n",
+            "vertices[0][0] is the text \".nan\", expected a number",
+        ),
+    ] {
+        let said = refused("w.yaml", text);
+        assert!(said.contains("w.yaml") && said.contains(words), "{said}");
+        assert!(!said.contains("budget") && !said.contains("Options"), "{said}");
+    }
+}
+
+#[test]
+fn slips_of_a_building_are_refused_or_noted() {
+    let said = refused("s.building.yaml", &building("b", "speed_limit: [3, -1]"));
+    assert!(said.contains("levels.L1.lanes[0][2].speed_limit[1] is -1, expected 0 or more"), "{said}");
+    let said = refused("s.building.yaml", &building("b", "graph_idx: [2, -1]"));
+    assert!(said.contains("graph_idx[1] is -1, expected the number of a graph, 0 or more"), "{said}");
+    let cabin = building("\"\", {lift_cabin: [1, up]}", "");
+    let notes = read_as("s.building.yaml", &cabin).unwrap().notes;
+    assert_eq!(notes, ["node 1 is in the cabin of lift `up`, and there is no lift of this name"]);
+    let far = building("b", "").replace("cartesian_meters", "wgs84").replace("[4, 0, 0, b]", "[4, 95, 0, b]");
+    let said = refused("s.building.yaml", &far);
+    assert!(said.contains("levels.L1.vertices[1]") && said.contains("degrees east"), "{said}");
+}
+
+#[test]
+fn a_mark_of_byte_order_is_skipped_and_a_file_that_is_not_there_is_said_so() {
+    let text = route_graph("", "LineString", "[[0,0],[1,0]]");
+    assert_eq!(read_as("m.geojson", &format!("\u{feff}{text}")).unwrap().lanes.len(), 1);
+    assert_eq!(read_as("m.building.yaml", &format!("\u{feff}{}", building("b", ""))).unwrap().lanes.len(), 1);
+    let missing = std::path::Path::new("/nowhere/nofile.geojson");
+    assert!(is_lane_graph(missing));
+    assert!(read_lane_graph(missing).unwrap_err().message.contains("cannot be read"));
+}
+
+#[test]
+fn what_lif_cannot_say_is_said() {
+    let at = Point::new(0.0, 0.0);
+    let node = |id: &str| Node {
+        is_charger: true,
+        is_parking_spot: true,
+        is_holding_point: true,
+        ..Node::new(id, "l", at)
+    };
+    let lane = Lane {
+        lane: "e".to_owned(),
+        from: "a".to_owned(),
+        to: "b".to_owned(),
+        action: Some("dock".to_owned()),
+        speed_share: Some(0.5),
+        ..Lane::default()
+    };
+    let graph = LaneGraph {
+        levels: vec![Level { level: "l".to_owned(), ..Level::default() }],
+        nodes: vec![node("a"), node("b")],
+        lanes: vec![lane],
+        ..LaneGraph::default()
+    };
+    let notes = write(&graph, Format::Lif).unwrap().notes.join("\n");
+    for words in [
+        "2 nodes: that they are chargers",
+        "parking spots",
+        "holding points",
+        "1 lane: an action",
+        "share of a vehicle's own speed",
+    ] {
+        assert!(notes.contains(words), "{words}: {notes}");
+    }
+}
+
+#[test]
+fn probe_real_files() {
+    let mut all = vec![];
+    for d in ["/tmp/u/lanes/smallest", "/work/shared/data/open-rmf", "/work/shared/data/nav2", "/work/shared/data/lif", "/work/shared/data/topological_navigation"] {
+        for e in std::fs::read_dir(d).unwrap() { all.push(e.unwrap().path()); }
+    }
+    for p in all {
+        if !is_lane_graph(&p) { continue; }
+        let t = std::time::Instant::now();
+        match read_lane_graph(&p) {
+            Ok(g) => {
+                println!("{} nodes {} lanes {} doors {} {:?} {:?}", p.display(), g.nodes.len(), g.lanes.len(), g.doors.len(), g.notes, t.elapsed());
+                for (f, n) in [(Format::RouteGraph, "g.geojson"), (Format::NavGraph, "g.yaml"), (Format::Lif, "g.lif.json")] {
+                    let Ok(w) = write(&g, f) else { println!("  too many"); continue };
+                    let r = read_as(n, &w.text);
+                    match r { Ok(r) => { let again = write(&r, f).unwrap().text; println!("  {n}: same {} nodes {} lanes {} notes {:?}", again == w.text, r.nodes.len(), r.lanes.len(), w.notes); if again != w.text { for (a, b) in w.text.lines().zip(again.lines()).filter(|(a, b)| a != b).take(2) { println!("    {a}\n    {b}"); } } }
+                      Err(e) => println!("  {n}: {}", e.message) }
+                }
+            }
+            Err(e) => println!("{}: {}", p.display(), e.message),
         }
     }
 }

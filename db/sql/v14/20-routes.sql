@@ -11,28 +11,27 @@ ALTER TABLE course_waypoints ADD COLUMN measures TEXT;
 -- What the way from a tree's start to a node takes, by measure; none of which a room or a door on the way says nothing. The room
 -- of the start counts without a metre, so that what is known there is 0 at the start.
 CREATE VIEW tree_measures AS
-SELECT g.tree AS tree, g.node AS node, m.key AS measure, m.value AS value
-FROM tree_rows AS g
-CROSS JOIN json_each((
-  WITH RECURSIVE walk (node, prev, door, room, walked, counts) AS (
-    SELECT g.node, g.prev, g.door, coalesce(g.from_room, g.prev, g.node), g.walked, 1
+SELECT g.tree AS tree, g.node AS node, (
+  WITH RECURSIVE walk (node, prev, door, room, walked) AS (
+    SELECT g.node, g.prev, g.door, coalesce(g.from_room, g.prev, g.node), CASE WHEN g.prev IS NULL THEN 0.0 ELSE g.walked END
     UNION ALL
-    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), b.walked,
-      CASE WHEN b.door IS NOT NULL OR b.prev IS NULL THEN 1 ELSE 0 END
-    FROM walk JOIN tree_rows AS b ON b.tree = g.tree AND b.node = walk.prev),
+    SELECT b.node, b.prev, b.door, coalesce(b.from_room, b.prev, b.node), CASE WHEN b.prev IS NULL THEN 0.0 ELSE b.walked END
+    FROM walk CROSS JOIN tree_rows AS b
+    WHERE b.tree = g.tree AND b.node = walk.prev),
   parts (measures, metres) AS (
-    SELECT r.measures, CASE WHEN walk.prev IS NULL THEN 0.0 ELSE walk.walked END
-    FROM walk JOIN rooms AS r ON r.room = walk.room
-    WHERE walk.counts = 1 AND r.measures IS NOT NULL
+    SELECT r.measures, walk.walked
+    FROM walk CROSS JOIN rooms AS r
+    WHERE r.room = walk.room AND (walk.node = g.node OR walk.door IS NOT NULL OR walk.prev IS NULL)
     UNION ALL
-    SELECT d.measures, 1.0 FROM walk JOIN doors AS d ON d.door = walk.door WHERE d.measures IS NOT NULL)
-  SELECT json_group_object(key, total)
+    SELECT d.measures, 1.0 FROM walk CROSS JOIN doors AS d WHERE d.door = walk.door)
+  SELECT CASE WHEN count(key) > 0 THEN json_group_object(key, total) END
   FROM (SELECT key, sum(amount) AS total
         FROM (SELECT e.key AS key, CASE WHEN CAST(e.value AS DOUBLE) = 0.0 THEN 0.0 ELSE CAST(e.value AS DOUBLE) * parts.metres END AS amount
               FROM parts CROSS JOIN json_each(parts.measures) AS e)
         GROUP BY key
         -- of each door one room and the door, of the start its room, and the last room where no door ends the way
-        HAVING count(amount) = 1 + 2 * g.hops + CASE WHEN g.door IS NULL AND g.prev IS NOT NULL THEN 1 ELSE 0 END))) AS m;
+        HAVING count(amount) = 1 + 2 * g.hops + CASE WHEN g.door IS NULL AND g.prev IS NOT NULL THEN 1 ELSE 0 END)) AS measures
+FROM tree_rows AS g;
 
 -- SQLite asks each half of a view for just what a query wants only where both give a column the same affinity; `+`, or of a
 -- text `coalesce(…, NULL)`, takes it from a column where the other half computes.
@@ -48,9 +47,7 @@ SELECT b.robot AS robot, a.name AS start, e.name AS goal,
   2 * t.hops + 1 AS steps,
   t.distance AS distance,
   NULL AS reason,
-  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
-  (SELECT CASE WHEN count(m.measure) > 0 THEN json_group_object(m.measure, m.value) END FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
+  coalesce((SELECT m.measures FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node), NULL) AS measures
 FROM (SELECT DISTINCT robot FROM robots) AS b
 CROSS JOIN ends AS a
 CROSS JOIN ends AS e
@@ -59,7 +56,7 @@ LEFT JOIN tree_rows AS t ON t.tree = s.tree AND t.node = e.node
 LEFT JOIN doors AS d ON d.door = t.door
 UNION ALL
 SELECT robot, start, goal, CASE WHEN (SELECT stale FROM staleness) THEN 'stale' ELSE status END, +cost, +steps,
-  distance, coalesce(reason, NULL), CAST(json_extract(measures, '$.seconds') AS DOUBLE), CAST(json_extract(measures, '$.joules') AS DOUBLE), coalesce(measures, NULL)
+  distance, coalesce(reason, NULL), coalesce(measures, NULL)
 FROM courses;
 
 DROP VIEW action_sequence;
@@ -141,9 +138,7 @@ SELECT s.robot AS robot, s.name AS start, e.name AS goal,
   t.distance AS distance,
   t.reach + coalesce(d.hardness, 0.0) AS cost,
   NULL AS z, NULL AS centre_x, NULL AS centre_y, NULL AS turn,
-  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'seconds') AS seconds,
-  (SELECT CAST(m.value AS DOUBLE) FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node AND m.measure = 'joules') AS joules,
-  (SELECT CASE WHEN count(m.measure) > 0 THEN json_group_object(m.measure, m.value) END FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node) AS measures
+  coalesce((SELECT m.measures FROM tree_measures AS m WHERE m.tree = s.tree AND m.node = t.node), NULL) AS measures
 FROM starts AS s
 CROSS JOIN ends AS e
 CROSS JOIN tree_rows AS g
@@ -160,17 +155,25 @@ LEFT JOIN rooms AS r ON r.room = coalesce(t.from_room, t.prev, t.node)
 WHERE g.tree = s.tree AND g.node = e.node AND t.tree = s.tree AND t.node = j.value
 UNION ALL
 SELECT robot, start, goal, +waypoint, +x, +y, +heading, state, action, CAST(NULL AS REAL), clearance, distance, +cost, +z,
-  +centre_x, +centre_y, coalesce(turn, NULL), CAST(json_extract(measures, '$.seconds') AS DOUBLE), CAST(json_extract(measures, '$.joules') AS DOUBLE), coalesce(measures, NULL)
+  +centre_x, +centre_y, coalesce(turn, NULL), coalesce(measures, NULL)
 FROM course_waypoints;
+
+-- The way there is walked once for all measures, and only where a query wants one of them.
+CREATE VIEW measured_routes AS
+SELECT *, CAST(json_extract(measures, '$.seconds') AS DOUBLE) AS seconds, CAST(json_extract(measures, '$.joules') AS DOUBLE) AS joules
+FROM kept_routes;
+CREATE VIEW measured_waypoints AS
+SELECT *, CAST(json_extract(measures, '$.seconds') AS DOUBLE) AS seconds, CAST(json_extract(measures, '$.joules') AS DOUBLE) AS joules
+FROM kept_waypoints;
 
 -- DuckDB hands the text of a view that it cannot compute to SQLite in words of its own, of which SQLite takes no compound; it does
 -- not look into a view behind it.
 CREATE VIEW route AS
 SELECT robot, start, goal, status, cost, steps, distance, reason, seconds, joules, measures
-FROM kept_routes;
+FROM measured_routes;
 CREATE VIEW action_sequence AS
 SELECT robot, start, goal, step, kind, place, state, action, hardness, cost, x, y, heading, rule, space, doorway, z, seconds, joules, measures
 FROM kept_steps;
 CREATE VIEW waypoints AS
 SELECT robot, start, goal, waypoint, x, y, heading, state, action, facing, clearance, distance, cost, z, centre_x, centre_y, turn, seconds, joules, measures
-FROM kept_waypoints;
+FROM measured_waypoints;

@@ -124,28 +124,38 @@ impl KnowledgeBase {
     }
 
     fn conflicts(&self, base: &RuleBase, name: &PropertyName, derived: &Derived) -> Vec<Conflict> {
-        let conflict = |&row: &u32| {
-            let mut values: Vec<(String, crate::value::Value)> = vec![];
-            let mut seen: Vec<Cell> = vec![];
-            let mut priority = None;
-            for writer in &derived.writers {
-                if priority.is_some_and(|priority| writer.priority < priority) {
-                    break;
-                }
-                for (cell, _) in self.claims(name, writer.rule, row) {
-                    if cell.kind() == Some(derived.stages[0].kind()) && !seen.contains(&cell) {
-                        seen.push(cell);
-                        priority = Some(writer.priority);
-                        values.extend(
-                            self.host_value(cell).map(|value| (base.rules[writer.rule].name.clone(), value)),
-                        );
-                    }
+        derived.disputes.iter().map(|&row| self.dispute(base, name, derived, row)).collect()
+    }
+
+    /// What rules disagree about: a property of the object with this key. `None` where they do not, or there is no such object.
+    pub fn conflict(&self, base: &RuleBase, class: &str, key: &str, property: &str) -> Option<Conflict> {
+        let row = u32::try_from(self.row(class, key)?).ok()?;
+        let name = PropertyName::new(class, property);
+        let derived = self.known_derived(&name)?;
+        let is_disputed = derived.disputes.iter().any(|&disputed| disputed == row);
+        is_disputed.then(|| self.dispute(base, &name, derived, row))
+    }
+
+    fn dispute(&self, base: &RuleBase, name: &PropertyName, derived: &Derived, row: u32) -> Conflict {
+        let mut values: Vec<(String, crate::value::Value)> = vec![];
+        let mut seen: Vec<Cell> = vec![];
+        let mut priority = None;
+        for writer in &derived.writers {
+            if priority.is_some_and(|priority| writer.priority < priority) {
+                break;
+            }
+            for (cell, _) in self.claims(name, writer.rule, row) {
+                if cell.kind() == Some(derived.stages[0].kind()) && !seen.contains(&cell) {
+                    seen.push(cell);
+                    priority = Some(writer.priority);
+                    values.extend(
+                        self.host_value(cell).map(|value| (base.rules[writer.rule].name.clone(), value)),
+                    );
                 }
             }
-            let key = self.key(&name.class, row as usize).unwrap_or_default();
-            Conflict { property: name.clone(), key, values }
-        };
-        derived.disputes.iter().map(conflict).collect()
+        }
+        let key = self.key(&name.class, row as usize).unwrap_or_default();
+        Conflict { property: name.clone(), key, values }
     }
 
     fn gap(&self, base: &RuleBase, name: &PropertyName, derived: &Derived) -> Option<Gap> {

@@ -9,6 +9,7 @@ use super::basis::Basis;
 use super::{Answer, Status};
 use crate::error::{Code, Error, Finding, Nearest, Result};
 use crate::graph::End;
+use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 
 /// Start and goals of a question.
@@ -126,7 +127,10 @@ impl Basis<'_> {
         let (world, gauge) = self.ground.get()?;
         if !world.bounds.contains(*point) {
             let b = world.bounds;
-            let map = format!("the map goes from {},{} to {},{}", b.x0, b.y0, b.x1, b.y1);
+            let map = {
+                let [x0, y0, x1, y1] = [b.x0, b.y0, b.x1, b.y1].map(number);
+                format!("the map goes from {x0},{y0} to {x1},{y1}")
+            };
             return Ok(Some((Code::RouteOutside, format!("{named} is outside of the map: {map}"))));
         }
         let is_solid = gauge.is_solid(world, *point);

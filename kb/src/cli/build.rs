@@ -39,6 +39,9 @@ pub fn unbuilt(args: &SiteArgs) -> Result<KnowledgeBase> {
     Ok(knowledge.with_database(args.db.as_deref()).with_rules(args.rules.as_deref()))
 }
 
+/// Where nothing has a name.
+const NOTHING_KEPT: &str = "no routes are kept: `[[place]]` in site.toml names the points that matter";
+
 pub fn run(args: &BuildArgs) -> Result<()> {
     let knowledge = unbuilt(&args.site)?.at(args.at.as_deref())?;
     let again = args.reseed || knowledge.is_map_alone();
@@ -76,6 +79,9 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
         counted(report.doors.total, "door"),
         counted(routes.starts, "start"),
     ));
+    if routes.starts == 0 {
+        remark(&format!("note: {NOTHING_KEPT}"));
+    }
     free_space(report);
     let stages: Vec<String> = report
         .stages
@@ -202,6 +208,7 @@ pub fn changes(report: &Report) {
                 count => format!("; {count} are driven otherwise"),
             };
             line(&match (changed, rerouted, otherwise.is_empty()) {
+                _ if report.routes.starts == 0 => NOTHING_KEPT.to_owned(),
                 (0, 0, true) => "no route costs anything else or leads another way".to_owned(),
                 _ => format!(
                     "of the routes from {}, {changed} have another cost and {rerouted} lead another way{otherwise}",

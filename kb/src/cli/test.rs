@@ -4,6 +4,7 @@ use super::args::SiteArgs;
 use super::build::unbuilt;
 use super::output::{json, line, problems};
 use crate::error::Result;
+use crate::words::number::counted;
 
 /// Runs the tests of the rule base that is in force; `false` where one fails.
 pub fn run(args: &SiteArgs) -> Result<bool> {
@@ -28,14 +29,16 @@ pub fn run(args: &SiteArgs) -> Result<bool> {
     }
     line(&match (failed, tested.outcomes.len()) {
         (_, 0) => "there are no tests: they belong in `tests/*.toml` beside the rules".to_owned(),
+        (0, 1) => "1 test, which holds".to_owned(),
         (0, all) => format!("{all} tests, all hold"),
+        (1, all) => format!("1 of {} fails", counted(all, "test")),
         (failed, all) => format!("{failed} of {all} tests fail"),
     });
     for beneath in &tested.beneath {
         let failed = beneath.outcomes.iter().filter(|outcome| !outcome.passed).count();
         let (base, all) = (&beneath.base, beneath.outcomes.len());
         match failed {
-            0 if all > 0 => line(&format!("beneath, {base}: {all} tests, all hold")),
+            0 if all > 0 => line(&format!("beneath, {base}: {}, all hold", counted(all, "test"))),
             0 => {}
             _ => line(&format!(
                 "beneath, {base}: {failed} of {all} tests do not hold with your rules; they need not"

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use adit_db::Cell;
 use adit_db::conclusion::Derivation;
+use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Dominated, KnowledgeBase as Inference};
+use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
@@ -433,8 +434,14 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> V
         ));
     }
     notes.extend(conflicts(conclusions));
-    let unweighed =
-        graph.rooms.iter().filter(|room| room.hardness.value.is_none() && room.layer.is_some()).count();
+    // those that rules disagree about are said already
+    let disputed = |property: &str, key: &str| {
+        let is_it = |conflict: &Conflict| conflict.property.to_string() == property && conflict.key == key;
+        conclusions.conflicts.iter().any(is_it)
+    };
+    let is_gap = |room: &&Room| !disputed("ROOMS.hardness", &room.room.to_string());
+    let unweighed = graph.rooms.iter().filter(|room| room.hardness.value.is_none() && room.layer.is_some());
+    let unweighed = unweighed.filter(is_gap).count();
     if unweighed > 0 {
         notes.push(format!("{unweighed} rooms have no ROOMS.hardness, so no route enters them"));
     }

@@ -71,13 +71,25 @@ impl Drop for Whole {
     }
 }
 
+/// That there is the folder for a file.
+fn has_folder(path: &Path) -> Result<()> {
+    let folder = folder(path);
+    if folder.is_dir() {
+        return Ok(());
+    }
+    let message = format!("cannot write {}: there is no folder {}", path.display(), folder.display());
+    Err(Error::said(Code::FileUnreadable, message, None))
+}
+
 /// Writes a file. If that fails there is none, or the one that was there before.
 pub fn write(path: &Path, content: &[u8]) -> Result<()> {
+    has_folder(path)?;
     written(path, content).map_err(|error| Error::io("write", path, &error))
 }
 
 /// Whether a file can be written: found before long work, not after it.
 pub fn is_writable(path: &Path) -> Result<()> {
+    has_folder(path)?;
     let opened = if path.exists() {
         OpenOptions::new().write(true).open(path).map(drop)
     } else {

@@ -104,10 +104,25 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     for (name, lift) in top.object("lifts")? {
         graph.lifts.push(one_lift(name, &lift, &places)?);
     }
+    note_lifts(&mut graph);
     doors::cross(&mut graph);
     doors::rides(&mut graph, &graphs);
     graph.types_by_graph(&graphs);
     Ok(graph)
+}
+
+/// Says which nodes lie in the cabin of a lift that is not there.
+fn note_lifts(graph: &mut LaneGraph) {
+    let LaneGraph { nodes, lifts, notes, .. } = graph;
+    for node in nodes.iter() {
+        let Some(lift) = &node.lift else { continue };
+        if lifts.iter().all(|known| known.lift != *lift) {
+            let id = &node.node;
+            notes.push(format!(
+                "node {id} is in the cabin of lift `{lift}`, and there is no lift of this name"
+            ));
+        }
+    }
 }
 
 fn node_id(level: &str, number: usize, is_alone: bool) -> String {
@@ -115,8 +130,8 @@ fn node_id(level: &str, number: usize, is_alone: bool) -> String {
 }
 
 fn is_named(vertex: &At<'_>) -> bool {
-    let name = vertex.value.get(3).and_then(Value::as_str);
-    name.is_some_and(|name| !name.is_empty())
+    let name = vertex.value.get(3);
+    name.is_some_and(|name| !name.is_null() && name != "")
 }
 
 fn node(vertex: &At<'_>, id: String, level: &str, place: Place) -> Read<Node> {
@@ -136,8 +151,9 @@ fn node(vertex: &At<'_>, id: String, level: &str, place: Place) -> Read<Node> {
 /// A lane but for its ends, and whether it leads both ways.
 fn one_lane(given: &At<'_>) -> Read<(Lane, bool)> {
     const READ: [&str; 4] = ["bidirectional", "graph_idx", "orientation", "speed_limit"];
-    let graph = parameter(given, "graph_idx")?.map(|graph| graph.id()).transpose()?;
-    let limit = parameter(given, "speed_limit")?.map(|limit| limit.number()).transpose()?;
+    let graph = parameter(given, "graph_idx")?.map(|graph| graph_number(&graph)).transpose()?;
+    // traffic editor writes 0 where there is none
+    let limit = parameter(given, "speed_limit")?.map(|limit| limit.zero_or_more()).transpose()?;
     let lane = Lane {
         graph: Some(graph.unwrap_or_else(|| "0".to_owned())),
         orientation: text(given, "orientation")?,
@@ -147,6 +163,13 @@ fn one_lane(given: &At<'_>) -> Read<(Lane, bool)> {
         ..Lane::default()
     };
     Ok((lane, truth(given, "bidirectional")?))
+}
+
+fn graph_number(graph: &At<'_>) -> Read<String> {
+    if graph.value.as_f64().is_some_and(|number| number < 0.0) {
+        return Err(graph.wrong("the number of a graph, 0 or more"));
+    }
+    graph.id()
 }
 
 /// Gives lanes their numbers, graph by graph, one for each direction as in navigation graphs; which graphs there are.
@@ -339,7 +362,7 @@ fn aligned(points: &BTreeMap<String, Point>, onto: &BTreeMap<String, Point>) -> 
 fn on_the_earth<'v>(levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v str, Place>> {
     let mut origin = None;
     for (_, level) in levels {
-        if let Some(vertex) = level.list("vertices")?.first() {
+        for vertex in level.list("vertices")? {
             let at = vertex.point()?;
             if at.y.abs() > 89.0 || at.x.abs() > 180.0 {
                 return Err(

@@ -1,8 +1,8 @@
 //! Which lanes lead through which doors, where the file leaves it to the drawing; and rides between levels.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Lane, LaneGraph, Node};
+use super::{Door, Lane, LaneGraph, Node};
 use crate::geometry::Point;
 
 /// Names the doors on each lane that has none by name: those that it crosses.
@@ -19,6 +19,25 @@ pub(super) fn cross(graph: &mut LaneGraph) {
             doors.iter().filter(|door| door.level == from.level && do_cross([from.at, to.at], door.ends));
         let names: Vec<&str> = crossed.map(|door| door.door.as_str()).collect();
         lane.door = (!names.is_empty()).then(|| names.join(", "));
+    }
+}
+
+/// Adds the doors that lanes name and the file does not place, so that they can be closed: each in the middle of the first lane
+/// that leads through it.
+pub(super) fn named(graph: &mut LaneGraph) {
+    let LaneGraph { lanes, doors, nodes, .. } = graph;
+    let by_id: BTreeMap<&str, &Node> = nodes.iter().map(|node| (node.node.as_str(), node)).collect();
+    let mut known: BTreeSet<String> = doors.iter().map(|door| door.door.clone()).collect();
+    for lane in lanes.iter() {
+        let ends = by_id.get(lane.from.as_str()).zip(by_id.get(lane.to.as_str()));
+        let Some((from, to)) = ends else { continue };
+        let middle = Point::new(f64::midpoint(from.at.x, to.at.x), f64::midpoint(from.at.y, to.at.y));
+        for name in lane.doors() {
+            if known.insert(name.to_owned()) {
+                let (door, level) = (name.to_owned(), from.level.clone());
+                doors.push(Door { door, level, ends: [middle, middle], kind: None });
+            }
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde_json::Value;
 
 use super::value::{At, Read};
-use super::{Lane, LaneGraph, Level, Node};
+use super::{Lane, LaneGraph, Level, Node, doors};
 use crate::geometry::Point;
 use crate::read::Code;
 
@@ -15,7 +15,7 @@ pub(super) const LEVEL: &str = "map";
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };
     graph.properties = top.rest(&["name", "features", "type"]);
-    let mut others = 0;
+    let (mut others, mut nested) = (0, 0);
     let mut bends: Vec<(usize, f64)> = Vec::new();
     for feature in top.need("features")?.items()? {
         let (properties, geometry) = (feature.need("properties")?, feature.need("geometry")?);
@@ -24,7 +24,9 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         match kind.as_str() {
             "Point" => graph.nodes.push(node(&properties, coordinates.point()?)?),
             "MultiLineString" | "LineString" => {
-                bends.push((graph.lanes.len(), length(&coordinates, kind == "MultiLineString")?));
+                let is_nested = is_nested(&coordinates);
+                nested += usize::from(is_nested != (kind == "MultiLineString"));
+                bends.push((graph.lanes.len(), length(&coordinates, is_nested)?));
                 graph.lanes.push(lane(&properties)?);
             }
             _ => others += 1,
@@ -35,6 +37,7 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
             graph.levels.push(Level { level: node.level.clone(), ..Level::default() });
         }
     }
+    doors::named(&mut graph);
     bent(&mut graph, &bends);
     tell_apart(&mut graph);
     if others > 0 {
@@ -42,8 +45,20 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
             .notes
             .push(format!("{others} features are neither points nor lines, and are no part of the graph"));
     }
+    if nested > 0 {
+        graph.notes.push(format!(
+            "{nested} edges are nested as a LineString and called MultiLineString, or the other way; they are read as they are \
+             nested"
+        ));
+    }
     graph.types_by_graph(&[]);
     Ok(graph)
+}
+
+/// Whether coordinates are a list of lines, whatever their type says: Nav2 does not look at them, so that there are such files.
+fn is_nested(coordinates: &At<'_>) -> bool {
+    let first = coordinates.value.get(0).and_then(|line| line.get(0));
+    first.is_some_and(Value::is_array)
 }
 
 /// Gives edges whose id another has an id of their own; Nav2 reads such files, and there are some.
@@ -81,8 +96,8 @@ fn bent(graph: &mut LaneGraph, bends: &[(usize, f64)]) {
     }
 }
 
-fn length(coordinates: &At<'_>, is_multi: bool) -> Read<f64> {
-    let lines = if is_multi { coordinates.items()? } else { vec![coordinates.clone()] };
+fn length(coordinates: &At<'_>, is_nested: bool) -> Read<f64> {
+    let lines = if is_nested { coordinates.items()? } else { vec![coordinates.clone()] };
     let mut sum = 0.0;
     for line in lines {
         let points = line.items()?.iter().map(At::point).collect::<Read<Vec<Point>>>()?;

@@ -60,6 +60,7 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
             depth: size.get(1).map(|size| size.number()).transpose()?,
         });
     }
+    doors::named(&mut graph);
     let graphs = [GRAPH.to_owned()];
     doors::rides(&mut graph, &graphs);
     graph.types_by_graph(&graphs);

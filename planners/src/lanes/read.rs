@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::value::{At, Read};
+use super::yaml::{self, Written};
 use super::{LaneGraph, building, check, geojson, lif, nav_graph, numbers, rmf_site, tmap};
 use crate::read::{Code, Problem};
 
@@ -23,12 +24,14 @@ enum Kind {
 pub fn is_lane_graph(path: &Path) -> bool {
     let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().to_lowercase());
     if [".json", ".geojson", ".lif", ".tmap2", ".building.yaml"].iter().any(|end| name.ends_with(end)) {
-        return path.is_file();
+        // one that is not there is refused as such by its reader
+        return !path.is_dir();
     }
     if ![".yaml", ".yml"].iter().any(|end| name.ends_with(end)) {
         return false;
     }
     let text = std::fs::read_to_string(path).unwrap_or_default();
+    let text = without_mark(&text);
     let starts = |key: &str| text.starts_with(key) || text.contains(&format!("\n{key}"));
     !starts("image:") && (starts("levels:") || starts("nodes:") || text.trim_start().starts_with('{'))
 }
@@ -39,22 +42,27 @@ pub fn read_lane_graph(path: &Path) -> Result<LaneGraph, Problem> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| Problem::of_file(Code::Unreadable, format!("{file} cannot be read: {error}")))?;
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let mut graph = parse(&file, &text)?;
+    let mut graph = parse(&file, without_mark(&text))?;
     if graph.name.is_empty() {
         stem.split('.').next().unwrap_or_default().clone_into(&mut graph.name);
     }
     Ok(graph)
 }
 
+/// A text without the mark of byte order that some editors put before it.
+fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
 /// Reads a text; `file` is how messages call it.
 pub(super) fn parse(file: &str, text: &str) -> Result<LaneGraph, Problem> {
     let extension = Path::new(file).extension().and_then(|end| end.to_str()).unwrap_or_default();
-    let value = if ["yaml", "yml", "tmap2"].contains(&extension) {
-        of_yaml(file, text)
+    let (value, written) = if ["yaml", "yml", "tmap2"].contains(&extension) {
+        yaml::read(file, text).map(|(value, written)| (value, Some(written)))
     } else {
-        of_json(file, text)
+        of_json(file, text).map(|value| (value, None::<Written>))
     }?;
-    let top = At::top(file, &value);
+    let top = At::top(file, &value, written.as_ref());
     let mut graph = match kind(&top)? {
         Kind::Building => building::read(&top)?,
         Kind::NavGraph => nav_graph::read(&top)?,
@@ -76,31 +84,24 @@ fn of_json(file: &str, text: &str) -> Read<Value> {
     })
 }
 
-fn of_yaml(file: &str, text: &str) -> Read<Value> {
-    serde_saphyr::from_str(text).map_err(|error| {
-        let error = error.without_snippet();
-        let place = error
-            .location()
-            .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
-        Problem::of_file(Code::Syntax, format!("{file}{place}: not YAML: {error}"))
-    })
-}
-
 fn kind(top: &At<'_>) -> Read<Kind> {
     if !top.value.is_object() {
         return Err(top.wrong("an object, as lane graphs are"));
     }
     let has = |key| top.get(key).is_some();
-    Ok(if has("layouts") || has("metaInformation") {
-        Kind::Lif
-    } else if has("features") || top.get("type").is_some_and(|of| of.value == "FeatureCollection") {
+    // what is written for others keeps what its file said as a whole, so that LIF's `metaInformation` stands in any of them
+    Ok(if has("features") || top.get("type").is_some_and(|of| of.value == "FeatureCollection") {
         Kind::Nav2
+    } else if has("layouts") {
+        Kind::Lif
     } else if has("format_version") || has("navigation") {
         Kind::RmfSite
     } else if has("levels") && has("building_name") {
         Kind::NavGraph
     } else if has("levels") {
         Kind::Building
+    } else if has("metaInformation") {
+        Kind::Lif
     } else if has("nodes") {
         Kind::TopologicalMap
     } else {

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value};
 
+use super::yaml::Written;
 use crate::geometry::Point;
 use crate::read::{Code, Problem};
 
@@ -14,14 +15,16 @@ const LARGEST: f64 = 1e9;
 pub(super) struct At<'v> {
     file: &'v str,
     pub value: &'v Value,
+    /// How its scalars stand in a file of YAML, which tells texts from numbers by how they look; `None`: it is JSON.
+    written: Option<&'v Written>,
     path: String,
 }
 
 pub(super) type Read<T> = Result<T, Problem>;
 
 impl<'v> At<'v> {
-    pub fn top(file: &'v str, value: &'v Value) -> Self {
-        Self { file, value, path: String::new() }
+    pub const fn top(file: &'v str, value: &'v Value, written: Option<&'v Written>) -> Self {
+        Self { file, value, written, path: String::new() }
     }
 
     /// What is wrong with it.
@@ -41,7 +44,12 @@ impl<'v> At<'v> {
     /// What stands under a key; `None` where nothing does, or null.
     pub fn get(&self, key: &str) -> Option<Self> {
         let value = self.value.get(key).filter(|value| !value.is_null())?;
-        Some(Self { file: self.file, value, path: self.within(key) })
+        Some(self.entry(key, value))
+    }
+
+    fn entry(&self, key: &str, value: &'v Value) -> Self {
+        let written = self.written.map(|written| written.entry(key));
+        Self { file: self.file, value, written, path: self.within(key) }
     }
 
     pub fn need(&self, key: &str) -> Read<Self> {
@@ -55,7 +63,10 @@ impl<'v> At<'v> {
 
     pub fn items(&self) -> Read<Vec<Self>> {
         let Value::Array(values) = self.value else { return Err(self.wrong("a list")) };
-        let item = |(place, value)| Self { file: self.file, value, path: format!("{}[{place}]", self.path) };
+        let item = |(place, value)| {
+            let written = self.written.map(|written| written.item(place));
+            Self { file: self.file, value, written, path: format!("{}[{place}]", self.path) }
+        };
         Ok(values.iter().enumerate().map(item).collect())
     }
 
@@ -66,9 +77,7 @@ impl<'v> At<'v> {
 
     pub fn entries(&self) -> Read<Vec<(&'v str, Self)>> {
         let Value::Object(entries) = self.value else { return Err(self.wrong("an object")) };
-        let entry = |(key, value): (&'v String, &'v Value)| {
-            (key.as_str(), Self { file: self.file, value, path: self.within(key) })
-        };
+        let entry = |(key, value): (&'v String, &'v Value)| (key.as_str(), self.entry(key, value));
         Ok(entries.iter().map(entry).collect())
     }
 
@@ -97,13 +106,16 @@ impl<'v> At<'v> {
         self.get(key).map(|value| value.number()).transpose()
     }
 
-    pub fn not_negative(&self, key: &str) -> Read<Option<f64>> {
-        let Some(value) = self.get(key) else { return Ok(None) };
-        let number = value.number()?;
+    pub fn zero_or_more(&self) -> Read<f64> {
+        let number = self.number()?;
         if number >= 0.0 {
-            return Ok(Some(number));
+            return Ok(number);
         }
-        Err(value.problem(Code::NotPositive, &format!("is {number}, expected 0 or more")))
+        Err(self.problem(Code::NotPositive, &format!("is {number}, expected 0 or more")))
+    }
+
+    pub fn not_negative(&self, key: &str) -> Read<Option<f64>> {
+        self.get(key).map(|value| value.zero_or_more()).transpose()
     }
 
     /// The place of an entry of a list of so many.
@@ -116,8 +128,13 @@ impl<'v> At<'v> {
         Err(self.problem(Code::Impossible, &message))
     }
 
+    /// A text. In YAML any scalar is one where a text is expected, as it stands there: rooms are called 101.
     pub fn text(&self) -> Read<String> {
-        self.value.as_str().map(str::to_owned).ok_or_else(|| self.wrong("a text"))
+        match (self.value, self.written) {
+            (Value::String(text), _) => Ok(text.clone()),
+            (Value::Number(_) | Value::Bool(_), Some(written)) => Ok(written.text(self.value)),
+            _ => Err(self.wrong("a text")),
+        }
     }
 
     /// A name, where an empty one is none.
@@ -131,12 +148,20 @@ impl<'v> At<'v> {
         match self.value {
             Value::String(text) if !text.trim().is_empty() => Ok(text.clone()),
             Value::Number(number) if number.is_u64() || number.is_i64() => Ok(number.to_string()),
+            Value::Number(_) | Value::Bool(_) if self.written.is_some() => self.text(),
             _ => Err(self.wrong("an id, a text or a whole number")),
         }
     }
 
+    /// True or false. YAML's older words for them are texts elsewhere.
     pub fn truth(&self) -> Read<bool> {
-        self.value.as_bool().ok_or_else(|| self.wrong("true or false"))
+        let word = self.value.as_str().filter(|_| self.written.is_some()).map(str::to_lowercase);
+        match (self.value, word.as_deref()) {
+            (Value::Bool(truth), _) => Ok(*truth),
+            (_, Some("yes" | "y" | "on")) => Ok(true),
+            (_, Some("no" | "n" | "off")) => Ok(false),
+            _ => Err(self.wrong("true or false")),
+        }
     }
 
     pub fn maybe_truth(&self, key: &str) -> Read<Option<bool>> {

@@ -6,7 +6,7 @@ mod nav_graph;
 
 use std::path::Path;
 
-use super::{Lane, LaneGraph};
+use super::{Lane, LaneGraph, Node};
 
 /// A format that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,4 +78,11 @@ fn note(graph: &LaneGraph, what: &str, has: impl Fn(&Lane) -> bool) -> Option<St
     let count = graph.lanes.iter().filter(|lane| has(lane)).count();
     let lanes = if count == 1 { "lane" } else { "lanes" };
     (count > 0).then(|| format!("{count} {lanes}: {what}"))
+}
+
+/// As [`note`], of nodes.
+fn note_nodes(graph: &LaneGraph, what: &str, has: impl Fn(&Node) -> bool) -> Option<String> {
+    let count = graph.nodes.iter().filter(|node| has(node)).count();
+    let nodes = if count == 1 { "node" } else { "nodes" };
+    (count > 0).then(|| format!("{count} {nodes}: {what}"))
 }

@@ -362,7 +362,7 @@ fn what_is_open_is_not_opened_again_and_a_blocked_robot_closes_where_it_is() {
     site.adit("close", &["1.5,18"]).expecting(2).complains(&["lies in channel 1 and in channel 2"]);
     site.adit("close", &["channel 2", "--only", "robot"])
         .expecting(2)
-        .complains(&["rule of PASSAGES or WAYS"]);
+        .complains(&["rule of PASSAGES, WAYS or TRAVELS"]);
     let channel = site.adit("why", &["channel 1 from start to goal"]).expecting(0).stdout;
     assert!(channel.contains("weight is"), "{channel}");
 }

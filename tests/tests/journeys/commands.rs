@@ -60,7 +60,7 @@ const PAGES: [Page; 24] = [
     Page {
         file: "manual/src/tutorials/the-paper.md",
         blocks: &[],
-        databases: &[("action_sequence", "paper.db")],
+        databases: &[("FROM", "adit-demo/paper/site.db")],
     },
     Page {
         file: "manual/src/sites.md",

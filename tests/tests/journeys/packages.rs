@@ -15,7 +15,14 @@ struct Made(TempDir);
 
 impl Made {
     fn new() -> Self {
-        Self(tempfile::tempdir().expect("a temporary folder"))
+        let made = Self(tempfile::tempdir().expect("a temporary folder"));
+        // what debuggers need would be packed for minutes
+        done(Command::new("strip").arg("-o").arg(made.program()).arg(adit()).output());
+        made
+    }
+
+    fn program(&self) -> PathBuf {
+        self.0.path().join("adit")
     }
 
     fn folder(&self) -> PathBuf {
@@ -25,7 +32,7 @@ impl Made {
     /// Runs a maker on the program of this build.
     fn run(&self, maker: &str, arguments: &[&str]) -> Ran {
         let mut command = Command::new(repository().join("dist").join(maker));
-        command.args(arguments).env("ADIT_PROGRAM", adit()).env("CARGO_TARGET_DIR", self.0.path());
+        command.args(arguments).env("ADIT_PROGRAM", self.program()).env("CARGO_TARGET_DIR", self.0.path());
         Ran::new(&command.output().expect("the maker runs"))
     }
 

@@ -15,14 +15,17 @@ const SAME: f64 = 1e-9;
 /// # Arguments
 /// `robot` is the vehicle type whose lanes are written; all are where none is said.
 pub fn export(routes: &Routes, format: Format, robot: Option<&str>) -> Result<Exported> {
-    let mut graph = routes.now().graph.clone();
+    let now = routes.now();
+    let mut graph = now.lasting();
+    let is_closed = graph != now.graph || !now.closed_doors.is_empty() || !now.closed_lifts.is_empty();
     if let Some(robot) = robot {
-        keep_to(&mut graph, robot, routes.weighed(robot)?, format);
+        keep_to(&mut graph, robot, &routes.weighed_open(robot)?, format);
     }
     let Exported { text, mut notes } = write(&graph, format).map_err(Error::of(Code::ExportTooMany))?;
-    if !routes.now().closed_doors.is_empty() || !routes.now().closed_lifts.is_empty() {
+    if is_closed {
         notes.push(
-            "that doors or lifts are closed now is not written; lanes and nodes that are say so".to_owned(),
+            "what somebody closed or opened is not written, since it holds for now: the file is the same without it"
+                .to_owned(),
         );
     }
     Ok(Exported { text, notes })

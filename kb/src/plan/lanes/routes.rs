@@ -22,6 +22,9 @@ use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, point};
 use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
+/// Metres; points beyond it are slips, as they are in files.
+const FARTHEST: f64 = 1e9;
+
 /// The lanes that a vehicle type may drive on: nodes by place, lanes by place, with what each weighs.
 struct Net {
     graph: DiGraph<(), (usize, f64)>,
@@ -88,20 +91,29 @@ impl Routes {
     }
 
     fn travel(&self, vehicle: usize, lane: usize) -> Travel<'_> {
-        let of = &self.now.graph.lanes[lane];
+        self.travel_in(&self.now, vehicle, lane)
+    }
+
+    /// # Arguments
+    /// `now` has the nodes, lanes and vehicle types of these routes in their order, whatever is closed in it.
+    fn travel_in<'n>(&'n self, now: &'n Now, vehicle: usize, lane: usize) -> Travel<'n> {
+        let of = &now.graph.lanes[lane];
         let uses = self.uses.get(&of.lane).into_iter().flatten();
-        let uses: Vec<&Use> = uses.map(|at| &self.now.graph.uses[*at]).collect();
-        let vehicle = &self.now.graph.vehicle_types[vehicle];
-        Travel::of(&self.now, (of, self.nodes_of(lane)), vehicle, &uses, &self.carrying)
+        let uses: Vec<&Use> = uses.map(|at| &now.graph.uses[*at]).collect();
+        let ends = self.ends_of(lane).map(|node| &now.graph.nodes[node]);
+        Travel::of(now, (of, ends), &now.graph.vehicle_types[vehicle], &uses, &self.carrying)
     }
 
     pub const fn now(&self) -> &Now {
         &self.now
     }
 
-    /// What lanes weigh for a vehicle type.
-    pub fn weighed(&self, vehicle: &str) -> std::result::Result<&[Weighed], NoEnd> {
-        Ok(&self.nets[self.vehicle(vehicle)?].weighed)
+    /// What lanes weigh for a vehicle type where nothing is closed.
+    pub fn weighed_open(&self, vehicle: &str) -> std::result::Result<Vec<Weighed>, NoEnd> {
+        let (vehicle, open) = (self.vehicle(vehicle)?, self.now.opened());
+        let mut judge = self.judge.lock().unwrap_or_else(PoisonError::into_inner);
+        let lanes = open.graph.lanes.iter().enumerate();
+        Ok(lanes.map(|(at, lane)| judge.weigh(&self.travel_in(&open, vehicle, at), &lane.lane)).collect())
     }
 
     fn vehicle(&self, robot: &str) -> std::result::Result<usize, NoEnd> {
@@ -113,12 +125,18 @@ impl Routes {
     fn end(&self, text: &str, is_start: bool) -> std::result::Result<End, NoEnd> {
         let exactly = |node| Ok(End { node, remark: None });
         let text = text.trim();
-        if let Some(node) = self.node_called(text) {
+        let called = self.nodes_called(text);
+        if let [node] = called[..] {
             return exactly(node);
         }
         let place = self.places.iter().find(|place| place.place == text);
         let at = place.map(|place| Point::new(place.x, place.y)).or_else(|| point(text));
         let no_end = |reason| NoEnd { is_start, reason };
+        if place.is_none() && !called.is_empty() {
+            let ids: Vec<String> =
+                called.iter().map(|node| format!("node {}", self.now.graph.nodes[*node].node)).collect();
+            return Err(no_end(format!("`{text}` may be {}", ids.join(" or "))));
+        }
         let Some(at) = at else {
             let known = self
                 .places
@@ -128,6 +146,9 @@ impl Routes {
             let meant = did_you_mean(text, known).map_or(String::new(), |help| format!("; {help}"));
             return Err(no_end(format!("`{text}` is no place, no node and no point `x,y`{meant}")));
         };
+        if at.x.abs().max(at.y.abs()) > FARTHEST {
+            return Err(no_end(format!("`{text}` is too far away, expected at most {FARTHEST:e} m")));
+        }
         let far = |node: &Node| node.at.distance(at);
         let nodes = self.now.graph.nodes.iter().enumerate();
         let near = nodes.min_by(|(_, one), (_, other)| far(one).total_cmp(&far(other)));
@@ -141,16 +162,20 @@ impl Routes {
         Ok(End { node, remark })
     }
 
-    fn node_called(&self, text: &str) -> Option<usize> {
+    /// The nodes that a text may stand for: by id one, by name perhaps several.
+    fn nodes_called(&self, text: &str) -> Vec<usize> {
         let id = text.strip_prefix("node ").or_else(|| text.strip_prefix("waypoint ")).unwrap_or(text);
         if let Some(node) = self.by_id.get(id) {
-            return Some(*node);
+            return vec![*node];
         }
-        let mut named =
-            self.now.graph.nodes.iter().enumerate().filter(|(_, node)| node.name.as_deref() == Some(text));
-        if let (Some((node, _)), None) = (named.next(), named.next()) {
-            return Some(node);
-        }
+        let nodes = self.now.graph.nodes.iter().enumerate();
+        let named = nodes.filter(|(_, node)| node.name.as_deref() == Some(text));
+        let named: Vec<usize> = named.map(|(node, _)| node).collect();
+        if named.is_empty() { self.node_of_station(text).into_iter().collect() } else { named }
+    }
+
+    /// The first node from which a station is reached.
+    fn node_of_station(&self, text: &str) -> Option<usize> {
         let is_it =
             |of: &&adit_planners::lanes::Station| of.station == text || of.name.as_deref() == Some(text);
         let station = self.now.graph.stations.iter().find(is_it)?;
@@ -290,7 +315,8 @@ impl Routes {
         if !lift.is_empty() {
             return lift;
         }
-        self.node_called(name).map_or(Vec::new(), |node| all(&|lane| self.ends_of(lane)[1] == node))
+        let nodes = self.nodes_called(name);
+        all(&|lane| nodes.contains(&self.ends_of(lane)[1]))
     }
 }
 
@@ -346,16 +372,15 @@ impl Pathfinder for Routes {
     }
 
     fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
-        let vehicle = self.nets.first();
-        let mut weighed = vehicle.map_or(&[][..], |net| &net.weighed);
         let mut lanes = Vec::new();
         if let Some([robot, start, goal]) = route {
             let vehicle = self.vehicle(robot)?;
-            weighed = &self.nets[vehicle].weighed;
             let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
             lanes = self.lanes(vehicle, from.node, to.node).map(|(_, lanes)| lanes).unwrap_or_default();
         }
-        let is_open = |lane: usize| weighed.get(lane).is_some_and(|of| of.is_ok());
+        // the legend says that nobody drives on the others
+        let is_open =
+            |lane: usize| self.nets.iter().any(|net| net.weighed.get(lane).is_some_and(|of| of.is_ok()));
         Ok(render_lanes(title, &self.now.graph, is_open, |door| self.now.closed_doors.contains(door), &lanes))
     }
 

@@ -16,6 +16,27 @@ pub struct Now {
     pub graph: LaneGraph,
     pub closed_doors: BTreeSet<String>,
     pub closed_lifts: BTreeSet<String>,
+    /// The nodes and lanes that its file says are closed, whatever tables say now.
+    pub closed_in_file: [BTreeSet<String>; 2],
+}
+
+impl Now {
+    /// The same with nothing closed.
+    pub fn opened(&self) -> Self {
+        let mut graph = self.graph.clone();
+        graph.nodes.iter_mut().for_each(|node| node.closed = false);
+        graph.lanes.iter_mut().for_each(|lane| lane.closed = false);
+        Self { graph, ..Self::default() }
+    }
+
+    /// The graph whatever somebody closed or opened since it was read, which holds for now.
+    pub fn lasting(&self) -> LaneGraph {
+        let mut graph = self.graph.clone();
+        let [nodes, lanes] = &self.closed_in_file;
+        graph.nodes.iter_mut().for_each(|node| node.closed = nodes.contains(&node.node));
+        graph.lanes.iter_mut().for_each(|lane| lane.closed = lanes.contains(&lane.lane));
+        graph
+    }
 }
 
 /// # Arguments
@@ -37,7 +58,9 @@ pub fn now(asked: &Asked<'_>, file: &LaneGraph) -> Result<Now> {
         |level: &Level| file.levels.iter().position(|known| known.level == level.level).unwrap_or(usize::MAX);
     graph.levels.sort_by_key(place);
     nodes_and_lanes(asked, &mut graph)?;
-    let mut now = Now::default();
+    let nodes = file.nodes.iter().filter(|node| node.closed).map(|node| node.node.clone());
+    let lanes = file.lanes.iter().filter(|lane| lane.closed).map(|lane| lane.lane.clone());
+    let mut now = Now { closed_in_file: [nodes.collect(), lanes.collect()], ..Now::default() };
     let of = asked.objects("LANE_DOORS");
     for row in of.rows() {
         let door = id(of, row, "door")?;

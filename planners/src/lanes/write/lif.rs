@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
-use super::{Exported, note};
+use super::{Exported, note, note_nodes};
 use crate::lanes::{Lane, LaneGraph, Level, Node, Properties, Station, Use};
 
 /// Where a file told no time: what is written depends on the graph alone.
@@ -25,13 +25,37 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
         graph.properties.clone().into_iter().filter(|(key, _)| key != "metaInformation" && key != "crs"),
     );
     top.insert("layouts".to_owned(), layouts.into());
+    let text = serde_json::to_string_pretty(&top).unwrap_or_default() + "\n";
+    Exported { text, notes: notes(graph) }
+}
+
+/// What of a graph LIF has no words for.
+fn notes(graph: &LaneGraph) -> Vec<String> {
     let by_id = graph.by_id();
     let level_of = |id: &str| by_id.get(id).map(|node| node.level.as_str());
-    let text = serde_json::to_string_pretty(&top).unwrap_or_default() + "\n";
+    let listed: BTreeSet<&str> = graph.uses.iter().map(|of| of.lane.as_str()).collect();
+    let is_listed = |lane: &Lane| listed.contains(lane.lane.as_str());
     let notes = [
+        note_nodes(graph, "that they are chargers has no place in LIF", |node| node.is_charger),
+        note_nodes(graph, "that they are parking spots has no place in LIF", |node| node.is_parking_spot),
+        note_nodes(graph, "that they are holding points has no place in LIF", |node| node.is_holding_point),
+        note_nodes(graph, "that they are closed has no place in LIF", |node| node.closed),
+        note_nodes(graph, "the lift in whose cabin they lie has no place in LIF", |node| node.lift.is_some()),
         note(graph, "a cost or penalty of their own has no place in LIF", |lane| {
             lane.cost.is_some() || lane.penalty.is_some()
         }),
+        note(graph, "a share of a vehicle's own speed has no place in LIF", |lane| {
+            lane.speed_share.is_some()
+        }),
+        note(graph, "their speed limit is left out, since LIF says it with each vehicle type", |lane| {
+            lane.speed_limit.is_some() && is_listed(lane)
+        }),
+        // of a file of LIF it is that of its curve, which is written
+        note(graph, "a length of their own has no place in LIF", |lane| {
+            lane.length.is_some() && !is_listed(lane)
+        }),
+        note(graph, "an orientation of their own has no place in LIF", |lane| lane.orientation.is_some()),
+        note(graph, "an action of their own has no place in LIF", |lane| lane.action.is_some()),
         note(graph, "that they are closed has no place in LIF", |lane| lane.closed),
         note(graph, "the doors and lifts that they lead through have no place in LIF", |lane| {
             lane.door.is_some() || lane.lift.is_some()
@@ -40,7 +64,7 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
             level_of(&lane.from) != level_of(&lane.to)
         }),
     ];
-    Exported { text, notes: notes.into_iter().flatten().collect() }
+    notes.into_iter().flatten().collect()
 }
 
 /// Adds what a file said besides, but for what is said already.
@@ -49,6 +73,11 @@ fn with(mut of: Map<String, Value>, properties: &Properties) -> Value {
         of.entry(key.clone()).or_insert_with(|| value.clone());
     }
     Value::Object(of)
+}
+
+/// What a file said of it; what is usual where it said nothing.
+fn said_or(properties: &Properties, key: &str, usual: Value) -> Value {
+    properties.get(key).cloned().unwrap_or(usual)
 }
 
 /// The entries that there are.
@@ -71,10 +100,9 @@ fn layout(graph: &LaneGraph, level: &Level) -> Value {
     let edges: Vec<Value> = lanes.map(|lane| of_lane(graph, lane, of(&lane))).collect();
     let stations = graph.stations.iter().filter(|station| station.level == level.level);
     let stations: Vec<Value> = stations.map(of_station).collect();
-    let version = (!level.properties.contains_key("layoutVersion")).then(|| json!("1"));
     let of = object([
         ("layoutId", Some(json!(level.level))),
-        ("layoutVersion", version),
+        ("layoutVersion", Some(said_or(&level.properties, "layoutVersion", json!("1")))),
         ("nodes", Some(nodes.into())),
         ("edges", Some(edges.into())),
         ("stations", Some(stations.into())),
@@ -84,12 +112,14 @@ fn layout(graph: &LaneGraph, level: &Level) -> Value {
 
 fn of_node(node: &Node, types: &[&str]) -> Value {
     let all: Vec<Value> = types.iter().map(|id| json!({"vehicleTypeId": id})).collect();
-    let is_said = node.properties.contains_key("vehicleTypeNodeProperties");
     let of = object([
         ("nodeId", Some(json!(node.node))),
         ("nodeName", node.name.as_ref().map(|name| json!(name))),
         ("nodePosition", Some(json!({"x": node.at.x, "y": node.at.y}))),
-        ("vehicleTypeNodeProperties", (!is_said).then(|| all.into())),
+        (
+            "vehicleTypeNodeProperties",
+            Some(said_or(&node.properties, "vehicleTypeNodeProperties", all.into())),
+        ),
     ]);
     with(of, &node.properties)
 }

@@ -12,9 +12,11 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
     let mut text = String::new();
     let quoted = |text: &str| Value::from(text).to_string();
     let _ = writeln!(text, "building_name: {}", quoted(&graph.name));
-    if !graph.doors.is_empty() {
+    // of a door at a point its file gave the name alone, which stands with its lanes
+    let mut doors = graph.doors.iter().filter(|door| door.ends[0] != door.ends[1]).peekable();
+    if doors.peek().is_some() {
         text.push_str("doors:\n");
-        for door in &graph.doors {
+        for door in doors {
             let ends = door.ends.map(|end| [end.x, end.y]);
             let value = json!({"map": door.level, "endpoints": ends, "type": door.kind});
             let _ = writeln!(text, "  {}: {value}", quoted(&door.door));

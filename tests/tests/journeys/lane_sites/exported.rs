@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use adit_tests::TestSite;
+use adit_tests::{TestSite, repository};
 
 use super::{FILES, file, site_of};
 
@@ -125,4 +125,14 @@ fn what_rules_weigh_otherwise_is_written_for_nav2_and_counts_there() {
     site.adit("export", &["--to", to.to_str().unwrap()])
         .expecting(2)
         .complains(&["neither .yaml, .geojson nor .lif.json"]);
+}
+
+#[test]
+fn what_is_written_is_the_same_whatever_somebody_closed() {
+    let site = site_of(&repository().join("kb/worlds/ward.building.yaml"));
+    let before = export(&site, "graph.geojson", None);
+    for what in ["lift", "pharmacy_door", "lane 6", "node L1:0"] {
+        site.adit("close", &[what]).expect_status(0);
+        assert_eq!(export(&site, "graph.geojson", None), before, "{what} is closed");
+    }
 }

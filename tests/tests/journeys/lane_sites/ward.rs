@@ -157,6 +157,31 @@ fn which_vehicle_may_drive_where_follows_from_its_type_its_height_and_its_load()
 }
 
 #[test]
+fn a_door_that_a_navigation_graph_only_names_is_closed_by_name() {
+    let folder = TestSite::empty();
+    let graph = "building_name: t\nlevels:\n  L1:\n    lanes: [[0, 1, {door_name: coe_door}]]\n    vertices: [[0, 0, {name: a}], [1, 0, {name: b}]]\n";
+    folder.write("door.yaml", graph);
+    let site = site_of(&folder.path().join("door.yaml"));
+    site.adit("route", &["a", "b"]).expect_status(0);
+    site.adit("close", &["coe_door"]).expect_status(0);
+    let ran = site.adit("route", &["a", "b"]).expecting(1);
+    assert!(ran.stdout.contains("coe_door is closed"), "{}", ran.stdout);
+}
+
+#[test]
+fn a_name_of_two_nodes_is_answered_with_both_and_a_point_beyond_all_measure_is_refused() {
+    let folder = TestSite::empty();
+    let building = "coordinate_system: cartesian_meters\nname: t\nlevels:\n  L1:\n    vertices: [[0, 0, 0, a], [4, 0, 0, b], [4, 4, 0, a]]\n    lanes: [[0, 1, {}], [1, 2, {}]]\n";
+    folder.write("names.building.yaml", building);
+    let site = site_of(&folder.path().join("names.building.yaml"));
+    site.adit("route", &["a", "b"]).expecting(2).complains(&["`a` may be node 0 or node 2"]);
+    site.adit("route", &["node 0", "b"]).expect_status(0);
+    site.adit("route", &["1e308,1e308", "b"])
+        .expecting(2)
+        .complains(&["is too far away, expected at most 1e9 m"]);
+}
+
+#[test]
 fn every_property_that_rules_are_told_of_lanes_is_in_the_manual() {
     let page = std::fs::read_to_string(repository().join("manual/src/lane-graphs.md")).unwrap();
     let class = adit::plan::lanes::judge::class();
