@@ -112,6 +112,8 @@ pub enum Verb {
     Serve(serve::ServeArgs),
     /// Vehicles that speak VDA 5050 drive the routes of a served site (the program `adit-fleet`)
     Fleet(beside::BesideArgs),
+    /// A ROS 2 node that plans routes of a served site, as Nav2's planner and route server do (the program `adit-ros`)
+    Ros(beside::BesideArgs),
     /// What editors show while one writes rules, their tests and site files (Language Server Protocol)
     Lsp(lsp::LspArgs),
     /// Who may do what by HTTP: add, list and remove tokens
@@ -161,6 +163,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),
         Verb::Serve(args) => (args.site.json, serve::run(args).map(|()| 0)),
         Verb::Fleet(args) => (false, beside::run("fleet", args)),
+        Verb::Ros(args) => (false, beside::run("ros", args)),
         Verb::Lsp(args) => (false, lsp::run(args).map(|()| 0)),
         Verb::Token(args) => (args.json, serve::token(args).map(|()| 0)),
         Verb::Doctor(args) => (args.site.json, doctor::doctor(args).map(|sound| u8::from(!sound))),

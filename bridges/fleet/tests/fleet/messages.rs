@@ -32,6 +32,7 @@ fn route(chance: &mut Chance, start: [f64; 2]) -> Route {
             state: Some(state.to_owned()),
             facing: (state == "LONG").then(|| chance.below(8) as f64 * 22.5),
             clearance: (chance.below(2) == 0).then(|| chance.below(900) as f64 / 1000.0),
+            ..Waypoint::default()
         }
     });
     let waypoints: Vec<Waypoint> = waypoints.collect();

@@ -13,11 +13,23 @@ pub struct Route {
     #[serde(default)]
     pub reason: Option<String>,
     #[serde(default)]
+    pub cost: Option<f64>,
+    #[serde(default)]
     pub distance: Option<f64>,
+    /// Where no state fits at an end: the nearest point at which one does.
+    #[serde(default)]
+    pub nearest: Option<Nearest>,
     #[serde(default)]
     pub steps: Vec<Step>,
     #[serde(default)]
     pub waypoints: Vec<Waypoint>,
+}
+
+/// Where a robot fits instead of where it was to start or end.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+pub struct Nearest {
+    /// `start` or `goal`.
+    pub end: String,
 }
 
 /// A room that is crossed, or a door that is passed.
@@ -40,6 +52,13 @@ pub struct Waypoint {
     pub y: f64,
     #[serde(default)]
     pub state: Option<String>,
+    /// How the robot moves on the way there.
+    #[serde(default)]
+    pub action: Option<String>,
+    /// In which direction it comes there, degrees counterclockwise from +x; none at the start.
+    #[serde(default)]
+    pub heading: Option<f64>,
+    /// How the body lies on the way there, degrees.
     #[serde(default)]
     pub facing: Option<f64>,
     #[serde(default)]

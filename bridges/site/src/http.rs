@@ -16,7 +16,7 @@ const PATIENCE: Duration = Duration::from_secs(70);
 /// How long a stream may be silent: the service shows each 15 s that it lives.
 const SILENCE: Duration = Duration::from_secs(40);
 
-/// Where the service is, and by what it lets the fleet in.
+/// Where the service is, and by what it lets us in.
 #[derive(Clone, Debug)]
 pub struct Site {
     /// `host:port`
@@ -29,8 +29,8 @@ pub struct Site {
 pub enum Trouble {
     /// The service cannot be reached, or broke off.
     Away(String),
-    /// It refused: its code, and what it says.
-    Refused { code: String, words: String },
+    /// It refused: its code, what it says, and which end of a way it is about (`start`, `goal`).
+    Refused { code: String, words: String, end: Option<String> },
 }
 
 impl std::fmt::Display for Trouble {
@@ -64,6 +64,11 @@ impl Site {
     /// What `GET` answers.
     pub async fn get(&self, path: &str) -> Result<Value, Trouble> {
         self.ask("GET", path, None).await
+    }
+
+    /// What `DELETE` answers.
+    pub async fn delete(&self, path: &str) -> Result<Value, Trouble> {
+        self.ask("DELETE", path, None).await
     }
 
     /// What `POST` answers.
@@ -137,7 +142,8 @@ fn refusal(answer: &Value) -> Trouble {
     let of = |key: &str| answer["error"][key].as_str().unwrap_or_default().to_owned();
     let (message, help) = (of("message"), of("help"));
     let words = if help.is_empty() { message } else { format!("{message}; {help}") };
-    Trouble::Refused { code: of("code"), words }
+    let end = answer["error"]["problems"][0]["nearest"]["end"].as_str().map(str::to_owned);
+    Trouble::Refused { code: of("code"), words, end }
 }
 
 /// A query: `start=2%2C6&goal=gate`.

@@ -1,0 +1,146 @@
+"""A ROS 2 client that does what it is told, a JSON object a line, and says what it hears in the same way."""
+
+import importlib
+import itertools
+import json
+import sys
+import threading
+
+import rclpy
+from rclpy.action import ActionClient
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+LOCK = threading.Lock()
+
+
+def say(what):
+    with LOCK:
+        print(json.dumps(what), flush=True)
+
+
+def kind(name):
+    package, folder, last = name.split("/")
+    return getattr(importlib.import_module(f"{package}.{folder}"), last)
+
+
+def written(value):
+    """A message as JSON; long rows of numbers as pairs of a number and how often it comes."""
+    if hasattr(value, "get_fields_and_field_types"):
+        return {field: written(getattr(value, field)) for field in value.get_fields_and_field_types()}
+    if isinstance(value, (str, bool, int, float)):
+        return value
+    if len(value) > 1000:
+        return [[int(key), len(list(same))] for key, same in itertools.groupby(value)]
+    return [written(one) for one in value]
+
+
+def fill(message, fields):
+    types = message.get_fields_and_field_types()
+    for field, value in fields.items():
+        if isinstance(value, dict):
+            fill(getattr(message, field), value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            package, last = types[field].removeprefix("sequence<").removesuffix(">").split("/")
+            setattr(message, field, [fill(kind(f"{package}/msg/{last}")(), one) for one in value])
+        elif types[field] in ("double", "float"):
+            setattr(message, field, float(value))
+        else:
+            setattr(message, field, value)
+    return message
+
+
+class Client:
+    """One node or several; orders go round among them."""
+
+    def __init__(self, name, count):
+        self.nodes = [rclpy.create_node(f"{name}_{index}") for index in range(count)]
+        self.node = self.nodes[0]
+        self.made = {}
+        self.goals = {}
+
+    def do(self, told):
+        self.node = self.nodes[told["id"] % len(self.nodes)]
+        getattr(self, told["do"])(told)
+
+    def once(self, key, make):
+        key = (self.node, key)
+        if key not in self.made:
+            self.made[key] = make()
+        return self.made[key]
+
+    def qos(self, told):
+        profile = QoSProfile(depth=1 if told.get("latched") else 100)
+        if told.get("latched"):
+            profile.durability = DurabilityPolicy.TRANSIENT_LOCAL
+        return profile
+
+    def call(self, told):
+        service = kind(told["type"])
+        client = self.once(told["name"], lambda: self.node.create_client(service, told["name"]))
+        assert client.wait_for_service(20), "no such service"
+        ended = client.call_async(fill(service.Request(), told["message"]))
+        ended.add_done_callback(lambda done: say({"id": told["id"], "response": written(done.result())}))
+
+    def goal(self, told):
+        action = kind(told["type"])
+        client = self.once(told["name"], lambda: ActionClient(self.node, action, told["name"]))
+        assert client.wait_for_server(20), "no such action"
+
+        def ended(done):
+            say({"id": told["id"], "status": done.result().status, "result": written(done.result().result)})
+
+        def accepted(done):
+            handle = done.result()
+            self.goals[told["id"]] = handle
+            say({"id": told["id"], "accepted": handle.accepted})
+            if handle.accepted:
+                handle.get_result_async().add_done_callback(ended)
+
+        def feedback(message):
+            say({"id": told["id"], "feedback": written(message.feedback)})
+
+        client.send_goal_async(fill(action.Goal(), told["message"]), feedback).add_done_callback(accepted)
+
+    def cancel(self, told):
+        ended = self.goals[told["goal"]].cancel_goal_async()
+        ended.add_done_callback(lambda done: say({"id": told["id"], "code": done.result().return_code}))
+
+    def publish(self, told):
+        message = kind(told["type"])
+        make = lambda: self.node.create_publisher(message, told["name"], self.qos(told))
+        self.once(("to", told["name"]), make).publish(fill(message(), told["message"]))
+
+    def hear(self, told):
+        message = kind(told["type"])
+        heard = lambda what: say({"topic": told["name"], "message": written(what)})
+        self.once(("from", told["name"]), lambda: self.node.create_subscription(message, told["name"], heard, self.qos(told)))
+
+
+def main():
+    rclpy.init()
+    client = Client(sys.argv[1], int(sys.argv[2]))
+    executor = SingleThreadedExecutor()
+    for node in client.nodes:
+        executor.add_node(node)
+
+    def spin():
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            pass
+
+    spinning = threading.Thread(target=spin)
+    spinning.start()
+    say({"is": "there"})
+    for line in sys.stdin:
+        told = json.loads(line)
+        try:
+            client.do(told)
+        except Exception as error:
+            say({"id": told.get("id"), "error": repr(error)})
+    rclpy.shutdown()
+    spinning.join()
+
+
+main()
