@@ -20,7 +20,7 @@ use crate::knowledge::tables;
 use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
 use crate::knowledge::{KnowledgeBase, LAYOUT};
 use crate::plan::course::numbered;
-use crate::words::suggest::did_you_mean;
+use crate::words::suggest::{did_you_mean, listed};
 
 /// What a channel is called, before its number.
 const CHANNEL: &str = "channel";
@@ -149,8 +149,9 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
     }
     let known: Vec<String> = named.names().collect();
     let help = did_you_mean(what, known.iter().map(String::as_str));
-    let help =
-        help.or_else(|| Some("say a doorway, a space, an area, a named door, or a point as x,y".to_owned()));
+    let help = help
+        .or_else(|| listed("there", known.iter().map(String::as_str)))
+        .or_else(|| Some("say a doorway, a space, an area, a named door, or a point as x,y".to_owned()));
     Err(Error::said(
         Code::TellUnknownObject,
         format!("the site has nothing called `{what}` that could be closed"),

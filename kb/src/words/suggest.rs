@@ -2,6 +2,15 @@
 
 use adit_planners::read::nearest;
 
+/// So many names are listed.
+const LISTED: usize = 12;
+
+/// Which names there are, where these are few: `places are dock, home`.
+pub fn listed<'a>(what: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let known: Vec<&str> = known.take(LISTED + 1).collect();
+    (!known.is_empty() && known.len() <= LISTED).then(|| format!("{what} are {}", known.join(", ")))
+}
+
 /// A help text, where a known name is near enough.
 pub fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
     let known: Vec<&str> = known.take(5_000).collect();

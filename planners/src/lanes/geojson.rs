@@ -46,9 +46,9 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
             .push(format!("{others} features are neither points nor lines, and are no part of the graph"));
     }
     if nested > 0 {
+        let all = graph.lanes.len();
         graph.notes.push(format!(
-            "{nested} edges are nested as a LineString and called MultiLineString, or the other way; they are read as they are \
-             nested"
+            "LineString and MultiLineString are mixed up at {nested} of {all} edges, which are read as they are nested"
         ));
     }
     graph.types_by_graph(&[]);

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::value::{At, Read};
-use super::yaml::{self, Written};
+use super::yaml::Yaml;
 use super::{LaneGraph, building, check, geojson, lif, nav_graph, numbers, rmf_site, tmap};
 use crate::read::{Code, Problem};
 
@@ -57,19 +57,22 @@ fn without_mark(text: &str) -> &str {
 /// Reads a text; `file` is how messages call it.
 pub(super) fn parse(file: &str, text: &str) -> Result<LaneGraph, Problem> {
     let extension = Path::new(file).extension().and_then(|end| end.to_str()).unwrap_or_default();
-    let (value, written) = if ["yaml", "yml", "tmap2"].contains(&extension) {
-        yaml::read(file, text).map(|(value, written)| (value, Some(written)))
+    if ["yaml", "yml", "tmap2"].contains(&extension) {
+        let yaml = Yaml::read(file, text)?;
+        of_top(file, &At::top(file, &yaml.value, Some(&yaml)))
     } else {
-        of_json(file, text).map(|value| (value, None::<Written>))
-    }?;
-    let top = At::top(file, &value, written.as_ref());
-    let mut graph = match kind(&top)? {
-        Kind::Building => building::read(&top)?,
-        Kind::NavGraph => nav_graph::read(&top)?,
-        Kind::RmfSite => rmf_site::read(&top)?,
-        Kind::Nav2 => geojson::read(&top)?,
-        Kind::Lif => lif::read(&top)?,
-        Kind::TopologicalMap => tmap::read(&top)?,
+        of_top(file, &At::top(file, &of_json(file, text)?, None))
+    }
+}
+
+fn of_top(file: &str, top: &At<'_>) -> Read<LaneGraph> {
+    let mut graph = match kind(top)? {
+        Kind::Building => building::read(top)?,
+        Kind::NavGraph => nav_graph::read(top)?,
+        Kind::RmfSite => rmf_site::read(top)?,
+        Kind::Nav2 => geojson::read(top)?,
+        Kind::Lif => lif::read(top)?,
+        Kind::TopologicalMap => tmap::read(top)?,
     };
     numbers::fill(&mut graph);
     check::refuse_wrong(&graph)

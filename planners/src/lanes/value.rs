@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Map, Value};
 
-use super::yaml::Written;
+use super::yaml::Yaml;
 use crate::geometry::Point;
 use crate::read::{Code, Problem};
 
@@ -15,16 +15,16 @@ const LARGEST: f64 = 1e9;
 pub(super) struct At<'v> {
     file: &'v str,
     pub value: &'v Value,
-    /// How its scalars stand in a file of YAML, which tells texts from numbers by how they look; `None`: it is JSON.
-    written: Option<&'v Written>,
+    /// The text that it is of, where that tells texts from numbers by how they look; `None`: it is of JSON.
+    yaml: Option<&'v Yaml<'v>>,
     path: String,
 }
 
 pub(super) type Read<T> = Result<T, Problem>;
 
 impl<'v> At<'v> {
-    pub const fn top(file: &'v str, value: &'v Value, written: Option<&'v Written>) -> Self {
-        Self { file, value, written, path: String::new() }
+    pub const fn top(file: &'v str, value: &'v Value, yaml: Option<&'v Yaml<'v>>) -> Self {
+        Self { file, value, yaml, path: String::new() }
     }
 
     /// What is wrong with it.
@@ -44,12 +44,11 @@ impl<'v> At<'v> {
     /// What stands under a key; `None` where nothing does, or null.
     pub fn get(&self, key: &str) -> Option<Self> {
         let value = self.value.get(key).filter(|value| !value.is_null())?;
-        Some(self.entry(key, value))
+        Some(self.part(value, self.within(key)))
     }
 
-    fn entry(&self, key: &str, value: &'v Value) -> Self {
-        let written = self.written.map(|written| written.entry(key));
-        Self { file: self.file, value, written, path: self.within(key) }
+    const fn part(&self, value: &'v Value, path: String) -> Self {
+        Self { file: self.file, value, yaml: self.yaml, path }
     }
 
     pub fn need(&self, key: &str) -> Read<Self> {
@@ -63,10 +62,7 @@ impl<'v> At<'v> {
 
     pub fn items(&self) -> Read<Vec<Self>> {
         let Value::Array(values) = self.value else { return Err(self.wrong("a list")) };
-        let item = |(place, value)| {
-            let written = self.written.map(|written| written.item(place));
-            Self { file: self.file, value, written, path: format!("{}[{place}]", self.path) }
-        };
+        let item = |(place, value)| self.part(value, format!("{}[{place}]", self.path));
         Ok(values.iter().enumerate().map(item).collect())
     }
 
@@ -77,7 +73,8 @@ impl<'v> At<'v> {
 
     pub fn entries(&self) -> Read<Vec<(&'v str, Self)>> {
         let Value::Object(entries) = self.value else { return Err(self.wrong("an object")) };
-        let entry = |(key, value): (&'v String, &'v Value)| (key.as_str(), self.entry(key, value));
+        let entry =
+            |(key, value): (&'v String, &'v Value)| (key.as_str(), self.part(value, self.within(key)));
         Ok(entries.iter().map(entry).collect())
     }
 
@@ -130,9 +127,9 @@ impl<'v> At<'v> {
 
     /// A text. In YAML any scalar is one where a text is expected, as it stands there: rooms are called 101.
     pub fn text(&self) -> Read<String> {
-        match (self.value, self.written) {
+        match (self.value, self.yaml) {
             (Value::String(text), _) => Ok(text.clone()),
-            (Value::Number(_) | Value::Bool(_), Some(written)) => Ok(written.text(self.value)),
+            (Value::Number(_) | Value::Bool(_), Some(yaml)) => Ok(yaml.written(self.value)),
             _ => Err(self.wrong("a text")),
         }
     }
@@ -148,14 +145,14 @@ impl<'v> At<'v> {
         match self.value {
             Value::String(text) if !text.trim().is_empty() => Ok(text.clone()),
             Value::Number(number) if number.is_u64() || number.is_i64() => Ok(number.to_string()),
-            Value::Number(_) | Value::Bool(_) if self.written.is_some() => self.text(),
+            Value::Number(_) | Value::Bool(_) if self.yaml.is_some() => self.text(),
             _ => Err(self.wrong("an id, a text or a whole number")),
         }
     }
 
     /// True or false. YAML's older words for them are texts elsewhere.
     pub fn truth(&self) -> Read<bool> {
-        let word = self.value.as_str().filter(|_| self.written.is_some()).map(str::to_lowercase);
+        let word = self.value.as_str().filter(|_| self.yaml.is_some()).map(str::to_lowercase);
         match (self.value, word.as_deref()) {
             (Value::Bool(truth), _) => Ok(*truth),
             (_, Some("yes" | "y" | "on")) => Ok(true),

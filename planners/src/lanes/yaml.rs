@@ -1,11 +1,12 @@
 //! YAML as values, with the text of each scalar that is read as another thing than a text: a room may be called `1.10` or
 //! `true` without quotes.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 use serde_saphyr::budget::BudgetBreach;
 use serde_saphyr::{Error, MessageFormatter as _, NonFiniteFloatPolicy, Options, UserMessageFormatter};
@@ -20,49 +21,42 @@ const DEEPEST: usize = 64;
 const NODES: usize = 250_000;
 const EVENTS: usize = 1_000_000;
 
-/// How scalars stand in a file, where they are not what their values are written as.
-#[derive(Debug, Default)]
-pub(super) enum Written {
-    #[default]
-    Same,
-    Scalar(String),
-    Items(BTreeMap<usize, Written>),
-    Entries(BTreeMap<String, Written>),
+/// What a text of YAML says, and how its scalars stand there.
+#[derive(Debug)]
+pub(super) struct Yaml<'t> {
+    text: &'t str,
+    pub value: Value,
+    /// By where their values lie. Few files have names that want it, and it takes as long again as the values.
+    written: OnceCell<BTreeMap<*const Value, String>>,
 }
 
-static SAME: Written = Written::Same;
-
-impl Written {
-    pub fn item(&self, place: usize) -> &Self {
-        let Self::Items(items) = self else { return &SAME };
-        items.get(&place).unwrap_or(&SAME)
+impl<'t> Yaml<'t> {
+    /// Reads a text; `file` is how messages call it.
+    pub fn read(file: &str, text: &'t str) -> Read<Self> {
+        let value = serde_saphyr::from_str_with_options(text, options(text)).map_err(|error| {
+            let error = error.without_snippet();
+            let place = error
+                .location()
+                .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
+            Problem::of_file(Code::Syntax, format!("{file}{place}: {}", in_words(error)))
+        })?;
+        Ok(Self { text, value, written: OnceCell::new() })
     }
 
-    pub fn entry(&self, key: &str) -> &Self {
-        let Self::Entries(entries) = self else { return &SAME };
-        entries.get(key).unwrap_or(&SAME)
+    /// How a number, or true or false, of this text stands there.
+    pub fn written(&self, of: &Value) -> String {
+        let written = self.written.get_or_init(|| {
+            let mut written = BTreeMap::new();
+            let again = |yaml: serde_saphyr::Deserializer<'_, '_>| {
+                AsWritten { value: &self.value, written: &mut written }.deserialize(yaml)
+            };
+            // a scalar with a tag of its own may be no text: from there on each is what its value is written as
+            let _ =
+                serde_saphyr::with_deserializer_from_str_with_options(self.text, options(self.text), again);
+            written
+        });
+        written.get(&std::ptr::from_ref(of)).cloned().unwrap_or_else(|| of.to_string())
     }
-
-    /// The text of a number, or of true or false.
-    pub fn text(&self, value: &Value) -> String {
-        if let Self::Scalar(text) = self { text.clone() } else { value.to_string() }
-    }
-}
-
-/// Reads a text; `file` is how messages call it.
-pub(super) fn read(file: &str, text: &str) -> Read<(Value, Written)> {
-    let value = serde_saphyr::from_str_with_options(text, options(text)).map_err(|error| {
-        let error = error.without_snippet();
-        let place = error
-            .location()
-            .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
-        Problem::of_file(Code::Syntax, format!("{file}{place}: {}", in_words(error)))
-    })?;
-    let again = |yaml: serde_saphyr::Deserializer<'_, '_>| AsWritten(&value).deserialize(yaml);
-    // a scalar with a tag of its own may be no text: then each is what its value is written as
-    let written = serde_saphyr::with_deserializer_from_str_with_options(text, options(text), again);
-    let written = written.unwrap_or_default();
-    Ok((value, written))
 }
 
 /// A node takes a byte or more, so that the length of a text bounds what it can hold; aliases, which make much of little, are
@@ -122,61 +116,55 @@ fn in_words(error: &Error) -> String {
 }
 
 /// Reads a value once more, for how its scalars stand there.
-struct AsWritten<'v>(&'v Value);
+struct AsWritten<'v, 'w> {
+    value: &'v Value,
+    written: &'w mut BTreeMap<*const Value, String>,
+}
 
-impl<'de> DeserializeSeed<'de> for AsWritten<'_> {
-    type Value = Written;
+impl AsWritten<'_, '_> {
+    const fn of<'w>(&'w mut self, value: &'w Value) -> AsWritten<'w, 'w> {
+        AsWritten { value, written: self.written }
+    }
+}
 
-    fn deserialize<D: Deserializer<'de>>(self, yaml: D) -> Result<Written, D::Error> {
-        match self.0 {
+impl<'de> DeserializeSeed<'de> for AsWritten<'_, '_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, yaml: D) -> Result<(), D::Error> {
+        match self.value {
             Value::Number(_) | Value::Bool(_) => {
-                let text = String::deserialize(yaml)?;
-                Ok(if text == self.0.to_string() { Written::Same } else { Written::Scalar(text) })
+                self.written.insert(std::ptr::from_ref(self.value), String::deserialize(yaml)?);
+                Ok(())
             }
             Value::Array(_) => yaml.deserialize_seq(self),
             Value::Object(_) => yaml.deserialize_map(self),
-            Value::Null | Value::String(_) => IgnoredAny::deserialize(yaml).map(|_| Written::Same),
+            Value::Null | Value::String(_) => IgnoredAny::deserialize(yaml).map(|_| ()),
         }
     }
 }
 
-impl<'de> Visitor<'de> for AsWritten<'_> {
-    type Value = Written;
+impl<'de> Visitor<'de> for AsWritten<'_, '_> {
+    type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("what was read there before")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut yaml: A) -> Result<Written, A::Error> {
-        let mut items = BTreeMap::new();
-        for (place, value) in self.0.as_array().into_iter().flatten().enumerate() {
-            match yaml.next_element_seed(AsWritten(value))? {
-                None => return Err(A::Error::invalid_length(place, &self)),
-                Some(Written::Same) => {}
-                Some(written) => {
-                    items.insert(place, written);
-                }
-            }
+    fn visit_seq<A: SeqAccess<'de>>(mut self, mut yaml: A) -> Result<(), A::Error> {
+        for value in self.value.as_array().into_iter().flatten() {
+            yaml.next_element_seed(self.of(value))?;
         }
         while yaml.next_element::<IgnoredAny>()?.is_some() {}
-        Ok(if items.is_empty() { Written::Same } else { Written::Items(items) })
+        Ok(())
     }
 
-    fn visit_map<A: MapAccess<'de>>(self, mut yaml: A) -> Result<Written, A::Error> {
-        let mut entries = BTreeMap::new();
+    fn visit_map<A: MapAccess<'de>>(mut self, mut yaml: A) -> Result<(), A::Error> {
         while let Some(key) = yaml.next_key::<String>()? {
-            match self.0.get(&key) {
-                None => {
-                    yaml.next_value::<IgnoredAny>()?;
-                }
-                Some(value) => match yaml.next_value_seed(AsWritten(value))? {
-                    Written::Same => {}
-                    written => {
-                        entries.insert(key, written);
-                    }
-                },
+            match self.value.get(&key) {
+                Some(value) => yaml.next_value_seed(self.of(value))?,
+                None => yaml.next_value::<IgnoredAny>().map(|_| ())?,
             }
         }
-        Ok(if entries.is_empty() { Written::Same } else { Written::Entries(entries) })
+        Ok(())
     }
 }

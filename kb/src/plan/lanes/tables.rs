@@ -22,6 +22,7 @@ pub struct Now {
 
 impl Now {
     /// The same with nothing closed.
+    #[must_use]
     pub fn opened(&self) -> Self {
         let mut graph = self.graph.clone();
         graph.nodes.iter_mut().for_each(|node| node.closed = false);

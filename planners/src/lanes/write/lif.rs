@@ -11,14 +11,18 @@ use crate::lanes::{Lane, LaneGraph, Level, Node, Properties, Station, Use};
 const NO_TIME: &str = "1970-01-01T00:00:00Z";
 
 pub(super) fn write(graph: &LaneGraph) -> Exported {
-    let meta = graph.properties.get("metaInformation").cloned().unwrap_or_else(|| {
-        json!({
-            "projectIdentification": graph.name,
-            "creator": "Adit",
-            "exportTimestamp": NO_TIME,
-            "lifVersion": "1.0.0",
-        })
-    });
+    let usual = object([
+        ("projectIdentification", Some(json!(graph.name))),
+        ("creator", Some(json!("Adit"))),
+        ("exportTimestamp", Some(json!(NO_TIME))),
+        ("lifVersion", Some(json!("1.0.0"))),
+    ]);
+    // other formats may have one, too, which says less
+    let meta = match graph.properties.get("metaInformation") {
+        Some(Value::Object(said)) if said.contains_key("lifVersion") => Value::Object(said.clone()),
+        Some(Value::Object(said)) => with(said.clone(), &usual),
+        _ => Value::Object(usual),
+    };
     let layouts: Vec<Value> = graph.levels.iter().map(|level| layout(graph, level)).collect();
     let mut top = Map::from_iter([("metaInformation".to_owned(), meta)]);
     top.extend(
