@@ -468,6 +468,9 @@ struct Disagreement<'c> {
     said: BTreeMap<&'c str, Vec<String>>,
 }
 
+/// What a room needs to be entered.
+const NEEDED: [&str; 2] = ["ROOMS.hardness", "ROOMS.passable"];
+
 /// Objects on which the same rules disagree, in one sentence.
 fn conflicts(conclusions: &Conclusions) -> Vec<String> {
     let mut groups: BTreeMap<(String, Vec<&str>), Disagreement<'_>> = BTreeMap::new();
@@ -487,8 +490,9 @@ fn conflicts(conclusions: &Conclusions) -> Vec<String> {
         let named = keys.iter().take(5).copied().collect::<Vec<_>>().join(", ");
         let said: Vec<String> =
             said.iter().map(|(rule, values)| format!("\"{rule}\" says {}", any_of(values))).collect();
+        let closed = if NEEDED.contains(&&*property) { ", and until then no route enters them" } else { "" };
         format!(
-            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`",
+            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`{closed}",
             keys.len(),
             said.join(", ")
         )

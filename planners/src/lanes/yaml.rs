@@ -11,7 +11,6 @@ use serde_json::Value;
 use serde_saphyr::budget::BudgetBreach;
 use serde_saphyr::{Error, MessageFormatter as _, NonFiniteFloatPolicy, Options, UserMessageFormatter};
 
-use super::value::Read;
 use crate::read::{Code, Problem};
 
 /// How deep lists and objects may lie in each other.
@@ -32,7 +31,7 @@ pub(super) struct Yaml<'t> {
 
 impl<'t> Yaml<'t> {
     /// Reads a text; `file` is how messages call it.
-    pub fn read(file: &str, text: &'t str) -> Read<Self> {
+    pub fn read(file: &str, text: &'t str) -> Result<Self, Problem> {
         let value = serde_saphyr::from_str_with_options(text, options(text)).map_err(|error| {
             let error = error.without_snippet();
             let place = error

@@ -21,6 +21,6 @@ mod tests {
         assert_eq!(nearest("wdth", &keys), Some("width"));
         assert_eq!(nearest("with", &keys), Some("width"));
         assert_eq!(nearest("robot", &keys), None);
-        assert_eq!(nearest("squat", &["STAND", "SQUAT"]), Some("SQUAT"));
+        assert_eq!(nearest("WIDTH", &keys), Some("width"));
     }
 }

@@ -56,7 +56,8 @@ fn every_file_of_others_is_built_drawn_and_routed() {
         assert_eq!(counted, [nodes.to_string(), lanes.to_string()], "{name}");
         let picture = site.path().join("map.svg");
         site.adit("draw", &["-o", picture.to_str().unwrap()]).expect_status(0);
-        assert!(std::fs::metadata(&picture).unwrap().len() > 2000, "{name}");
+        // one of them has walls and doors alone
+        assert!(std::fs::metadata(&picture).unwrap().len() > 1000, "{name}");
         let ways = site
             .sqlite3("SELECT robot, start, goal FROM route WHERE status = 'ok' ORDER BY cost DESC LIMIT 1");
         let Some(way) = ways.first() else {

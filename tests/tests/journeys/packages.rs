@@ -57,7 +57,10 @@ fn expect_works(program: &Path) {
         |arguments: &[&str]| done(Command::new(program).args(arguments).current_dir(folder.path()).output());
     run(&["new", "my-site"]);
     run(&["build", "my-site"]);
-    assert!(run(&["route", "my-site", "home", "window"]).contains("SQUAT"), "the starter's route squats");
+    assert!(
+        run(&["route", "my-site", "home", "window"]).contains("WALK-ON-KNEE"),
+        "the starter's route squats"
+    );
 }
 
 #[test]
@@ -152,7 +155,7 @@ fn the_bill_of_materials_has_all_that_is_linked_with_checksums_and_names_nothing
 #[test]
 fn crates_are_packed_with_rules_page_licences_and_a_readme() {
     let made = Made::new();
-    let crates = ["adit-engine", "adit-planners", "adit-db", "adit", "adit-fleet"];
+    let crates = ["adit-engine", "adit-planners", "adit-db", "adit", "adit-site", "adit-fleet", "adit-ros"];
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args(["package", "--locked", "--allow-dirty", "--no-verify", "--quiet"]);
     cargo.args(crates.iter().flat_map(|name| ["--package", name]));

@@ -79,9 +79,11 @@ fn one_building_lies_in_the_same_place_in_both_of_open_rmfs_formats() {
     let (one, other) = (places(&building), places(&newer));
     let both: Vec<&String> = one.keys().filter(|name| other.contains_key(*name)).collect();
     assert!(both.len() >= 6, "{one:?} {other:?}");
-    for name in both {
+    let off = |name: &String| {
         let [a, b] = [one[name], other[name]];
-        // the one was drawn on after the other was made of it, so that some were moved a little since
-        assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 0.5, "{name}: {a:?} and {b:?}");
-    }
+        (a[0] - b[0]).hypot(a[1] - b[1])
+    };
+    // the one was drawn on after the other was made of it, so that two were moved since
+    assert!(both.iter().filter(|name| off(name) < 1e-3).count() >= 5, "{one:?} {other:?}");
+    assert!(both.iter().all(|name| off(name) < 1.0), "{one:?} {other:?}");
 }

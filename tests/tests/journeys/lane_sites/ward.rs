@@ -79,12 +79,12 @@ fn a_lift_is_ridden_between_levels_and_closed_by_name() {
 fn tables_and_rules_of_lanes_are_tuned_explained_and_undone() {
     let site = ward();
     let before = site.sqlite3("SELECT * FROM route; SELECT * FROM action_sequence");
-    let limited = site.adit("tune", &["vehicle_types", "robot", "speed", "1"]).expecting(0).stdout;
+    let limited = site.adit("tune", &["vehicle_types", "robot", "speed", "0.55"]).expecting(0).stdout;
     assert!(!limited.is_empty());
     let slow = site.sqlite3(
         "SELECT hardness FROM action_sequence WHERE start = 'lobby' AND goal = 'store' AND place = 'lane 8'",
     );
-    assert_eq!(slow, ["10.0"], "five metres at half a vehicle's speed weigh ten");
+    assert_eq!(slow, ["5.5"], "five metres at ten elevenths of a vehicle's speed weigh a tenth more");
     let why = site.adit("why", &["lane 8 from lobby to store"]).expecting(0).stdout;
     assert!(why.contains("a limit below the vehicle's own speed counts likewise"), "{why}");
     site.adit("undo", &[]).expect_status(0);
