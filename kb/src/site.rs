@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use adit_planners::geometry::Rect;
 use adit_planners::lanes::is_lane_graph;
 use adit_planners::read::{
-    Code, Document, Fields, MapReport, MapSettings, Mask, Overlay, Problem, Unknown, nearest, read_map,
+    AreaFile, Code, Document, Fields, MapReport, MapSettings, Overlay, Problem, Unknown, nearest, read_map,
     read_world,
 };
 use adit_planners::world::{Place, World};
@@ -99,7 +99,7 @@ pub struct Site {
     pub zone: Option<TimeZone>,
     settings: MapSettings,
     overlay: Overlay,
-    masks: Vec<Mask>,
+    areas: Vec<AreaFile>,
     text: String,
 }
 
@@ -200,7 +200,7 @@ const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours"
 /// The keys of a site without a map.
 const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 12] = [
     "name",
     "map",
     "robots",
@@ -213,7 +213,6 @@ const KEYS: [&str; 13] = [
     "clearance",
     "hours",
     "timezone",
-    "mask",
 ];
 
 impl Site {
@@ -242,7 +241,7 @@ impl Site {
             fields.refuse_unknown(&KEYS_WITHOUT_ROOMS, &mut problems);
             rooms = Rooms::Nothing;
         } else {
-            fields.refuse_unknown(&[&KEYS[..], &Overlay::KEYS].concat(), &mut problems);
+            fields.refuse_unknown(&[&KEYS[..], &AreaFile::KEYS, &Overlay::KEYS].concat(), &mut problems);
         }
         let named = |names: Vec<String>| names.iter().map(|name| Base::named(name, folder)).collect();
         let beneath = match (named_rules(&fields, &mut problems), layout) {
@@ -264,7 +263,7 @@ impl Site {
             zone: zone(&fields, &mut problems),
             settings: settings(&fields, &mut problems),
             overlay: Overlay::from_fields(&fields, &mut problems),
-            masks: Mask::from_fields(&fields, folder, &mut problems),
+            areas: AreaFile::from_fields(&fields, folder, &mut problems),
             text: text.clone(),
         };
         site.check_clearance(&fields, &mut problems);
@@ -340,7 +339,7 @@ impl Site {
             let image = image.map(|image| image.trim().trim_matches(['"', '\'']));
             files.extend(image.map(|image| self.map.with_file_name(image)));
         }
-        files.extend(self.masks.iter().flat_map(Mask::files));
+        files.extend(self.areas.iter().flat_map(AreaFile::files));
         files
     }
 
@@ -349,8 +348,8 @@ impl Site {
         let map = if self.map.is_file() { fs::read(&self.map).unwrap_or_default() } else { Vec::new() };
         let mut hasher = SipHasher13::new();
         (&self.text, map).hash(&mut hasher);
-        for mask in &self.masks {
-            fs::read(mask.file()).unwrap_or_default().hash(&mut hasher);
+        for areas in &self.areas {
+            areas.hash_text(&mut hasher);
         }
         hasher.finish()
     }
@@ -369,8 +368,8 @@ impl Site {
     /// Lays over its map what `site.toml` says, and gives notes.
     pub fn lay_over(&self, map: &mut World) -> Result<Vec<Problem>> {
         let mut notes = self.overlay.clone().lay_over(map).map_err(|errors| Error::all(errors.problems))?;
-        for mask in &self.masks {
-            notes.extend(mask.lay_over(map).map_err(|errors| Error::all(errors.problems))?);
+        for areas in &self.areas {
+            notes.extend(areas.lay_over(map).map_err(|errors| Error::all(errors.problems))?);
         }
         Ok(notes)
     }

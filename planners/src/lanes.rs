@@ -13,9 +13,7 @@ mod numbers;
 mod read;
 mod rmf_site;
 mod tmap;
-mod value;
 mod write;
-mod yaml;
 
 use std::collections::BTreeMap;
 

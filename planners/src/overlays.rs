@@ -14,10 +14,14 @@ pub const AREAS: &str = "AREAS";
 pub const NAMED_DOORS: &str = "NAMED_DOORS";
 
 /// Properties that every object of these classes has, known or not, so that rules may speak of them.
-const OWN: [(&str, &str, &str); 5] = [
+const OWN: [(&str, &str, &str); 9] = [
     (AREAS, "closed", "truth"),
     (AREAS, "hardness_factor", "number"),
+    (AREAS, "speed_limit", "number"),
+    (AREAS, "speed_percent", "number"),
     (AREAS, "whole_body", "truth"),
+    (AREAS, "zone", "text"),
+    (AREAS, "zone_factor", "number"),
     (NAMED_DOORS, "closed", "truth"),
     (NAMED_DOORS, "hardness", "number"),
 ];
@@ -29,7 +33,8 @@ pub(crate) fn own_kind(class: &str, property: &str) -> Option<&'static str> {
 
 /// Gives the named areas and doors of the world.
 ///
-/// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `hardness_factor`, `whole_body`, `closed`. `NAMED_DOORS` by name: `door`
+/// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `closed`, `hardness_factor`,
+/// `speed_limit` (m/s), `speed_percent`, `whole_body`, `zone`, `zone_factor`. `NAMED_DOORS` by name: `door`
 /// (the name), `kind`, `x` and `y` (its middle), `width`, `closed`, `hardness`. Both with whatever else is said of one
 /// of them; what is not said of an object is unknown.
 #[derive(Clone, Debug, Default)]

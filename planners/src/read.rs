@@ -1,30 +1,37 @@
 //! Map readers: from a file to a [`World`], with every problem of the file said at its place.
 
+mod area_file;
 pub mod diagnostic;
 mod fields;
 pub mod image;
-pub mod mask;
+mod mask;
 mod occupancy;
 pub mod overlay;
 mod report;
 pub mod ros_map;
 mod salt;
 mod settings;
+mod source;
 mod suggest;
 pub mod toml_map;
+mod value;
+mod yaml;
+mod zone_set;
 
 use std::path::Path;
 
 use crate::world::World;
 
+pub use area_file::AreaFile;
 pub use diagnostic::{Code, MapErrors, Problem, Text};
 pub(crate) use fields::span_of;
 pub use fields::{Document, Fields, Located};
-pub use mask::Mask;
 pub use overlay::Overlay;
 pub use report::MapReport;
 pub use settings::{MapSettings, Unknown};
+pub(crate) use source::Source;
 pub use suggest::nearest;
+pub(crate) use value::{At, Read};
 
 /// Reads a map by its extension: `.toml` a vector map, `.yaml` or `.yml` a map of ROS with its image.
 ///

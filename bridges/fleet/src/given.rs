@@ -96,7 +96,7 @@ impl Given {
     pub fn order(&self, fleet: &Fleet) -> Order {
         let said = self.stitch..self.stops.len();
         let nodes = said.clone().map(|index| self.node(index, fleet)).collect();
-        let edges = said.skip(1).map(|index| self.edge(index, fleet)).collect();
+        let edges = said.skip(1).map(|index| self.edge(index)).collect();
         Order { id: self.id.clone(), update: self.update, nodes, edges }
     }
 
@@ -120,9 +120,8 @@ impl Given {
         }
     }
 
-    fn edge(&self, index: usize, fleet: &Fleet) -> Edge {
+    fn edge(&self, index: usize) -> Edge {
         let (from, to) = (&self.stops[index - 1], &self.stops[index]);
-        let state = to.state.as_ref().and_then(|state| fleet.state(&self.robot, state));
         Edge {
             id: format!("{} - {}", from.id, to.id),
             sequence: 2 * index as u32 - 1,
@@ -130,7 +129,7 @@ impl Given {
             released: index < self.released,
             start: from.id.clone(),
             end: to.id.clone(),
-            speed: state.and_then(|state| state.speed),
+            speed: to.speed,
             height: to.height,
             facing: to.facing,
             length: distance(from.at, to.at),
@@ -176,7 +175,9 @@ fn with_changes_apart(mut way: Vec<Stop>) -> Vec<Stop> {
 
 fn is_same(one: &[Stop], other: &[Stop]) -> bool {
     let near = |(a, b): (&Stop, &Stop)| {
-        distance(a.at, b.at) < SAME && a.becomes == b.becomes && a.doorway == b.doorway && a.state == b.state
+        let is_same =
+            a.becomes == b.becomes && a.doorway == b.doorway && a.state == b.state && a.speed == b.speed;
+        is_same && distance(a.at, b.at) < SAME
     };
     one.len() == other.len() && one.iter().zip(other).all(near)
 }

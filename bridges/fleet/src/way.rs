@@ -1,6 +1,8 @@
 //! A route as a vehicle drives it: stops, with what is between them.
 
-use crate::site::Route;
+use geo::{Coord, Intersects, Line as Leg, LineString, Polygon};
+
+use crate::site::{Area, Route};
 
 /// How near two points are one, metres.
 pub const SAME: f64 = 0.02;
@@ -11,6 +13,22 @@ pub struct Margins {
     pub before: f64,
     /// How long before it would have to stop it is let on.
     pub ahead: f64,
+}
+
+/// A robot in one of its states.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Body {
+    /// Half its width, metres.
+    pub half: f64,
+    /// Metres per second, where that is known.
+    pub speed: Option<f64>,
+}
+
+/// What the floor asks of whoever drives there.
+#[derive(Clone, Copy, Debug)]
+pub struct Floor<'a> {
+    pub bridges: &'a [Bridge],
+    pub areas: &'a [Area],
 }
 
 /// Something low over the floor.
@@ -39,6 +57,8 @@ pub struct Stop {
     pub deviation: Option<f64>,
     /// The lowest that is over the way there, metres.
     pub height: Option<f64>,
+    /// How fast one drives there at most, metres per second: as the state does, and the areas on the way there let it.
+    pub speed: Option<f64>,
     /// The doorway in which it lies.
     pub doorway: Option<String>,
     /// Whether it is where to wait before a doorway.
@@ -53,28 +73,28 @@ struct Mark {
     stop: Stop,
 }
 
-/// The stops of a route, from its start to its goal. `half` is half the width of each state.
-pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridges: &[Bridge]) -> Vec<Stop> {
+/// The stops of a route, from its start to its goal, of a robot with these bodies by state.
+pub fn stops(route: &Route, body: impl Fn(&str) -> Body, margins: &Margins, floor: Floor<'_>) -> Vec<Stop> {
     let Some(line) = Line::of(route) else { return Vec::new() };
     let mut marks = line.bends(route);
     let passages = line.passages(route);
-    let mut floor = 0.0;
+    let mut passed = 0.0;
     for (s, doorway) in &passages {
         let (at, leg) = line.at(*s);
         let state = route.waypoints[leg].state.as_deref().unwrap_or_default();
-        let keep = half(state);
+        let keep = body(state).half;
         let wait = s - keep - margins.before;
         let space = Line::space(&passages, route, wait);
-        if wait > floor {
-            line.add_wait(&mut marks, wait, floor, format!("before {doorway}, {space}"), route);
-            if wait - margins.ahead > floor {
+        if wait > passed {
+            line.add_wait(&mut marks, wait, passed, format!("before {doorway}, {space}"), route);
+            if wait - margins.ahead > passed {
                 let stop = Stop { words: format!("towards {doorway}, {space}"), ..Stop::default() };
                 line.add(&mut marks, wait - margins.ahead, stop, route);
             }
         }
         let stop = Stop { words: doorway.clone(), doorway: Some(doorway.clone()), at, ..Stop::default() };
         line.add(&mut marks, *s, stop, route);
-        floor = s + keep;
+        passed = s + keep;
     }
     marks.sort_by(|one, other| one.s.total_cmp(&other.s));
     let total = line.total();
@@ -92,8 +112,9 @@ pub fn stops(route: &Route, half: impl Fn(&str) -> f64, margins: &Margins, bridg
         }
         stop.id = if is_place { place.clone() } else { named(&stop.words, stop.at) };
         if let Some(before) = stops.last() {
-            stop.height =
-                lowest(bridges, before.at, stop.at, half(stop.state.as_deref().unwrap_or_default()));
+            let body = body(stop.state.as_deref().unwrap_or_default());
+            stop.height = lowest(floor.bridges, before.at, stop.at, body.half);
+            stop.speed = slowest(floor.areas, before.at, stop.at, body.speed);
         }
         stops.push(stop);
     }
@@ -278,6 +299,18 @@ fn along(facing: f64, heading: Option<f64>) -> f64 {
 fn lowest(bridges: &[Bridge], a: [f64; 2], b: [f64; 2], half: f64) -> Option<f64> {
     let over = bridges.iter().filter(|bridge| meets(bridge.rect, a, b, half));
     over.map(|bridge| bridge.height).min_by(f64::total_cmp)
+}
+
+/// How fast a body may go there that goes so fast by itself. As rooms have it, its middle is what enters an area.
+fn slowest(areas: &[Area], a: [f64; 2], b: [f64; 2], own: Option<f64>) -> Option<f64> {
+    let coord = |[x, y]: [f64; 2]| Coord { x, y };
+    let leg = Leg::new(coord(a), coord(b));
+    let limited = areas.iter().filter_map(|area| Some((area, area.speed_limit(own)?)));
+    let met = limited.filter(|(area, _)| {
+        let ring: LineString = area.corners.iter().copied().map(coord).collect();
+        Polygon::new(ring, Vec::new()).intersects(&leg)
+    });
+    met.map(|(_, limit)| limit).chain(own).min_by(f64::total_cmp)
 }
 
 /// Whether a segment comes as near as that to a rectangle, its corners rounded up.

@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::value::{At, Read};
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, Wall, doors};
 use crate::geometry::Point;
-use crate::read::Code;
+use crate::read::{At, Code, Read};
 
 /// Metres of a degree of latitude, of a sphere of the earth's mean radius.
 const DEGREE_M: f64 = 111_194.93;

@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::Value;
 
-use super::value::{At, Read};
 use super::{Lane, LaneGraph, Level, Node, doors};
 use crate::geometry::Point;
-use crate::read::Code;
+use crate::read::{At, Code, Read};
 
 /// All nodes of a route graph are on one level.
 pub(super) const LEVEL: &str = "map";

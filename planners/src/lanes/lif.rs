@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::value::{At, Read};
 use super::{Lane, LaneGraph, Level, Load, Node, Properties, Station, Use, VehicleType};
 use crate::geometry::Point;
-use crate::read::Code;
+use crate::read::{At, Code, Read};
 
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let meta = top.need("metaInformation")?;

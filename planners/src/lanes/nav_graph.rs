@@ -1,8 +1,8 @@
 //! A navigation graph of Open-RMF: `nav_graphs/0.yaml`, as fleet adapters read it.
 
 use super::building::degrees;
-use super::value::{At, Read};
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, doors};
+use crate::read::{At, Read};
 
 /// The one graph of such a file.
 const GRAPH: &str = "0";

@@ -2,12 +2,8 @@
 
 use std::path::Path;
 
-use serde_json::Value;
-
-use super::value::{At, Read};
-use super::yaml::Yaml;
 use super::{LaneGraph, building, check, geojson, lif, nav_graph, numbers, rmf_site, tmap};
-use crate::read::{Code, Problem};
+use crate::read::{At, Code, Problem, Read, Source};
 
 /// The formats that are told apart by what stands at the top of a file.
 #[derive(Clone, Copy)]
@@ -42,7 +38,7 @@ pub fn read_lane_graph(path: &Path) -> Result<LaneGraph, Problem> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| Problem::of_file(Code::Unreadable, format!("{file} cannot be read: {error}")))?;
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let mut graph = parse(&file, without_mark(&text))?;
+    let mut graph = parse(&file, &text)?;
     if graph.name.is_empty() {
         stem.split('.').next().unwrap_or_default().clone_into(&mut graph.name);
     }
@@ -56,13 +52,8 @@ fn without_mark(text: &str) -> &str {
 
 /// Reads a text; `file` is how messages call it.
 pub(super) fn parse(file: &str, text: &str) -> Result<LaneGraph, Problem> {
-    let extension = Path::new(file).extension().and_then(|end| end.to_str()).unwrap_or_default();
-    if ["yaml", "yml", "tmap2"].contains(&extension) {
-        let yaml = Yaml::read(file, text)?;
-        of_top(file, &At::top(file, &yaml.value, Some(&yaml)))
-    } else {
-        of_top(file, &At::top(file, &of_json(file, text)?, None))
-    }
+    let source = Source::read(file, text)?;
+    of_top(file, &source.top())
 }
 
 fn of_top(file: &str, top: &At<'_>) -> Read<LaneGraph> {
@@ -78,13 +69,6 @@ fn of_top(file: &str, top: &At<'_>) -> Read<LaneGraph> {
     check::refuse_wrong(&graph)
         .map_err(|wrong| Problem::of_file(wrong.code, format!("{file}: {}", wrong.message)))?;
     Ok(graph)
-}
-
-fn of_json(file: &str, text: &str) -> Read<Value> {
-    serde_json::from_str(text).map_err(|error| {
-        let place = format!("{file}, line {}, column {}", error.line(), error.column());
-        Problem::of_file(Code::Syntax, format!("{place}: not JSON: {error}"))
-    })
 }
 
 fn kind(top: &At<'_>) -> Read<Kind> {

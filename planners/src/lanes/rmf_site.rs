@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::value::{At, Read};
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Wall, doors};
 use crate::geometry::Point;
-use crate::read::Code;
+use crate::read::{At, Code, Read};
 
 /// Where anchors are, with their level.
 type Anchors<'v> = BTreeMap<&'v str, (Point, String)>;

@@ -1,8 +1,8 @@
 //! A topological map of STRANDS and LCAS: `tmap2`, where each edge names an action.
 
-use super::value::{At, Read};
 use super::{Lane, LaneGraph, Level, Node};
 use crate::geometry::Point;
+use crate::read::{At, Read};
 
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };

@@ -188,6 +188,9 @@ fn summary(problems: &[Problem]) -> String {
     }
 }
 
+/// A line of more bytes is not shown.
+const SHOWN: usize = 400;
+
 /// The text of a file with its name, shared by all that is said about it.
 #[derive(Clone, Debug)]
 pub struct Text(Arc<NamedSource<String>>);
@@ -207,11 +210,22 @@ impl Text {
         self.0.inner().match_indices('\n').take_while(|&(end, _)| end < byte).count() + 1
     }
 
-    /// A problem at a place of this text.
+    /// A problem at a place of this text, shown with its line where people can read that: a file that a program wrote may be one
+    /// line.
     pub fn problem(&self, code: Code, span: &Range<usize>, message: impl Into<String>) -> Problem {
+        let text = self.0.inner();
+        let start = text.floor_char_boundary(span.start);
+        let span = start..text.floor_char_boundary(span.end).max(start);
+        let first = text[..start].rfind('\n').map_or(0, |end| end + 1);
+        let last = text[start..].find('\n').map_or(text.len(), |end| start + end);
+        if last - first > SHOWN {
+            let (line, column) = (self.line(start), text[first..start].chars().count() + 1);
+            let message = format!("{}, line {line}, column {column}: {}", self.name(), message.into());
+            return Problem::of_file(code, message);
+        }
         let mut problem = Problem::of_file(code, message);
         problem.text = Some(self.clone());
-        problem.labels.push(LabeledSpan::new_primary_with_span(None, span.clone()));
+        problem.labels.push(LabeledSpan::new_primary_with_span(None, span));
         problem
     }
 }

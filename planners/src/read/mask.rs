@@ -44,7 +44,11 @@ const UNITS: [(&str, &str); 2] = [("percent", "speed_percent"), ("m/s", "speed_l
 
 impl Mask {
     /// Reads the entries `[[mask]]`; files are relative to `folder`.
-    pub fn from_fields(fields: &Fields<'_, '_>, folder: &Path, problems: &mut Vec<Problem>) -> Vec<Self> {
+    pub(super) fn from_fields(
+        fields: &Fields<'_, '_>,
+        folder: &Path,
+        problems: &mut Vec<Problem>,
+    ) -> Vec<Self> {
         let mut masks = Vec::new();
         for item in fields.tables("mask", "[[mask]]", problems) {
             item.refuse_unknown(&KEYS, problems);
@@ -63,12 +67,12 @@ impl Mask {
     }
 
     /// The file that says how the image is meant.
-    pub fn file(&self) -> &Path {
+    pub(super) fn file(&self) -> &Path {
         &self.file
     }
 
     /// That file, and the image that it names.
-    pub fn files(&self) -> Vec<PathBuf> {
+    pub(super) fn files(&self) -> Vec<PathBuf> {
         let text = fs::read_to_string(&self.file).unwrap_or_default();
         let image = yaml::parse(&Text::new("mask", &text), &text).ok();
         let image = image.map(|file| self.file.with_file_name(file.image));
@@ -77,7 +81,7 @@ impl Mask {
 
     /// Lays the areas of the mask over a world, and gives notes. What is solid in the world is left to it: masks are often
     /// drawn on a copy of the map's image.
-    pub fn lay_over(&self, world: &mut World) -> Result<Vec<Problem>, MapErrors> {
+    pub(super) fn lay_over(&self, world: &mut World) -> Result<Vec<Problem>, MapErrors> {
         let name = self.file.display().to_string();
         let text = fs::read_to_string(&self.file).map_err(|error| {
             let message = format!("the mask `{name}` cannot be read: {error}");

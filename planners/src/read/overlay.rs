@@ -14,7 +14,9 @@ use super::fields::{Document, Fields, Located};
 use crate::overlays::AREAS;
 use crate::world::{Area, Bridge, NamedDoor, Place, Shape, World};
 use named::Given;
+pub(super) use named::centre;
 use names::Names;
+pub(super) use outline::ring;
 
 /// Items with their places in a text, checked in themselves (finite, positive, with an area) but not yet
 /// against a world.

@@ -56,3 +56,4 @@ mod tunings;
 mod where_it_fits;
 mod why;
 mod why_not;
+mod zone_sets;

@@ -3,7 +3,7 @@
 use super::{AGAIN, Driver, Effect, Follows, Now, Sent, words};
 use crate::given::Given;
 use crate::site::Route;
-use crate::way::{SAME, Stop, distance, stops};
+use crate::way::{Body, Floor, SAME, Stop, distance, stops};
 
 /// Seconds after which an order that was refused is tried once more.
 const ANEW: f64 = 10.0;
@@ -202,11 +202,15 @@ impl Driver {
 
     fn stops(&self, route: &Route, now: &Now<'_, '_>) -> Vec<Stop> {
         let robot = self.robot(now.world);
-        let half = |state: &str| {
+        let body = |state: &str| {
             let known = now.world.fleet.state(&robot, state);
-            known.map_or(0.0, |state| state.width.max(state.length.unwrap_or(0.0)) / 2.0)
+            known.map_or(Body::default(), |state| Body {
+                half: state.width.max(state.length.unwrap_or(0.0)) / 2.0,
+                speed: state.speed,
+            })
         };
-        stops(route, half, now.world.margins, now.world.bridges)
+        let floor = Floor { bridges: now.world.bridges, areas: now.world.areas };
+        stops(route, body, now.world.margins, floor)
     }
 
     /// The way is asked for from where the base ends.

@@ -28,6 +28,10 @@ pub enum Meaning {
     Priority(f64),
     /// In which direction they drive, degrees, and how strictly: SOFT, RESTRICTED or STRICT.
     Directed(f64, String),
+    /// As that, or the other way round; SOFT or RESTRICTED.
+    Bidirected(f64, String),
+    /// They keep to the lines of their orders.
+    LineGuided,
     /// What they do when they enter it, and what they may do meanwhile.
     Action(String, Option<String>),
 }
@@ -47,6 +51,13 @@ impl Area {
         Some(Self { name: area["name"].as_str()?.to_owned(), corners, said })
     }
 
+    /// How fast one drives in it who drives so fast elsewhere, metres per second; `None` where it says nothing of that.
+    pub fn speed_limit(&self, own: Option<f64>) -> Option<f64> {
+        let said = |property| number(&self.said, property).filter(|number| *number > 0.0);
+        let share = said("speed_percent").zip(own).map(|(percent, own)| own * percent / 100.0);
+        said("speed_limit").into_iter().chain(share).min_by(f64::total_cmp)
+    }
+
     /// What it is to vehicles, where kinds of areas are such zones; `None` where it is nothing to them. A sentence where that
     /// cannot be told.
     pub fn meaning(&self, kinds: &BTreeMap<String, String>) -> Result<Option<Meaning>, String> {
@@ -63,6 +74,12 @@ impl Area {
             let factor = number(row, "zone_factor").filter(|factor| (0.0..=1.0).contains(factor));
             factor.ok_or_else(|| needs("zone_factor", "from 0 to 1"))
         };
+        let directed = |known: &[&str]| {
+            let degrees = number(row, "zone_direction").ok_or_else(|| needs("zone_direction", "degrees"))?;
+            let limit = text(row, "zone_limitation").unwrap_or_else(|| "SOFT".to_owned());
+            let is_known = known.contains(&limit.as_str());
+            is_known.then_some((degrees, limit)).ok_or_else(|| needs("zone_limitation", &known.join(" or ")))
+        };
         Ok(Some(match zone.as_str() {
             "BLOCKED" => Meaning::Blocked,
             "SPEED_LIMIT" => {
@@ -72,13 +89,14 @@ impl Area {
             "PENALTY" => Meaning::Penalty(factor()?),
             "PRIORITY" => Meaning::Priority(factor()?),
             "DIRECTED" => {
-                let degrees = number(row, "zone_direction");
-                let limit = text(row, "zone_limitation").unwrap_or_else(|| "SOFT".to_owned());
-                if !["SOFT", "RESTRICTED", "STRICT"].contains(&limit.as_str()) {
-                    return Err(needs("zone_limitation", "SOFT, RESTRICTED or STRICT"));
-                }
-                Meaning::Directed(degrees.ok_or_else(|| needs("zone_direction", "degrees"))?, limit)
+                let (degrees, limit) = directed(&["SOFT", "RESTRICTED", "STRICT"])?;
+                Meaning::Directed(degrees, limit)
             }
+            "BIDIRECTED" => {
+                let (degrees, limit) = directed(&["SOFT", "RESTRICTED"])?;
+                Meaning::Bidirected(degrees, limit)
+            }
+            "LINE_GUIDED" => Meaning::LineGuided,
             "ACTION" => {
                 let action = text(row, "zone_action");
                 let action =
@@ -87,7 +105,7 @@ impl Area {
             }
             _ => {
                 return Err(format!(
-                    "the area `{area}` is to be a zone `{zone}`; known are BLOCKED, SPEED_LIMIT, PENALTY, PRIORITY, DIRECTED, ACTION"
+                    "the area `{area}` is to be a zone `{zone}`; known are BLOCKED, SPEED_LIMIT, PENALTY, PRIORITY, DIRECTED, BIDIRECTED, LINE_GUIDED, ACTION"
                 ));
             }
         }))

@@ -42,6 +42,10 @@ impl Zone {
             ZoneMeaning::Directed(degrees, limit) => {
                 ("DIRECTED", json!({"direction": radians(*degrees), "directedLimitation": limit}))
             }
+            ZoneMeaning::Bidirected(degrees, limit) => {
+                ("BIDIRECTED", json!({"direction": radians(*degrees), "bidirectedLimitation": limit}))
+            }
+            ZoneMeaning::LineGuided => ("LINE_GUIDED", json!({})),
             ZoneMeaning::Action(action, blocking) => {
                 let blocking = blocking.as_deref().and_then(Blocking::read).unwrap_or(Blocking::Hard);
                 let action = json!({"actionType": action, "blockingType": blocking.word(to.version)});

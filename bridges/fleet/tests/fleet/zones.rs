@@ -2,7 +2,7 @@
 
 use adit_fleet::driver::{Clock, Driver, Effect, World};
 use adit_fleet::site::{Area, Vehicle};
-use adit_fleet::way::Margins;
+use adit_fleet::way::{Body, Floor, Margins, stops};
 use adit_fleet::wire::{self, Version};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -43,7 +43,18 @@ fn area(name: &str, kind: Option<&str>, properties: &Value) -> Value {
 /// Areas of which all that may be said is said by chance, right or wrong.
 fn areas(chance: &mut Chance) -> Value {
     let kinds = [None, Some("keep-out"), Some("speed-limit"), Some("wet")];
-    let zones = ["BLOCKED", "SPEED_LIMIT", "PENALTY", "PRIORITY", "DIRECTED", "ACTION", "RELEASE", ""];
+    let zones = [
+        "BLOCKED",
+        "SPEED_LIMIT",
+        "PENALTY",
+        "PRIORITY",
+        "DIRECTED",
+        "BIDIRECTED",
+        "LINE_GUIDED",
+        "ACTION",
+        "RELEASE",
+        "",
+    ];
     let one = |number: u64, chance: &mut Chance| {
         let mut properties = json!({
             "zone_factor": chance.metres() / 10.0, "speed_limit": chance.metres() / 10.0, "zone_direction": chance.metres() * 30.0,
@@ -56,7 +67,7 @@ fn areas(chance: &mut Chance) -> Value {
             }
         }
         if chance.below(4) > 0 {
-            properties["zone"] = json!(zones[chance.below(8) as usize]);
+            properties["zone"] = json!(zones[chance.below(10) as usize]);
         }
         let mut area = area(&format!("area {number}"), kinds[chance.below(4) as usize], &properties);
         let corners: Vec<_> = (0..3 + chance.below(5)).map(|_| [chance.metres(), chance.metres()]).collect();
@@ -102,6 +113,8 @@ fn each_kind_of_zone_says_what_is_said_of_the_area() {
             None,
             &json!({"zone": "DIRECTED", "zone_direction": 90.0, "zone_limitation": "STRICT"})
         ),
+        area("aisle", None, &json!({"zone": "BIDIRECTED", "zone_direction": 180.0})),
+        area("line", None, &json!({"zone": "LINE_GUIDED"})),
         area("crossing", None, &json!({"zone": "ACTION", "zone_action": "beep", "zone_blocking": "NONE"})),
         area("hall", None, &json!({})),
         area("slow", Some("speed-limit"), &json!({"speed_percent": 50.0})),
@@ -118,6 +131,8 @@ fn each_kind_of_zone_says_what_is_said_of_the_area() {
         ("lane", "priorityFactor", json!(0.25)),
         ("one way", "direction", json!(90f64.to_radians())),
         ("one way", "directedLimitation", json!("STRICT")),
+        ("aisle", "bidirectedLimitation", json!("SOFT")),
+        ("line", "zoneType", json!("LINE_GUIDED")),
         ("crossing", "entryActions", json!([{"actionType": "beep", "blockingType": "NONE"}])),
     ] {
         assert_eq!(of(name)[key], value, "{name}");
@@ -126,10 +141,36 @@ fn each_kind_of_zone_says_what_is_said_of_the_area() {
         of("stairs")["vertices"],
         json!([{"x": 0.0, "y": 0.0}, {"x": 2.0, "y": 0.0}, {"x": 2.0, "y": 1.5}])
     );
-    assert_eq!(zones.len(), 7);
+    assert_eq!(zones.len(), 9);
     assert!(
         said.iter().any(|words| words.contains("`slow` is no zone SPEED_LIMIT: it needs a `speed_limit`")),
         "{said:?}"
     );
     assert_eq!(told[2].1["zoneSet"]["zones"], json!([]));
+}
+
+#[test]
+fn one_drives_no_faster_on_a_leg_than_any_area_on_it_lets_one() {
+    let areas = json!([
+        area("ramp", Some("speed-limit"), &json!({"speed_limit": 0.5})),
+        area("ward", Some("speed-limit"), &json!({"speed_percent": 25.0})),
+        area("hall", None, &json!({})),
+    ]);
+    let mut areas = Area::read(&json!({"areas": areas}));
+    // the ramp from x 0 to 2, the ward from 10 to 12
+    areas[1].corners.iter_mut().for_each(|corner| corner[0] += 10.0);
+    let route = json!({"status": "ok", "start": "0,1", "goal": "14,1", "waypoints": [
+        {"x": 0.0, "y": 1.0, "state": "GO"}, {"x": 1.9, "y": 1.4, "state": "GO"}, {"x": 6.0, "y": 1.0, "state": "GO"},
+        {"x": 14.0, "y": 1.0, "state": "GO"}, {"x": 11.0, "y": 8.0, "state": "GO"},
+    ]});
+    let route = serde_json::from_value(route).unwrap();
+    let margins = Margins { before: 0.3, ahead: 3.0 };
+    let speeds = |own| {
+        let floor = Floor { bridges: &[], areas: &areas };
+        let stops = stops(&route, |_| Body { half: 0.3, speed: own }, &margins, floor);
+        stops.iter().skip(1).map(|stop| stop.speed).collect::<Vec<_>>()
+    };
+    assert_eq!(speeds(Some(1.2)), [Some(0.5), Some(0.5), Some(0.3), Some(1.2)]);
+    assert_eq!(speeds(None), [Some(0.5), Some(0.5), None, None], "a share of what is not known is not known");
+    assert_eq!(speeds(Some(0.4))[0], Some(0.4));
 }

@@ -111,6 +111,14 @@ class Client:
         make = lambda: self.node.create_publisher(message, told["name"], self.qos(told))
         self.once(("to", told["name"]), make).publish(fill(message(), told["message"]))
 
+    def keep(self, told):
+        """Publishes ten times a second from now on, as a robot does that says where it is."""
+        key = ("kept", told["name"])
+        if (before := self.made.pop((self.node, key), None)) is not None:
+            self.node.destroy_timer(before)
+        self.publish(told)
+        self.once(key, lambda: self.node.create_timer(0.1, lambda: self.publish(told)))
+
     def hear(self, told):
         message = kind(told["type"])
         heard = lambda what: say({"topic": told["name"], "message": written(what)})

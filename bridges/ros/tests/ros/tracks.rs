@@ -96,7 +96,7 @@ fn a_route_that_leads_nowhere_any_more_is_given_up_and_one_can_be_cancelled() {
     floor.edit(&json!({"kind": "open", "what": "doorway 1"}));
     let id = client.begin("/compute_and_track_route", &goal());
     client.until("a route", |said| is_feedback(said, id));
-    client.order("publish", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(22.2, 27.6));
+    client.order("keep", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(22.2, 27.6));
     let other =
         client.until("another way", |said| is_feedback(said, id) && said["feedback"]["rerouted"] == true);
     assert_eq!(points(&other["feedback"]["path"]), floor.waypoints("22.2,27.6", "53.8,14"));

@@ -1,8 +1,10 @@
 //! Rectangles and polygons of items, checked in themselves.
 
+use std::ops::Range;
+
 use geo::{Area, Validation};
 
-use super::super::diagnostic::{Code, Problem};
+use super::super::diagnostic::{Code, Problem, Text};
 use super::super::fields::{Fields, Located};
 use crate::geometry::polygon::{self_crossing, to_geo};
 use crate::geometry::{Point, Rect, orient};
@@ -48,46 +50,52 @@ pub(super) fn rect(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option
 
 fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> {
     let Located { value, span } = item.points("polygon", problems)?;
-    let mut corners: Vec<Located<Point>> = value
-        .into_iter()
-        .map(|Located { value: [x, y], span }| Located { value: Point::new(x, y), span })
-        .collect();
+    let corners =
+        value.into_iter().map(|Located { value: [x, y], span }| Located { value: Point::new(x, y), span });
+    ring(item.text, thing(item), &span, corners.collect()).map_err(|problem| problems.push(problem)).ok()
+}
+
+/// The outline of a `thing` through these corners; the first may stand at the end once more.
+pub(in crate::read) fn ring(
+    text: &Text,
+    thing: &str,
+    span: &Range<usize>,
+    mut corners: Vec<Located<Point>>,
+) -> Result<Shape, Problem> {
     corners.dedup_by_key(|corner| corner.value);
     if corners.len() > 1 && corners.first().map(|c| c.value) == corners.last().map(|c| c.value) {
         corners.pop();
     }
-    let problem = |code, message: String| item.text.problem(code, &span, message);
+    let problem = |code, message: String| text.problem(code, span, message);
     if corners.len() < 3 {
         let message = format!("a polygon needs three different corners, this one has {}", corners.len());
-        problems.push(problem(Code::FewCorners, message));
-        return None;
+        return Err(problem(Code::FewCorners, message));
     }
     let points: Vec<Point> = corners.iter().map(|corner| corner.value).collect();
     let outline = to_geo(&points);
     let invalid = outline.check_validation().err();
-    let is_line = thing(item) == "area" && outline.unsigned_area() < LEAST_AREA;
+    let is_line = thing == "area" && outline.unsigned_area() < LEAST_AREA;
     if invalid.is_none() && !is_line {
-        return Some(Shape::Polygon(points));
+        return Ok(Shape::Polygon(points));
     }
-    problems.push(match (crossing_edges(&points), invalid.filter(|_| !is_line)) {
+    Err(match (crossing_edges(&points), invalid.filter(|_| !is_line)) {
         (Some((i, j)), _) => {
             let (a, b) = (edge(&points, i), edge(&points, j));
             let message = format!("this polygon crosses itself: its edge {a} meets its edge {b}");
             problem(Code::SelfCrossing, message)
                 .and_at(&corners[i].span, "one edge begins here")
                 .and_at(&corners[j].span, "the other one here")
-                .with_help(format!("list the corners in order around the {}, each once", thing(item)))
+                .with_help(format!("list the corners in order around the {thing}, each once"))
         }
         (None, Some(invalid)) => {
             problem(Code::SelfCrossing, format!("this polygon is not a simple outline: {invalid}"))
-                .with_help(format!("list the corners in order around the {}, each once", thing(item)))
+                .with_help(format!("list the corners in order around the {thing}, each once"))
         }
         (None, None) => {
             let message = "this polygon has no area: its corners lie on one line".to_owned();
             problem(Code::Degenerate, message)
         }
-    });
-    None
+    })
 }
 
 fn thing<'a>(item: &Fields<'a, '_>) -> &'a str {

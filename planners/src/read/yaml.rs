@@ -4,14 +4,18 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::Range;
 
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 use serde_saphyr::budget::BudgetBreach;
-use serde_saphyr::{Error, MessageFormatter as _, NonFiniteFloatPolicy, Options, UserMessageFormatter};
+use serde_saphyr::{
+    Error, MessageFormatter as _, NonFiniteFloatPolicy, Options, Spanned, UserMessageFormatter,
+};
 
-use crate::read::{Code, Problem};
+use super::fields::span_of;
+use super::value::Step;
 
 /// How deep lists and objects may lie in each other.
 const DEEPEST: usize = 64;
@@ -22,7 +26,7 @@ const EVENTS: usize = 1_000_000;
 
 /// What a text of YAML says, and how its scalars stand there.
 #[derive(Debug)]
-pub(super) struct Yaml<'t> {
+pub(crate) struct Yaml<'t> {
     text: &'t str,
     pub value: Value,
     /// By where their values lie. Few files have names that want it, and it takes as long again as the values.
@@ -30,16 +34,23 @@ pub(super) struct Yaml<'t> {
 }
 
 impl<'t> Yaml<'t> {
-    /// Reads a text; `file` is how messages call it.
-    pub fn read(file: &str, text: &'t str) -> Result<Self, Problem> {
+    /// Reads a text. The error is where it is wrong, and in words how.
+    pub fn read(text: &'t str) -> Result<Self, (Option<Range<usize>>, String)> {
         let value = serde_saphyr::from_str_with_options(text, options(text)).map_err(|error| {
             let error = error.without_snippet();
-            let place = error
-                .location()
-                .map_or_else(String::new, |at| format!(", line {}, column {}", at.line(), at.column()));
-            Problem::of_file(Code::Syntax, format!("{file}{place}: {}", in_words(error)))
+            (error.location().map(span_of), in_words(error))
         })?;
         Ok(Self { text, value, written: OnceCell::new() })
+    }
+
+    /// Where a value stands.
+    pub fn span(&self, steps: &[Step<'_>]) -> Option<Range<usize>> {
+        let mut span = None;
+        let find =
+            |yaml: serde_saphyr::Deserializer<'_, '_>| Find { steps, span: &mut span }.deserialize(yaml);
+        // it is read no further than to there
+        let _ = serde_saphyr::with_deserializer_from_str_with_options(self.text, options(self.text), find);
+        span
     }
 
     /// How a number, or true or false, of this text stands there.
@@ -162,6 +173,57 @@ impl<'de> Visitor<'de> for AsWritten<'_, '_> {
             match self.value.get(&key) {
                 Some(value) => yaml.next_value_seed(self.of(value))?,
                 None => yaml.next_value::<IgnoredAny>().map(|_| ())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Goes to a value, for where it stands.
+struct Find<'s> {
+    steps: &'s [Step<'s>],
+    span: &'s mut Option<Range<usize>>,
+}
+
+impl<'de> DeserializeSeed<'de> for Find<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, yaml: D) -> Result<(), D::Error> {
+        match self.steps.first() {
+            None => {
+                *self.span = Some(span_of(Spanned::<IgnoredAny>::deserialize(yaml)?.referenced));
+                Ok(())
+            }
+            Some(Step::Item(_)) => yaml.deserialize_seq(self),
+            Some(Step::Key(_)) => yaml.deserialize_map(self),
+        }
+    }
+}
+
+impl<'de> Visitor<'de> for Find<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("what was read there before")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut yaml: A) -> Result<(), A::Error> {
+        let [Step::Item(place), steps @ ..] = self.steps else { return Ok(()) };
+        for _ in 0..*place {
+            yaml.next_element::<IgnoredAny>()?;
+        }
+        yaml.next_element_seed(Find { steps, span: &mut *self.span })?;
+        while yaml.next_element::<IgnoredAny>()?.is_some() {}
+        Ok(())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut yaml: A) -> Result<(), A::Error> {
+        let [Step::Key(key), steps @ ..] = self.steps else { return Ok(()) };
+        while let Some(next) = yaml.next_key::<String>()? {
+            if next == *key {
+                yaml.next_value_seed(Find { steps, span: &mut *self.span })?;
+            } else {
+                yaml.next_value::<IgnoredAny>()?;
             }
         }
         Ok(())

@@ -1,54 +1,74 @@
 //! A value of a JSON or YAML file with the way that leads to it, so that a message can name both.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
 use serde_json::{Map, Value};
 
-use super::yaml::Yaml;
+use super::diagnostic::{Code, Problem};
+use super::source::Source;
 use crate::geometry::Point;
-use crate::read::{Code, Problem};
 
 /// Coordinates, lengths and costs beyond it are slips.
 const LARGEST: f64 = 1e9;
 
 #[derive(Clone)]
-pub(super) struct At<'v> {
-    file: &'v str,
+pub(crate) struct At<'v> {
+    source: &'v Source<'v>,
     pub value: &'v Value,
-    /// The text that it is of, where that tells texts from numbers by how they look; `None`: it is of JSON.
-    yaml: Option<&'v Yaml<'v>>,
-    path: String,
+    steps: Vec<Step<'v>>,
 }
 
-pub(super) type Read<T> = Result<T, Problem>;
+/// From a list or an object to one of its values.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step<'v> {
+    Item(usize),
+    Key(&'v str),
+}
+
+pub(crate) type Read<T> = Result<T, Problem>;
 
 impl<'v> At<'v> {
-    pub const fn top(file: &'v str, value: &'v Value, yaml: Option<&'v Yaml<'v>>) -> Self {
-        Self { file, value, yaml, path: String::new() }
+    pub const fn top(source: &'v Source<'v>, value: &'v Value) -> Self {
+        Self { source, value, steps: Vec::new() }
     }
 
     /// What is wrong with it.
     pub fn problem(&self, code: Code, message: &str) -> Problem {
-        let path = if self.path.is_empty() { "the whole file" } else { &self.path };
-        Problem::of_file(code, format!("{}: {path} {message}", self.file))
+        self.source.problem(code, &self.steps, &format!("{} {message}", self.path()))
+    }
+
+    /// Where the values of a list stand in its text, in one go.
+    pub fn item_spans(&self) -> Vec<Range<usize>> {
+        self.source.item_spans(&self.steps, self.value.as_array().map_or(0, Vec::len))
+    }
+
+    /// The way to it, as `layouts[0].nodes[2]`.
+    fn path(&self) -> String {
+        let mut path = String::new();
+        for step in &self.steps {
+            let _ = match step {
+                Step::Item(place) => write!(path, "[{place}]"),
+                Step::Key(key) if path.is_empty() => write!(path, "{key}"),
+                Step::Key(key) => write!(path, ".{key}"),
+            };
+        }
+        if path.is_empty() { "the whole file".to_owned() } else { path }
     }
 
     pub fn wrong(&self, expected: &str) -> Problem {
         self.problem(Code::WrongType, &format!("is {}, expected {expected}", found(self.value)))
     }
 
-    fn within(&self, key: &str) -> String {
-        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
-    }
-
     /// What stands under a key; `None` where nothing does, or null.
     pub fn get(&self, key: &str) -> Option<Self> {
-        let value = self.value.get(key).filter(|value| !value.is_null())?;
-        Some(self.part(value, self.within(key)))
+        let (key, value) = self.value.as_object()?.get_key_value(key)?;
+        (!value.is_null()).then(|| self.part(value, Step::Key(key)))
     }
 
-    const fn part(&self, value: &'v Value, path: String) -> Self {
-        Self { file: self.file, value, yaml: self.yaml, path }
+    fn part(&self, value: &'v Value, step: Step<'v>) -> Self {
+        let steps = self.steps.iter().copied().chain([step]).collect();
+        Self { source: self.source, value, steps }
     }
 
     pub fn need(&self, key: &str) -> Read<Self> {
@@ -62,7 +82,7 @@ impl<'v> At<'v> {
 
     pub fn items(&self) -> Read<Vec<Self>> {
         let Value::Array(values) = self.value else { return Err(self.wrong("a list")) };
-        let item = |(place, value)| self.part(value, format!("{}[{place}]", self.path));
+        let item = |(place, value)| self.part(value, Step::Item(place));
         Ok(values.iter().enumerate().map(item).collect())
     }
 
@@ -73,8 +93,7 @@ impl<'v> At<'v> {
 
     pub fn entries(&self) -> Read<Vec<(&'v str, Self)>> {
         let Value::Object(entries) = self.value else { return Err(self.wrong("an object")) };
-        let entry =
-            |(key, value): (&'v String, &'v Value)| (key.as_str(), self.part(value, self.within(key)));
+        let entry = |(key, value): (&'v String, &'v Value)| (key.as_str(), self.part(value, Step::Key(key)));
         Ok(entries.iter().map(entry).collect())
     }
 
@@ -127,7 +146,7 @@ impl<'v> At<'v> {
 
     /// A text. In YAML any scalar is one where a text is expected, as it stands there: rooms are called 101.
     pub fn text(&self) -> Read<String> {
-        match (self.value, self.yaml) {
+        match (self.value, self.source.yaml()) {
             (Value::String(text), _) => Ok(text.clone()),
             (Value::Number(_) | Value::Bool(_), Some(yaml)) => Ok(yaml.written(self.value)),
             _ => Err(self.wrong("a text")),
@@ -145,14 +164,14 @@ impl<'v> At<'v> {
         match self.value {
             Value::String(text) if !text.trim().is_empty() => Ok(text.clone()),
             Value::Number(number) if number.is_u64() || number.is_i64() => Ok(number.to_string()),
-            Value::Number(_) | Value::Bool(_) if self.yaml.is_some() => self.text(),
+            Value::Number(_) | Value::Bool(_) if self.source.yaml().is_some() => self.text(),
             _ => Err(self.wrong("an id, a text or a whole number")),
         }
     }
 
     /// True or false. YAML's older words for them are texts elsewhere.
     pub fn truth(&self) -> Read<bool> {
-        let word = self.value.as_str().filter(|_| self.yaml.is_some()).map(str::to_lowercase);
+        let word = self.value.as_str().filter(|_| self.source.yaml().is_some()).map(str::to_lowercase);
         match (self.value, word.as_deref()) {
             (Value::Bool(truth), _) => Ok(*truth),
             (_, Some("yes" | "y" | "on")) => Ok(true),

@@ -1,0 +1,257 @@
+//! Zone sets of VDA 5050 3.0, as areas: other programs draw them, and vehicles are told them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::diagnostic::{Code, MapErrors, Problem, Text};
+use super::fields::{Fields, Located};
+use super::overlay::{Overlay, centre, ring};
+use super::source::Source;
+use super::suggest::nearest;
+use super::value::{At, Read};
+use crate::geometry::Point;
+use crate::world::{Area, Property, World};
+
+const KEYS: [&str; 2] = ["file", "map"];
+
+/// What a zone may be. Vehicles ask before they enter those of the last two, and the site answers nobody.
+const TYPES: [&str; 10] = [
+    "BLOCKED",
+    "SPEED_LIMIT",
+    "PENALTY",
+    "PRIORITY",
+    "DIRECTED",
+    "BIDIRECTED",
+    "LINE_GUIDED",
+    "ACTION",
+    "RELEASE",
+    "COORDINATED_REPLANNING",
+];
+
+/// An entry `[[zone_set]]` of `site.toml`.
+#[derive(Clone, Debug)]
+pub struct ZoneSet {
+    file: PathBuf,
+    /// Which map's zones these are, where the file has those of several.
+    map: Option<String>,
+    text: Text,
+    span: Range<usize>,
+}
+
+impl ZoneSet {
+    /// Reads the entries `[[zone_set]]`; files are relative to `folder`.
+    pub(super) fn from_fields(
+        fields: &Fields<'_, '_>,
+        folder: &Path,
+        problems: &mut Vec<Problem>,
+    ) -> Vec<Self> {
+        let mut sets = Vec::new();
+        for item in fields.tables("zone_set", "[[zone_set]]", problems) {
+            item.refuse_unknown(&KEYS, problems);
+            let Some(file) = item.string("file", problems) else { continue };
+            let map = item.get("map").and_then(|_| item.string("map", problems)).map(|map| map.value);
+            sets.push(Self { file: folder.join(&file.value), map, text: item.text.clone(), span: file.span });
+        }
+        sets
+    }
+
+    pub(super) fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// Lays its zones over a world as areas, and gives notes.
+    pub(super) fn lay_over(&self, world: &mut World) -> Result<Vec<Problem>, MapErrors> {
+        let name = self.file.display().to_string();
+        let text = fs::read_to_string(&self.file).map_err(|error| {
+            let message = format!("the zone set `{name}` cannot be read: {error}");
+            self.text.problem(Code::Unreadable, &self.span, message)
+        })?;
+        let source = Source::read(&name, &text)?;
+        let sets = self.of_the_map(sets(&source.top())?)?;
+        let mut found = Vec::new();
+        let (mut areas, mut notes) = (Vec::new(), Vec::new());
+        let (mut zones, mut spans) = (Vec::new(), Vec::new());
+        for set in &sets {
+            let list = set.need("zones")?;
+            zones.extend(list.items()?);
+            spans.extend(list.item_spans());
+        }
+        let called = names(&zones)?;
+        for ((zone, name), span) in zones.iter().zip(called).zip(spans) {
+            match area(source.named(), zone, name, span, &mut notes) {
+                Ok(area) => areas.push(area),
+                Err(problem) => found.push(problem),
+            }
+        }
+        if !found.is_empty() {
+            return Err(MapErrors { problems: found });
+        }
+        notes.extend(Overlay::of_areas(source.named(), areas).lay_over(world)?);
+        Ok(notes)
+    }
+
+    /// The sets of the map that is meant; of one alone, where none is said.
+    fn of_the_map<'v>(&self, sets: Vec<At<'v>>) -> Read<Vec<At<'v>>> {
+        let mut maps: Vec<String> = Vec::new();
+        for set in &sets {
+            let map = set.need("mapId")?.text()?;
+            if !maps.contains(&map) {
+                maps.push(map);
+            }
+        }
+        let refused = |message: String| {
+            let problem = self.text.problem(Code::Impossible, &self.span, message);
+            problem.with_help(format!("say `map = \"{}\"`", maps.first().map_or("…", |map| map)))
+        };
+        let file = self.file.display();
+        let of = match &self.map {
+            Some(map) if !maps.contains(map) => {
+                return Err(refused(format!(
+                    "`{file}` has no zones of the map `{map}`, but of {}",
+                    maps.join(", ")
+                )));
+            }
+            None if maps.len() > 1 => {
+                return Err(refused(format!("`{file}` has zones of several maps: {}", maps.join(", "))));
+            }
+            of => of,
+        };
+        let mut meant = Vec::new();
+        for set in sets {
+            if of.as_ref().is_none_or(|map| set.value["mapId"] == **map) {
+                meant.push(set);
+            }
+        }
+        Ok(meant)
+    }
+}
+
+/// The zone sets of a file: messages as vehicles get them, or what they carry, one or a list.
+fn sets<'v>(top: &At<'v>) -> Read<Vec<At<'v>>> {
+    let all = if top.value.is_array() { top.items()? } else { vec![top.clone()] };
+    all.into_iter().map(|one| Ok(one.get("zoneSet").unwrap_or(one))).collect()
+}
+
+/// What zones are called: by their words, where no other zone has the same; else by their ids.
+fn names(zones: &[At<'_>]) -> Read<Vec<String>> {
+    let mut count: BTreeMap<String, usize> = BTreeMap::new();
+    let words = zones.iter().map(|zone| zone.name("zoneDescriptor")).collect::<Read<Vec<_>>>()?;
+    for words in words.iter().flatten() {
+        *count.entry(words.clone()).or_default() += 1;
+    }
+    let named = zones.iter().zip(words).map(|(zone, words)| match words.filter(|words| count[words] == 1) {
+        Some(words) => Ok(words),
+        None => zone.need("zoneId")?.id(),
+    });
+    named.collect()
+}
+
+fn area(
+    text: &Text,
+    zone: &At<'_>,
+    name: String,
+    span: Range<usize>,
+    notes: &mut Vec<Problem>,
+) -> Read<Located<Area>> {
+    let kind = zone.need("zoneType")?;
+    let zone_type = kind.text()?;
+    let mut further = vec![("zone_id".to_owned(), Property::Text(zone.need("zoneId")?.id()?))];
+    let mut says = |property: &str, value| further.push((property.to_owned(), value));
+    let share = |key: &str| {
+        let factor = zone.need(key)?;
+        match factor.number()? {
+            number if (0.0..=1.0).contains(&number) => Ok(Property::Number(number)),
+            _ => Err(factor.wrong("a number from 0 to 1")),
+        }
+    };
+    let mut is_zone = true;
+    match zone_type.as_str() {
+        "BLOCKED" => is_zone = false,
+        "SPEED_LIMIT" => {
+            is_zone = false;
+            says("speed_limit", Property::Number(zone.need("maximumSpeed")?.positive()?));
+        }
+        "PENALTY" => says("zone_factor", share("penaltyFactor")?),
+        "PRIORITY" => says("zone_factor", share("priorityFactor")?),
+        "DIRECTED" | "BIDIRECTED" => {
+            let key = if zone_type == "DIRECTED" { "directedLimitation" } else { "bidirectedLimitation" };
+            let known = ["SOFT", "RESTRICTED", "STRICT"];
+            says("zone_direction", Property::Number(zone.need("direction")?.number()?.to_degrees()));
+            says("zone_limitation", Property::Text(one_of(&zone.need(key)?, &known)?));
+        }
+        "ACTION" => {
+            let entry = zone.list("entryActions")?;
+            if let Some(action) = entry.first() {
+                says("zone_action", Property::Text(action.need("actionType")?.text()?));
+                if let Some(blocking) = action.get("blockingType") {
+                    let known = ["NONE", "SOFT", "SINGLE", "HARD"];
+                    says("zone_blocking", Property::Text(one_of(&blocking, &known)?));
+                }
+            }
+            notes.extend(further_actions(text, zone, &name, &span)?);
+        }
+        "LINE_GUIDED" => {}
+        "RELEASE" | "COORDINATED_REPLANNING" => {
+            let message = format!(
+                "the zone `{name}` is of type {zone_type}: vehicles ask before they enter it, and Adit grants nothing; rules may say what \
+                 the area means"
+            );
+            notes.push(text.problem(Code::Impossible, &span, message).as_advice());
+        }
+        _ => return Err(unknown(&kind, &zone_type)),
+    }
+    if is_zone {
+        says("zone", Property::Text(zone_type.clone()));
+    }
+    further.sort_by(|one, other| one.0.cmp(&other.0));
+    let vertices = zone.need("vertices")?;
+    let corner = |vertex: &At<'_>| {
+        let value = Point::new(vertex.need("x")?.number()?, vertex.need("y")?.number()?);
+        Ok(Located { value, span: 0..0 })
+    };
+    let corners = vertices.items()?.iter().map(corner).collect::<Read<Vec<_>>>()?;
+    let shape = ring(text, "area", &span, corners).map_err(|mut problem| {
+        problem.message = format!("the zone `{name}`: {}", problem.message);
+        problem
+    })?;
+    let kind = match zone_type.as_str() {
+        "BLOCKED" => "keep-out".to_owned(),
+        _ => zone_type.to_lowercase().replace('_', "-"),
+    };
+    let centre = centre(&shape);
+    Ok(Located { value: Area { name, kind: Some(kind), shape, centre, further }, span })
+}
+
+/// Says that a zone has more actions than an area holds, which is one on the way in.
+fn further_actions(text: &Text, zone: &At<'_>, name: &str, span: &Range<usize>) -> Read<Option<Problem>> {
+    let [entry, during, exit] =
+        ["entryActions", "duringActions", "exitActions"].map(|key| zone.list(key).map(|list| list.len()));
+    let (entry, during, exit) = (entry?, during?, exit?);
+    if entry < 2 && during + exit == 0 {
+        return Ok(None);
+    }
+    let message = format!(
+        "the zone `{name}` has {entry} actions on the way in, {during} inside and {exit} on the way out; its area holds the first on \
+         the way in"
+    );
+    Ok(Some(text.problem(Code::Impossible, span, message).as_advice()))
+}
+
+fn one_of(value: &At<'_>, known: &[&str]) -> Read<String> {
+    let text = value.text()?;
+    if known.contains(&text.as_str()) {
+        Ok(text)
+    } else {
+        Err(value.wrong(&format!("one of {}", known.join(", "))))
+    }
+}
+
+fn unknown(kind: &At<'_>, found: &str) -> Problem {
+    let problem = kind.wrong("a type of zones");
+    match nearest(found, &TYPES) {
+        Some(meant) => problem.with_help(format!("did you mean \"{meant}\"?")),
+        None => problem.with_help(format!("known: {}", TYPES.join(", "))),
+    }
+}
