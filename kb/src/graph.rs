@@ -4,6 +4,7 @@ mod boundary;
 mod building;
 mod ends;
 pub(crate) mod gauge;
+pub(crate) mod itinerary;
 mod layers;
 mod named;
 pub(crate) mod pairs;

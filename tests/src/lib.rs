@@ -11,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -169,6 +170,22 @@ impl TestSite {
         let ran = Command::new("sqlite3").arg(self.path().join("site.db")).arg(statement).output();
         Ran::new(&ran.expect("the sqlite3 shell is installed")).expect_status(0);
     }
+}
+
+/// Waits until there is something.
+///
+/// # Panics
+/// Where there is nothing in 40 s.
+#[track_caller]
+pub fn within<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
+    let began = Instant::now();
+    while began.elapsed() < Duration::from_secs(40) {
+        if let Some(found) = look() {
+            return found;
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    panic!("{what}: not in time");
 }
 
 /// What a program printed.

@@ -2,12 +2,13 @@
 
 use std::process::ExitCode;
 
+use adit_site::ended;
 use clap::Parser;
 use rumqttc::AsyncClient;
 use tokio::sync::mpsc::unbounded_channel;
 
 use crate::broker;
-use crate::fleet::{Fleet, Settings, say};
+use crate::fleet::{Fleet, Settings};
 use crate::site::Site;
 use crate::way::Margins;
 
@@ -41,13 +42,7 @@ pub struct Cli {
 
 /// Runs until SIGTERM or Ctrl-C.
 pub fn run(cli: Cli) -> ExitCode {
-    match serve(cli) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            say(&format!("error: {error:#}"));
-            ExitCode::from(2)
-        }
-    }
+    ended(serve(cli))
 }
 
 fn serve(cli: Cli) -> anyhow::Result<()> {

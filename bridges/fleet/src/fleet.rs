@@ -6,6 +6,7 @@ mod clock;
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
+use adit_site::say;
 use rumqttc::{AsyncClient, QoS};
 use serde_json::{Value, json};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
@@ -332,10 +333,4 @@ enum About {
     Nobody,
     One(String),
     All,
-}
-
-/// Into the log.
-#[allow(clippy::print_stderr)] // it is the log
-pub fn say(words: &str) {
-    eprintln!("{words}");
 }

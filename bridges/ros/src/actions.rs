@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
+use adit_site::say;
 use ros2_client::action::{GetResultRequest, GetResultResponse, SendGoalRequest, SendGoalResponse};
 use ros2_client::action_msgs::{
     CancelGoalRequest, CancelGoalResponse, CancelGoalResponseEnum as Cancel, GoalId, GoalInfo, GoalStatus,
@@ -15,7 +16,6 @@ use tokio::runtime::Handle;
 use tokio::sync::watch;
 
 use crate::ears::{Ears, drain, words};
-use crate::say;
 
 /// How long a result is kept after the end.
 const KEPT: Duration = Duration::from_mins(1);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
+use adit_site::say;
 use ros2_client::Publisher;
 use serde_json::Value;
 use tokio::sync::watch;
@@ -12,7 +13,6 @@ use crate::frames::OnFloor;
 use crate::msgs::{Header, Point32, PolygonStamped, Text};
 use crate::path::along;
 use crate::planner::Planner;
-use crate::say;
 
 /// How often it is looked where the robot is.
 const TICK: Duration = Duration::from_millis(100);

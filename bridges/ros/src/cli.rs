@@ -4,7 +4,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
 
-use adit_site::Site;
+use adit_site::{Site, ended, say};
 use clap::{Parser, ValueEnum};
 use ros2_client::ServiceMapping;
 use tokio::sync::watch;
@@ -13,7 +13,7 @@ use crate::frames::Frames;
 use crate::node::{self, Ros, Says};
 use crate::planner::{self, Planner};
 use crate::shown::Shown;
-use crate::{body, keepout, say};
+use crate::{body, keepout};
 
 /// A ROS 2 node that plans routes of a site that is served, with the services, actions and topics of Nav2.
 ///
@@ -74,13 +74,7 @@ enum Rmw {
 
 /// Runs until SIGTERM or Ctrl-C.
 pub fn run(cli: Cli) -> ExitCode {
-    match serve(cli) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            say(&format!("error: {error:#}"));
-            ExitCode::from(2)
-        }
-    }
+    ended(serve(cli))
 }
 
 fn serve(cli: Cli) -> anyhow::Result<()> {

@@ -2,11 +2,10 @@
 
 use std::time::Duration;
 
+use adit_site::say;
 use anyhow::Context;
 use ros2_client::dds::rustdds::mio1::{Events, Interest, Poll, Token, event::Source};
 use ros2_client::{Message, Server, Subscription};
-
-use crate::say;
 
 /// How long a wake-up that got lost may delay anything.
 const AGAIN: Duration = Duration::from_millis(500);

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use adit_site::say;
 use nalgebra::{Isometry3, Point3, Translation3};
 use serde_json::{Value, json};
 use tokio::sync::watch;
@@ -10,7 +11,6 @@ use tokio::sync::watch;
 use crate::frames::{Frames, unit};
 use crate::grid::{check, rectangles};
 use crate::msgs::OccupancyGrid;
-use crate::say;
 
 /// What names of areas begin with that a mask laid.
 const NAMED: &str = "keepout";

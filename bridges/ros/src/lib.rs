@@ -19,8 +19,3 @@ mod plans;
 mod shown;
 mod told;
 mod track;
-
-/// Says something to whoever runs the program.
-pub fn say(words: &str) {
-    eprintln!("{words}");
-}

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use adit_site::say;
 use anyhow::{Context as _, anyhow};
 use ros2_client::action::ActionServerQosPolicies;
 use ros2_client::qos::{Durability, History, Reliability, WhenFull};
@@ -20,7 +21,7 @@ use crate::msgs::{
     RouteResult, Text, TfMessage, ToPoseGoal, ToPoseResult, TrackFeedback, TrackResult,
 };
 use crate::planner::Planner;
-use crate::{body, keepout, plans, say, told, track};
+use crate::{body, keepout, plans, told, track};
 
 /// The settings of the node.
 pub struct Settings {

@@ -6,8 +6,9 @@ use std::time::Instant;
 use crate::actions::Ended;
 use crate::failure::{Failure, Kind};
 use crate::msgs::{GetPlanRequest, Header, Path, RouteGoal, RouteResult, Time, ToPoseGoal, ToPoseResult};
+use crate::path;
 use crate::planner::{Planner, Question};
-use crate::{path, say};
+use adit_site::say;
 
 /// `GetPlan`, which has no field for what is wrong: then the plan has no poses, and the log says why.
 pub async fn get_plan(planner: &Planner, request: &GetPlanRequest) -> Path {

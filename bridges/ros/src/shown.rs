@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use adit_site::say;
 use ros2_client::Publisher;
 use tokio::sync::watch;
 
 use crate::msgs::OccupancyGrid;
 use crate::planner::Planner;
-use crate::{body, grid, say};
+use crate::{body, grid};
 
 /// How long to wait before a service that is away is asked again.
 const PAUSE: Duration = Duration::from_millis(500);

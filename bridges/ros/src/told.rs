@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use adit_site::say;
 use serde_json::json;
 
 use crate::msgs::{PoseStamped, Text};
 use crate::planner::Planner;
-use crate::say;
 
 /// Closes, or opens again, what the site knows by this name: `doorway 42`, a named door, an area, `x,y`.
 pub async fn closing(planner: Arc<Planner>, kind: &'static str, what: Text) {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use adit_site::{Followed, Route, Trouble};
+use adit_site::{Followed, Route, Trouble, say};
 use serde_json::json;
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
@@ -13,7 +13,6 @@ use crate::msgs::{RouteGoal, TrackFeedback, TrackResult};
 use crate::path::{self, along};
 use crate::planner::{Planner, Question};
 use crate::plans::question;
-use crate::say;
 
 /// How often it is said how far the robot is.
 const TICK: Duration = Duration::from_millis(200);

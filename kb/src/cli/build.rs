@@ -160,7 +160,8 @@ fn conclusions(report: &Report) {
 /// How many rooms and doors are listed one by one.
 const LISTED: usize = 10;
 
-pub fn changes(report: &Report) {
+/// What became otherwise, but for closings that were said already.
+pub fn changes(said: &str, report: &Report) {
     reacted(report);
     conclusions(report);
     if report.rooms.total == 0 && report.course.is_none() {
@@ -192,11 +193,13 @@ pub fn changes(report: &Report) {
             line(&format!("  and {} more", report.changes.len() - LISTED));
         }
     }
-    for closing in report.closings.iter().take(LISTED) {
+    let is_new = |closing: &&String| !said.starts_with(closing.as_str());
+    let closings: Vec<&String> = report.closings.iter().filter(is_new).collect();
+    for closing in closings.iter().take(LISTED) {
         line(closing);
     }
-    if report.closings.len() > LISTED {
-        line(&format!("and {} more", report.closings.len() - LISTED));
+    if closings.len() > LISTED {
+        line(&format!("and {} more", closings.len() - LISTED));
     }
     match (report.routes.changed, report.routes.rerouted) {
         (Some(changed), Some(rerouted)) => {

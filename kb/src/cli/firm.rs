@@ -17,7 +17,10 @@ pub fn run(args: &WayArgs) -> Result<()> {
         return json(&firm);
     }
     let Some(cost) = firm.cost else {
-        line(&format!("no route leads from {} to {}: there is nothing to be firm", args.start, args.goal));
+        line(&format!(
+            "there is no route from {0} to {1}; `adit route SITE {0} {1}` says why",
+            args.start, args.goal
+        ));
         return Ok(());
     };
     line(&format!(

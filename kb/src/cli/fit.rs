@@ -73,6 +73,10 @@ fn print(fit: &Fit) {
         let name = format!("{}.{}.{}", cell.table, cell.key, cell.column);
         vec![name, number(cell.present), maybe(cell.proposed), interval, cell.observations.to_string()]
     });
+    if fit.cells.is_empty() {
+        fit.notes.iter().for_each(|note| line(note));
+        return;
+    }
     table(&["cell", "is", "fits best", "95 %", "observations"], rows);
     match &fit.reference {
         Some(state) => line(&format!("{state} keeps its hardness, and the others are in proportion to it")),

@@ -113,9 +113,22 @@ pub fn apply(
         return json(&value);
     }
     let doing = if rehearse { "would be: " } else { "" };
-    line(&format!("{doing}{}", edit.words(&done)));
-    changes(&report);
+    let said = with_its_place(edit.words(&done), &report.closings);
+    line(&format!("{doing}{said}"));
+    changes(&said, &report);
     Ok(())
+}
+
+/// What an edit did; of what it closes or opens with where that is, as the report says it.
+fn with_its_place(words: String, closings: &[String]) -> String {
+    let of = |closing: &String| {
+        let (name, _) = closing.split_once(" at (")?;
+        let rest = words.strip_prefix(name)?.strip_prefix(" is ")?;
+        let (place, state) = closing.rsplit_once(" is ")?;
+        let is_it = rest.strip_prefix(state).is_some_and(|more| more.is_empty() || more.starts_with(' '));
+        is_it.then(|| format!("{place} is {rest}"))
+    };
+    closings.iter().find_map(of).unwrap_or(words)
 }
 
 pub fn history(args: &HistoryArgs) -> Result<()> {

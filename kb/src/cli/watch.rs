@@ -52,5 +52,5 @@ fn show(report: &Report, last: Option<u64>) {
     }
     let took: f64 = report.stages.iter().map(|stage| stage.took.as_secs_f64()).sum();
     line(&format!("built in {took:.2} s (generation {generation})"));
-    changes(report);
+    changes("", report);
 }

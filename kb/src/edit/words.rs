@@ -12,6 +12,9 @@ impl Edit {
     /// In a few words, what an edit did.
     pub(crate) fn words(&self, Done { key, old, new, with, .. }: &Done) -> String {
         match self {
+            Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..) if old == new => {
+                format!("{table}.{key}.{column} is {new} already")
+            }
             Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..) => {
                 format!("{table}.{key}.{column}: {old} → {new}")
             }

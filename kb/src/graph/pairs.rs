@@ -1,7 +1,6 @@
 //! Routes between places, from each place to all others, as far as a deadline lets them be found.
 
 use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Mutex;
 use std::time::Instant;
 
@@ -9,6 +8,7 @@ use adit_planners::routes::{CompactGraph, CompactTree, Goal, RoomIndex};
 use rayon::prelude::*;
 
 use crate::graph::gauge::Gauge;
+use crate::graph::itinerary::Itinerary;
 use crate::graph::{End, SiteGraph};
 
 /// A robot and a place, by index: where routes start.
@@ -22,8 +22,8 @@ pub type Row = Vec<Option<Found>>;
 pub struct Found {
     /// Its cost.
     pub cost: f64,
-    /// A number that is equal where the same doors are passed in the same order.
-    pub doors: u64,
+    /// A number that is equal for ways that people do not tell apart ([`Itinerary`]).
+    pub told: u64,
 }
 
 /// Routes that were found of one state of a site, kept for the next question.
@@ -89,23 +89,26 @@ fn row(
                 goal.rooms.iter().map(|entry| entry.room).filter(|&room| tree.cost(room).is_finite());
             reached.min_by(|&one, &two| tree.cost(one).total_cmp(&tree.cost(two)))
         };
-        return goals.iter().map(|goal| best(goal).map(|room| of_tree(&tree, room))).collect();
+        return goals.iter().map(|goal| best(goal).map(|room| of_tree(graph, &tree, room))).collect();
     }
     let ways = graph.graph().ways(&start, &goals, false).goals;
     let of_way = |way: adit_planners::routes::Way| {
-        let mut hasher = DefaultHasher::new();
-        way.legs.iter().for_each(|leg| leg.door.hash(&mut hasher));
-        Found { cost: way.cost, doors: hasher.finish() }
+        let itinerary = way.legs.iter().fold(Itinerary::default(), |way, leg| {
+            way.through(graph, leg.room, leg.length() > 0.0, leg.door)
+        });
+        Found { cost: way.cost, told: itinerary.told() }
     };
     ways.into_iter().map(|way| way.map(of_way)).collect()
 }
 
-fn of_tree(tree: &CompactTree, room: RoomIndex) -> Found {
-    let mut hasher = DefaultHasher::new();
-    let mut at = room;
+fn of_tree(graph: &SiteGraph, tree: &CompactTree, room: RoomIndex) -> Found {
+    let (mut passed, mut at) = (Vec::new(), room);
     while let Some((before, door)) = tree.before(at) {
-        door.hash(&mut hasher);
+        passed.push((before, door));
         at = before;
     }
-    Found { cost: tree.cost(room), doors: hasher.finish() }
+    let steps = passed.into_iter().rev();
+    let itinerary =
+        steps.fold(Itinerary::default(), |way, (room, door)| way.through(graph, room, true, Some(door)));
+    Found { cost: tree.cost(room), told: itinerary.told() }
 }

@@ -14,7 +14,8 @@ use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
 
-use crate::graph::SiteGraph;
+use crate::graph::itinerary::Itinerary;
+use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
 use crate::state::before::Before;
@@ -106,12 +107,13 @@ impl Routes {
             row.reach + row.door.and_then(|key| before.door(key)?.hardness.value).unwrap_or(0.0)
         };
         let (old_rows, new_rows) = (Chains::new(old), Chains::new(new));
-        let mut other_ways = OtherWays { old: &old_rows, new: &new_rows, known: HashMap::new() };
+        let (mut old_ways, mut new_ways) =
+            (Itineraries::new(&old_rows, before.graph), Itineraries::new(&new_rows, graph));
         let (mut changed, mut rerouted) = (0, 0);
         for node in old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none())) {
             let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
-            let other_way = other_ways.of(node);
+            let other_way = old_ways.of(node) != new_ways.of(node);
             let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
             changed += usize::from(differ || other_way);
             rerouted += usize::from(other_way);
@@ -178,36 +180,39 @@ impl<'a> Chains<'a> {
     }
 }
 
-/// Whether ways to nodes pass other doors, or come from another node, in one tree than in another.
-struct OtherWays<'a> {
-    old: &'a Chains<'a>,
-    new: &'a Chains<'a>,
-    known: HashMap<i64, bool>,
+/// The ways to the nodes of a tree, as people tell them apart.
+struct Itineraries<'a> {
+    rows: &'a Chains<'a>,
+    graph: &'a SiteGraph,
+    known: HashMap<i64, Itinerary>,
 }
 
-impl OtherWays<'_> {
-    /// Of one node. Each node is looked at once, however many ways lead through it.
-    fn of(&mut self, node: i64) -> bool {
-        let mut chain = Vec::new();
-        let mut at = Some(node);
-        let mut differs = false;
-        while let Some(node) = at {
-            if let Some(known) = self.known.get(&node) {
-                differs = *known;
+impl<'a> Itineraries<'a> {
+    fn new(rows: &'a Chains<'a>, graph: &'a SiteGraph) -> Self {
+        Self { rows, graph, known: HashMap::new() }
+    }
+
+    /// Of one node; `None` where the tree does not reach it. Each node is looked at once, however many ways lead through it.
+    fn of(&mut self, node: i64) -> Option<u64> {
+        let mut chain = vec![self.rows.row(node)?];
+        let mut way = Itinerary::default();
+        while let Some(prev) = chain[chain.len() - 1].prev {
+            if let Some(known) = self.known.get(&prev) {
+                way = *known;
                 break;
             }
-            chain.push(node);
-            let step = |chains: &Chains<'_>| chains.row(node).map(|row| (row.prev, row.door));
-            let (old, new) = (step(self.old), step(self.new));
-            if old != new {
-                differs = true;
-                break;
-            }
-            at = old.and_then(|(prev, _)| prev);
+            let Some(row) = self.rows.row(prev) else { break };
+            chain.push(row);
         }
-        // whatever comes behind a difference differs
-        self.known.extend(chain.into_iter().map(|node| (node, differs)));
-        differs
+        for row in chain.into_iter().rev() {
+            let room = row.from_room.or(row.prev).and_then(|key| self.graph.room(key));
+            if let Some(room) = room {
+                let moves = row.walked.is_none_or(|metres| metres > 0.0);
+                way = way.through(self.graph, room, moves, row.door.and_then(|key| self.graph.door(key)));
+            }
+            self.known.insert(row.node, way);
+        }
+        Some(way.told())
     }
 }
 
@@ -340,6 +345,8 @@ impl Report {
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
+        } else if weighed.is_none() {
+            notes.extend(unfit_places(state));
         }
         Self {
             generation: state.generation,
@@ -418,6 +425,35 @@ impl Change {
             new_passable: new.passable.value,
         })
     }
+}
+
+/// So many places are named.
+const NAMED: usize = 5;
+
+/// The places at which no state of a robot fits, in sentences.
+fn unfit_places(state: &State) -> Vec<String> {
+    let graph = state.graph();
+    let robots = graph.robots();
+    let fits = |robot: &str, place: usize| {
+        let end = End::Place(place);
+        let is_in_room = !graph.entries(None, &end, Some(robot)).is_empty();
+        is_in_room || !graph.states_at(&state.gauge, graph.point(&end), Some(robot)).is_empty()
+    };
+    let sentence = |robot: &String| {
+        let unfit = (0..graph.places.len()).filter(|&place| !fits(robot, place));
+        let names: Vec<String> = unfit.map(|place| format!("`{}`", graph.places[place].place)).collect();
+        let whose = if robots.len() > 1 { format!("robot {robot}") } else { "the robot".to_owned() };
+        (!names.is_empty()).then(|| {
+            let more = if names.len() > NAMED {
+                format!(" and {} more places", names.len() - NAMED)
+            } else {
+                String::new()
+            };
+            let named = names[..names.len().min(NAMED)].join(", ");
+            format!("no state of {whose} fits at {named}{more}: none of its routes leads there")
+        })
+    };
+    robots.iter().filter_map(sentence).collect()
 }
 
 /// What routes need and no rule gave, in sentences.

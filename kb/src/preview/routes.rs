@@ -50,7 +50,7 @@ pub struct PlaceRoute {
     pub old: Option<f64>,
     /// What it would cost; `null`: there would be none.
     pub new: Option<f64>,
-    /// Whether it would pass other doors; `null` where rooms are cut anew.
+    /// Whether it would lead through another doorway or space, or be in another state there; `null` where rooms are cut anew.
     pub other_way: Option<bool>,
 }
 
@@ -152,7 +152,7 @@ impl PlaceRoutes {
             (Some(old), Some(new)) if new.cost < old.cost => self.shorter += 1,
             _ => {}
         }
-        let other_way = old.map(|found| found.doors) != new.map(|found| found.doors);
+        let other_way = old.map(|found| found.told) != new.map(|found| found.told);
         let is_rerouted = other_way && !is_anew && old.is_some() && new.is_some();
         self.rerouted += usize::from(is_rerouted);
         Some(other_way)

@@ -1,4 +1,5 @@
-//! The text of a JSON or YAML file with its values: what is wrong with one of them is said at its place.
+//! The text of a JSON or YAML file with its values: what is wrong with one of them is said at its place. In a circle with the file of
+//! values, since each knows the other.
 
 use std::collections::BTreeMap;
 use std::ops::Range;

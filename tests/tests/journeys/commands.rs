@@ -118,7 +118,7 @@ const PAGES: [Page; 24] = [
     },
     Page {
         file: "manual/src/geodata.md",
-        blocks: &[("file = \"keepout.yaml\"", Use::Shown)],
+        blocks: &[("file = \"keepout.yaml\"", Use::Shown), ("file = \"zones.json\"", Use::Shown)],
         databases: &[],
     },
     page("manual/src/ways.md"),

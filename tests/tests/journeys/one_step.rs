@@ -18,7 +18,7 @@ use adit_tests::slanted::SlantedRooms;
 use adit_tests::{Ran, TestSite};
 
 /// How many sequences are tried where nobody says otherwise, and how many steps each has.
-const SEQUENCES: usize = 100;
+const SEQUENCES: usize = 40;
 const STEPS: usize = 7;
 
 /// Everything that follows from the tables; what people wrote stays.

@@ -2,13 +2,14 @@
 
 use std::time::Duration;
 
+use adit_tests::within;
 use serde_json::{Value, json};
 
 use adit_fleet::site::Fleet;
 use adit_tests::adit;
 use adit_tests::service::Service;
 
-use crate::yard::{Broker, FleetProgram, Vehicle, cell, close, depot, keep, send, within};
+use crate::yard::{Broker, FleetProgram, Vehicle, cell, close, depot, keep, send};
 
 const CART: &str = "vehicle,manufacturer,robot,goal,doing\ncart-1,acme,cart,,\n";
 

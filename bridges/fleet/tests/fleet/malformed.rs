@@ -1,8 +1,9 @@
 //! Messages that are none: each is said in words, and the program goes on.
 
+use adit_tests::within;
 use serde_json::{Value, json};
 
-use crate::yard::{Broker, FleetProgram, Vehicle, depot, send, within};
+use crate::yard::{Broker, FleetProgram, Vehicle, depot, send};
 
 #[test]
 fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {

@@ -6,10 +6,11 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use adit_fleet::wire::Version;
+use adit_tests::within;
 use serde_json::{Value, json};
 
 use crate::judge::{Chance, Judge, schemas};
-use crate::yard::{Broker, FleetProgram, depot, within};
+use crate::yard::{Broker, FleetProgram, depot};
 
 const PLACES: [&str; 4] = ["dock", "gate", "charger", "shelf"];
 

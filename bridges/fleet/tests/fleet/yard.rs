@@ -9,7 +9,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use adit_tests::service::Service;
-use adit_tests::{TestSite, adit};
+use adit_tests::{TestSite, adit, within};
 use serde_json::{Value, json};
 use tempfile::NamedTempFile;
 
@@ -218,19 +218,6 @@ fn library() -> PathBuf {
         assert!(npm.status().expect("npm is installed").success());
     }
     folder
-}
-
-/// Waits until there is something.
-#[track_caller]
-pub fn within<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
-    let began = Instant::now();
-    while began.elapsed() < PATIENCE {
-        if let Some(found) = look() {
-            return found;
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    panic!("{what}: not in time");
 }
 
 /// A cell of the table of vehicles.

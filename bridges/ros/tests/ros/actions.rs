@@ -26,19 +26,6 @@ fn refused(client: &mut Client, action: &str, goal: &Value, code: u16, words: &s
     assert!(said.contains(words), "{said}");
 }
 
-/// Closes all doorways of the dock.
-fn close_dock(floor: &Floor) {
-    let map = floor.service.ask("GET", "/api/map", None).1;
-    for doorway in map["doorways"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1)))
-    {
-        floor.edit(&json!({"kind": "close", "what": format!("doorway {}", doorway["doorway"])}));
-    }
-}
-
 #[test]
 fn a_path_to_a_pose_is_the_route_or_says_by_nav2s_code_why_not() {
     if is_outside("actions::a_path_to_a_pose_is_the_route_or_says_by_nav2s_code_why_not") {
@@ -77,15 +64,14 @@ fn a_path_to_a_pose_is_the_route_or_says_by_nav2s_code_why_not() {
 
     // with the robot's own pose as the start
     let robot = json!({"goal": archive, "use_start": false});
-    client.order("publish", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(4.7, 1.5));
-    let ended = crate::floor::within("the pose is heard", || {
+    let ended = adit_tests::within("the pose is heard", || {
         client.order("publish", "/robot_pose", "geometry_msgs/msg/PoseStamped", &pose(4.7, 1.5));
         let ended = client.goal(action, &robot);
         (ended["status"] == SUCCEEDED).then_some(ended)
     });
     assert_eq!(points(&ended["result"]["path"]), floor.waypoints("4.7,1.5", "53.8,14"));
 
-    close_dock(&floor);
+    floor.close_dock();
     refused(&mut client, action, &goal, 208, "closed");
 }
 
@@ -118,7 +104,7 @@ fn a_route_is_the_same_way_with_the_codes_of_the_route_server() {
     let by_ids = json!({"start_id": 1, "goal_id": 2, "use_start": true});
     refused(&mut client, action, &by_ids, 403, "ask by poses");
     refused(&mut client, action, &by_poses(dock, pose(4.7, 1.0)), 403, "is inside an obstacle");
-    close_dock(&floor);
+    floor.close_dock();
     refused(&mut client, action, &goal, 405, "closed");
 }
 

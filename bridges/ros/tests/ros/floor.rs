@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use adit_tests::service::Service;
-use adit_tests::{TestSite, adit};
+use adit_tests::{TestSite, adit, within};
 use serde_json::{Value, json};
 use tempfile::NamedTempFile;
 
@@ -93,6 +93,15 @@ impl Floor {
         let route: Value = serde_json::from_slice(&ran.stdout).unwrap();
         let points = route["waypoints"].as_array().unwrap();
         points.iter().map(|point| [&point["x"], &point["y"]].map(|v| v.as_f64().unwrap())).collect()
+    }
+
+    /// Closes all doorways of the dock.
+    pub fn close_dock(&self) {
+        let map = self.service.ask("GET", "/api/map", None).1;
+        let all = map["doorways"].as_array().unwrap();
+        for doorway in all.iter().filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1))) {
+            self.edit(&json!({"kind": "close", "what": format!("doorway {}", doorway["doorway"])}));
+        }
     }
 
     /// Makes an edit.
@@ -248,17 +257,4 @@ fn python() -> PathBuf {
         folder.display()
     );
     python
-}
-
-/// Waits until there is something.
-#[track_caller]
-pub fn within<T>(what: &str, mut look: impl FnMut() -> Option<T>) -> T {
-    let began = Instant::now();
-    while began.elapsed() < PATIENCE {
-        if let Some(found) = look() {
-            return found;
-        }
-        std::thread::sleep(Duration::from_millis(20));
-    }
-    panic!("{what}: not in time");
 }

@@ -1,8 +1,9 @@
 //! Grids: the site's map, and keepout masks both ways.
 
+use adit_tests::within;
 use serde_json::{Value, json};
 
-use crate::floor::{Client, Floor, is_outside, points, pose, within};
+use crate::floor::{Client, Floor, is_outside, points, pose};
 
 const GRID: &str = "nav_msgs/msg/OccupancyGrid";
 

@@ -59,7 +59,7 @@ fn frames_that_tf_knows_are_the_maps_and_others_are_refused() {
         "transform": {"translation": {"x": -10.0}, "rotation": {"w": 1.0}}}]});
     client.latched("publish", "/tf_static", "tf2_msgs/msg/TFMessage", &transform);
     let expected = floor.waypoints("4.7,1.5", "53.8,14");
-    crate::floor::within("the frame is heard", || {
+    adit_tests::within("the frame is heard", || {
         let plan = points(&client.plan(&request));
         (plan.len() == expected.len() && (plan[0][0] - 4.7).abs() < 1e-9).then_some(())
     });

@@ -78,15 +78,7 @@ fn a_route_that_leads_nowhere_any_more_is_given_up_and_one_can_be_cancelled() {
 
     let id = client.begin("/compute_and_track_route", &goal());
     client.until("a route", |said| is_feedback(said, id));
-    let map = floor.service.ask("GET", "/api/map", None).1;
-    for doorway in map["doorways"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter(|of| of["spaces"].as_array().unwrap().contains(&json!(1)))
-    {
-        floor.edit(&json!({"kind": "close", "what": format!("doorway {}", doorway["doorway"])}));
-    }
+    floor.close_dock();
     let ended = client.until("the end", |said| said["id"] == id && !said["status"].is_null());
     assert_eq!(ended["status"], 6);
     assert_eq!(ended["result"]["error_code"], 405);

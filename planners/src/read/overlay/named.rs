@@ -75,7 +75,7 @@ pub(super) fn doors(
     found
 }
 
-pub(in crate::read) fn centre(shape: &Shape) -> Point {
+pub(crate) fn centre(shape: &Shape) -> Point {
     let middle = shape.to_geo().centroid().map(|p| Point::new(p.x(), p.y()));
     middle.unwrap_or_else(|| shape.enclosing_rect().centre())
 }

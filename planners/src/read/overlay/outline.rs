@@ -56,7 +56,7 @@ fn polygon(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> 
 }
 
 /// The outline of a `thing` through these corners; the first may stand at the end once more.
-pub(in crate::read) fn ring(
+pub(crate) fn ring(
     text: &Text,
     thing: &str,
     span: &Range<usize>,

@@ -14,7 +14,11 @@ fn kill_9_loses_no_task_that_was_done() {
         found.first().map_or(0, |count| count.parse().expect("a number"))
     };
     let mut done = 0;
-    for round in 0..6_u64 {
+    // on a machine that is busy it takes longer to come to the first task
+    for round in 0..30_u64 {
+        if round >= 6 && done > 0 {
+            break;
+        }
         let mut killed = command(
             &folder,
             &["tasks", "cell.toml", "--db", "killed.db", "--tasks", "100000", "--seed", "9"],
